@@ -1,0 +1,99 @@
+// A table of named columns, all of one length. Particles, bonds and contacts are tables, so that sorting,
+// resizing, checkpoints and output are written once for every present and future column.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace platen::dem {
+
+class ColumnBase {
+public:
+  ColumnBase(std::string name, std::string unit) : name_(std::move(name)), unit_(std::move(unit)) {}
+  virtual ~ColumnBase() = default;
+  const std::string &name() const { return name_; }
+  const std::string &unit() const { return unit_; } // SI, e.g. "m/s"; "1" where there is none
+  virtual std::size_t size() const = 0;
+  virtual void resize(std::size_t n) = 0;
+  // Row k becomes the former row order[k]; order may be shorter than the column (gather).
+  virtual void permute(const std::vector<int> &order) = 0;
+  virtual std::size_t bytes_per_row() const = 0;
+  virtual void *bytes() = 0;
+  virtual const void *bytes() const = 0;
+
+private:
+  std::string name_, unit_;
+};
+
+template <class T>
+class Column : public ColumnBase {
+  static_assert(std::is_trivially_copyable_v<T>, "columns are saved and sorted as plain bytes");
+
+public:
+  using ColumnBase::ColumnBase;
+  T *data() { return values_.data(); }
+  const T *data() const { return values_.data(); }
+  T &operator[](std::size_t k) { return values_[k]; }
+  const T &operator[](std::size_t k) const { return values_[k]; }
+  typename std::vector<T>::iterator begin() { return values_.begin(); }
+  typename std::vector<T>::iterator end() { return values_.end(); }
+  typename std::vector<T>::const_iterator begin() const { return values_.begin(); }
+  typename std::vector<T>::const_iterator end() const { return values_.end(); }
+  std::size_t size() const override { return values_.size(); }
+  void resize(std::size_t n) override { values_.resize(n); }
+  void permute(const std::vector<int> &order) override {
+    std::vector<T> moved(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+      moved[k] = values_[static_cast<std::size_t>(order[k])];
+    values_.swap(moved);
+  }
+  std::size_t bytes_per_row() const override { return sizeof(T); }
+  void *bytes() override { return values_.data(); }
+  const void *bytes() const override { return values_.data(); }
+
+private:
+  std::vector<T> values_;
+};
+
+class Table {
+public:
+  // Adds a column of the table's length. The reference stays valid for the life of the table.
+  template <class T>
+  Column<T> &add(const std::string &name, const std::string &unit) {
+    auto column = std::make_unique<Column<T>>(name, unit);
+    column->resize(size_);
+    Column<T> &reference = *column;
+    columns_.push_back(std::move(column));
+    return reference;
+  }
+  std::size_t size() const { return size_; }
+  void resize(std::size_t n) {
+    for (auto &column : columns_)
+      column->resize(n);
+    size_ = n;
+  }
+  void permute(const std::vector<int> &order) {
+    for (auto &column : columns_)
+      column->permute(order);
+    size_ = order.size();
+  }
+  std::size_t bytes_per_row() const {
+    std::size_t sum = 0;
+    for (const auto &column : columns_)
+      sum += column->bytes_per_row();
+    return sum;
+  }
+  const std::vector<std::unique_ptr<ColumnBase>> &columns() const { return columns_; }
+
+private:
+  std::size_t size_ = 0;
+  std::vector<std::unique_ptr<ColumnBase>> columns_;
+};
+
+} // namespace platen::dem

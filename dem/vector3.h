@@ -1,0 +1,68 @@
+// Vectors, quaternions and 3 x 3 matrices of the particle library: plain values, no library behind them,
+// because the force kernels are compiled for several instruction sets (docs/architecture.md).
+#pragma once
+
+#include <cmath>
+
+namespace platen::dem {
+
+struct Vector3 {
+  double x = 0, y = 0, z = 0;
+
+  double &operator[](int k) { return k == 0 ? x : (k == 1 ? y : z); }
+  double operator[](int k) const { return k == 0 ? x : (k == 1 ? y : z); }
+  Vector3 &operator+=(const Vector3 &b) {
+    x += b.x, y += b.y, z += b.z;
+    return *this;
+  }
+  Vector3 &operator-=(const Vector3 &b) {
+    x -= b.x, y -= b.y, z -= b.z;
+    return *this;
+  }
+  Vector3 &operator*=(double s) {
+    x *= s, y *= s, z *= s;
+    return *this;
+  }
+};
+
+inline Vector3 operator+(const Vector3 &a, const Vector3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector3 operator-(const Vector3 &a, const Vector3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vector3 operator-(const Vector3 &a) { return {-a.x, -a.y, -a.z}; }
+inline Vector3 operator*(double s, const Vector3 &a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vector3 operator*(const Vector3 &a, double s) { return s * a; }
+inline Vector3 operator/(const Vector3 &a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+inline double dot(const Vector3 &a, const Vector3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector3 cross(const Vector3 &a, const Vector3 &b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm_squared(const Vector3 &a) { return dot(a, a); }
+inline double norm(const Vector3 &a) { return std::sqrt(dot(a, a)); }
+
+// Unit quaternion w + x i + y j + z k; turns reference axes into current ones: v = rotate(q, v_reference).
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
+};
+
+inline Quaternion operator*(const Quaternion &a, const Quaternion &b) {
+  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+inline Quaternion conjugate(const Quaternion &q) { return {q.w, -q.x, -q.y, -q.z}; }
+inline Vector3 vector_part(const Quaternion &q) { return {q.x, q.y, q.z}; }
+inline Quaternion normalised(const Quaternion &q) {
+  const double s = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  return {s * q.w, s * q.x, s * q.y, s * q.z};
+}
+inline Vector3 rotate(const Quaternion &q, const Vector3 &v) {
+  const Vector3 u = vector_part(q), t = 2.0 * cross(u, v);
+  return v + q.w * t + cross(u, t);
+}
+// Rotation by the vector phi (axis times angle, rad).
+inline Quaternion rotation_quaternion(const Vector3 &phi) {
+  const double angle = norm(phi);
+  if (angle < 1e-12) return normalised({1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z});
+  const double s = std::sin(0.5 * angle) / angle;
+  return {std::cos(0.5 * angle), s * phi.x, s * phi.y, s * phi.z};
+}
+
+} // namespace platen::dem
