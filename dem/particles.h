@@ -1,0 +1,44 @@
+// The particles of a specimen as columns. Row order is the spatial order; `id` is the order of the input.
+#pragma once
+
+#include <vector>
+
+#include "dem/table.h"
+#include "dem/vector3.h"
+
+namespace platen::dem {
+
+struct Specimen;
+
+// Motion and forces live on one clock: between drift and the second half kick `velocity` and `angular_velocity`
+// hold the half-step values; after it the full-step ones (docs/theory.md, time integration).
+struct Particles {
+  Table table;
+  Column<int> &id = table.add<int>("id", "1");
+  Column<Vector3> &position = table.add<Vector3>("position", "m");
+  Column<Vector3> &reference_position = table.add<Vector3>("reference_position", "m");
+  Column<Vector3> &velocity = table.add<Vector3>("velocity", "m/s");
+  Column<Vector3> &force = table.add<Vector3>("force", "N");
+  Column<double> &radius = table.add<double>("radius", "m");
+  Column<double> &mass = table.add<double>("mass", "kg");
+  // Only where rotation is on; null otherwise.
+  Column<Quaternion> *orientation = nullptr;
+  Column<Vector3> *angular_velocity = nullptr; // rad/s, global axes
+  Column<Vector3> *torque = nullptr;           // N m, about the centre, global axes
+  Column<double> *inertia = nullptr;           // kg m^2, 2/5 m R^2
+
+  Particles() = default;
+  // Spheres of one density (kg/m^3) at rest, in spatial (Morton) order.
+  Particles(const Specimen &specimen, double density, bool rotation);
+  Particles(const Particles &) = delete;
+  Particles &operator=(const Particles &) = delete;
+
+  std::size_t size() const { return table.size(); }
+  bool has_rotation() const { return orientation != nullptr; }
+  void add_rotation();
+};
+
+// Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row k.
+std::vector<int> spatial_order(const std::vector<Vector3> &centres);
+
+} // namespace platen::dem
