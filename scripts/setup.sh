@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what Platen needs on Debian 12 and is not there yet. Where all is there it says so and touches nothing,
+# the network included.
+set -euo pipefail
+
+packages=(
+  git g++ cmake ninja-build pkg-config # tools
+  libdeal.ii-dev                       # finite elements; brings Trilinos, MPI and UMFPACK
+  libvtk9-dev                          # VTU files, pictures
+  libeigen3-dev libtbb-dev             # particle library
+  libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev libudunits2-dev libxxhash-dev # apps
+  libgtest-dev                         # tests; holds GTest's CMake configuration too
+  xvfb xauth                           # pictures where there is no display
+)
+
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: all ${#packages[@]} Debian packages that Platen needs are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "setup: run this as root, or install sudo; missing packages: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update
+"${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,97 @@
+#include "layering/layering.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace platen::layering {
+namespace {
+
+// Paths as they stand between <> or "", matched at their beginning.
+const std::map<std::string, std::regex> &forbidden_includes() {
+  static const std::string files = R"(fstream|filesystem|stdio\.h|fcntl\.h|experimental/filesystem)";
+  static const std::string trilinos =
+      R"(Epetra|EpetraExt|Teuchos|Tpetra|AztecOO|Amesos|Ifpack|ml_|ML_|Zoltan|zoltan|Sacado|ROL_|Kokkos|NOX)";
+  static const std::map<std::string, std::regex> rules = {
+      {"dem", std::regex("^((\\.\\./)*(fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
+                         files + ")$)")},
+      {"fem", std::regex("^((\\.\\./)*(dem|coupling|apps)/|vtk|(" + files + ")$)")},
+      {"coupling", std::regex("^((\\.\\./)*apps/|vtk|(" + files + ")$)")}};
+  return rules;
+}
+
+// <cstdio> itself may be included for snprintf; what opens a file may not be called. deal.II's parallel
+// writers open files of their own, and VTK is not there to be called.
+const std::regex &file_opening() {
+  static const std::regex words(
+      R"(\b(fopen|freopen|fdopen|tmpfile|mkstemp|openat|creat|(i|o)?fstream|basic_(i|o)?fstream|filebuf)\b)"
+      R"(|(^|[^\w.>])(::)?open\s*\(|\bwrite_vtu_(in_parallel|with_pvtu_record)\b|\bfilesystem\s*::)");
+  return words;
+}
+
+// Blanks comments and literals, keeps line breaks and includes (whose quotes are no literals).
+std::string code_only(const std::string &text) {
+  static const std::regex noise(
+      R"re((#\s*include\s*"[^"\n]*")|//[^\n]*|/\*[\s\S]*?\*/|"(?:\\.|[^"\\\n])*")re");
+  std::string code;
+  auto from = text.cbegin();
+  for (std::sregex_iterator match(text.begin(), text.end(), noise), end; match != end; ++match) {
+    code.append(from, (*match)[0].first);
+    if ((*match)[1].matched)
+      code += match->str(1);
+    else
+      code.append(static_cast<std::size_t>(std::count((*match)[0].first, (*match)[0].second, '\n')), '\n');
+    from = (*match)[0].second;
+  }
+  return code.append(from, text.cend());
+}
+
+} // namespace
+
+std::vector<Violation> check_source(const std::string &folder, const std::string &file,
+                                    const std::string &text) {
+  static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Violation> violations;
+  const auto rule = forbidden_includes().find(folder);
+  if (rule == forbidden_includes().end()) return violations;
+
+  std::istringstream lines(code_only(text));
+  std::string line;
+  std::smatch match;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (std::regex_search(line, match, include)) {
+      const std::string path = match[1];
+      if (std::regex_search(path, rule->second))
+        violations.push_back({file, number, folder + "/ must not include " + path});
+    } else if (std::regex_search(line, match, file_opening())) {
+      violations.push_back({file, number, folder + "/ must not open files: " + line});
+    }
+  }
+  return violations;
+}
+
+Survey check_tree(const std::filesystem::path &root) {
+  Survey survey;
+  for (const auto &[folder, rule] : forbidden_includes()) {
+    std::vector<std::filesystem::path> sources;
+    for (const auto &entry : std::filesystem::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".h" || entry.path().extension() == ".cc")
+        sources.push_back(entry.path());
+    std::sort(sources.begin(), sources.end());
+    for (const auto &path : sources) {
+      std::ifstream stream(path);
+      std::ostringstream text;
+      text << stream.rdbuf();
+      if (!stream) throw std::runtime_error("cannot read " + path.string());
+      const auto found = check_source(folder, path.lexically_relative(root).string(), text.str());
+      survey.violations.insert(survey.violations.end(), found.begin(), found.end());
+      ++survey.files;
+    }
+  }
+  return survey;
+}
+
+} // namespace platen::layering

@@ -1,0 +1,67 @@
+#include "layering/layering.h"
+
+#include <gtest/gtest.h>
+
+using platen::layering::check_source;
+using platen::layering::check_tree;
+
+namespace {
+
+std::size_t faults(const std::string &folder, const std::string &text) {
+  return check_source(folder, "some.cc", text).size();
+}
+
+TEST(Layering, no_source_of_this_project_breaks_the_layers) {
+  const auto survey = check_tree(PLATEN_SOURCE_DIR);
+  EXPECT_GT(survey.files, 5); // an empty tree proves nothing
+  for (const auto &violation : survey.violations)
+    ADD_FAILURE() << violation.file << ":" << violation.line << ": " << violation.what;
+}
+
+TEST(Layering, particles_may_not_include_elements_coupling_apps_or_big_libraries) {
+  for (const char *path : {"\"fem/surface_mesh.h\"", "\"coupling/problem.h\"", "\"apps/io/output.h\"",
+                           "\"../fem/surface_mesh.h\"", "<deal.II/base/tensor.h>", "<vtkPoints.h>", "<mpi.h>",
+                           "<Epetra_CrsMatrix.h>", "<Teuchos_RCP.hpp>", "<ml_epetra_utils.h>", "<fstream>"})
+    EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 1u) << path;
+  for (const char *path :
+       {"\"dem/table.h\"", "<vector>", "<Eigen/Dense>", "<tbb/parallel_for.h>", "<cstdio>"})
+    EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 0u) << path;
+}
+
+TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both) {
+  const std::string particles = "#include \"dem/table.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
+  const std::string coupling = "#include \"coupling/problem.h\"\n", apps = "#include \"apps/io/output.h\"\n";
+  EXPECT_EQ(faults("fem", particles + coupling + apps), 3u);
+  EXPECT_EQ(faults("fem", elements + "#include <deal.II/base/tensor.h>\n"), 0u);
+  EXPECT_EQ(faults("coupling", particles + elements + coupling), 0u);
+  EXPECT_EQ(faults("coupling", apps), 1u);
+}
+
+TEST(Layering, numerics_may_not_open_a_file) {
+  for (const char *statement :
+       {"std::ofstream out(name);", "std::ifstream in(name);", "std::fopen(name, \"r\");",
+        "FILE *f = fopen(name, m);", "int fd = ::open(name, O_RDONLY);", "int fd = open(name, O_RDONLY);",
+        "std::filesystem::remove(name);", "data_out.write_vtu_in_parallel(name, comm);"})
+    for (const char *folder : {"dem", "fem", "coupling"})
+      EXPECT_EQ(faults(folder, std::string(statement) + "\n"), 1u) << folder << ": " << statement;
+}
+
+TEST(Layering, words_in_comments_and_strings_and_gaps_that_open_are_no_files) {
+  for (const char *text : {"// opens no std::ofstream", "/* fopen(\n std::ifstream */",
+                           "throw E(\"fopen( failed\");", "const bool is_open = gap.open();",
+                           "set_open(true);", "bond->open(0);", "// #include \"fem/surface_mesh.h\""})
+    EXPECT_EQ(faults("dem", std::string(text) + "\n"), 0u) << text;
+}
+
+TEST(Layering, the_line_of_a_fault_is_told_past_comments) {
+  const auto found = check_source("dem", "a.h", "// one\n/* two\n three */\n#include \"fem/body.h\"\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].line, 4);
+  EXPECT_EQ(found[0].file, "a.h");
+}
+
+TEST(Layering, apps_are_free) {
+  EXPECT_EQ(faults("apps", "#include <fstream>\nstd::ofstream out(name);\n"), 0u);
+}
+
+} // namespace
