@@ -1,0 +1,247 @@
+// A scene as the apps use it: every parameter of a scene file, checked, converted to SI and put into plain
+// structs, one for each section of the file. NaN means "not given" where a member says so.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <iosfwd>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace platen::apps {
+
+class Parameters;
+
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+// Which app reads the scene: it decides which entries must be given (a compression test needs an axial rate,
+// a test of one bond needs no specimen).
+enum class AppKind { pack, bonds, bar, compress, brazilian, calibrate, study, report };
+
+// How often: a count of steps, a time (simulated seconds; wall clock for checkpoints), or none of both.
+struct Interval {
+  enum class Kind { none, steps, time }; // none: the app chooses, or the thing is off (see the member)
+  Kind kind = Kind::none;
+  double value = 0; // steps or s
+};
+
+// A length, absolute or as a multiple of the smaller radius of a pair.
+struct Gap {
+  bool relative = true;
+  double value = 0.05; // of the smaller radius, or m
+  double length(double smaller_radius) const { return relative ? value * smaller_radius : value; } // m
+};
+
+// A contact stiffness: a multiple of the bond's stiffness, an absolute one, or a multiple of the one that the
+// bulk modulus K of the grains gives, k = value K_i R_i K_j R_j / (K_i R_i + K_j R_j).
+struct Stiffness {
+  enum class Kind { of_bond, absolute, of_bulk };
+  Kind kind = Kind::of_bond;
+  double value = 1; // 1, N/m or 1
+};
+
+enum class Quality { fast, standard, reference };
+
+struct General { // section Scene
+  std::string title;
+  unsigned long seed = 1;
+  Quality quality = Quality::standard;
+};
+
+enum class SpecimenShape { cylinder, box, bar, disc };
+enum class RadiusDistribution { equal, two_sizes, uniform };
+enum class PackingKind { advancing_front, random_close, file };
+enum class EndsKind { as_packed, ground };
+
+struct SpecimenSection {
+  SpecimenShape shape = SpecimenShape::cylinder;
+  double radius = not_given;                       // m; cylinder, round bar
+  double height = not_given;                       // m, along z
+  double width_x = not_given, width_y = not_given; // m; box, rectangular bar
+  double sphere_radius = not_given;                // m, mean
+  double radius_spread = 0;                        // kappa = (largest - smallest radius) / mean
+  RadiusDistribution radius_distribution = RadiusDistribution::uniform;
+  double second_radius_ratio = 0.5; // two sizes: second radius over the first
+  double second_fraction = 0.5;     // two sizes: share of the number of spheres that has the second radius
+  PackingKind packing = PackingKind::advancing_front;
+  std::string file; // Packing = file; resolved against the folder of the scene
+  EndsKind ends = EndsKind::as_packed;
+  double end_layer = 1; // mean sphere radii
+  bool seat = false;
+
+  bool round() const {
+    return !std::isnan(radius);
+  } // cross-section: circle of `radius`, else width_x x width_y
+};
+
+struct Material {              // of the grains
+  double density = 2400;       // kg/m3
+  double young_modulus = 17e9; // Pa
+  double poisson_ratio = 0.15;
+};
+
+enum class BondKind { none, parallel_bond, cohesive_beam, elasto_damage_plastic };
+enum class ContactKind { none, linear, hertz };
+enum class TangentialKind { none, coulomb, coulomb_with_rolling_resistance };
+
+struct Effects {
+  BondKind bond = BondKind::parallel_bond;
+  ContactKind contact = ContactKind::linear;
+  TangentialKind tangential = TangentialKind::coulomb;
+  bool rotation = true;
+  bool gravity = false;
+};
+
+enum class RadiusRule { minimum, mean, harmonic, given };
+
+struct Bond {
+  double modulus = not_given; // Pa
+  double stiffness_ratio = 0.4;
+  double tensile_strength = 0;    // Pa; 0: never breaks in tension
+  double shear_strength = 0;      // Pa; 0: never breaks in shear
+  double friction_angle = 0;      // rad
+  double moment_contribution = 1; // 0 ... 1
+  double radius_multiplier = 1;
+  RadiusRule radius_rule = RadiusRule::minimum;
+  double radius = not_given; // m; Radius rule = given
+  Gap gap;
+  double damping = 0; // dashpot, fraction of critical
+};
+
+struct Contact {
+  double friction = 0.5;
+  Stiffness stiffness;           // linear contact
+  double tangential_ratio = 0.5; // tangential over normal stiffness, linear contact
+  double damping = 0.2;          // fraction of critical, linear contact
+  double restitution = 1;        // (0, 1], hertz
+  double rolling_friction = 0;   // rolling moment <= rolling_friction R* N
+};
+
+enum class PlatenKind { rigid, deformable };
+enum class Attachment { contact, glued };
+enum class PlatenControl { motion, stress };
+
+struct PlatenSide { // what may differ between top and bottom; filled with the common value where not given
+  double friction_static = 0.3;
+  double friction_dynamic = 0.3;
+};
+
+struct Platens {
+  PlatenKind kind = PlatenKind::rigid;
+  PlatenSide top, bottom;
+  PlatenControl top_control = PlatenControl::motion;
+  double top_stress = 0;         // Pa, pressing; top_control = stress
+  Stiffness stiffness;           // of_bond (of the mean bond) or absolute
+  double tangential_ratio = 0.8; // tangential over normal penalty stiffness
+  double damping = 0.2;          // fraction of critical
+  double overhang = 1.2;         // platen half-width over that of the specimen
+  double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
+  int elements_across = 8;
+  double density = 7830;        // kg/m3
+  double young_modulus = 200e9; // Pa
+  double poisson_ratio = 0.3;
+  Attachment attachment = Attachment::contact;
+};
+
+struct Sleeve {
+  double thickness = not_given; // m
+  double modulus = not_given;   // Pa
+  double poisson_ratio = not_given;
+};
+
+enum class LoadingTest { compression, tension };
+enum class ConfinementKind { none, particles, sleeve };
+
+struct Loading {
+  LoadingTest test = LoadingTest::compression;
+  double axial_rate = not_given;  // m/s, speed of the platens towards (tension: from) each other, > 0
+  double ramp = 0;                // s, smooth start; 0: the app chooses
+  double target_strain = 0.01;    // closure of the platens over the height of the specimen
+  double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
+  ConfinementKind confinement = ConfinementKind::none;
+  double confining_pressure = 0; // Pa
+};
+
+enum class InstructionSet { best, baseline };
+
+struct Integration {
+  double safety = 0.8; // time step over its limit
+  double mass_scaling = 1;
+  double damping = 0.5; // local, non-viscous
+  double time_step = 0; // s; 0: safety times the limit
+  InstructionSet instruction_set = InstructionSet::best;
+};
+
+struct Output {
+  Interval every;        // rows of history.csv; none: the app chooses
+  Interval fields_every; // frames of the .pvd series; none: the app chooses
+  bool fields = true;
+};
+
+struct Checkpoint {
+  Interval every{Interval::Kind::time, 600}; // time: s of wall clock; none: no checkpoints
+};
+
+// One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite.
+struct Expectation {
+  std::string key; // a key of summary.json; `cone_top.height_m` is a member of an object
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  std::string text;   // the range as it stands in the scene
+  std::string origin; // "case.prm:31"
+};
+
+enum class PairPath { tension, compression, shear, bending, twisting, cyclic };
+enum class PairPlate { frictionless, rolling, sticking };
+
+struct PairTest { // platen-bonds
+  int particles = 2;
+  PairPath path = PairPath::tension;
+  PairPlate plate = PairPlate::frictionless; // three particles: what the lower two stand on
+  bool base_bond = true;                     // three particles: a bond between the lower two
+  double force = not_given;                  // N, largest
+  double displacement = not_given;           // m, largest
+  std::vector<double> moduli;                // Pa; holds Bond/Modulus where the list is empty
+  std::vector<double> stiffness_ratios;      // holds Bond/Stiffness ratio where the list is empty
+  int steps = 1000;
+};
+
+struct Scene {
+  std::string name = "default"; // file name without its ending
+  std::string path;             // as given on the command line
+  General general;
+  SpecimenSection specimen;
+  Material material;
+  Effects effects;
+  Bond bond;
+  Contact contact;
+  Platens platens;
+  Sleeve sleeve;
+  Loading loading;
+  Integration integration;
+  Output output;
+  Checkpoint checkpoint;
+  std::vector<Expectation> expect; // only those that the scene gives
+  PairTest pair_test;
+  std::vector<std::string> notes; // entries that were set and have no effect here, one line each
+  std::shared_ptr<const Parameters> parameters; // the same entries as text
+};
+
+// Every entry at its default, nothing required. Never throws InputError.
+Scene default_scene();
+
+// Reads `path` (.prm or .json), applies overrides ("Section/Key = value", in order), converts and checks all.
+// Throws InputError with one message: file, line, key, value, what is allowed.
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app);
+
+// All parameters as used, defaults included, as a .prm that reads back to the same numbers bit for bit; paths
+// of files are written so that they hold from `folder`, where the text will lie.
+void write_scene(const Scene &scene, const std::string &folder, std::ostream &out);
+
+// Every parameter with value, default, unit, range and meaning: as .prm, or as JSON (readable as a scene
+// too).
+void print_parameters(const Scene &scene, bool as_json, std::ostream &out);
+
+} // namespace platen::apps
