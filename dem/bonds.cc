@@ -1,0 +1,115 @@
+#include "dem/bonds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "dem/cell_grid.h"
+
+namespace platen::dem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Triple<double> triple(const Vector3 &a) { return {a.x, a.y, a.z}; }
+Rotation<double> rotation(const Quaternion &q) { return {q.w, q.x, q.y, q.z}; }
+
+} // namespace
+
+double BondLayout::bond_radius(double ri, double rj) const {
+  switch (radius_rule) {
+  case RadiusRule::minimum:
+    return radius_multiplier * std::min(ri, rj);
+  case RadiusRule::mean:
+    return radius_multiplier * 0.5 * (ri + rj);
+  case RadiusRule::harmonic:
+    return radius_multiplier * 2 * ri * rj / (ri + rj);
+  case RadiusRule::given:
+    break;
+  }
+  return radius_multiplier * given_radius;
+}
+
+double BondLayout::axial_stiffness(double ri, double rj) const {
+  const double rb = bond_radius(ri, rj);
+  return normal_stiffness(ri, rj) * pi * rb * rb;
+}
+
+double BondLayout::reach(double ri, double rj) const { return gap_is_relative ? gap * std::min(ri, rj) : gap; }
+
+Bonds::Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &parameters)
+    : law{parameters} {
+  if (particles.has_rotation()) {
+    torque_first = &table.add<Vector3>("torque_first", "N m");
+    torque_second = &table.add<Vector3>("torque_second", "N m");
+  }
+  const std::size_t n = particles.size();
+  double largest = 0;
+  for (const double r : particles.radius)
+    largest = std::max(largest, r);
+  // A hair wider than the reach, so that the test below alone decides.
+  const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
+  std::vector<IndexPair> pairs = near_pairs(particles.position.data(), particles.radius.data(), n, margin);
+  const auto too_far = [&](const IndexPair &p) {
+    const double ri = particles.radius[p.first], rj = particles.radius[p.second];
+    return norm(particles.position[p.second] - particles.position[p.first]) - ri - rj > layout.reach(ri, rj);
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), too_far), pairs.end());
+
+  table.resize(pairs.size());
+  records.resize(pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [i, j] = pairs[k];
+    const double ri = particles.radius[i], rj = particles.radius[j];
+    first[k] = record_first[k] = i;
+    second[k] = record_second[k] = j;
+    record[k] = static_cast<int>(k);
+    reference[k] = particles.position[j] - particles.position[i];
+    rest_length[k] = norm(reference[k]);
+    if (!(rest_length[k] > 0)) throw std::invalid_argument("bonded spheres share one centre");
+    lever[k] = ri / (ri + rj);
+    normal_stiffness[k] = layout.normal_stiffness(ri, rj);
+    bond_radius[k] = layout.bond_radius(ri, rj);
+    state[k] = static_cast<int>(BondState::intact);
+    break_time[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+  rebuild_incidence(n);
+}
+
+void Bonds::rebuild_incidence(std::size_t particles) {
+  incidence_offset.assign(particles + 1, 0);
+  for (std::size_t k = 0; k < size(); ++k) {
+    ++incidence_offset[first[k] + 1];
+    ++incidence_offset[second[k] + 1];
+  }
+  for (std::size_t i = 0; i < particles; ++i)
+    incidence_offset[i + 1] += incidence_offset[i];
+  incidence.resize(2 * size());
+  std::vector<int> next(incidence_offset.begin(), incidence_offset.end() - 1);
+  for (std::size_t k = 0; k < size(); ++k) {
+    incidence[next[first[k]]++] = static_cast<int>(2 * k);
+    incidence[next[second[k]]++] = static_cast<int>(2 * k + 1);
+  }
+}
+
+void Bonds::compact() {
+  std::vector<int> intact;
+  intact.reserve(size());
+  for (std::size_t k = 0; k < size(); ++k)
+    if (normal_stiffness[k] != 0.0) intact.push_back(static_cast<int>(k));
+  table.permute(intact);
+  broken_rows = 0;
+  rebuild_incidence(incidence_offset.size() - 1);
+}
+
+ParallelBond::Response<double> Bonds::response(std::size_t k, const Particles &p) const {
+  const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+  const ParallelBond::Geometry<double> g{triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k],
+                                         bond_radius[k]};
+  const Triple<double> d = triple(p.position[j] - p.position[i]);
+  if (!p.has_rotation()) return law.without_rotation(g, d);
+  return law(g, {d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
+}
+
+} // namespace platen::dem

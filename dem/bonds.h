@@ -1,0 +1,91 @@
+// The bonds of a specimen as columns, and the record of every bond that ever was.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/laws/parallel_bond.h"
+#include "dem/particles.h"
+#include "dem/table.h"
+
+namespace platen::dem {
+
+enum class RadiusRule { minimum, mean, harmonic, given };
+
+// How bonds are laid between the spheres of a packing.
+struct BondLayout {
+  double modulus = std::numeric_limits<double>::quiet_NaN(); // G_b, Pa
+  double radius_multiplier = 1;                              // lambda
+  RadiusRule radius_rule = RadiusRule::minimum;
+  double given_radius = 0;  // m, for RadiusRule::given
+  double gap = 0;           // bond where |d| - R_i - R_j <= gap; m, or in smaller radii of the pair
+  bool gap_is_relative = true;
+
+  double bond_radius(double ri, double rj) const;   // R_b, m
+  double normal_stiffness(double ri, double rj) const { return modulus / (ri + rj); } // k_n, Pa/m (T-24)
+  // k_n A of a pair, whether it is bonded or not; N/m.
+  double axial_stiffness(double ri, double rj) const;
+  double reach(double ri, double rj) const; // largest gap that is bonded, m
+};
+
+enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };
+
+struct Bonds {
+  // Rows that are computed: all intact bonds, and those broken since the last compaction (their stiffness is 0).
+  Table table;
+  Column<int> &first = table.add<int>("first", "1");   // particle row i
+  Column<int> &second = table.add<int>("second", "1"); // particle row j > i
+  Column<int> &record = table.add<int>("record", "1"); // row in `records`
+  Column<Vector3> &reference = table.add<Vector3>("reference", "m");
+  Column<double> &rest_length = table.add<double>("rest_length", "m");
+  Column<double> &lever = table.add<double>("lever", "1");
+  Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m");
+  Column<double> &bond_radius = table.add<double>("bond_radius", "m");
+  Column<Vector3> &force = table.add<Vector3>("force", "N");
+  Column<Vector3> *torque_first = nullptr; // N m; only with rotation
+  Column<Vector3> *torque_second = nullptr;
+
+  // One row per initial bond, in the order of creation: what output and measures read.
+  Table records;
+  Column<int> &record_first = records.add<int>("first", "1");
+  Column<int> &record_second = records.add<int>("second", "1");
+  Column<int> &state = records.add<int>("state", "1"); // BondState
+  Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
+
+  // Rows of `table` at each particle, in row order: entry = 2 row + (0: particle is first, 1: second).
+  std::vector<int> incidence_offset, incidence;
+
+  ParallelBond law;
+  std::size_t broken_rows = 0; // rows of `table` with zero stiffness
+
+  // Bonds all pairs within the layout's reach; pairs are sorted by (first, second).
+  Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &law);
+
+  std::size_t size() const { return table.size(); }
+  std::size_t initial_count() const { return records.size(); }
+  // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
+  void compact();
+  void rebuild_incidence(std::size_t particles);
+  ParallelBond::Response<double> response(std::size_t row, const Particles &particles) const;
+};
+
+struct BondBreak {
+  int row = 0; // in Bonds::table at the time of the break
+  BondState mode = BondState::broken_in_tension;
+};
+
+enum class InstructionSet { baseline, avx2, avx512 };
+InstructionSet best_instruction_set();
+const char *name(InstructionSet set);
+
+// Forces and torques of all bonds into their rows, on any number of threads. Rows at or above their strength are
+// appended to `breaks`, in row order; nothing is broken here.
+void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set, std::vector<BondBreak> &breaks);
+
+// Adds dashpots of fraction alpha of critical (F = 2 alpha sqrt(K m*) v, and the rotational analogue) to the rows;
+// returns the dissipated power, W.
+double add_bond_dashpots(const Particles &particles, Bonds &bonds, double alpha);
+
+double bond_energy(const Particles &particles, const Bonds &bonds); // J
+
+} // namespace platen::dem

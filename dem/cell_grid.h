@@ -1,0 +1,23 @@
+// Pairs of spheres closer than a margin, by a grid of cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/vector3.h"
+
+namespace platen::dem {
+
+struct IndexPair {
+  int first, second; // first < second
+};
+inline bool operator<(const IndexPair &a, const IndexPair &b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+inline bool operator==(const IndexPair &a, const IndexPair &b) { return a.first == b.first && a.second == b.second; }
+
+// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs for radii of
+// similar size.
+std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count, double margin);
+
+} // namespace platen::dem

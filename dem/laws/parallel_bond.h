@@ -1,0 +1,197 @@
+// Parallel bond (Potyondy and Cundall; Tannu 2017 with its misprints mended) in total form, derived from a
+// potential, so that it stores no energy under rigid motion, conserves energy exactly and has no history.
+//
+// Pair (i, j): d = x_j - x_i, n = d / |d|, reference vector D (d when the bond was made, both spheres unturned).
+// With r_i = R_i(a D), r_j = R_j((1 - a) D) carried by the spheres' rotations, u = d - r_i - r_j is the relative
+// displacement at the contact point c = x_i + a d, and v the vector part of the relative rotation quaternion
+// (2 v = relative rotation for small angles, relative error angle^2 / 24). Potential:
+//   U = 1/2 k_n A (|d| - |D|)^2 + 1/2 k_s A |u_s|^2 + 2 k_n I |v_s|^2 + 2 k_s J (v.n)^2
+// For small motion its derivatives are dF_n = k_n A dU_n, dF_s = k_s A dU_s, dM_n = k_s J dtheta_n,
+// dM_s = k_n I dtheta_s. Force and torque are the bond's action on i; tension is positive (docs/theory.md).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace platen::dem {
+
+// What a law asks of its real type beyond arithmetic; packs bring their own.
+inline double root(double a) { return std::sqrt(a); }
+inline double magnitude(double a) { return std::abs(a); }
+inline double positive_part(double a) { return a > 0.0 ? a : 0.0; }
+inline double sign_of(double a) { return a < 0.0 ? -1.0 : 1.0; }
+
+// Vector of any real type: double, or a pack of doubles in the vectorised kernels.
+template <class Real>
+struct Triple {
+  Real x, y, z;
+};
+template <class Real>
+struct Rotation {
+  Real w, x, y, z; // unit quaternion
+};
+
+template <class Real>
+inline Triple<Real> operator+(const Triple<Real> &a, const Triple<Real> &b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
+inline Triple<Real> operator-(const Triple<Real> &a, const Triple<Real> &b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Real>
+inline Triple<Real> scale(const Real &s, const Triple<Real> &a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class Real>
+inline Real dot(const Triple<Real> &a, const Triple<Real> &b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Real>
+inline Triple<Real> cross(const Triple<Real> &a, const Triple<Real> &b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
+  const Triple<Real> u{q.x, q.y, q.z};
+  Triple<Real> t = cross(u, v);
+  t = t + t;
+  return v + scale(q.w, t) + cross(u, t);
+}
+
+struct ParallelBond {
+  struct Parameters {
+    double stiffness_ratio = std::numeric_limits<double>::quiet_NaN();                // k_s / k_n
+    double tensile_strength = std::numeric_limits<double>::infinity();               // Pa
+    double shear_strength = std::numeric_limits<double>::infinity();                 // Pa
+    double friction_coefficient = 0;                                                  // tan(phi_b)
+    double moment_contribution = 1;                                                   // beta, 0 ... 1
+  };
+
+  template <class Real>
+  struct Geometry {
+    Triple<Real> reference; // D, m
+    Real rest_length;       // |D|, m
+    Real lever;             // a = R_i / (R_i + R_j)
+    Real normal_stiffness;  // k_n = G_b / L_b, Pa/m; 0 once the bond is broken
+    Real radius;            // R_b, m
+  };
+  template <class Real>
+  struct Motion {
+    Triple<Real> distance;      // d, m
+    Rotation<Real> turn_i, turn_j; // from the reference
+  };
+  template <class Real>
+  struct Response {
+    Triple<Real> force, torque_i, torque_j; // N, N m; force on i (on j: minus force)
+    Real tension_ratio, shear_ratio;        // sigma_max / sigma_c, tau_max / tau_c; >= 1 breaks
+    Real energy;                            // J
+    Real normal_force, shear_force;         // N; signed (tension positive), magnitude
+    Triple<Real> shear;                     // shear force on i, N
+  };
+
+  Parameters parameters;
+
+  // With rotation.
+  template <class Real>
+  Response<Real> operator()(const Geometry<Real> &g, const Motion<Real> &m) const;
+  // Spheres that do not turn: axial and shear springs only.
+  template <class Real>
+  Response<Real> without_rotation(const Geometry<Real> &g, const Triple<Real> &distance) const;
+
+private:
+  template <class Real>
+  void add_failure(Response<Real> &r, const Real &kn, const Real &stretch, const Real &slip, const Real &bend,
+                   const Real &twist) const;
+};
+
+// Stresses (physics: sigma_max = F_n/A + beta |M_s| R_b/I, tau_max = |F_s|/A + beta |M_n| R_b/J) in the form that
+// needs neither A nor I: stretch, slip in m; bend, twist = R_b times the rotation, m.
+template <class Real>
+void ParallelBond::add_failure(Response<Real> &r, const Real &kn, const Real &stretch, const Real &slip,
+                               const Real &bend, const Real &twist) const {
+  const Parameters &p = parameters;
+  const Real axial = kn * stretch; // F_n / A
+  const Real compression = positive_part(Real(-axial));
+  r.tension_ratio = (axial + p.moment_contribution * kn * bend) * (1.0 / p.tensile_strength);
+  r.shear_ratio = p.stiffness_ratio * kn * (slip + p.moment_contribution * twist) /
+                  (p.shear_strength + p.friction_coefficient * compression);
+}
+
+template <class Real>
+ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, const Motion<Real> &m) const {
+  constexpr double pi = 3.14159265358979323846;
+  const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness; // k_n A
+  const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
+  const Real half_square = 0.5 * g.radius * g.radius;
+  const Real bending = 0.5 * half_square * area_stiffness; // k_n I, I = A R_b^2 / 4
+  const Real twisting = half_square * shear_stiffness;     // k_s J, J = A R_b^2 / 2
+
+  const Triple<Real> &d = m.distance;
+  const Real length = root(dot(d, d));
+  const Real inverse = 1.0 / length;
+  const Triple<Real> n = scale(inverse, d);
+  const Triple<Real> ri = turned(m.turn_i, scale(g.lever, g.reference));
+  const Triple<Real> rj = turned(m.turn_j, scale(Real(1.0 - g.lever), g.reference));
+  const Triple<Real> u = d - ri - rj;
+  const Real un = dot(u, n);
+  const Triple<Real> us = u - scale(un, n);
+  const Triple<Real> shear = scale(shear_stiffness, us);
+  const Real stretch = length - g.rest_length;
+  const Real normal = area_stiffness * stretch;
+
+  // Relative rotation q = q_j conj(q_i), the shorter way round.
+  const Rotation<Real> &p = m.turn_i, &q = m.turn_j;
+  const Real w0 = q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z;
+  const Real sign = sign_of(w0);
+  const Real w = sign * w0;
+  const Triple<Real> v = scale(sign, Triple<Real>{-q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y,
+                                                   -q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x,
+                                                   -q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w});
+  const Real vn = dot(v, n);
+  const Triple<Real> vs = v - scale(vn, n);
+  const Real excess = twisting - bending; // of twisting over bending stiffness
+  const Triple<Real> skew = scale(Real(2.0 * excess * vn), cross(v, n));
+  const Triple<Real> moment = scale(Real(2.0 * w), scale(bending, v) + scale(Real(excess * vn), n));
+
+  Response<Real> r;
+  r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), shear) +
+            scale(Real(4.0 * excess * vn * inverse), vs);
+  r.torque_i = cross(ri, shear) + moment - skew;
+  r.torque_j = cross(rj, shear) - moment - skew;
+  const Real slip = root(dot(us, us)), vs2 = dot(vs, vs);
+  r.normal_force = normal;
+  r.shear_force = shear_stiffness * slip;
+  r.shear = shear;
+  r.energy = 0.5 * (normal * stretch + shear_stiffness * slip * slip) + 2.0 * (bending * vs2 + twisting * vn * vn);
+  const Real twice = 2.0 * w * g.radius;
+  add_failure(r, g.normal_stiffness, stretch, slip, Real(twice * root(vs2)), Real(twice * magnitude(vn)));
+  return r;
+}
+
+template <class Real>
+ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real> &g, const Triple<Real> &d) const {
+  constexpr double pi = 3.14159265358979323846;
+  const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness;
+  const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
+  const Real length = root(dot(d, d));
+  const Real inverse = 1.0 / length;
+  const Triple<Real> n = scale(inverse, d);
+  const Triple<Real> u = d - g.reference;
+  const Real un = dot(u, n);
+  const Triple<Real> us = u - scale(un, n);
+  const Real stretch = length - g.rest_length, normal = area_stiffness * stretch;
+  const Real zero = length * 0.0;
+  Response<Real> r;
+  r.shear = scale(shear_stiffness, us);
+  r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), r.shear);
+  r.torque_i = r.torque_j = {zero, zero, zero};
+  const Real slip = root(dot(us, us));
+  r.normal_force = normal;
+  r.shear_force = shear_stiffness * slip;
+  r.energy = 0.5 * (normal * stretch + shear_stiffness * slip * slip);
+  add_failure(r, g.normal_stiffness, stretch, slip, zero, zero);
+  return r;
+}
+
+} // namespace platen::dem
