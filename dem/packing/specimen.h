@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "dem/vector3.h"
@@ -10,19 +11,29 @@ namespace platen::dem {
 
 enum class ShapeKind { cylinder, box };
 
-// A cylinder of radius r and height h on 0 <= z <= h, axis x = y = 0; or a box [-lx/2, lx/2] x [-ly/2, ly/2] x
-// [0, h]. (A bar is a box or cylinder that is long along z.)
+// A cylinder of radius r and height h on 0 <= z <= h, axis x = y = 0; or a box [-lx/2, lx/2] x [-ly/2, ly/2]
+// x [0, h]. (A bar is a box or cylinder that is long along z.)
 struct Shape {
   ShapeKind kind = ShapeKind::cylinder;
-  double radius = 0;             // m, cylinder
+  double radius = 0;               // m, cylinder
   double width_x = 0, width_y = 0; // m, box
-  double height = 0;             // m
+  double height = 0;               // m
 
   double cross_section() const { // m^2
     return kind == ShapeKind::cylinder ? 3.14159265358979323846 * radius * radius : width_x * width_y;
   }
   double volume() const { return cross_section() * height; } // m^3
 };
+
+Shape cylinder(double radius, double height);             // m
+Shape box(double width_x, double width_y, double height); // m
+double surface_area(const Shape &shape);                  // m^2, ends included
+double smallest_width(const Shape &shape);                // m: diameter, an edge, or the height
+// Distance from a point to the nearest wall or end plane, m; negative outside (there, for a box, the largest
+// distance to a face plane).
+double wall_clearance(const Shape &shape, const Vector3 &point);
+// Throws std::invalid_argument, naming the measure, unless every measure of the shape is positive and finite.
+void require_valid(const Shape &shape);
 
 struct Specimen {
   Shape shape;
@@ -31,5 +42,24 @@ struct Specimen {
 
   std::size_t size() const { return centre.size(); }
 };
+
+struct BoundingBox {
+  Vector3 low, high; // m
+};
+// Of the shape, and of the spheres themselves (surfaces included; of no spheres: the origin).
+BoundingBox bounding_box(const Shape &shape);
+BoundingBox bounding_box(const Specimen &specimen);
+
+double mean_radius(const Specimen &specimen);       // m, 0 of no spheres
+double smallest_radius(const Specimen &specimen);   // m, 0 of no spheres
+double largest_radius(const Specimen &specimen);    // m, 0 of no spheres
+double volume_of_spheres(const Specimen &specimen); // m^3, overlaps counted twice
+
+// What is wrong with a specimen, in plain words, one problem an entry, ids from 0; empty if nothing is.
+// Checked: as many radii as centres, radii positive and finite, centres finite, no two centres closer than
+// 1e-9 of the smaller radius (the direction of contact is lost there), no sphere outside the shape by more
+// than wall_tolerance (in mean radii). Stops after max_problems with a last line that counts the rest.
+std::vector<std::string> check_specimen(const Specimen &specimen, double wall_tolerance = 1e-3,
+                                        std::size_t max_problems = 10);
 
 } // namespace platen::dem

@@ -1,0 +1,188 @@
+#include "dem/packing/specimen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "dem/packing/point_grid.h"
+
+namespace platen::dem {
+
+namespace {
+
+// Centres closer than this part of the smaller radius give no usable direction of contact.
+constexpr double coincidence = 1e-9;
+
+bool finite(const Vector3 &v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void require_positive(double value, const char *what) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw std::invalid_argument(std::string("the ") + what + " of a specimen must be positive and finite");
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string sphere(std::size_t i) {
+  return "sphere " + std::to_string(i);
+}
+
+// Collects problems, and beyond the first few only their number.
+class ProblemList {
+public:
+  explicit ProblemList(std::size_t most) : most_(most) {}
+  void add(const std::string &text) {
+    if (texts_.size() < most_) texts_.push_back(text);
+    ++count_;
+  }
+  bool empty() const { return count_ == 0; }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> all = texts_;
+    if (count_ > texts_.size()) all.push_back("and " + std::to_string(count_ - texts_.size()) + " more");
+    return all;
+  }
+
+private:
+  std::size_t most_, count_ = 0;
+  std::vector<std::string> texts_;
+};
+
+void check_numbers(const Specimen &s, ProblemList &problems) {
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (!finite(s.centre[i])) problems.add(sphere(i) + " has a centre that is not finite");
+    if (!std::isfinite(s.radius[i]) || !(s.radius[i] > 0))
+      problems.add(sphere(i) + " has radius " + number(s.radius[i]) + " m; it must be positive and finite");
+  }
+}
+
+void check_coincidence(const Specimen &s, ProblemList &problems) {
+  const BoundingBox bounds = bounding_box(s);
+  const double reach = coincidence * largest_radius(s);
+  PointGrid grid(bounds.low, bounds.high, 2 * mean_radius(s), s.size() + 1000);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    grid.for_each_near(s.centre[i], reach, [&](int other) {
+      const std::size_t j = static_cast<std::size_t>(other);
+      if (norm(s.centre[i] - s.centre[j]) < coincidence * std::min(s.radius[i], s.radius[j]))
+        problems.add("spheres " + std::to_string(j) + " and " + std::to_string(i) + " have the same centre");
+    });
+    grid.add(s.centre[i]);
+  }
+}
+
+void check_walls(const Specimen &s, double tolerance, ProblemList &problems) {
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double outside = s.radius[i] - wall_clearance(s.shape, s.centre[i]);
+    if (outside > tolerance)
+      problems.add(sphere(i) + " reaches " + number(outside) + " m out of the shape (allowed " +
+                   number(tolerance) + " m)");
+  }
+}
+
+} // namespace
+
+Shape cylinder(double radius, double height) {
+  Shape shape;
+  shape.kind = ShapeKind::cylinder;
+  shape.radius = radius, shape.height = height;
+  return shape;
+}
+
+Shape box(double width_x, double width_y, double height) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.width_x = width_x, shape.width_y = width_y, shape.height = height;
+  return shape;
+}
+
+double surface_area(const Shape &shape) {
+  const double perimeter = shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
+                                                             : 2 * (shape.width_x + shape.width_y);
+  return perimeter * shape.height + 2 * shape.cross_section();
+}
+
+double smallest_width(const Shape &shape) {
+  const double across =
+      shape.kind == ShapeKind::cylinder ? 2 * shape.radius : std::min(shape.width_x, shape.width_y);
+  return std::min(across, shape.height);
+}
+
+double wall_clearance(const Shape &shape, const Vector3 &p) {
+  const double ends = std::min(p.z, shape.height - p.z);
+  if (shape.kind == ShapeKind::cylinder)
+    return std::min(ends, shape.radius - std::sqrt(p.x * p.x + p.y * p.y));
+  return std::min(ends, std::min(0.5 * shape.width_x - std::abs(p.x), 0.5 * shape.width_y - std::abs(p.y)));
+}
+
+void require_valid(const Shape &shape) {
+  require_positive(shape.height, "height");
+  if (shape.kind == ShapeKind::cylinder) {
+    require_positive(shape.radius, "radius");
+  } else {
+    require_positive(shape.width_x, "width along x");
+    require_positive(shape.width_y, "width along y");
+  }
+}
+
+BoundingBox bounding_box(const Shape &shape) {
+  const double x = shape.kind == ShapeKind::cylinder ? shape.radius : 0.5 * shape.width_x;
+  const double y = shape.kind == ShapeKind::cylinder ? shape.radius : 0.5 * shape.width_y;
+  return {{-x, -y, 0}, {x, y, shape.height}};
+}
+
+BoundingBox bounding_box(const Specimen &specimen) {
+  BoundingBox bounds;
+  for (std::size_t i = 0; i < specimen.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double low = specimen.centre[i][k] - specimen.radius[i],
+                   high = specimen.centre[i][k] + specimen.radius[i];
+      bounds.low[k] = i == 0 ? low : std::min(bounds.low[k], low);
+      bounds.high[k] = i == 0 ? high : std::max(bounds.high[k], high);
+    }
+  return bounds;
+}
+
+double mean_radius(const Specimen &specimen) {
+  double sum = 0;
+  for (const double r : specimen.radius)
+    sum += r;
+  return specimen.radius.empty() ? 0.0 : sum / static_cast<double>(specimen.radius.size());
+}
+
+double smallest_radius(const Specimen &specimen) {
+  return specimen.radius.empty() ? 0.0 : *std::min_element(specimen.radius.begin(), specimen.radius.end());
+}
+
+double largest_radius(const Specimen &specimen) {
+  return specimen.radius.empty() ? 0.0 : *std::max_element(specimen.radius.begin(), specimen.radius.end());
+}
+
+double volume_of_spheres(const Specimen &specimen) {
+  double sum = 0;
+  for (const double r : specimen.radius)
+    sum += r * r * r;
+  return 4.0 / 3.0 * 3.14159265358979323846 * sum;
+}
+
+std::vector<std::string> check_specimen(const Specimen &specimen, double wall_tolerance,
+                                        std::size_t max_problems) {
+  ProblemList problems(max_problems);
+  if (specimen.radius.size() != specimen.centre.size()) {
+    problems.add("there are " + std::to_string(specimen.centre.size()) + " centres but " +
+                 std::to_string(specimen.radius.size()) + " radii");
+    return problems.texts();
+  }
+  if (specimen.size() == 0) problems.add("there are no spheres");
+  check_numbers(specimen, problems);
+  if (!problems.empty()) return problems.texts(); // distances mean nothing before the numbers do
+  check_coincidence(specimen, problems);
+  check_walls(specimen, wall_tolerance * mean_radius(specimen), problems);
+  return problems.texts();
+}
+
+} // namespace platen::dem
