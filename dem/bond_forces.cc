@@ -10,12 +10,12 @@ namespace {
 
 kernels::BondKernel kernel_of(InstructionSet set) {
   switch (set) {
-  case InstructionSet::avx512:
-    return kernels::bond_kernel_avx512;
-  case InstructionSet::avx2:
-    return kernels::bond_kernel_avx2;
-  case InstructionSet::baseline:
-    break;
+    case InstructionSet::avx512:
+      return kernels::bond_kernel_avx512;
+    case InstructionSet::avx2:
+      return kernels::bond_kernel_avx2;
+    case InstructionSet::baseline:
+      break;
   }
   return kernels::bond_kernel_baseline;
 }
@@ -41,7 +41,8 @@ kernels::BondColumns columns_of(const Particles &p, Bonds &b) {
 
 InstructionSet best_instruction_set() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq"))
     return InstructionSet::avx512;
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return InstructionSet::avx2;
 #endif
@@ -72,7 +73,8 @@ void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSe
     for (std::size_t k = first; k < last; ++k) {
       const double t = tension[k - first], s = shear[k - first];
       if (t < 1.0 && s < 1.0) continue;
-      breaks.push_back({static_cast<int>(k), t >= s ? BondState::broken_in_tension : BondState::broken_in_shear});
+      breaks.push_back(
+          {static_cast<int>(k), t >= s ? BondState::broken_in_tension : BondState::broken_in_shear});
     }
   }
 }
@@ -86,21 +88,21 @@ double add_bond_dashpots(const Particles &p, Bonds &b, double alpha) {
       const double stiffness = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
       if (stiffness == 0.0) continue;
       const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-      const double ratio = b.law.parameters.stiffness_ratio, half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
+      const double ratio = b.law.parameters.stiffness_ratio,
+                   half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
       const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-      const double cn = 2 * alpha * std::sqrt(stiffness * m), cs = 2 * alpha * std::sqrt(ratio * stiffness * m);
+      const double cn = 2 * alpha * std::sqrt(stiffness * m),
+                   cs = 2 * alpha * std::sqrt(ratio * stiffness * m);
       const Vector3 d = p.position[j] - p.position[i], n = d / norm(d);
       const Vector3 ri = b.lever[k] * d, rj = ri - d;
       Vector3 v = p.velocity[j] - p.velocity[i];
-      if (turning)
-        v += cross((*p.angular_velocity)[j], rj) - cross((*p.angular_velocity)[i], ri);
+      if (turning) v += cross((*p.angular_velocity)[j], rj) - cross((*p.angular_velocity)[i], ri);
       const double vn = dot(v, n);
       const Vector3 vs = v - vn * n, force = cn * vn * n + cs * vs;
       b.force[k] += force;
       power += dot(force, v);
       if (!turning) continue;
-      const double inertia =
-          (*p.inertia)[i] * (*p.inertia)[j] / ((*p.inertia)[i] + (*p.inertia)[j]);
+      const double inertia = (*p.inertia)[i] * (*p.inertia)[j] / ((*p.inertia)[i] + (*p.inertia)[j]);
       const double cb = 2 * alpha * std::sqrt(0.5 * half_square * stiffness * inertia);
       const double ct = 2 * alpha * std::sqrt(half_square * ratio * stiffness * inertia);
       const Vector3 w = (*p.angular_velocity)[j] - (*p.angular_velocity)[i];

@@ -12,21 +12,25 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Triple<double> triple(const Vector3 &a) { return {a.x, a.y, a.z}; }
-Rotation<double> rotation(const Quaternion &q) { return {q.w, q.x, q.y, q.z}; }
+Triple<double> triple(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+Rotation<double> rotation(const Quaternion &q) {
+  return {q.w, q.x, q.y, q.z};
+}
 
 } // namespace
 
 double BondLayout::bond_radius(double ri, double rj) const {
   switch (radius_rule) {
-  case RadiusRule::minimum:
-    return radius_multiplier * std::min(ri, rj);
-  case RadiusRule::mean:
-    return radius_multiplier * 0.5 * (ri + rj);
-  case RadiusRule::harmonic:
-    return radius_multiplier * 2 * ri * rj / (ri + rj);
-  case RadiusRule::given:
-    break;
+    case RadiusRule::minimum:
+      return radius_multiplier * std::min(ri, rj);
+    case RadiusRule::mean:
+      return radius_multiplier * 0.5 * (ri + rj);
+    case RadiusRule::harmonic:
+      return radius_multiplier * 2 * ri * rj / (ri + rj);
+    case RadiusRule::given:
+      break;
   }
   return radius_multiplier * given_radius;
 }
@@ -36,7 +40,9 @@ double BondLayout::axial_stiffness(double ri, double rj) const {
   return normal_stiffness(ri, rj) * pi * rb * rb;
 }
 
-double BondLayout::reach(double ri, double rj) const { return gap_is_relative ? gap * std::min(ri, rj) : gap; }
+double BondLayout::reach(double ri, double rj) const {
+  return gap_is_relative ? gap * std::min(ri, rj) : gap;
+}
 
 Bonds::Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &parameters)
     : law{parameters} {
@@ -101,6 +107,25 @@ void Bonds::compact() {
   table.permute(intact);
   broken_rows = 0;
   rebuild_incidence(incidence_offset.size() - 1);
+}
+
+std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
+                                          double time) {
+  std::vector<BrokenBond> broken;
+  broken.reserve(breaks.size());
+  for (const BondBreak &b : breaks) {
+    const std::size_t k = static_cast<std::size_t>(b.row);
+    const double area = pi * bond_radius[k] * bond_radius[k];
+    broken.push_back(
+        {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0});
+    normal_stiffness[k] = 0;
+    force[k] = {};
+    if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};
+    state[record[k]] = static_cast<int>(b.mode);
+    break_time[record[k]] = time;
+  }
+  broken_rows += breaks.size();
+  return broken;
 }
 
 ParallelBond::Response<double> Bonds::response(std::size_t k, const Particles &p) const {

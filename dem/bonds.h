@@ -17,11 +17,11 @@ struct BondLayout {
   double modulus = std::numeric_limits<double>::quiet_NaN(); // G_b, Pa
   double radius_multiplier = 1;                              // lambda
   RadiusRule radius_rule = RadiusRule::minimum;
-  double given_radius = 0;  // m, for RadiusRule::given
-  double gap = 0;           // bond where |d| - R_i - R_j <= gap; m, or in smaller radii of the pair
+  double given_radius = 0; // m, for RadiusRule::given
+  double gap = 0;          // bond where |d| - R_i - R_j <= gap; m, or in smaller radii of the pair
   bool gap_is_relative = true;
 
-  double bond_radius(double ri, double rj) const;   // R_b, m
+  double bond_radius(double ri, double rj) const;                                     // R_b, m
   double normal_stiffness(double ri, double rj) const { return modulus / (ri + rj); } // k_n, Pa/m (T-24)
   // k_n A of a pair, whether it is bonded or not; N/m.
   double axial_stiffness(double ri, double rj) const;
@@ -30,8 +30,15 @@ struct BondLayout {
 
 enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };
 
+struct BondBreak {
+  int row = 0; // in Bonds::table at the time of the break
+  BondState mode = BondState::broken_in_tension;
+};
+struct BrokenBond;
+
 struct Bonds {
-  // Rows that are computed: all intact bonds, and those broken since the last compaction (their stiffness is 0).
+  // Rows that are computed: all intact bonds, and those broken since the last compaction (their stiffness is
+  // 0).
   Table table;
   Column<int> &first = table.add<int>("first", "1");   // particle row i
   Column<int> &second = table.add<int>("second", "1"); // particle row j > i
@@ -49,7 +56,7 @@ struct Bonds {
   Table records;
   Column<int> &record_first = records.add<int>("first", "1");
   Column<int> &record_second = records.add<int>("second", "1");
-  Column<int> &state = records.add<int>("state", "1"); // BondState
+  Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
   // Rows of `table` at each particle, in row order: entry = 2 row + (0: particle is first, 1: second).
@@ -66,24 +73,32 @@ struct Bonds {
   // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
   void compact();
   void rebuild_incidence(std::size_t particles);
+  // Takes the stiffness from these rows, marks their records and tells what they held.
+  std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
+                                     double time);
   ParallelBond::Response<double> response(std::size_t row, const Particles &particles) const;
 };
 
-struct BondBreak {
-  int row = 0; // in Bonds::table at the time of the break
+// A bond that has just broken: what the contact takes over, and what the crack log needs.
+struct BrokenBond {
+  int first = 0, second = 0, record = 0;
   BondState mode = BondState::broken_in_tension;
+  double rest_length = 0, area = 0;    // m, m^2
+  ParallelBond::Response<double> last; // at the break
+  double released = 0;                 // J
 };
 
 enum class InstructionSet { baseline, avx2, avx512 };
 InstructionSet best_instruction_set();
 const char *name(InstructionSet set);
 
-// Forces and torques of all bonds into their rows, on any number of threads. Rows at or above their strength are
-// appended to `breaks`, in row order; nothing is broken here.
-void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set, std::vector<BondBreak> &breaks);
+// Forces and torques of all bonds into their rows, on any number of threads. Rows at or above their strength
+// are appended to `breaks`, in row order; nothing is broken here.
+void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set,
+                         std::vector<BondBreak> &breaks);
 
-// Adds dashpots of fraction alpha of critical (F = 2 alpha sqrt(K m*) v, and the rotational analogue) to the rows;
-// returns the dissipated power, W.
+// Adds dashpots of fraction alpha of critical (F = 2 alpha sqrt(K m*) v, and the rotational analogue) to the
+// rows; returns the dissipated power, W.
 double add_bond_dashpots(const Particles &particles, Bonds &bonds, double alpha);
 
 double bond_energy(const Particles &particles, const Bonds &bonds); // J

@@ -9,7 +9,8 @@
 namespace platen::dem {
 namespace {
 
-// Cells of one edge length over the bounding box, capped in number so that a lost particle cannot exhaust memory.
+// Cells of one edge length over the bounding box, capped in number so that a lost particle cannot exhaust
+// memory.
 struct Grid {
   Vector3 low;
   double inverse_edge = 1;
@@ -58,7 +59,8 @@ struct Grid {
 
 } // namespace
 
-std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count, double margin) {
+std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
+                                  double margin) {
   if (count < 2) return {};
   const double largest = *std::max_element(radii, radii + count);
   const Grid grid(centres, count, 2 * largest + std::max(margin, 0.0));

@@ -14,10 +14,13 @@ struct IndexPair {
 inline bool operator<(const IndexPair &a, const IndexPair &b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;
 }
-inline bool operator==(const IndexPair &a, const IndexPair &b) { return a.first == b.first && a.second == b.second; }
+inline bool operator==(const IndexPair &a, const IndexPair &b) {
+  return a.first == b.first && a.second == b.second;
+}
 
-// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs for radii of
-// similar size.
-std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count, double margin);
+// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs for
+// radii of similar size.
+std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
+                                  double margin);
 
 } // namespace platen::dem

@@ -11,7 +11,8 @@ namespace platen::dem {
 ThreadLimit::ThreadLimit(int threads) {
 #ifndef PLATEN_SERIAL
   if (threads > 0)
-    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                       static_cast<std::size_t>(threads));
 #else
   (void)threads;
 #endif

@@ -1,5 +1,6 @@
 // Loops over rows on several threads, and sums whose order does not depend on the number of threads: the only
-// header that names a threading backend (TBB; PLATEN_SERIAL leaves it out, for ThreadSanitizer and tiny builds).
+// header that names a threading backend (TBB; PLATEN_SERIAL leaves it out, for ThreadSanitizer and tiny
+// builds).
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,13 @@
 
 namespace platen::dem {
 
-// Rows of one block. Blocks are cut by row number alone, never by thread, so that sums over blocks repeat bitwise.
+// Rows of one block. Blocks are cut by row number alone, never by thread, so that sums over blocks repeat
+// bitwise.
 constexpr std::size_t block_rows = 1024;
 
-inline std::size_t number_of_blocks(std::size_t rows) { return (rows + block_rows - 1) / block_rows; }
+inline std::size_t number_of_blocks(std::size_t rows) {
+  return (rows + block_rows - 1) / block_rows;
+}
 
 // body(first, last, block) for every block of rows [0, rows).
 template <class Body>
@@ -52,7 +56,8 @@ void for_each(std::size_t rows, const Body &body) {
 template <class T, class Body>
 T ordered_sum(std::size_t rows, const Body &body) {
   std::vector<T> partial(number_of_blocks(rows));
-  for_each_block(rows, [&](std::size_t first, std::size_t last, std::size_t b) { partial[b] = body(first, last); });
+  for_each_block(rows,
+                 [&](std::size_t first, std::size_t last, std::size_t b) { partial[b] = body(first, last); });
   T sum{};
   for (const T &p : partial)
     sum += p;

@@ -39,7 +39,8 @@ std::vector<int> spatial_order(const std::vector<Vector3> &centres) {
   std::vector<std::uint64_t> key(centres.size());
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Vector3 c = scale * (centres[i] - low);
-    key[i] = spread_bits(static_cast<std::uint64_t>(c.x)) | spread_bits(static_cast<std::uint64_t>(c.y)) << 1 |
+    key[i] = spread_bits(static_cast<std::uint64_t>(c.x)) |
+             spread_bits(static_cast<std::uint64_t>(c.y)) << 1 |
              spread_bits(static_cast<std::uint64_t>(c.z)) << 2;
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });

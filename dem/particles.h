@@ -10,8 +10,9 @@ namespace platen::dem {
 
 struct Specimen;
 
-// Motion and forces live on one clock: between drift and the second half kick `velocity` and `angular_velocity`
-// hold the half-step values; after it the full-step ones (docs/theory.md, time integration).
+// Motion and forces live on one clock: between drift and the second half kick `velocity` and
+// `angular_velocity` hold the half-step values; after it the full-step ones (docs/theory.md, time
+// integration).
 struct Particles {
   Table table;
   Column<int> &id = table.add<int>("id", "1");
@@ -38,7 +39,8 @@ struct Particles {
   void add_rotation();
 };
 
-// Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row k.
+// Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row
+// k.
 std::vector<int> spatial_order(const std::vector<Vector3> &centres);
 
 } // namespace platen::dem

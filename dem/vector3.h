@@ -25,18 +25,36 @@ struct Vector3 {
   }
 };
 
-inline Vector3 operator+(const Vector3 &a, const Vector3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vector3 operator-(const Vector3 &a, const Vector3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vector3 operator-(const Vector3 &a) { return {-a.x, -a.y, -a.z}; }
-inline Vector3 operator*(double s, const Vector3 &a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vector3 operator*(const Vector3 &a, double s) { return s * a; }
-inline Vector3 operator/(const Vector3 &a, double s) { return {a.x / s, a.y / s, a.z / s}; }
-inline double dot(const Vector3 &a, const Vector3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector3 operator+(const Vector3 &a, const Vector3 &b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vector3 operator-(const Vector3 &a, const Vector3 &b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vector3 operator-(const Vector3 &a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline Vector3 operator*(double s, const Vector3 &a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline Vector3 operator*(const Vector3 &a, double s) {
+  return s * a;
+}
+inline Vector3 operator/(const Vector3 &a, double s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
+inline double dot(const Vector3 &a, const Vector3 &b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vector3 cross(const Vector3 &a, const Vector3 &b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm_squared(const Vector3 &a) { return dot(a, a); }
-inline double norm(const Vector3 &a) { return std::sqrt(dot(a, a)); }
+inline double norm_squared(const Vector3 &a) {
+  return dot(a, a);
+}
+inline double norm(const Vector3 &a) {
+  return std::sqrt(dot(a, a));
+}
 
 // Unit quaternion w + x i + y j + z k; turns reference axes into current ones: v = rotate(q, v_reference).
 struct Quaternion {
@@ -47,8 +65,12 @@ inline Quaternion operator*(const Quaternion &a, const Quaternion &b) {
   return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
-inline Quaternion conjugate(const Quaternion &q) { return {q.w, -q.x, -q.y, -q.z}; }
-inline Vector3 vector_part(const Quaternion &q) { return {q.x, q.y, q.z}; }
+inline Quaternion conjugate(const Quaternion &q) {
+  return {q.w, -q.x, -q.y, -q.z};
+}
+inline Vector3 vector_part(const Quaternion &q) {
+  return {q.x, q.y, q.z};
+}
 inline Quaternion normalised(const Quaternion &q) {
   const double s = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {s * q.w, s * q.x, s * q.y, s * q.z};

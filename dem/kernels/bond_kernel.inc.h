@@ -1,5 +1,6 @@
-// Body of the bond kernel; the including file sets PLATEN_LANES and PLATEN_KERNEL. Everything stays in an unnamed
-// namespace of that file, because functions compiled for one instruction set must never be linked into another's.
+// Body of the bond kernel; the including file sets PLATEN_LANES and PLATEN_KERNEL. Everything stays in an
+// unnamed namespace of that file, because functions compiled for one instruction set must never be linked
+// into another's.
 #include "dem/kernels/bond_kernel.h"
 
 namespace platen::dem::kernels {
@@ -8,27 +9,44 @@ namespace {
 constexpr int lanes = PLATEN_LANES;
 typedef double Native __attribute__((vector_size(8 * PLATEN_LANES)));
 
-// A struct of this file, not the bare vector type: what is instantiated on it then belongs to this file alone.
+// A struct of this file, not the bare vector type: what is instantiated on it then belongs to this file
+// alone.
 struct Pack {
   Native v{};
   Pack() = default;
   Pack(Native a) : v(a) {}
   Pack(double a) : v(a - Native{}) {}
 };
-inline Pack operator+(const Pack &a, const Pack &b) { return a.v + b.v; }
-inline Pack operator-(const Pack &a, const Pack &b) { return a.v - b.v; }
-inline Pack operator*(const Pack &a, const Pack &b) { return a.v * b.v; }
-inline Pack operator/(const Pack &a, const Pack &b) { return a.v / b.v; }
-inline Pack operator-(const Pack &a) { return -a.v; }
+inline Pack operator+(const Pack &a, const Pack &b) {
+  return a.v + b.v;
+}
+inline Pack operator-(const Pack &a, const Pack &b) {
+  return a.v - b.v;
+}
+inline Pack operator*(const Pack &a, const Pack &b) {
+  return a.v * b.v;
+}
+inline Pack operator/(const Pack &a, const Pack &b) {
+  return a.v / b.v;
+}
+inline Pack operator-(const Pack &a) {
+  return -a.v;
+}
 inline Pack root(const Pack &a) {
   Pack r;
   for (int l = 0; l < lanes; ++l)
     r.v[l] = __builtin_sqrt(a.v[l]);
   return r;
 }
-inline Pack magnitude(const Pack &a) { return a.v < 0.0 ? -a.v : a.v; }
-inline Pack positive_part(const Pack &a) { return a.v > 0.0 ? a.v : a.v * 0.0; }
-inline Pack sign_of(const Pack &a) { return a.v < 0.0 ? Pack(-1.0).v : Pack(1.0).v; }
+inline Pack magnitude(const Pack &a) {
+  return a.v < 0.0 ? -a.v : a.v;
+}
+inline Pack positive_part(const Pack &a) {
+  return a.v > 0.0 ? a.v : a.v * 0.0;
+}
+inline Pack sign_of(const Pack &a) {
+  return a.v < 0.0 ? Pack(-1.0).v : Pack(1.0).v;
+}
 
 // Rows that the lanes of one pack read. The tail of a block repeats its last row.
 struct Rows {

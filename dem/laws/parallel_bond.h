@@ -1,10 +1,10 @@
 // Parallel bond (Potyondy and Cundall; Tannu 2017 with its misprints mended) in total form, derived from a
 // potential, so that it stores no energy under rigid motion, conserves energy exactly and has no history.
 //
-// Pair (i, j): d = x_j - x_i, n = d / |d|, reference vector D (d when the bond was made, both spheres unturned).
-// With r_i = R_i(a D), r_j = R_j((1 - a) D) carried by the spheres' rotations, u = d - r_i - r_j is the relative
-// displacement at the contact point c = x_i + a d, and v the vector part of the relative rotation quaternion
-// (2 v = relative rotation for small angles, relative error angle^2 / 24). Potential:
+// Pair (i, j): d = x_j - x_i, n = d / |d|, reference vector D (d when the bond was made, both spheres
+// unturned). With r_i = R_i(a D), r_j = R_j((1 - a) D) carried by the spheres' rotations, u = d - r_i - r_j
+// is the relative displacement at the contact point c = x_i + a d, and v the vector part of the relative
+// rotation quaternion (2 v = relative rotation for small angles, relative error angle^2 / 24). Potential:
 //   U = 1/2 k_n A (|d| - |D|)^2 + 1/2 k_s A |u_s|^2 + 2 k_n I |v_s|^2 + 2 k_s J (v.n)^2
 // For small motion its derivatives are dF_n = k_n A dU_n, dF_s = k_s A dU_s, dM_n = k_s J dtheta_n,
 // dM_s = k_n I dtheta_s. Force and torque are the bond's action on i; tension is positive (docs/theory.md).
@@ -16,10 +16,18 @@
 namespace platen::dem {
 
 // What a law asks of its real type beyond arithmetic; packs bring their own.
-inline double root(double a) { return std::sqrt(a); }
-inline double magnitude(double a) { return std::abs(a); }
-inline double positive_part(double a) { return a > 0.0 ? a : 0.0; }
-inline double sign_of(double a) { return a < 0.0 ? -1.0 : 1.0; }
+inline double root(double a) {
+  return std::sqrt(a);
+}
+inline double magnitude(double a) {
+  return std::abs(a);
+}
+inline double positive_part(double a) {
+  return a > 0.0 ? a : 0.0;
+}
+inline double sign_of(double a) {
+  return a < 0.0 ? -1.0 : 1.0;
+}
 
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
 template <class Real>
@@ -61,11 +69,11 @@ inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
 
 struct ParallelBond {
   struct Parameters {
-    double stiffness_ratio = std::numeric_limits<double>::quiet_NaN();                // k_s / k_n
-    double tensile_strength = std::numeric_limits<double>::infinity();               // Pa
-    double shear_strength = std::numeric_limits<double>::infinity();                 // Pa
-    double friction_coefficient = 0;                                                  // tan(phi_b)
-    double moment_contribution = 1;                                                   // beta, 0 ... 1
+    double stiffness_ratio = std::numeric_limits<double>::quiet_NaN(); // k_s / k_n
+    double tensile_strength = std::numeric_limits<double>::infinity(); // Pa
+    double shear_strength = std::numeric_limits<double>::infinity();   // Pa
+    double friction_coefficient = 0;                                   // tan(phi_b)
+    double moment_contribution = 1;                                    // beta, 0 ... 1
   };
 
   template <class Real>
@@ -78,7 +86,7 @@ struct ParallelBond {
   };
   template <class Real>
   struct Motion {
-    Triple<Real> distance;      // d, m
+    Triple<Real> distance;         // d, m
     Rotation<Real> turn_i, turn_j; // from the reference
   };
   template <class Real>
@@ -105,8 +113,8 @@ private:
                    const Real &twist) const;
 };
 
-// Stresses (physics: sigma_max = F_n/A + beta |M_s| R_b/I, tau_max = |F_s|/A + beta |M_n| R_b/J) in the form that
-// needs neither A nor I: stretch, slip in m; bend, twist = R_b times the rotation, m.
+// Stresses (physics: sigma_max = F_n/A + beta |M_s| R_b/I, tau_max = |F_s|/A + beta |M_n| R_b/J) in the form
+// that needs neither A nor I: stretch, slip in m; bend, twist = R_b times the rotation, m.
 template <class Real>
 void ParallelBond::add_failure(Response<Real> &r, const Real &kn, const Real &stretch, const Real &slip,
                                const Real &bend, const Real &twist) const {
@@ -146,8 +154,8 @@ ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, c
   const Real sign = sign_of(w0);
   const Real w = sign * w0;
   const Triple<Real> v = scale(sign, Triple<Real>{-q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y,
-                                                   -q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x,
-                                                   -q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w});
+                                                  -q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x,
+                                                  -q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w});
   const Real vn = dot(v, n);
   const Triple<Real> vs = v - scale(vn, n);
   const Real excess = twisting - bending; // of twisting over bending stiffness
@@ -163,14 +171,16 @@ ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, c
   r.normal_force = normal;
   r.shear_force = shear_stiffness * slip;
   r.shear = shear;
-  r.energy = 0.5 * (normal * stretch + shear_stiffness * slip * slip) + 2.0 * (bending * vs2 + twisting * vn * vn);
+  r.energy =
+      0.5 * (normal * stretch + shear_stiffness * slip * slip) + 2.0 * (bending * vs2 + twisting * vn * vn);
   const Real twice = 2.0 * w * g.radius;
   add_failure(r, g.normal_stiffness, stretch, slip, Real(twice * root(vs2)), Real(twice * magnitude(vn)));
   return r;
 }
 
 template <class Real>
-ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real> &g, const Triple<Real> &d) const {
+ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real> &g,
+                                                            const Triple<Real> &d) const {
   constexpr double pi = 3.14159265358979323846;
   const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness;
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,14 +18,14 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 // Packing fraction of a large jammed packing, and its loss at walls in units of mean radius times surface
 // over volume: fitted to this program's own packings, used only to guess the number of spheres.
-constexpr double bulk_fraction = 0.642, wall_loss = 0.33;
+constexpr double bulk_fraction = 0.648, wall_loss = 0.33;
 // The first state at rest is over-full by this fraction; low enough to stay amorphous, high enough to be
 // solid.
 constexpr double overfill = 0.03;
-constexpr double final_overlap = 2e-4; // mean, in mean radii: contacts are known, positions are not strained
-constexpr double overlap_step = 0.2;   // each stage aims at this part of the last mean overlap
+constexpr double final_overlap = 1e-4; // mean, in mean radii: contacts are known, positions are not strained
+constexpr double overlap_step = 0.4;   // each stage aims at this part of the last mean overlap
 constexpr double rough = 1e-2,
-                 fine = 2e-3; // residual force over mean contact force: passing stages, the last one
+                 fine = 5e-3; // residual force over mean contact force: passing stages, the last one
 constexpr double jammed_contacts = 4.5; // contacts per sphere (walls counted) that only a rigid packing shows
 constexpr int most_stages = 60, most_attempts = 4;
 constexpr long most_iterations = 200000; // of one stage
@@ -95,14 +97,16 @@ Shape scaled(Shape shape, double s) {
 
 // Shrinks an over-full system at rest until its mean overlap is final_overlap; returns stages, adds
 // iterations.
-int decompress(SoftSpheres &spheres, std::size_t n, long &iterations) {
+int decompress(SoftSpheres &spheres, std::size_t n, Random &random, GrowthReport &made) {
   double slope = 1.8; // mean overlap lost per relative loss of size; measured as soon as two stages are known
   double last_scale = 0, last_overlap = 0;
   double target = 0;
   for (int stage = 1; stage <= most_stages; ++stage) {
     const bool last = target > 0 && target <= final_overlap;
-    iterations += spheres.relax(last ? fine : rough, 1e-3 * final_overlap, most_iterations);
+    if (last) made.loose_spheres = spheres.press_loose_spheres(0.5 * final_overlap, random);
+    made.iterations += spheres.relax(last ? fine : rough, 1e-3 * final_overlap, most_iterations);
     const Overlaps state = spheres.overlaps();
+if(getenv("DBG")) printf("  stage %d scale %.6f it %ld mean %.3e max %.3e res %.2e contacts %.3f loose %zu\n",stage,spheres.scale(),made.iterations,state.mean,state.max,state.residual_force/state.mean,2.0*state.contacts/n,made.loose_spheres);
     const double scale = spheres.scale(), overlap = state.mean / scale;
     const bool rigid =
         2.0 * static_cast<double>(state.contacts) >= jammed_contacts * static_cast<double>(n) &&
@@ -141,7 +145,7 @@ Specimen random_close_packing_of(const Shape &shape, std::size_t spheres, double
   SoftSpheres soft(unit, std::move(centre), std::move(factor));
   soft.set_scale(std::cbrt(1 + overfill / bulk_fraction));
   GrowthReport made;
-  made.stages = decompress(soft, spheres, made.iterations);
+  made.stages = decompress(soft, spheres, random, made);
 
   Specimen specimen;
   specimen.shape = shape;

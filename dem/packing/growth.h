@@ -14,6 +14,7 @@ struct GrowthReport {
   int attempts = 0;            // packings made until the mean radius was near the wanted one
   int stages = 0;              // sizes at which the last packing was brought to rest
   long iterations = 0;         // of the minimiser, all attempts
+  std::size_t loose_spheres = 0; // rattlers of the jammed state, seated on neighbours at the end
   double mean_radius = 0;      // m
   double packing_fraction = 0; // whole container, overlaps not subtracted
   double contacts_per_sphere =

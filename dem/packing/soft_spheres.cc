@@ -24,7 +24,7 @@ SoftSpheres::SoftSpheres(const Shape &shape, std::vector<Vector3> centre, std::v
   largest_factor_ = factor_.empty() ? 1.0 : *std::max_element(factor_.begin(), factor_.end());
   sort_in_space();
   radius_ = factor_;
-  force_.resize(centre_.size());
+  press_.resize(centre_.size());
   velocity_.resize(centre_.size());
 }
 
@@ -112,7 +112,7 @@ void SoftSpheres::add_wall_forces() {
 
 void SoftSpheres::compute_forces() {
   if (pairs_are_stale()) build_pairs();
-  std::fill(force_.begin(), force_.end(), Vector3{});
+  force_ = press_;
   now_ = Overlaps{};
   for (std::size_t i = 0; i < centre_.size(); ++i) {
     const Vector3 c = centre_[i];
@@ -143,6 +143,44 @@ void SoftSpheres::compute_forces() {
 Overlaps SoftSpheres::overlaps() {
   compute_forces();
   return now_;
+}
+
+// Touching partners of every sphere, both ways; -1 stands for a wall.
+std::vector<std::vector<int>> SoftSpheres::contacts() const {
+  std::vector<std::vector<int>> touching(centre_.size());
+  for (std::size_t i = 0; i < centre_.size(); ++i) {
+    for (int k = first_[i]; k < first_[i + 1]; ++k) {
+      const int j = partner_[static_cast<std::size_t>(k)];
+      const double reach = radius_[i] + radius_[static_cast<std::size_t>(j)];
+      if (norm_squared(centre_[i] - centre_[static_cast<std::size_t>(j)]) >= reach * reach) continue;
+      touching[i].push_back(j);
+      touching[static_cast<std::size_t>(j)].push_back(static_cast<int>(i));
+    }
+    if (wall_clearance(shape_, centre_[i]) < radius_[i]) touching[i].push_back(-1);
+  }
+  return touching;
+}
+
+std::size_t SoftSpheres::press_loose_spheres(double force, Random &random) {
+  compute_forces(); // the list of pairs must be of now
+  const std::vector<std::vector<int>> touching = contacts();
+  std::vector<int> held(centre_.size());
+  std::vector<std::size_t> loose;
+  const auto loosen = [&](std::size_t i) {
+    if (held[i]-- == 4) loose.push_back(i);
+  };
+  for (std::size_t i = 0; i < centre_.size(); ++i) {
+    held[i] = static_cast<int>(touching[i].size());
+    if (held[i] < 4) loose.push_back(i);
+  }
+  for (std::size_t k = 0; k < loose.size(); ++k) // a loose sphere holds nobody
+    for (const int j : touching[loose[k]])
+      if (j >= 0) loosen(static_cast<std::size_t>(j));
+  std::sort(loose.begin(), loose.end());
+  std::fill(press_.begin(), press_.end(), Vector3{});
+  for (const std::size_t i : loose)
+    press_[i] = force * random.direction();
+  return loose.size();
 }
 
 long SoftSpheres::relax(double tolerance, double floor, long max_iterations) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dem/packing/random.h"
 #include "dem/packing/specimen.h"
 #include "dem/vector3.h"
 
@@ -32,6 +33,10 @@ public:
   // overlap, or below floor (nothing left to push), or after max_iterations. Returns the iterations used.
   long relax(double tolerance, double floor, long max_iterations);
   Overlaps overlaps();
+  // Pushes every sphere that is not held (fewer than four contacts with held spheres or walls) with the given force
+  // in a direction of its own, from now on, so that relax() seats it on three neighbours: no sphere floats. Returns
+  // how many there are.
+  std::size_t press_loose_spheres(double force, Random &random);
   const std::vector<Vector3> &centre() const { return centre_; }
   const std::vector<double> &factor() const { return factor_; }
 
@@ -42,10 +47,11 @@ private:
   void compute_forces();
   void add_wall_forces();
   void touch(double overlap);
+  std::vector<std::vector<int>> contacts() const;
 
   Shape shape_;
   double scale_ = 1, largest_factor_ = 1;
-  std::vector<Vector3> centre_, force_, velocity_, centre_at_build_;
+  std::vector<Vector3> centre_, press_, force_, velocity_, centre_at_build_;
   std::vector<double> factor_, radius_;
   double scale_at_build_ = 0;
   std::vector<int> first_,

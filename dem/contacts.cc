@@ -1,0 +1,325 @@
+#include "dem/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/laws/hertz_contact.h"
+#include "dem/laws/linear_contact.h"
+#include "dem/parallel.h"
+
+namespace platen::dem {
+namespace {
+
+// Margins of the two pair lists in mean radii: the wide list lasts some hundred steps of a fast fragment, the
+// close one keeps pairs that are merely near out of the contact loop.
+constexpr double wide_skin = 0.5, close_skin = 0.06;
+
+double mean_radius(const Particles &particles) {
+  double sum = 0;
+  for (const double r : particles.radius)
+    sum += r;
+  return particles.size() == 0 ? 1.0 : sum / static_cast<double>(particles.size());
+}
+
+double elastic_energy(NormalContact law, double coefficient, double overlap) {
+  return law == NormalContact::linear ? LinearContact::energy(coefficient, overlap)
+                                      : HertzContact::energy(coefficient, overlap);
+}
+
+// The overlap at which the law stores `energy`.
+double overlap_of_energy(NormalContact law, double coefficient, double energy) {
+  return law == NormalContact::linear ? std::sqrt(2 * energy / coefficient)
+                                      : std::pow(2.5 * energy / coefficient, 0.4);
+}
+
+// `vector` laid into the plane normal to n, its length kept.
+Vector3 turned_into_plane(const Vector3 &vector, const Vector3 &n) {
+  const Vector3 flat = vector - dot(vector, n) * n;
+  const double length = norm(flat);
+  return length > 0 ? (norm(vector) / length) * flat : Vector3{};
+}
+
+} // namespace
+
+double ContactSettings::coefficient(double ri, double rj, const BondLayout &layout) const {
+  if (normal == NormalContact::hertz) return HertzContact::coefficient(young_modulus, poisson_ratio, ri, rj);
+  switch (stiffness_rule) {
+    case StiffnessRule::bond_multiple:
+      return stiffness * layout.axial_stiffness(ri, rj);
+    case StiffnessRule::absolute:
+      return stiffness;
+    case StiffnessRule::bulk_fraction:
+      break;
+  }
+  const double kappa = young_modulus / (3 * (1 - 2 * poisson_ratio));
+  return stiffness * kappa * ri * rj / (ri + rj);
+}
+
+Contacts::Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout)
+    : settings_(settings),
+      layout_(layout),
+      search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)) {
+  if (settings.tangential != TangentialContact::none) {
+    normal = &table.add<Vector3>("normal", "1");
+    spring = &table.add<Vector3>("spring", "N");
+    tangential_stiffness = &table.add<double>("tangential_stiffness", "N/m");
+    sliding = &table.add<int>("sliding", "1");
+  }
+  if (particles.has_rotation()) {
+    torque_first = &table.add<Vector3>("torque_first", "N m");
+    torque_second = &table.add<Vector3>("torque_second", "N m");
+  }
+  if (settings.tangential == TangentialContact::coulomb_with_rolling) {
+    rolling = &table.add<Vector3>("rolling", "N m");
+    rolling_stiffness = &table.add<double>("rolling_stiffness", "N m");
+  }
+  dashpot_ = settings.normal == NormalContact::hertz ? HertzContact::damping_fraction(settings.restitution)
+                                                     : settings.damping;
+  // Spheres that overlap from the start touch from their initial distance, bonded or not.
+  for (const IndexPair &p :
+       near_pairs(particles.position.data(), particles.radius.data(), particles.size(), 0.0))
+    search_.set_rest_distance(p, norm(particles.position[p.second] - particles.position[p.first]));
+}
+
+void Contacts::search(const Particles &particles, const Bonds *bonds, double distance) {
+  search_.moved(distance);
+  if (search_.update(particles, bonds)) carry_rows(particles);
+}
+
+void Contacts::carry_rows(const Particles &particles) {
+  const std::vector<IndexPair> &pairs = search_.close_pairs();
+  std::vector<int> order(pairs.size(), 0);
+  std::vector<unsigned char> fresh(pairs.size(), 0);
+  // Old rows and pairs are both sorted; a pair without an old row starts from a blank one appended at the
+  // end.
+  const std::size_t old = table.size();
+  std::size_t k = 0;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    while (k < old && IndexPair{first[k], second[k]} < pairs[n])
+      ++k;
+    fresh[n] = !(k < old && IndexPair{first[k], second[k]} == pairs[n]);
+    order[n] = static_cast<int>(fresh[n] ? old : k);
+  }
+  table.resize(old + 1);
+  table.permute(order);
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    if (!fresh[n]) continue;
+    first[n] = pairs[n].first;
+    second[n] = pairs[n].second;
+    rest_distance[n] = search_.rest_distance(pairs[n], particles);
+    coefficient[n] =
+        settings_.coefficient(particles.radius[pairs[n].first], particles.radius[pairs[n].second], layout_);
+    if (tangential_stiffness != nullptr)
+      (*tangential_stiffness)[n] = settings_.tangential_ratio * coefficient[n];
+  }
+}
+
+void Contacts::compute(const Particles &particles, double dt) {
+  const auto rows = [&](std::size_t begin, std::size_t end) {
+    return settings_.normal == NormalContact::linear ? compute_rows<LinearContact>(particles, dt, begin, end)
+                                                     : compute_rows<HertzContact>(particles, dt, begin, end);
+  };
+  const Dissipation lost = ordered_sum<Dissipation>(table.size(), rows);
+  friction_work += lost.friction;
+  damping_work += lost.damping;
+}
+
+template <class Law>
+Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std::size_t begin,
+                                             std::size_t end) {
+  Dissipation lost;
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+    const Vector3 d = p.position[j] - p.position[i];
+    const double square = norm_squared(d);
+    if (square >= rest_distance[k] * rest_distance[k]) {
+      if (touching[k]) release(k, lost);
+      continue;
+    }
+    const double length = std::sqrt(square), lever = p.radius[i] / (p.radius[i] + p.radius[j]);
+    const Vector3 n = d / length, ri = lever * d, rj = ri - d;
+    Vector3 v = p.velocity[j] - p.velocity[i];
+    if (p.has_rotation()) v += cross((*p.angular_velocity)[j], rj) - cross((*p.angular_velocity)[i], ri);
+    const double vn = dot(v, n);
+    touching[k] = 1;
+    overlap[k] = rest_distance[k] - length;
+    const double elastic = Law::force(coefficient[k], overlap[k]),
+                 kn = Law::stiffness(coefficient[k], overlap[k]);
+    double pressing = elastic;
+    if (dashpot_ > 0) {
+      const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+      pressing = std::max(0.0, elastic - 2 * dashpot_ * std::sqrt(kn * m) * vn); // no attraction
+      lost.damping += (elastic - pressing) * vn * dt;
+    }
+    force[k] = -pressing * n;
+    if (spring != nullptr) tangential_force<Law>(p, dt, k, n, pressing, kn, v - vn * n, lost);
+    if (torque_first == nullptr) continue;
+    (*torque_first)[k] = cross(ri, force[k]);
+    (*torque_second)[k] = -cross(rj, force[k]);
+    if (rolling != nullptr) {
+      rolling_moment(p, dt, k, n, pressing, lost);
+      (*torque_first)[k] += (*rolling)[k];
+      (*torque_second)[k] -= (*rolling)[k];
+    }
+  }
+  return lost;
+}
+
+// Incremental spring in the turned contact plane; beyond the Coulomb limit the stored spring is rescaled.
+// Lost work by the trapezoid rule that matches the leapfrog: (T_n + T_n+1)/2 . (T_trial - T_n+1)/k_t.
+template <class Law>
+void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, const Vector3 &n,
+                                double pressing, double kn, const Vector3 &slip_velocity, Dissipation &lost) {
+  double &kt = (*tangential_stiffness)[k];
+  Vector3 &stored = (*spring)[k];
+  stored = turned_into_plane(stored, n);
+  if constexpr (!Law::constant_stiffness) {
+    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
+    const double now = HertzContact::tangential_ratio(settings_.poisson_ratio) * kn;
+    const double before = 0.5 * norm_squared(stored) / kt;
+    if (now < kt) stored *= now / kt;
+    if (kt > 0 && norm_squared(stored) > 0) lost.friction += before - 0.5 * norm_squared(stored) / now;
+    kt = now;
+  }
+  const Vector3 trial = stored + kt * dt * slip_velocity;
+  const double length = norm(trial), limit = settings_.friction * pressing;
+  const bool slides = length > limit;
+  const Vector3 held = slides ? (limit / length) * trial : trial;
+  if (slides) lost.friction += 0.5 * dot(stored + held, trial - held) / kt;
+  (*sliding)[k] = slides;
+  stored = held;
+  (*normal)[k] = n;
+  force[k] += held;
+  if (dashpot_ > 0 && !slides) {
+    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+    const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+    const Vector3 drag = 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
+    force[k] += drag;
+    lost.damping += dot(drag, slip_velocity) * dt;
+  }
+}
+
+void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, const Vector3 &n, double pressing,
+                              Dissipation &lost) {
+  const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+  const double effective = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
+  const double stiffness = (*rolling_stiffness)[k] = (*tangential_stiffness)[k] * effective * effective;
+  const Vector3 w = (*p.angular_velocity)[j] - (*p.angular_velocity)[i];
+  const Vector3 stored = turned_into_plane((*rolling)[k], n);
+  const Vector3 trial = stored + stiffness * dt * (w - dot(w, n) * n);
+  const double length = norm(trial), limit = settings_.rolling_friction * effective * pressing;
+  const Vector3 held = length > limit ? (limit / length) * trial : trial;
+  if (length > limit) lost.friction += 0.5 * dot(stored + held, trial - held) / stiffness;
+  (*rolling)[k] = held;
+}
+
+void Contacts::release(std::size_t k, Dissipation &lost) {
+  touching[k] = 0;
+  overlap[k] = 0;
+  force[k] = {};
+  if (spring != nullptr) {
+    const double kt = (*tangential_stiffness)[k];
+    if (kt > 0) lost.friction += 0.5 * norm_squared((*spring)[k]) / kt;
+    (*spring)[k] = {};
+    (*sliding)[k] = 0;
+  }
+  if (rolling != nullptr) {
+    if ((*rolling_stiffness)[k] > 0)
+      lost.friction += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
+    (*rolling)[k] = {};
+  }
+  if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};
+}
+
+void Contacts::add_to(Particles &p) const {
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    if (!touching[k]) continue;
+    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+    p.force[i] += force[k];
+    p.force[j] -= force[k];
+    if (torque_first == nullptr) continue;
+    (*p.torque)[i] += (*torque_first)[k];
+    (*p.torque)[j] += (*torque_second)[k];
+  }
+}
+
+std::size_t Contacts::row_of(IndexPair pair) const {
+  std::size_t low = 0, high = table.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (IndexPair{first[middle], second[middle]} < pair)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken) {
+  for (BrokenBond &b : broken) {
+    const double ri = p.radius[b.first], rj = p.radius[b.second], c = settings_.coefficient(ri, rj, layout_);
+    const double length = norm(p.position[b.second] - p.position[b.first]);
+    double rest = std::min(ri + rj, b.rest_length);
+    // The contact must not hold more than the bond did.
+    if (rest > length && elastic_energy(settings_.normal, c, rest - length) > b.last.energy)
+      rest = length + overlap_of_energy(settings_.normal, c, b.last.energy);
+    search_.set_rest_distance({b.first, b.second}, rest);
+    search_.add_pair({b.first, b.second});
+  }
+  if (search_.update(p, &bonds)) carry_rows(p);
+  for (BrokenBond &b : broken) {
+    b.released = b.last.energy;
+    const std::size_t k = row_of({b.first, b.second});
+    if (k == table.size() || !(IndexPair{first[k], second[k]} == IndexPair{b.first, b.second})) continue;
+    rest_distance[k] = search_.rest_distance({b.first, b.second}, p);
+    overlap[k] = std::max(0.0, rest_distance[k] - norm(p.position[b.second] - p.position[b.first]));
+    if (overlap[k] == 0) continue;
+    touching[k] = 1;
+    b.released = std::max(0.0, b.released - elastic_energy(settings_.normal, coefficient[k], overlap[k]));
+    if (spring != nullptr && b.mode == BondState::broken_in_shear) keep_shear(k, b);
+  }
+}
+
+// A bond that breaks in shear hands its shear force to the contact, as much as friction and the energy allow.
+void Contacts::keep_shear(std::size_t k, BrokenBond &b) {
+  const bool linear = settings_.normal == NormalContact::linear;
+  double &kt = (*tangential_stiffness)[k];
+  if (!linear)
+    kt = HertzContact::tangential_ratio(settings_.poisson_ratio) *
+         HertzContact::stiffness(coefficient[k], overlap[k]);
+  if (!(kt > 0)) return;
+  const double pressing = linear ? LinearContact::force(coefficient[k], overlap[k])
+                                 : HertzContact::force(coefficient[k], overlap[k]);
+  const Vector3 shear{b.last.shear.x, b.last.shear.y, b.last.shear.z};
+  const double kept =
+      std::min({b.last.shear_force, settings_.friction * pressing, std::sqrt(2 * kt * b.released)});
+  if (b.last.shear_force > 0) (*spring)[k] = (kept / b.last.shear_force) * shear;
+  b.released = std::max(0.0, b.released - 0.5 * kept * kept / kt);
+}
+
+double Contacts::stored_energy(std::size_t k) const {
+  double sum = elastic_energy(settings_.normal, coefficient[k], overlap[k]);
+  if (spring != nullptr && (*tangential_stiffness)[k] > 0)
+    sum += 0.5 * norm_squared((*spring)[k]) / (*tangential_stiffness)[k];
+  if (rolling != nullptr && (*rolling_stiffness)[k] > 0)
+    sum += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
+  return sum;
+}
+
+double Contacts::energy() const {
+  return ordered_sum<double>(table.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t k = begin; k < end; ++k)
+      if (touching[k]) sum += stored_energy(k);
+    return sum;
+  });
+}
+
+std::size_t Contacts::touching_count() const {
+  std::size_t count = 0;
+  for (const int t : touching)
+    count += t != 0;
+  return count;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,109 @@
+// Contacts between unbonded spheres: linear or Hertz-Mindlin, with Coulomb friction and rolling resistance.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "dem/bonds.h"
+#include "dem/contact_search.h"
+#include "dem/particles.h"
+
+namespace platen::dem {
+
+enum class NormalContact { linear, hertz };
+enum class TangentialContact { none, coulomb, coulomb_with_rolling };
+// How a linear stiffness is stated.
+enum class StiffnessRule {
+  bond_multiple, // multiple of the k_n A that a bond of the pair has
+  absolute,      // N/m
+  bulk_fraction // LS-DYNA's NormK: fraction of kap_i R_i kap_j R_j / (kap_i R_i + kap_j R_j), kap = E / (3 (1
+                // - 2 nu))
+};
+
+struct ContactSettings {
+  NormalContact normal = NormalContact::linear;
+  TangentialContact tangential = TangentialContact::coulomb;
+  StiffnessRule stiffness_rule = StiffnessRule::bond_multiple;
+  double stiffness = 1;                                            // by the rule
+  double tangential_ratio = .5;                                    // k_t / k_n, linear law
+  double friction = 0;                                             // mu
+  double rolling_friction = 0;                                     // torque <= rolling_friction R* N
+  double damping = 0;                                              // fraction of critical, linear law
+  double restitution = 1;                                          // Hertz law
+  double young_modulus = std::numeric_limits<double>::quiet_NaN(); // Pa, of the grains (Hertz, bulk fraction)
+  double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
+
+  // Linear: k_n, N/m. Hertz: 4/3 E* sqrt(R*), N/m^1.5.
+  double coefficient(double ri, double rj, const BondLayout &layout) const;
+};
+
+class Contacts {
+public:
+  Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout);
+
+  // One row per pair that may touch, sorted by (first, second).
+  Table table;
+  Column<int> &first = table.add<int>("first", "1");
+  Column<int> &second = table.add<int>("second", "1");
+  Column<double> &rest_distance = table.add<double>("rest_distance", "m");
+  Column<double> &coefficient = table.add<double>("coefficient", "N/m^p");
+  Column<int> &touching = table.add<int>("touching", "1");
+  Column<double> &overlap = table.add<double>("overlap", "m");
+  Column<Vector3> &force = table.add<Vector3>("force", "N"); // on first
+  // Only with friction.
+  Column<Vector3> *normal = nullptr;              // last unit normal, from first to second
+  Column<Vector3> *spring = nullptr;              // tangential force on first, N
+  Column<double> *tangential_stiffness = nullptr; // N/m
+  Column<int> *sliding = nullptr;
+  Column<Vector3> *torque_first = nullptr, *torque_second = nullptr; // N m; only with rotation
+  // Only with rolling resistance.
+  Column<Vector3> *rolling = nullptr;          // moment on first, N m
+  Column<double> *rolling_stiffness = nullptr; // N m
+
+  double friction_work = 0, damping_work = 0; // J, dissipated so far
+
+  // Brings the rows up to date after a motion of at most `distance` (m) per particle.
+  void search(const Particles &particles, const Bonds *bonds, double distance);
+  // Forces of all rows from positions and half-step velocities; history advances by dt.
+  void compute(const Particles &particles, double dt);
+  // Adds the rows' forces and torques to the particles, in row order.
+  void add_to(Particles &particles) const;
+  // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
+  // kept up to the Coulomb limit) and sets what each released: bond energy minus what its contact holds, J,
+  // >= 0.
+  void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken);
+  double energy() const; // J, stored in normal, tangential and rolling springs
+  std::size_t touching_count() const;
+
+  ContactSearch &search_state() { return search_; }
+  const ContactSearch &search_state() const { return search_; }
+  const ContactSettings &settings() const { return settings_; }
+
+private:
+  struct Dissipation {
+    double friction = 0, damping = 0;
+    Dissipation &operator+=(const Dissipation &b) {
+      friction += b.friction, damping += b.damping;
+      return *this;
+    }
+  };
+  template <class Law>
+  Dissipation compute_rows(const Particles &particles, double dt, std::size_t begin, std::size_t end);
+  template <class Law>
+  void tangential_force(const Particles &particles, double dt, std::size_t k, const Vector3 &n,
+                        double pressing, double kn, const Vector3 &slip_velocity, Dissipation &lost);
+  void rolling_moment(const Particles &particles, double dt, std::size_t k, const Vector3 &n, double pressing,
+                      Dissipation &lost);
+  void release(std::size_t k, Dissipation &lost);
+  void carry_rows(const Particles &particles);
+  double stored_energy(std::size_t k) const;
+  void keep_shear(std::size_t k, BrokenBond &broken);
+  std::size_t row_of(IndexPair pair) const;
+
+  ContactSettings settings_;
+  BondLayout layout_;
+  ContactSearch search_;
+  double dashpot_ = 0; // fraction of critical
+};
+
+} // namespace platen::dem

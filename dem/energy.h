@@ -1,0 +1,22 @@
+// The energy book of a run: what is stored, what was lost, what came in. J throughout.
+#pragma once
+
+namespace platen::dem {
+
+struct EnergyLedger {
+  double kinetic = 0;  // particles and bodies
+  double bonds = 0;    // elastic, in bonds
+  double contacts = 0; // elastic, in grain and platen contacts
+  double bodies = 0;   // elastic, in deformable bodies
+  double damping = 0;  // lost to local and viscous damping
+  double friction = 0; // lost to sliding and rolling, grains and platens
+  double fracture = 0; // lost when bonds break
+  double boundary = 0; // done by platens, servo and weight
+
+  double stored() const { return kinetic + bonds + contacts + bodies; }
+  double lost() const { return damping + friction + fracture; }
+  // Zero when the book closes.
+  double residual() const { return stored() + lost() - boundary; }
+};
+
+} // namespace platen::dem

@@ -1,0 +1,113 @@
+#include "dem/model.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace platen::dem {
+namespace {
+
+// Broken rows are dropped once they are this share of all rows.
+constexpr double compaction_share = 0.02;
+
+} // namespace
+
+Model::Model(const Specimen &specimen, const ModelSettings &settings)
+    : particles(specimen, settings.density * settings.mass_scaling, settings.rotation), settings_(settings) {
+  if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
+  if (settings.contact)
+    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout);
+}
+
+void Model::begin_step(double dt) {
+  Motion motion;
+  {
+    StageClock::Lap lap(clock, Stage::motion);
+    motion = kick_and_drift(particles, dt, settings_.gravity);
+  }
+  time += dt;
+  if (contacts) {
+    StageClock::Lap lap(clock, Stage::search);
+    contacts->search(particles, bonds.get(), motion.fastest * dt);
+  }
+}
+
+void Model::compute_forces(double dt) {
+  if (bonds) {
+    StageClock::Lap lap(clock, Stage::bonds);
+    breaks_.clear();
+    compute_bond_forces(particles, *bonds, settings_.instruction_set, breaks_);
+    if (!breaks_.empty()) break_bonds();
+    if (settings_.bond_dashpot > 0)
+      works.damping += dt * add_bond_dashpots(particles, *bonds, settings_.bond_dashpot);
+  }
+  if (contacts) {
+    StageClock::Lap lap(clock, Stage::contacts);
+    contacts->compute(particles, dt);
+    contacts->add_to(particles);
+  }
+}
+
+void Model::break_bonds() {
+  std::vector<BrokenBond> broken = bonds->break_rows(breaks_, particles, time);
+  if (contacts)
+    contacts->take_over(particles, *bonds, broken);
+  else
+    for (BrokenBond &b : broken)
+      b.released = b.last.energy;
+  for (const BrokenBond &b : broken) {
+    works.fracture += b.released;
+    (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
+    const Vector3 xi = particles.position[b.first], xj = particles.position[b.second];
+    const double ri = particles.radius[b.first], lever = ri / (ri + particles.radius[b.second]);
+    cracks.push_back({time, xi + lever * (xj - xi), (xj - xi) / norm(xj - xi), b.area, b.mode, b.released,
+                      particles.id[b.first], particles.id[b.second]});
+  }
+  if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
+    bonds->compact();
+}
+
+void Model::end_step(double dt) {
+  StageClock::Lap lap(clock, Stage::gather);
+  sums_ = gather_and_kick(particles, bonds.get(), dt, settings_.local_damping, settings_.gravity);
+  works.damping += sums_.damping_work;
+  works.weight += sums_.weight_work;
+}
+
+EnergyLedger Model::energy() const {
+  EnergyLedger e;
+  e.kinetic = kinetic_energy(particles);
+  if (bonds) e.bonds = bond_energy(particles, *bonds);
+  e.damping = works.damping;
+  e.fracture = works.fracture;
+  e.boundary = works.weight;
+  if (contacts) {
+    e.contacts = contacts->energy();
+    e.damping += contacts->damping_work;
+    e.friction = contacts->friction_work;
+  }
+  return e;
+}
+
+std::vector<Crack> Model::take_cracks() {
+  return std::exchange(cracks, {});
+}
+
+std::size_t Model::intact_bonds() const {
+  return bonds ? bonds->size() - bonds->broken_rows : 0;
+}
+
+std::size_t Model::broken(BondState mode) const {
+  return static_cast<std::size_t>(mode == BondState::broken_in_tension ? broken_tension : broken_shear);
+}
+
+StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const {
+  DashpotFractions dashpots;
+  dashpots.bonds = settings_.bond_dashpot;
+  dashpots.contacts = settings_.contact && settings_.contact->normal == NormalContact::linear
+                          ? settings_.contact->damping
+                          : 0.5; // Hertz: stiffness grows with the overlap; a reserve instead of a law
+  dashpots.surfaces = surface_dashpot;
+  return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
+}
+
+} // namespace platen::dem

@@ -1,0 +1,84 @@
+// The specimen: its tables, the effects that its scene calls for, and the stages of one step in their order.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dem/bonds.h"
+#include "dem/contacts.h"
+#include "dem/energy.h"
+#include "dem/integrator.h"
+#include "dem/particles.h"
+#include "dem/stable_step.h"
+#include "dem/stages.h"
+
+namespace platen::dem {
+
+struct ModelSettings {
+  bool rotation = true;
+  double density = 2400;                        // kg/m^3
+  double mass_scaling = 1;                      // multiplies mass and inertia
+  Vector3 gravity;                              // m/s^2
+  double local_damping = 0;                     // 0 ... 1, Cundall's
+  double bond_dashpot = 0;                      // fraction of critical
+  BondLayout bond_layout;                       // also gives unbonded pairs their stiffness
+  std::optional<ParallelBond::Parameters> bond; // none: no bonds
+  std::optional<ContactSettings> contact;       // none: spheres pass through each other
+  InstructionSet instruction_set = best_instruction_set();
+};
+
+// One bond failure, for the crack log.
+struct Crack {
+  double time = 0;       // s
+  Vector3 point, normal; // m, 1: middle of the bond, from first to second particle
+  double area = 0;       // m^2
+  BondState mode = BondState::broken_in_tension;
+  double energy = 0;                  // J, released
+  int particle_a = 0, particle_b = 0; // input ids
+};
+
+// One step: begin_step, forces, then surfaces add to particles, then end_step.
+class Model {
+public:
+  Model(const Specimen &specimen, const ModelSettings &settings);
+
+  Particles particles;
+  std::unique_ptr<Bonds> bonds;       // null without bonds
+  std::unique_ptr<Contacts> contacts; // null without contacts
+  StageClock clock;
+
+  double time = 0;           // s
+  std::vector<Crack> cracks; // since the last call of take_cracks
+
+  // First half kick, drift, contact search; time becomes that of the new positions.
+  void begin_step(double dt);
+  // Bonds, breaks and their hand-over, grain contacts; particle force and torque hold contacts and weight
+  // after it.
+  void compute_forces(double dt);
+  // Gathers bonds, damps, second half kick.
+  void end_step(double dt);
+
+  EnergyLedger energy() const; // without bodies and surfaces
+  const KickSums &last_sums() const { return sums_; }
+  const ModelSettings &settings() const { return settings_; }
+  std::vector<Crack> take_cracks();
+  std::size_t intact_bonds() const;
+  std::size_t broken(BondState mode) const;
+  StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const;
+
+  // Sums that a checkpoint keeps.
+  struct Works {
+    double damping = 0, fracture = 0, weight = 0; // J
+  };
+  Works works;
+  long broken_tension = 0, broken_shear = 0;
+
+private:
+  ModelSettings settings_;
+  KickSums sums_;
+  std::vector<BondBreak> breaks_;
+  void break_bonds();
+};
+
+} // namespace platen::dem

@@ -1,0 +1,41 @@
+// The largest time step of the explicit scheme, from the assembled stiffness of bonds, contacts and platen
+// springs.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dem/bonds.h"
+#include "dem/contacts.h"
+#include "dem/particles.h"
+
+namespace platen::dem {
+
+// A particle held by a surface: force -kn n (n.u) - kt (u - n (n.u)) on the displacement u of its contact
+// point.
+struct GroundSpring {
+  int particle = 0;
+  Vector3 normal, arm;                                   // arm: from the centre to the contact point, m
+  double normal_stiffness = 0, tangential_stiffness = 0; // N/m
+  double rotational_stiffness = 0;                       // N m/rad, about the centre
+};
+
+struct StableStep {
+  double limit = 0;     // s, 2 / omega_max; infinite where nothing is stiff
+  double omega = 0;     // rad/s, upper estimate of the highest frequency
+  int iterations = 0;   // of the Lanczos process
+  int particle_id = -1; // id of the particle that moves most in the highest mode
+  std::string reason;   // one sentence
+};
+
+// Lanczos on M^-1/2 K M^-1/2; the residual of the largest Ritz value is added, so the estimate is from above.
+// `damping_fraction`: dashpots of that fraction of critical in bonds and in contacts and platens narrow the
+// limit by sqrt(1 + xi^2) - xi. `bonds`, `contacts` may be null.
+struct DashpotFractions {
+  double bonds = 0, contacts = 0, surfaces = 0;
+};
+StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
+                       const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots);
+
+} // namespace platen::dem

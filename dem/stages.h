@@ -1,0 +1,40 @@
+// Named stages of a step and the seconds that each has taken.
+#pragma once
+
+#include <array>
+#include <chrono>
+
+namespace platen::dem {
+
+enum class Stage { motion, search, bonds, contacts, surfaces, gather, bodies, stable_step, measures, output };
+constexpr int stage_count = 10;
+constexpr std::array<const char *, stage_count> stage_names{"motion",   "search", "bonds",  "contacts",
+                                                            "surfaces", "gather", "bodies", "stable_step",
+                                                            "measures", "output"};
+
+class StageClock {
+public:
+  // Times from construction to destruction.
+  class Lap {
+  public:
+    Lap(StageClock &clock, Stage stage)
+        : clock_(clock), stage_(stage), start_(std::chrono::steady_clock::now()) {}
+    ~Lap() {
+      clock_.seconds_[static_cast<int>(stage_)] +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Lap(const Lap &) = delete;
+    Lap &operator=(const Lap &) = delete;
+
+  private:
+    StageClock &clock_;
+    Stage stage_;
+    std::chrono::steady_clock::time_point start_;
+  };
+  double seconds(Stage stage) const { return seconds_[static_cast<int>(stage)]; }
+
+private:
+  std::array<double, stage_count> seconds_{};
+};
+
+} // namespace platen::dem
