@@ -123,13 +123,14 @@ enum class PlatenKind { rigid, deformable };
 enum class Attachment { contact, glued };
 enum class PlatenControl { motion, stress };
 
-struct PlatenSide { // what may differ between top and bottom; filled with the common value where not given
-  double friction_static = 0.3;
-  double friction_dynamic = 0.3;
+struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
+  double friction_static = not_given, friction_dynamic = not_given;
 };
 
 struct Platens {
   PlatenKind kind = PlatenKind::rigid;
+  double friction_static = 0.3;        // common to both; the apps use top and bottom
+  double friction_dynamic = not_given; // common to both; not given: as the static one
   PlatenSide top, bottom;
   PlatenControl top_control = PlatenControl::motion;
   double top_stress = 0;         // Pa, pressing; top_control = stress
@@ -186,7 +187,7 @@ struct Checkpoint {
 
 // One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite.
 struct Expectation {
-  std::string key; // a key of summary.json; `cone_top.height_m` is a member of an object
+  std::string key; // a key of summary.json; `cone_top/height_m` is a member of an object
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   std::string text;   // the range as it stands in the scene

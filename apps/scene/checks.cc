@@ -1,0 +1,262 @@
+#include "apps/scene/checks.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+namespace {
+
+bool given(double value) {
+  return !std::isnan(value);
+}
+
+class SceneCheck {
+public:
+  SceneCheck(Scene &scene, const Parameters &parameters, AppKind app)
+      : scene_(scene), parameters_(parameters), app_(app) {}
+
+  void specimen() const;
+  void effects() const;
+  void bond() const;
+  void contact() const;
+  void platens() const;
+  void loading() const;
+  void pair_test() const;
+  void notes();
+
+private:
+  bool packs() const { return app_ != AppKind::bonds && app_ != AppKind::report; }
+  bool loads() const {
+    return app_ == AppKind::compress || app_ == AppKind::brazilian || app_ == AppKind::calibrate ||
+           app_ == AppKind::study;
+  }
+  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
+    parameters_.refuse(path, reason);
+  }
+  void need(const std::string &path, double value, const std::string &why) const {
+    if (!given(value)) refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
+  }
+  void file_packing() const;
+  void cross_section() const;
+  void spheres_fit() const;
+  void friction(const std::string &name, const PlatenSide &side) const;
+  void note(const std::string &path, const std::string &why);
+
+  Scene &scene_;
+  const Parameters &parameters_;
+  AppKind app_;
+};
+
+void SceneCheck::file_packing() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  if (specimen.file.empty()) refuse("Specimen/File", "is not set: Packing = file takes the spheres from it.");
+  std::error_code failure;
+  if (std::filesystem::is_directory(specimen.file, failure) || !std::ifstream(specimen.file))
+    refuse("Specimen/File", "cannot be read (looked for " + specimen.file + ").");
+}
+
+void SceneCheck::cross_section() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  const bool width = given(specimen.width_x) || given(specimen.width_y);
+  const std::string which = given(specimen.width_x) ? "Specimen/Width x" : "Specimen/Width y";
+  if (specimen.shape == SpecimenShape::cylinder && width)
+    refuse(which, "contradicts Specimen/Shape = cylinder.");
+  if (specimen.shape == SpecimenShape::box && specimen.round())
+    refuse("Specimen/Radius", "contradicts Specimen/Shape = box. Allowed: Width x and Width y.");
+  if (specimen.shape == SpecimenShape::bar && specimen.round() && width)
+    refuse(which, "contradicts Specimen/Radius: a bar is round or rectangular. Allowed: one of them.");
+}
+
+void SceneCheck::spheres_fit() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  const bool uniform = specimen.radius_distribution == RadiusDistribution::uniform;
+  const double largest = specimen.sphere_radius * (1 + (uniform ? 0.5 * specimen.radius_spread : 0));
+  const auto check = [&](double extent, const std::string &path) {
+    if (2 * largest > extent)
+      refuse("Specimen/Sphere radius", "is too large: spheres of up to " + shortest_text(2 * largest) +
+                                           " m across do not fit into " + path + " = " +
+                                           parameters_.at(path).text + ".");
+  };
+  if (specimen.round()) check(2 * specimen.radius, "Specimen/Radius");
+  if (given(specimen.width_x)) check(specimen.width_x, "Specimen/Width x");
+  if (given(specimen.width_y)) check(specimen.width_y, "Specimen/Width y");
+  if (given(specimen.height)) check(specimen.height, "Specimen/Height");
+}
+
+void SceneCheck::specimen() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  if (app_ == AppKind::bonds)
+    need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
+  if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusDistribution::uniform)
+    refuse("Specimen/Radius spread", "needs Specimen/Radius distribution = uniform.");
+  if (specimen.seat && specimen.ends != EndsKind::ground)
+    refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
+  if (specimen.seat && !scene_.effects.rotation)
+    refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
+  if (!packs()) return;
+  cross_section();
+  if (specimen.packing == PackingKind::file) {
+    file_packing();
+  } else {
+    const std::string why = "the specimen is to be packed.";
+    const bool rectangular =
+        specimen.shape == SpecimenShape::box ||
+        (specimen.shape == SpecimenShape::bar && !specimen.round() && given(specimen.width_x));
+    if (rectangular || given(specimen.width_y)) {
+      need("Specimen/Width x", specimen.width_x, why);
+      need("Specimen/Width y", specimen.width_y, why);
+    } else {
+      need("Specimen/Radius", specimen.radius, why);
+    }
+    need("Specimen/Height", specimen.height, why);
+    need("Specimen/Sphere radius", specimen.sphere_radius, why);
+  }
+  if (!given(specimen.sphere_radius)) return;
+  spheres_fit();
+  if (specimen.ends == EndsKind::ground && given(specimen.height) &&
+      2 * specimen.end_layer * specimen.sphere_radius > specimen.height)
+    refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/Height = " +
+                                     parameters_.at("Specimen/Height").text + ".");
+}
+
+void SceneCheck::effects() const {
+  const Effects &effects = scene_.effects;
+  const bool rolling = effects.tangential == TangentialKind::coulomb_with_rolling_resistance;
+  if (rolling && !effects.rotation) refuse("Effects/Tangential", "needs Effects/Rotation = on.");
+  if (rolling && effects.contact == ContactKind::none)
+    refuse("Effects/Tangential", "needs a contact to roll on. Allowed: Effects/Contact = linear, hertz.");
+  if (effects.bond == BondKind::none && effects.contact == ContactKind::none && app_ != AppKind::pack)
+    refuse("Effects/Contact", "leaves nothing that acts between grains, because Effects/Bond = none too.");
+}
+
+void SceneCheck::bond() const {
+  const Bond &bond = scene_.bond;
+  if (bond.radius_rule == RadiusRule::given)
+    need("Bond/Radius", bond.radius, "Bond/Radius rule = given takes it.");
+  const double radius = scene_.specimen.sphere_radius;
+  if (!bond.gap.relative && given(radius) && bond.gap.value >= radius)
+    refuse("Bond/Gap",
+           "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
+               ": a bare number is metres. Did you mean \"" + shortest_text(bond.gap.value) + " R_min\"?");
+  const bool needed = scene_.effects.bond != BondKind::none && app_ != AppKind::pack &&
+                      app_ != AppKind::report &&
+                      !(app_ == AppKind::bonds && !scene_.pair_test.moduli.empty());
+  if (needed)
+    need("Bond/Modulus", bond.modulus, "Effects/Bond is " + parameters_.at("Effects/Bond").text + ".");
+}
+
+void SceneCheck::contact() const {
+  const bool no_bond = scene_.effects.bond == BondKind::none && !given(scene_.bond.modulus);
+  const auto check = [&](const std::string &path, const Stiffness &stiffness, const std::string &instead) {
+    if (no_bond && stiffness.kind == Stiffness::Kind::of_bond)
+      refuse(path, "is a multiple of the bond's, but Effects/Bond = none. Allowed: " + instead + ".");
+  };
+  if (scene_.effects.contact == ContactKind::linear && app_ != AppKind::pack)
+    check("Contact/Stiffness", scene_.contact.stiffness, "\"4e5 N/m\", \"0.01 bulk\"");
+  if (loads()) check("Platens/Stiffness", scene_.platens.stiffness, "\"4e5 N/m\"");
+  if (scene_.contact.rolling_friction > 0 && scene_.effects.tangential == TangentialKind::none)
+    refuse("Contact/Rolling friction", "needs Effects/Tangential = coulomb with rolling resistance.");
+}
+
+void SceneCheck::friction(const std::string &name, const PlatenSide &side) const {
+  if (side.friction_dynamic <= side.friction_static) return;
+  const std::string own = "Platens/" + name + "/Friction dynamic", common = "Platens/Friction dynamic";
+  const std::string blamed = parameters_.at(own).changed() ? own : common;
+  refuse(blamed, "is above the static friction, " + shortest_text(side.friction_static) + ", of the " +
+                     (name == "Top" ? "top" : "bottom") + " platen. Allowed: 0 ... " +
+                     shortest_text(side.friction_static) + ".");
+}
+
+void SceneCheck::platens() const {
+  const Platens &platens = scene_.platens;
+  friction("Top", platens.top);
+  friction("Bottom", platens.bottom);
+  const bool tension = scene_.loading.test == LoadingTest::tension,
+             glued = platens.attachment == Attachment::glued;
+  if (loads() && tension && !glued)
+    refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
+  const bool stress = platens.top_control == PlatenControl::stress;
+  if (stress && platens.top_stress == 0) refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
+  if (stress && tension)
+    refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
+}
+
+void SceneCheck::loading() const {
+  const Loading &loading = scene_.loading;
+  if (loads()) need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
+  if (loading.confining_pressure > 0 && loading.confinement == ConfinementKind::none)
+    refuse("Loading/Confining pressure", "needs Loading/Confinement other than none.");
+  for (const char *key : {"Sleeve/Thickness", "Sleeve/Modulus", "Sleeve/Poisson ratio"})
+    if (parameters_.at(key).changed() && loading.confinement != ConfinementKind::sleeve)
+      refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
+}
+
+void SceneCheck::pair_test() const {
+  if (app_ != AppKind::bonds) return;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
+  if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
+    refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
+}
+
+void SceneCheck::note(const std::string &path, const std::string &why) {
+  const Entry &entry = parameters_.at(path);
+  if (!entry.changed()) return;
+  scene_.notes.push_back(entry.origin.text() + ": note: " + path + " = " + entry.text +
+                         " has no effect: " + why + ".");
+}
+
+void SceneCheck::notes() {
+  const SpecimenSection &specimen = scene_.specimen;
+  const Effects &effects = scene_.effects;
+  if (specimen.packing != PackingKind::file) note("Specimen/File", "Specimen/Packing is not file");
+  if (specimen.radius_distribution != RadiusDistribution::two_sizes)
+    for (const char *key : {"Specimen/Second radius ratio", "Specimen/Second fraction"})
+      note(key, "Specimen/Radius distribution is not two sizes");
+  if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
+  if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
+  if (scene_.bond.shear_strength == 0) note("Bond/Friction angle", "Bond/Shear strength is infinite");
+  if (effects.contact != ContactKind::linear)
+    for (const char *key : {"Contact/Stiffness", "Contact/Tangential ratio", "Contact/Damping"})
+      note(key, "Effects/Contact is not linear");
+  if (effects.contact != ContactKind::hertz) note("Contact/Restitution", "Effects/Contact is not hertz");
+  if (effects.contact != ContactKind::hertz && scene_.contact.stiffness.kind != Stiffness::Kind::of_bulk)
+    for (const char *key : {"Material/Young modulus", "Material/Poisson ratio"})
+      note(key, "no contact law takes it");
+  if (effects.tangential == TangentialKind::none) note("Contact/Friction", "Effects/Tangential = none");
+  if (effects.tangential != TangentialKind::coulomb_with_rolling_resistance)
+    note("Contact/Rolling friction", "Effects/Tangential is not coulomb with rolling resistance");
+  if (scene_.platens.kind == PlatenKind::rigid)
+    for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio"})
+      note(key, "Platens/Kind = rigid");
+  if (scene_.platens.top_control == PlatenControl::motion)
+    note("Platens/Top/Stress", "Platens/Top/Control = motion");
+  if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
+  if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
+    for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})
+      note(key, "Pair test/Particles = 2");
+}
+
+} // namespace
+
+std::string resolved_path(const Entry &entry) {
+  if (entry.text.empty() || entry.origin.line == 0) return entry.text;
+  return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
+}
+
+void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
+  SceneCheck check(scene, parameters, app);
+  check.specimen();
+  check.effects();
+  check.bond();
+  check.contact();
+  check.platens();
+  check.loading();
+  check.pair_test();
+  check.notes();
+}
+
+} // namespace platen::apps

@@ -1,0 +1,120 @@
+#include "apps/scene/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/version.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr int most_threads = 4096; // more is a slip
+
+[[noreturn]] void fail(const std::string &what) {
+  throw InputError("command line: error: " + what);
+}
+
+const std::vector<std::string> option_names = {
+    "--output",           "--set",  "--threads", "--resume",  "--overwrite", "--dry-run",
+    "--print-parameters", "--json", "--quiet",   "--verbose", "--help",      "--version"};
+
+// Text of what was not understood, with the nearest option.
+[[noreturn]] void refuse_extra(const std::string &argument, const CommandLine &line) {
+  if (argument.size() < 2 || argument[0] != '-')
+    fail("\"" + argument + "\" is one argument too many" +
+         (line.scene.empty() ? "" : " after " + line.scene) +
+         ". Texts with blanks need quotes: --set \"Section/Key = value\".");
+  const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), option_names);
+  fail(argument + " is not an option." +
+       (nearest.empty() ? " See --help." : " Did you mean \"" + nearest + "\"?"));
+}
+
+int read_threads(const std::string &text) {
+  int threads = 0;
+  const char *last = text.data() + text.size();
+  const auto [end, failure] = std::from_chars(text.data(), last, threads);
+  if (failure != std::errc() || end != last || threads < 1 || threads > most_threads)
+    fail("--threads = " + text + " is no count of threads. Allowed: 1 ... " + std::to_string(most_threads) +
+         ".");
+  return threads;
+}
+
+void check(const CommandLine &line, const AppDescription &app) {
+  if (line.resume && line.overwrite)
+    fail("--resume and --overwrite exclude each other. Allowed: one of them.");
+  if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
+  if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
+  if (line.output_given && line.output.empty()) fail("--output is empty. Allowed: the name of a folder.");
+  if (app.reads_folder) {
+    if (line.folder.empty())
+      fail("no folder is given. Allowed: " + app.name + " FOLDER [options], see --help.");
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(line.folder, ignored))
+      throw InputError(line.folder + ": error: is not a folder that can be read.");
+    return;
+  }
+  const std::string kind = app.kinds.empty() ? "" : "KIND ";
+  if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {
+    std::string kinds;
+    for (const std::string &known : app.kinds)
+      kinds += (kinds.empty() ? "" : ", ") + known;
+    const std::string nearest = nearest_word(line.kind, app.kinds);
+    fail("KIND = " + line.kind + " is not known." +
+         (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + kinds + ".");
+  }
+  if (line.scene.empty() && !line.print_parameters)
+    fail("no scene is given. Allowed: " + app.name + " " + kind + "SCENE.prm [options], see --help.");
+}
+
+} // namespace
+
+CommandLine read_command_line(int argc, const char *const *argv, const AppDescription &app) {
+  CommandLine line;
+  std::string threads;
+  CLI::App parser(app.purpose, app.name);
+  parser.set_help_flag("-h,--help", "Print this and exit");
+  parser.allow_extras(); // refused below, with the nearest option
+  bool version = false;
+  if (!app.kinds.empty()) parser.add_option("KIND", line.kind, "What to sweep")->required(false);
+  if (app.reads_folder)
+    parser.add_option("FOLDER", line.folder, "Output folder of a run or a study");
+  else
+    parser.add_option("SCENE", line.scene, "Scene file, .prm or .json");
+  CLI::Option *output =
+      parser.add_option("-o,--output", line.output, "Output folder [results/<name of the scene>]");
+  if (!app.reads_folder) {
+    parser.add_option("-s,--set", line.overrides, "\"Section/Key = value\", overrides one entry; repeatable")
+        ->allow_extra_args(false);
+    parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it");
+    parser.add_flag("--resume", line.resume, "Go on from the newest whole checkpoint");
+    parser.add_flag("--dry-run", line.dry_run, "Check and tell what would run");
+    parser.add_flag("--print-parameters", line.print_parameters, "Print every parameter and exit");
+    parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
+  }
+  parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
+  parser.add_flag("--quiet", line.quiet, "Print errors only");
+  parser.add_flag("--verbose", line.verbose, "Print more");
+  parser.add_flag("--version", version, "Print version and libraries and exit");
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::CallForHelp &) {
+    throw PrintAndExit{parser.help()};
+  } catch (const CLI::ParseError &error) {
+    fail(std::string(error.what()) + ". See --help.");
+  }
+  if (version) throw PrintAndExit{version_text() + "\n"};
+  const std::vector<std::string> extras = parser.remaining();
+  if (!extras.empty()) refuse_extra(extras.front(), line);
+  line.output_given = output->count() > 0;
+  if (!threads.empty()) line.threads = read_threads(threads);
+  for (int k = 0; k < argc; ++k)
+    line.text += (k == 0 ? "" : " ") + std::string(argv[k]);
+  check(line, app);
+  if (!line.output_given && !line.scene.empty())
+    line.output = (std::filesystem::path("results") / std::filesystem::path(line.scene).stem()).string();
+  return line;
+}
+
+} // namespace platen::apps

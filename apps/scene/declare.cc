@@ -1,0 +1,84 @@
+#include "apps/scene/declare.h"
+
+#include <algorithm>
+
+namespace platen::apps {
+
+void Section::declare(const std::string &key, const std::string &default_text, const std::string &unit,
+                      const std::string &allowed, const std::string &documentation,
+                      std::function<void(const std::string &)> read, bool is_file) {
+  Entry entry;
+  entry.path = name_ + "/" + key;
+  entry.default_text = default_text;
+  entry.unit = unit;
+  entry.allowed = allowed;
+  entry.documentation = documentation;
+  entry.is_file = is_file;
+  entry.read = std::move(read);
+  parameters_.declare(std::move(entry));
+}
+
+std::string Section::available(const std::vector<std::string> &names,
+                               const std::vector<std::string> &not_yet) {
+  std::vector<std::string> can;
+  for (const std::string &name : names)
+    if (std::find(not_yet.begin(), not_yet.end(), name) == not_yet.end()) can.push_back(name);
+  return joined(can);
+}
+
+void Section::quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
+                       const std::string &documentation) {
+  declare(key, shortest_text(to), si_unit, range.text(), documentation,
+          [&to, si_unit, range](const std::string &text) { to = read_quantity(text, si_unit, range); });
+}
+
+void Section::flag(const std::string &key, bool &to, const std::string &documentation) {
+  declare(key, to ? "on" : "off", "", "on, off", documentation,
+          [&to](const std::string &text) { to = read_flag(text); });
+}
+
+void Section::text(const std::string &key, std::string &to, const std::string &documentation) {
+  declare(key, to, "", "", documentation, [&to](const std::string &given) { to = given; });
+}
+
+void Section::file(const std::string &key, std::string &to, const std::string &documentation) {
+  declare(
+      key, to, "", "path of a file", documentation, [&to](const std::string &given) { to = given; }, true);
+}
+
+void Section::interval(const std::string &key, Interval &to, const std::string &documentation) {
+  declare(key, text_of(to), "", "steps (a whole number), or a time with its unit; 0 or more", documentation,
+          [&to](const std::string &text) { to = read_interval(text); });
+}
+
+void Section::gap(const std::string &key, Gap &to, const std::string &documentation) {
+  declare(key, text_of(to), "", "\"0.05 R_min\", or a length (m); 0 or more", documentation,
+          [&to](const std::string &text) { to = read_gap(text); });
+}
+
+void Section::stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
+                        const std::string &documentation) {
+  const std::string bulk = bulk_allowed ? ", \"0.01 bulk\"" : "";
+  declare(key, text_of(to), "", "a multiple of the bond's, or with unit \"4e5 N/m\"" + bulk + "; > 0",
+          documentation,
+          [&to, bulk_allowed](const std::string &text) { to = read_stiffness(text, bulk_allowed); });
+}
+
+void Section::list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
+                   const Range &range, const std::string &documentation) {
+  declare(key, "", si_unit, "numbers with commas between them, each " + range.text(), documentation,
+          [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
+}
+
+void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
+                          const std::string &documentation) {
+  declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {
+    Expectation expectation = read_expectation(text, unit);
+    expectation.key = key;
+    to.erase(std::remove_if(to.begin(), to.end(), [&](const Expectation &e) { return e.key == key; }),
+             to.end());
+    if (!text.empty()) to.push_back(expectation);
+  });
+}
+
+} // namespace platen::apps

@@ -1,0 +1,187 @@
+// Scenes as JSON: {"Bond": {"Modulus": "320 GPa"}, "Platens": {"Top": {"Friction static": 0.3}}}. Numbers,
+// texts and true / false are values. An entry may also be an object with a "value", as --print-parameters
+// --json and ParameterHandler write it.
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <set>
+#include <vector>
+
+#include "apps/scene/file_text.h"
+#include "apps/scene/scene_files.h"
+
+namespace platen::apps {
+namespace {
+
+// Hands characters to the parser and remembers how far it has read, which tells the line of every event.
+class Reading {
+public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char *;
+  using reference = const char &;
+
+  Reading(const char *at, const char **furthest) : at_(at), furthest_(furthest) {}
+  reference operator*() const { return *at_; }
+  Reading &operator++() {
+    *furthest_ = ++at_;
+    return *this;
+  }
+  Reading operator++(int) {
+    const Reading before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const Reading &other) const { return at_ == other.at_; }
+  bool operator!=(const Reading &other) const { return at_ != other.at_; }
+
+private:
+  const char *at_;
+  const char **furthest_;
+};
+
+class JsonReader : public nlohmann::json_sax<nlohmann::json> {
+public:
+  JsonReader(const std::string &text, const std::string &name, Parameters &parameters)
+      : text_(text), furthest_(text.data()), counted_(text.data()), name_(name), parameters_(parameters) {}
+
+  void read() {
+    const char *last = text_.data() + text_.size();
+    nlohmann::json::sax_parse(Reading(text_.data(), &furthest_), Reading(last, &furthest_), this);
+  }
+
+  bool null() override { fail("null is no value; leave the key out instead."); }
+  bool boolean(bool value) override { return scalar(value ? "on" : "off"); }
+  bool number_integer(number_integer_t value) override { return scalar(std::to_string(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return scalar(std::to_string(value)); }
+  bool number_float(number_float_t, const std::string &as_written) override { return scalar(as_written); }
+  bool string(std::string &value) override { return scalar(value); }
+  bool binary(nlohmann::json::binary_t &) override { fail("binary data is no value."); }
+  bool start_array(std::size_t) override {
+    fail(where() + " is an array. Allowed: numbers, texts, true, false; lists are texts, \"1, 2, 3\".");
+  }
+  bool end_array() override { return true; }
+  bool start_object(std::size_t) override;
+  bool end_object() override;
+  bool key(std::string &name) override;
+  bool parse_error(std::size_t position, const std::string &,
+                   const nlohmann::json::exception &error) override;
+
+private:
+  struct Level {
+    std::string key; // of the member being read
+    Origin origin;   // of that key
+    std::set<std::string> keys;
+  };
+
+  int line() {
+    for (; counted_ < furthest_; ++counted_)
+      line_ += *counted_ == '\n' ? 1 : 0;
+    return line_;
+  }
+  std::string path(std::size_t levels) const {
+    std::string joined;
+    for (std::size_t k = 0; k < levels; ++k)
+      joined += (k == 0 ? "" : "/") + levels_[k].key;
+    return joined;
+  }
+  std::string where() const { return levels_.empty() ? "the file" : path(levels_.size()); }
+  [[noreturn]] void fail(const std::string &what) {
+    const Origin origin =
+        levels_.empty() || levels_.back().origin.line == 0 ? Origin{name_, line(), 0} : levels_.back().origin;
+    throw InputError(origin.text() + ": error: " + what);
+  }
+  bool scalar(const std::string &value);
+
+  const std::string &text_;
+  const char *furthest_, *counted_;
+  int line_ = 1;
+  const std::string &name_;
+  Parameters &parameters_;
+  std::vector<Level> levels_; // one for each object that is open
+  bool in_entry_ = false;     // inside {"value": ...}
+};
+
+bool JsonReader::start_object(std::size_t) {
+  if (in_entry_) fail(where() + " is an object inside an entry. Allowed: its \"value\".");
+  if (!levels_.empty()) {
+    const std::string here = path(levels_.size());
+    in_entry_ = parameters_.find(here) != nullptr;
+    if (!in_entry_) parameters_.enter(here, levels_.back().origin);
+  }
+  levels_.push_back({"", {name_, 0, 0}, {}});
+  return true;
+}
+
+bool JsonReader::end_object() {
+  if (in_entry_ && levels_.back().keys.count("value") == 0) {
+    const Origin origin = levels_[levels_.size() - 2].origin;
+    throw InputError(origin.text() + ": error: " + path(levels_.size() - 1) +
+                     " is an object without \"value\". Allowed: a number, a text, true, false.");
+  }
+  in_entry_ = false;
+  levels_.pop_back();
+  return true;
+}
+
+bool JsonReader::key(std::string &name) {
+  Level &level = levels_.back();
+  level.origin.line = line();
+  level.key = tidy(name);
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(level.key.begin(), level.key.end(), control)) {
+    level.key = "a key";
+    fail(where() + " holds a control character or a line end. Allowed: names of sections and parameters.");
+  }
+  if (!level.keys.insert(level.key).second) fail(where() + " stands twice in one object. Allowed: once.");
+  return true;
+}
+
+bool JsonReader::scalar(const std::string &value) {
+  if (levels_.empty()) fail("the file is no object. Allowed: {\"Section\": {\"Key\": value}}.");
+  if (!in_entry_) {
+    if (parameters_.is_section(where())) fail(where() + " = " + value + " is a section. Allowed: an object.");
+    parameters_.set(where(), value, levels_.back().origin);
+  } else if (levels_.back().key == "value") {
+    parameters_.set(path(levels_.size() - 1), value, levels_.back().origin);
+  }
+  return true;
+}
+
+bool JsonReader::parse_error(std::size_t position, const std::string &,
+                             const nlohmann::json::exception &error) {
+  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
+  const auto before = position > 0 ? end - (end == text_.begin() ? 0 : 1) : end; // the byte that does not fit
+  const int at = 1 + static_cast<int>(std::count(text_.begin(), before, '\n'));
+  std::string reason = error.what();
+  const auto prefix =
+      reason.find(": "); // "[json.exception...] parse error at line 3, column 5: syntax error ..."
+  if (prefix != std::string::npos) reason = reason.substr(prefix + 2);
+  throw InputError(Origin{name_, at, 0}.text() + ": error: this is not JSON: " + tidy(reason).substr(0, 300) +
+                   ".");
+}
+
+} // namespace
+
+void read_json_text(const std::string &text, const std::string &name, Parameters &parameters) {
+  const std::string plain = without_byte_order_mark(text);
+  JsonReader(plain, name, parameters).read();
+}
+
+void write_json(const std::vector<Entry> &entries, std::ostream &out) {
+  nlohmann::ordered_json tree;
+  for (const Entry &entry : entries) {
+    nlohmann::ordered_json &leaf = tree[nlohmann::ordered_json::json_pointer("/" + entry.path)];
+    leaf["value"] = entry.text;
+    leaf["default_value"] = entry.default_text;
+    leaf["unit"] = entry.unit;
+    leaf["allowed"] = entry.allowed;
+    leaf["documentation"] = entry.documentation;
+  }
+  // Text that is no UTF-8 (a title, a path) is shown with replacement characters rather than refused.
+  out << tree.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+} // namespace platen::apps

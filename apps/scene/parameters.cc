@@ -1,0 +1,236 @@
+#include "apps/scene/parameters.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string section_of(const std::string &path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string last_name(const std::string &path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string shown(const std::string &text) {
+  constexpr std::size_t longest = 80; // a message stays readable whatever the value
+  std::string cut = text.size() > longest ? text.substr(0, longest) + "..." : text;
+  for (char &c : cut)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return cut;
+}
+
+} // namespace
+
+// What a .prm cannot hold cannot be written back, wherever it came from.
+void check_characters(const std::string &text) {
+  for (const char c : text) {
+    if (c == '#') throw ValueError("holds a \"#\", which begins a comment in a scene file");
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      throw ValueError("holds a control character or a line end");
+  }
+  if (!text.empty() && text.back() == '\\') throw ValueError("ends with a backslash, which continues a line");
+}
+
+std::string limits(const Entry &entry) {
+  std::string text = entry.allowed;
+  if (!entry.unit.empty() && entry.unit != "1") text += (text.empty() ? "in " : " ") + entry.unit;
+  if (!entry.default_text.empty()) text += (text.empty() ? "default " : ", default ") + entry.default_text;
+  return text;
+}
+
+int edit_distance(const std::string &a, const std::string &b) {
+  const std::size_t n = a.size(), m = b.size();
+  std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
+  for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t j = 0; j <= m; ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = static_cast<int>(i + j);
+        continue;
+      }
+      const int changed = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + changed});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[n][m];
+}
+
+std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates) {
+  constexpr std::size_t longest = 200; // more is no slip of the pen, and the distance costs its square
+  if (word.size() > longest) return "";
+  std::string nearest;
+  int least = std::max(2, static_cast<int>(word.size()) / 3) + 1;
+  for (const std::string &candidate : candidates) {
+    const int distance = edit_distance(word, candidate);
+    if (distance < least && distance < static_cast<int>(candidate.size()))
+      least = distance, nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string trimmed(const std::string &text) {
+  std::string result = text;
+  for (char &c : result)
+    if (c == '\t' || c == '\r') c = ' ';
+  const auto first = result.find_first_not_of(' ');
+  return first == std::string::npos ? "" : result.substr(first, result.find_last_not_of(' ') - first + 1);
+}
+
+std::string tidy(const std::string &text) {
+  std::string result;
+  for (const char c : trimmed(text))
+    if (c != ' ' || result.back() != ' ') result += c;
+  return result;
+}
+
+void Parameters::declare(Entry entry) {
+  if (find(entry.path) != nullptr) throw std::logic_error("declared twice: " + entry.path);
+  const std::string section = section_of(entry.path);
+  for (std::size_t slash = section.find('/');; slash = section.find('/', slash + 1)) {
+    const std::string outer = section.substr(0, slash);
+    if (!outer.empty() && !is_section(outer)) sections_.push_back(outer);
+    if (slash == std::string::npos) break;
+  }
+  entry.text = entry.default_text;
+  entry.read(entry.text);
+  entries_.push_back(std::move(entry));
+}
+
+std::size_t Parameters::position(const std::string &path) const {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) { return entry.path == path; });
+  return static_cast<std::size_t>(found - entries_.begin());
+}
+
+const Entry *Parameters::find(const std::string &path) const {
+  const std::size_t k = position(path);
+  return k == entries_.size() ? nullptr : &entries_[k];
+}
+
+const Entry &Parameters::at(const std::string &path) const {
+  const Entry *entry = find(path);
+  if (entry == nullptr) throw std::out_of_range("no entry " + path);
+  return *entry;
+}
+
+bool Parameters::is_section(const std::string &path) const {
+  return std::find(sections_.begin(), sections_.end(), path) != sections_.end();
+}
+
+void Parameters::enter(const std::string &path, const Origin &origin) const {
+  if (is_section(path)) return;
+  std::string message = origin.text() + ": error: " + shown(path) + " is not a section.";
+  if (path.find('/') != std::string::npos && is_section(last_name(path)))
+    throw InputError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?");
+  const std::string nearest = nearest_word(path, sections_);
+  if (!nearest.empty()) throw InputError(message + " Did you mean \"" + nearest + "\"?");
+  throw InputError(message + "\n" + contents_of(section_of(path)));
+}
+
+std::string Parameters::contents_of(const std::string &section) const {
+  std::string names;
+  const auto add = [&](const std::string &path) {
+    if (section_of(path) == section) names += (names.empty() ? "" : ", ") + last_name(path);
+  };
+  for (const std::string &inner : sections_)
+    add(inner);
+  for (const Entry &entry : entries_)
+    add(entry.path);
+  return (section.empty() ? "Sections: " : "Section " + section + " holds: ") + names + ".";
+}
+
+void Parameters::refuse_unknown(const std::string &path, const Origin &origin) const {
+  const std::string section = section_of(path);
+  if (!section.empty()) enter(section, origin);
+  std::vector<std::string> here, everywhere, last_names;
+  for (const Entry &entry : entries_) {
+    if (section_of(entry.path) == section) here.push_back(entry.path);
+    if (edit_distance(last_name(entry.path), last_name(path)) <= 1) last_names.push_back(entry.path);
+    everywhere.push_back(entry.path);
+  }
+  const std::string key = last_name(path);
+  std::vector<std::string> keys;
+  for (const std::string &known : here)
+    keys.push_back(last_name(known));
+  std::string nearest = nearest_word(key, keys);
+  if (!nearest.empty())
+    nearest = section + "/" + nearest;
+  else if (!last_names.empty())
+    nearest = last_names.front(); // right key, wrong section
+  else
+    nearest = nearest_word(path, everywhere);
+  const std::string message = origin.text() + ": error: " + shown(path) + " is not a parameter.";
+  if (nearest.empty()) throw InputError(message + "\n" + contents_of(section));
+  const Entry *entry = find(nearest);
+  const std::string about = entry == nullptr ? "" : limits(*entry);
+  throw InputError(message + " Did you mean \"" + nearest + "\"" + (about.empty() ? "" : " (" + about + ")") +
+                   "?");
+}
+
+void Parameters::set(const std::string &path, const std::string &text, const Origin &origin) {
+  const std::size_t k = position(path);
+  if (k == entries_.size()) refuse_unknown(path, origin);
+  Entry &entry = entries_[k];
+  if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
+    throw InputError(origin.text() + ": error: " + path + " = " + shown(text) +
+                     " is set twice: it was set to \"" + shown(entry.text) + "\" in " + entry.origin.text() +
+                     ". Allowed: once.");
+  const std::string value = trimmed(text);
+  try {
+    check_characters(value);
+    if (value.empty() && !entry.default_text.empty()) throw ValueError("has no value");
+    entry.read(value);
+  } catch (const ValueError &error) {
+    const std::string about = limits(entry);
+    std::string reason = error.what();
+    if (reason.back() != '.' && reason.back() != '?') reason += '.';
+    throw InputError(origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") +
+                     reason + (about.empty() ? "" : " Allowed: " + about + "."));
+  }
+  entry.text = value;
+  entry.origin = origin;
+}
+
+void Parameters::override_entry(const std::string &assignment, int number) {
+  const Origin origin{"command line, --set " + std::to_string(number), 0, -1};
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos)
+    throw InputError(origin.text() + ": error: \"" + shown(assignment) +
+                     "\" sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".");
+  std::string path, part;
+  const std::string names = assignment.substr(0, equals) + "/";
+  for (const char c : names) {
+    if (c != '/') {
+      part += c;
+      continue;
+    }
+    path += (path.empty() ? "" : "/") + tidy(part);
+    part.clear();
+  }
+  set(path, assignment.substr(equals + 1), origin);
+}
+
+void Parameters::refuse(const std::string &path, const std::string &reason) const {
+  const Entry &entry = at(path);
+  const std::string place = entry.origin.file.empty() ? source_ : entry.origin.text();
+  throw InputError((place.empty() ? "" : place + ": ") + "error: " + path +
+                   (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason);
+}
+
+void Parameters::release() {
+  for (Entry &entry : entries_)
+    entry.read = nullptr;
+}
+
+} // namespace platen::apps

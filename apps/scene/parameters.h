@@ -1,0 +1,96 @@
+// The entries of a scene file: what may be set, to what, and what was set where. Refuses unknown names,
+// repeated keys and bad values with one message that names place, key, value, what is allowed and the nearest
+// known name.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/errors.h"
+
+namespace platen::apps {
+
+// Where a value comes from.
+struct Origin {
+  std::string file; // as given; "command line, --set 2"; empty for a default
+  int line = 0;     // first is 1; 0 where lines mean nothing
+  int depth = 0;    // of `include`: 0 in the scene itself, 1 in a file it includes; -1 on the command line
+  std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+};
+
+struct Entry {
+  std::string path;          // "Bond/Tensile strength"
+  std::string default_text;  // "" where there is no default
+  std::string unit;          // SI unit of a bare number; "" where there is none
+  std::string allowed;       // in words: "0 ... 5", "none, linear, hertz"
+  std::string documentation; // one sentence or two
+  bool is_file = false;      // the value is a path, relative to the folder of the scene
+  // Converts a text and stores the number; throws ValueError. Empty once the scene has been read.
+  std::function<void(const std::string &)> read;
+
+  std::string text; // as used
+  Origin origin;    // of text
+
+  bool changed() const { return text != default_text; }
+};
+
+// What an entry allows, with unit and default: "0 ... 5, default 0.5"; "" where anything goes.
+std::string limits(const Entry &entry);
+
+class Parameters {
+public:
+  // Declares an entry and reads its default. A path is "Section/Key" or "Section/Subsection/Key".
+  void declare(Entry entry);
+
+  // Section names in the order of declaration, "Platens/Top" included.
+  const std::vector<std::string> &sections() const { return sections_; }
+  const std::vector<Entry> &entries() const { return entries_; }
+  const Entry *find(const std::string &path) const; // null for an unknown path
+  const Entry &at(const std::string &path) const;   // throws std::out_of_range for an unknown path
+
+  bool is_section(const std::string &path) const;
+  // Throws InputError unless path is a section.
+  void enter(const std::string &path, const Origin &origin) const;
+  // Sets an entry. Throws InputError for an unknown path, a bad value, or a key that was set before at the
+  // same or a smaller depth: a file may override what the files it includes have set, the command line
+  // everything.
+  void set(const std::string &path, const std::string &text, const Origin &origin);
+  // Applies "Section/Key = value"; number is that of the option, from 1.
+  void override_entry(const std::string &assignment, int number);
+
+  // Throws InputError on behalf of an entry: "case.prm:14: error: Bond/Gap = -1 mm <reason>"; the file stands
+  // without a line where the entry was not set.
+  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const;
+
+  // The scene file, for messages about entries that it does not set.
+  void set_source(const std::string &path) { source_ = path; }
+
+  // Forgets how values are converted: what remains is texts.
+  void release();
+
+private:
+  [[noreturn]] void refuse_unknown(const std::string &path, const Origin &origin) const;
+  std::string contents_of(const std::string &section) const;
+  std::size_t position(const std::string &path) const; // entries_.size() for an unknown path
+
+  std::vector<Entry> entries_;
+  std::vector<std::string> sections_;
+  std::string source_;
+};
+
+// Throws ValueError for a text that a .prm cannot hold and give back.
+void check_characters(const std::string &text);
+
+// The candidate nearest to a word, by letters inserted, dropped, changed or swapped, regardless of case; ""
+// where none is near enough to be meant.
+std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates);
+// The count of such changes.
+int edit_distance(const std::string &a, const std::string &b);
+
+// Without blanks at both ends, tabs and carriage returns turned into blanks: a value, a line.
+std::string trimmed(const std::string &text);
+// The same, each run of blanks inside shrunk to one: names and words.
+std::string tidy(const std::string &text);
+
+} // namespace platen::apps

@@ -1,0 +1,137 @@
+// The grammar of deal.II's ParameterHandler, line by line: `subsection`, `set`, `end`, `include` (lower or
+// upper case), comments from # to the end of the line, a backslash at the end to continue a line.
+#include <filesystem>
+#include <vector>
+
+#include "apps/scene/file_text.h"
+#include "apps/scene/scene_files.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr int deepest_include = 16; // more is a file that includes itself
+
+struct OpenSection {
+  std::string name;
+  Origin origin;
+};
+
+class PrmReader {
+public:
+  explicit PrmReader(Parameters &parameters) : parameters_(parameters) {}
+  void read(const std::string &text, const std::string &name, int depth);
+
+private:
+  void statement(const std::string &line, const Origin &origin);
+  void enter(const std::string &name, const Origin &origin);
+  void leave(const std::string &rest, const Origin &origin);
+  void set(const std::string &assignment, const Origin &origin);
+  void include(const std::string &file, const Origin &origin);
+  std::string path(const std::string &name) const;
+
+  Parameters &parameters_;
+  std::vector<OpenSection> open_;
+  std::size_t opened_before_ = 0; // sections that an including file has open: not ours to close
+};
+
+[[noreturn]] void fail(const Origin &origin, const std::string &what) {
+  throw InputError(origin.text() + ": error: " + what);
+}
+
+std::string PrmReader::path(const std::string &name) const {
+  std::string joined;
+  for (const OpenSection &section : open_)
+    joined += section.name + "/";
+  return joined + name;
+}
+
+void PrmReader::read(const std::string &text, const std::string &name, int depth) {
+  const std::size_t outer = opened_before_;
+  opened_before_ = open_.size();
+  std::string joined; // of continued lines
+  bool continues = false;
+  Origin origin{name, 0, depth};
+  int line_number = 0;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', first), text.size());
+    std::string line = trimmed(text.substr(first, end - first));
+    first = end + 1;
+    ++line_number;
+    if (!continues) origin.line = line_number;
+    continues = !line.empty() && line.back() == '\\';
+    if (continues) line.pop_back(); // a blank before it stays: it parts the words that are joined
+    joined += line;
+    if (continues && first <= text.size()) continue;
+    statement(trimmed(joined.substr(0, joined.find('#'))), origin);
+    joined.clear();
+  }
+  if (open_.size() > opened_before_)
+    fail(open_.back().origin, "subsection " + open_.back().name +
+                                  " is opened here and not closed by an \"end\" before the file is over.");
+  opened_before_ = outer;
+}
+
+void PrmReader::statement(const std::string &line, const Origin &origin) {
+  if (line.empty()) return;
+  const std::size_t blank = std::min(line.find(' '), line.size());
+  const std::string word = line.substr(0, blank), rest = trimmed(line.substr(blank));
+  if (word == "set" || word == "SET") return set(rest, origin);
+  if (word == "subsection" || word == "SUBSECTION") return enter(tidy(rest), origin);
+  if (word == "end" || word == "END") return leave(rest, origin);
+  if (word == "include" || word == "INCLUDE") return include(rest, origin);
+  const std::string nearest = nearest_word(word, {"set", "subsection", "end", "include"});
+  fail(origin, "\"" + line.substr(0, 80) + "\" is no statement." +
+                   (nearest.empty() ? " Allowed: set, subsection, end, include."
+                                    : " Did you mean \"" + nearest + "\"?"));
+}
+
+void PrmReader::enter(const std::string &name, const Origin &origin) {
+  if (name.empty()) fail(origin, "\"subsection\" needs the name of a section.");
+  const std::string entered = path(name);
+  if (!parameters_.is_section(entered) && !open_.empty() && parameters_.is_section(name))
+    fail(origin, entered + " is not a section. Is the \"end\" of section " + open_.back().name + " (" +
+                     open_.back().origin.text() + ") missing before it?");
+  parameters_.enter(entered, origin);
+  open_.push_back({name, origin});
+}
+
+void PrmReader::leave(const std::string &rest, const Origin &origin) {
+  if (!rest.empty()) fail(origin, "\"end\" is followed by \"" + rest.substr(0, 80) + "\". Allowed: nothing.");
+  if (open_.size() == opened_before_) fail(origin, "\"end\" without a subsection to close.");
+  open_.pop_back();
+}
+
+void PrmReader::set(const std::string &assignment, const Origin &origin) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos)
+    fail(origin, "\"set " + assignment.substr(0, 80) + "\" has no \"=\". Allowed: set Key = value.");
+  const std::string key = tidy(assignment.substr(0, equals));
+  if (key.empty())
+    fail(origin, "\"set " + assignment.substr(0, 80) + "\" names no key. Allowed: set Key = value.");
+  if (key.find('/') != std::string::npos && parameters_.find(key) != nullptr)
+    fail(origin, "\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, key.rfind('/')) +
+                     ", set " + key.substr(key.rfind('/') + 1) + " = ..., end.");
+  parameters_.set(path(key), assignment.substr(equals + 1), origin);
+}
+
+void PrmReader::include(const std::string &file, const Origin &origin) {
+  if (file.empty()) fail(origin, "\"include\" needs the name of a file.");
+  if (origin.depth >= deepest_include)
+    fail(origin, "include " + file + ": files include each other without end.");
+  const std::string included = (std::filesystem::path(origin.file).parent_path() / file).string();
+  std::string text;
+  try {
+    text = read_text(included);
+  } catch (const InputError &error) {
+    fail(origin, "include " + file + ": " + error.what());
+  }
+  read(text, included, origin.depth + 1);
+}
+
+} // namespace
+
+void read_prm_text(const std::string &text, const std::string &name, Parameters &parameters) {
+  PrmReader(parameters).read(without_byte_order_mark(text), name, 0);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,67 @@
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include "apps/scene/command_line.h"
+
+namespace platen::apps {
+namespace {
+
+// The message of deal.II's exceptions stands in the middle of a page about file, function and stack.
+std::string plain(const std::string &what) {
+  const std::string begin = "Additional information:";
+  const auto found = what.find(begin);
+  if (found == std::string::npos) return what;
+  std::string text = what.substr(found + begin.size());
+  for (const char *after : {"Stacktrace:", "--------"})
+    text = text.substr(0, text.find(after));
+  const auto first = text.find_first_not_of(" \n"), last = text.find_last_not_of(" \n");
+  return first == std::string::npos ? what : text.substr(first, last - first + 1);
+}
+
+int tell(const AppDescription &app, const std::string &message, int status) {
+  std::cout.flush();
+  std::cerr << app.name << ": " << plain(message) << '\n';
+  return status;
+}
+
+int run(const CommandLine &line, const AppDescription &app, const AppBody &body) {
+  const Scene scene = line.scene.empty() ? default_scene() : read_scene(line.scene, line.overrides, app.kind);
+  if (line.print_parameters) {
+    print_parameters(scene, line.json, std::cout);
+    return status_done;
+  }
+  if (!line.quiet)
+    for (const std::string &note : scene.notes)
+      std::cerr << note << '\n';
+  return body(line, scene);
+}
+
+} // namespace
+
+int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
+  try {
+    return run(read_command_line(argc, argv, app), app, body);
+  } catch (const PrintAndExit &asked) {
+    std::cout << asked.text;
+    return status_done;
+  } catch (const InputError &error) {
+    return tell(app, error.what(), status_bad_input);
+  } catch (const CheckFailed &error) {
+    return tell(app, error.what(), status_check_failed);
+  } catch (const OutputError &error) {
+    return tell(app, std::string("error: ") + error.what(), status_output);
+  } catch (const std::filesystem::filesystem_error &error) {
+    return tell(app, std::string("error: ") + error.what(), status_output);
+  } catch (const std::invalid_argument &error) {
+    return tell(app, std::string("error: ") + error.what(), status_bad_input);
+  } catch (const std::bad_alloc &) {
+    return tell(app, "error: the memory is used up; a smaller specimen or larger spheres need less",
+                status_numerics);
+  } catch (const std::exception &error) {
+    return tell(app, std::string("error: ") + error.what(), status_numerics);
+  }
+}
+
+} // namespace platen::apps

@@ -1,0 +1,89 @@
+#include "apps/scene/scene.h"
+
+#include <filesystem>
+#include <ostream>
+
+#include "apps/scene/checks.h"
+#include "apps/scene/declare.h"
+#include "apps/scene/scene_files.h"
+
+namespace platen::apps {
+namespace {
+
+// Fills what one entry takes from another, so that the apps need not know the rules.
+void inherit(Scene &scene, const Parameters &parameters) {
+  Platens &platens = scene.platens;
+  for (PlatenSide *side : {&platens.top, &platens.bottom}) {
+    if (std::isnan(side->friction_static)) side->friction_static = platens.friction_static;
+    if (std::isnan(side->friction_dynamic)) side->friction_dynamic = platens.friction_dynamic;
+    if (std::isnan(side->friction_dynamic)) side->friction_dynamic = side->friction_static;
+  }
+  if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
+    platens.thickness = 0.1 * scene.specimen.height;
+  PairTest &pair = scene.pair_test;
+  if (pair.moduli.empty() && !std::isnan(scene.bond.modulus)) pair.moduli = {scene.bond.modulus};
+  if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.stiffness_ratio};
+  scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
+  for (Expectation &expectation : scene.expect)
+    expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
+}
+
+void keep(Scene &scene, Parameters &parameters) {
+  parameters.release();
+  scene.parameters = std::make_shared<const Parameters>(std::move(parameters));
+}
+
+} // namespace
+
+Scene default_scene() {
+  Scene scene;
+  Parameters parameters;
+  declare_scene(parameters, scene);
+  inherit(scene, parameters);
+  keep(scene, parameters);
+  return scene;
+}
+
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app) {
+  Scene scene;
+  Parameters parameters;
+  declare_scene(parameters, scene);
+  parameters.set_source(path);
+  scene.path = path;
+  scene.name = std::filesystem::path(path).stem().string();
+  read_scene_file(path, parameters);
+  for (std::size_t k = 0; k < overrides.size(); ++k)
+    parameters.override_entry(overrides[k], static_cast<int>(k) + 1);
+  inherit(scene, parameters);
+  check_scene(scene, parameters, app);
+  keep(scene, parameters);
+  return scene;
+}
+
+void write_scene(const Scene &scene, const std::string &folder, std::ostream &out) {
+  std::vector<Entry> entries = scene.parameters->entries();
+  for (Entry &entry : entries) {
+    if (!entry.is_file || entry.text.empty()) continue;
+    const std::filesystem::path from = std::filesystem::absolute(resolved_path(entry));
+    std::error_code failure;
+    const std::filesystem::path there =
+        std::filesystem::relative(from, std::filesystem::absolute(folder), failure);
+    entry.text = failure || there.empty() ? from.string() : there.string();
+    try {
+      check_characters(entry.text);
+    } catch (const ValueError &error) {
+      throw InputError("error: " + entry.path + " = " + entry.text + " cannot be written to a scene: it " +
+                       error.what() + ".");
+    }
+  }
+  write_prm(entries, false, out);
+}
+
+void print_parameters(const Scene &scene, bool as_json, std::ostream &out) {
+  if (as_json)
+    write_json(scene.parameters->entries(), out);
+  else
+    write_prm(scene.parameters->entries(), true, out);
+}
+
+} // namespace platen::apps

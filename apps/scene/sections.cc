@@ -1,0 +1,321 @@
+// The table of everything that a scene file may say. Defaults stand in scene.h, with the members.
+#include "apps/scene/declare.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr double right_angle = 1.5707963267948966; // rad
+
+void declare_general(Parameters &parameters, General &general) {
+  Section section(parameters, "Scene");
+  section.text("Title", general.title, "A line that names the scene in logs and reports.");
+  section.integer(
+      "Seed", general.seed, 0, 4294967295.0,
+      "Start of the random numbers of packing and perturbations; the same seed gives the same result.");
+  section.word<Quality>(
+      "Quality", general.quality,
+      {{"fast", Quality::fast}, {"standard", Quality::standard}, {"reference", Quality::reference}},
+      {"fast", "reference"}, "A choice of accuracy against time for all that is left open.");
+}
+
+void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
+  Section section(parameters, "Specimen");
+  section.word<SpecimenShape>(
+      "Shape", specimen.shape,
+      {{"cylinder", SpecimenShape::cylinder},
+       {"box", SpecimenShape::box},
+       {"bar", SpecimenShape::bar},
+       {"disc", SpecimenShape::disc}},
+      {"disc"}, "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular.");
+  section.quantity("Radius", specimen.radius, "m", above(0), "Radius of a cylinder or round bar.");
+  section.quantity("Height", specimen.height, "m", above(0), "Extent along z.");
+  section.quantity("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
+  section.quantity("Width y", specimen.width_y, "m", above(0), "Width of a box or rectangular bar along y.");
+  section.quantity("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.");
+  section.number("Radius spread", specimen.radius_spread, between(0, 1.5),
+                 "Kappa, largest minus smallest radius over the mean (Radius distribution = uniform).");
+  section.word<RadiusDistribution>("Radius distribution", specimen.radius_distribution,
+                                   {{"equal", RadiusDistribution::equal},
+                                    {"two sizes", RadiusDistribution::two_sizes},
+                                    {"uniform", RadiusDistribution::uniform}},
+                                   {}, "How radii are drawn; uniform with a spread of 0 is equal spheres.");
+  section.number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
+                 "Two sizes: smaller radius over the larger one.");
+  section.number("Second fraction", specimen.second_fraction, between(0, 1),
+                 "Two sizes: share of the number of spheres that has the smaller radius.");
+  section.word<PackingKind>("Packing", specimen.packing,
+                            {{"advancing front", PackingKind::advancing_front},
+                             {"random close", PackingKind::random_close},
+                             {"file", PackingKind::file}},
+                            {}, "How the spheres are placed; file takes them from File.");
+  section.file("File", specimen.file, "A specimen.csv to load (Packing = file).");
+  section.word<EndsKind>(
+      "Ends", specimen.ends, {{"as packed", EndsKind::as_packed}, {"ground", EndsKind::ground}}, {},
+      "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
+      "seated flush, as if sawn.");
+  section.number("End layer", specimen.end_layer, between(0.05, 10),
+                 "Depth of the ground layer in mean sphere radii; it decides the strength below 1.");
+  section.flag("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
+}
+
+void declare_material(Parameters &parameters, Material &material) {
+  Section section(parameters, "Material");
+  section.quantity("Density", material.density, "kg/m3", above(0), "Density of the grains.");
+  section.quantity("Young modulus", material.young_modulus, "Pa", above(0),
+                   "Young modulus of the grains (hertz contact; bulk stiffness of linear contact).");
+  section.number("Poisson ratio", material.poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of the grains.");
+}
+
+void declare_effects(Parameters &parameters, Effects &effects) {
+  Section section(parameters, "Effects");
+  section.word<BondKind>("Bond", effects.bond,
+                         {{"none", BondKind::none},
+                          {"parallel bond", BondKind::parallel_bond},
+                          {"cohesive beam", BondKind::cohesive_beam},
+                          {"elasto damage plastic", BondKind::elasto_damage_plastic}},
+                         {"cohesive beam", "elasto damage plastic"}, "What holds the grains together.");
+  section.word<ContactKind>(
+      "Contact", effects.contact,
+      {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}}, {},
+      "Normal force between grains that touch without a bond.");
+  section.word<TangentialKind>(
+      "Tangential", effects.tangential,
+      {{"none", TangentialKind::none},
+       {"coulomb", TangentialKind::coulomb},
+       {"coulomb with rolling resistance", TangentialKind::coulomb_with_rolling_resistance}},
+      {}, "Friction between grains that touch without a bond.");
+  section.flag("Rotation", effects.rotation, "Grains turn; without it bonds and contacts carry no moments.");
+  section.flag("Gravity", effects.gravity, "9.80665 m/s2 along -z.");
+}
+
+void declare_bond(Parameters &parameters, Bond &bond) {
+  Section section(parameters, "Bond");
+  section.quantity("Modulus", bond.modulus, "Pa", above(0), "Young modulus of the bond.");
+  section.number("Stiffness ratio", bond.stiffness_ratio, between(0, 5),
+                 "Shear over normal stiffness, k_s / k_n.");
+  section.quantity("Tensile strength", bond.tensile_strength, "Pa", at_least(0),
+                   "0: never breaks in tension.");
+  section.quantity("Shear strength", bond.shear_strength, "Pa", at_least(0),
+                   "Cohesion of the bond; 0: never breaks in shear.");
+  section.quantity("Friction angle", bond.friction_angle, "rad", {0, right_angle, true, false},
+                   "Shear strength grows by its tangent times the compression of the bond.");
+  section.number("Moment contribution", bond.moment_contribution, between(0, 1),
+                 "Share of bending and twisting moment that counts towards failure.");
+  section.number("Radius multiplier", bond.radius_multiplier, above_up_to(0, 10),
+                 "Bond radius over the radius that the rule gives.");
+  section.word<RadiusRule>("Radius rule", bond.radius_rule,
+                           {{"minimum", RadiusRule::minimum},
+                            {"mean", RadiusRule::mean},
+                            {"harmonic", RadiusRule::harmonic},
+                            {"given", RadiusRule::given}},
+                           {}, "Bond radius from the radii of the pair; given: from Radius.");
+  section.quantity("Radius", bond.radius, "m", above(0), "Bond radius (Radius rule = given).");
+  section.gap(
+      "Gap", bond.gap,
+      "Pairs with at most this distance between their surfaces are bonded; R_min is the smaller radius.");
+  section.number("Damping", bond.damping, between(0, 1),
+                 "Dashpot of the bond, fraction of critical damping.");
+}
+
+void declare_contact(Parameters &parameters, Contact &contact) {
+  Section section(parameters, "Contact");
+  section.number("Friction", contact.friction, between(0, 5), "Coefficient of friction between grains.");
+  section.stiffness(
+      "Stiffness", contact.stiffness, true,
+      "Normal stiffness of linear contact; \"bulk\" is a multiple of what the bulk modulus of the grains "
+      "gives (NormK of LS-DYNA).");
+  section.number("Tangential ratio", contact.tangential_ratio, between(0, 5),
+                 "Tangential over normal stiffness of linear contact.");
+  section.number("Damping", contact.damping, between(0, 1), "Linear contact: fraction of critical damping.");
+  section.number("Restitution", contact.restitution, above_up_to(0, 1),
+                 "Hertz contact: coefficient of restitution.");
+  section.number("Rolling friction", contact.rolling_friction, between(0, 5),
+                 "Largest rolling moment over normal force and effective radius.");
+}
+
+void declare_side(Parameters &parameters, const std::string &name, PlatenSide &side) {
+  Section section(parameters, name);
+  section.number("Friction static", side.friction_static, between(0, 5),
+                 "As Platens/Friction static where not given.");
+  section.number("Friction dynamic", side.friction_dynamic, between(0, 5),
+                 "As Platens/Friction dynamic where not given.");
+}
+
+void declare_platens(Parameters &parameters, Platens &platens) {
+  Section section(parameters, "Platens");
+  section.word<PlatenKind>("Kind", platens.kind,
+                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}},
+                           {"deformable"}, "Rigid bodies, or elastic ones by finite elements.");
+  section.number("Friction static", platens.friction_static, between(0, 5),
+                 "Coefficient of friction of grains on both platens while they stick.");
+  section.number("Friction dynamic", platens.friction_dynamic, between(0, 5),
+                 "The same while they slide; as the static one where not given.");
+  section.stiffness("Stiffness", platens.stiffness, false,
+                    "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
+  section.number("Tangential ratio", platens.tangential_ratio, between(0, 5),
+                 "Tangential over normal penalty stiffness.");
+  section.number("Damping", platens.damping, between(0, 1),
+                 "Fraction of critical damping of grains on platens.");
+  section.number("Overhang", platens.overhang, between(1, 10),
+                 "Half-width of the platens over that of the specimen.");
+  section.quantity("Thickness", platens.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
+  section.integer("Elements across", platens.elements_across, 1, 1000, "Finite elements across a platen.");
+  section.quantity("Density", platens.density, "kg/m3", above(0), "Density of the platens.");
+  section.quantity("Young modulus", platens.young_modulus, "Pa", above(0), "Young modulus of the platens.");
+  section.number("Poisson ratio", platens.poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of the platens.");
+  section.word<Attachment>("Attachment", platens.attachment,
+                           {{"contact", Attachment::contact}, {"glued", Attachment::glued}}, {},
+                           "Glued: the end grains are held by the platens, in tension too.");
+  declare_side(parameters, "Platens/Top", platens.top);
+  Section top(parameters, "Platens/Top");
+  top.word<PlatenControl>("Control", platens.top_control,
+                          {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}}, {},
+                          "What is prescribed on the top platen.");
+  top.quantity("Stress", platens.top_stress, "Pa", at_least(0), "Pressing stress (Control = stress).");
+  declare_side(parameters, "Platens/Bottom", platens.bottom);
+}
+
+void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
+  Section section(parameters, "Sleeve");
+  section.quantity("Thickness", sleeve.thickness, "m", above(0),
+                   "Wall of the sleeve (Confinement = sleeve).");
+  section.quantity("Modulus", sleeve.modulus, "Pa", above(0), "Young modulus of the sleeve.");
+  section.number("Poisson ratio", sleeve.poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of the sleeve.");
+}
+
+void declare_loading(Parameters &parameters, Loading &loading) {
+  Section section(parameters, "Loading");
+  section.word<LoadingTest>("Test", loading.test,
+                            {{"compression", LoadingTest::compression}, {"tension", LoadingTest::tension}},
+                            {}, "The platens approach or part.");
+  section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
+                   "Speed of closure (tension: of opening).");
+  section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
+  section.number("Target strain", loading.target_strain, above_up_to(0, 1),
+                 "Closure over height at which the run is over.");
+  section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
+                 "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
+  section.word<ConfinementKind>("Confinement", loading.confinement,
+                                {{"none", ConfinementKind::none},
+                                 {"particles", ConfinementKind::particles},
+                                 {"sleeve", ConfinementKind::sleeve}},
+                                {"particles", "sleeve"}, "How the lateral surface is pressed.");
+  section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0), "Lateral pressure.");
+}
+
+void declare_integration(Parameters &parameters, Integration &integration) {
+  Section section(parameters, "Integration");
+  section.number("Safety", integration.safety, above_up_to(0, 1), "Time step over the stability limit.");
+  section.number("Mass scaling", integration.mass_scaling, between(1, 1e6),
+                 "Factor on all masses; the time step grows by its root, and inertia with it.");
+  section.number("Damping", integration.damping, {0, 1, true, false},
+                 "Local damping: force against the motion, as a fraction of the unbalanced force.");
+  section.quantity("Time step", integration.time_step, "s", at_least(0),
+                   "0: Safety times the limit; a larger one than the limit is refused.");
+  section.word<InstructionSet>("Instruction set", integration.instruction_set,
+                               {{"best", InstructionSet::best}, {"baseline", InstructionSet::baseline}}, {},
+                               "Baseline repeats to the bit on every x86-64 processor.");
+}
+
+void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint) {
+  Section section(parameters, "Output");
+  section.interval("Every", output.every,
+                   "Rows of history.csv: steps or simulated time; 0: chosen by the app.");
+  section.interval("Fields every", output.fields_every,
+                   "Frames for ParaView: steps or simulated time; 0: chosen by the app.");
+  section.flag("Fields", output.fields, "Write frames for ParaView.");
+  Section checkpoints(parameters, "Checkpoint");
+  checkpoints.interval("Every", checkpoint.every,
+                       "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");
+}
+
+struct ExpectedNumber {
+  const char *key;  // of summary.json; a member of an object after "/"
+  const char *unit; // of the number in summary.json
+};
+
+constexpr ExpectedNumber expected_numbers[] = {
+    {"particles", "1"},
+    {"bonds", "1"},
+    {"coordination_number", "1"},
+    {"packing_fraction", "1"},
+    {"steps", "1"},
+    {"time_step_s", "s"},
+    {"strength_pa", "Pa"},
+    {"strain_at_peak_platen", "1"},
+    {"strain_at_peak_gauge", "1"},
+    {"youngs_modulus_gauge_pa", "Pa"},
+    {"youngs_modulus_platen_pa", "Pa"},
+    {"poisson_ratio", "1"},
+    {"broken_tension", "1"},
+    {"broken_shear", "1"},
+    {"energy_residual_relative", "1"},
+    {"kinetic_to_internal_max", "1"},
+    {"end_damage_top", "1"},
+    {"end_damage_bottom", "1"},
+    {"middle_damage", "1"},
+    {"end_spread", "1"},
+    {"barrel_at_peak", "1"},
+    {"fragments", "1"},
+    {"cone_top/height_m", "m"},
+    {"cone_top/half_angle_deg", "degree"},
+    {"cone_top/volume_fraction", "1"},
+    {"cone_bottom/height_m", "m"},
+    {"cone_bottom/half_angle_deg", "degree"},
+    {"cone_bottom/volume_fraction", "1"},
+};
+
+void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
+  Section section(parameters, "Expect");
+  for (const ExpectedNumber &number : expected_numbers)
+    section.expectation(number.key, expect, number.unit,
+                        "Range of the number in summary.json, one side may be left out; empty: not checked.");
+}
+
+void declare_pair_test(Parameters &parameters, PairTest &pair) {
+  Section section(parameters, "Pair test");
+  section.integer("Particles", pair.particles, 2, 3, "Two in a row, or three as a pyramid.");
+  section.word<PairPath>("Path", pair.path,
+                         {{"tension", PairPath::tension},
+                          {"compression", PairPath::compression},
+                          {"shear", PairPath::shear},
+                          {"bending", PairPath::bending},
+                          {"twisting", PairPath::twisting},
+                          {"cyclic", PairPath::cyclic}},
+                         {}, "How the upper particle is moved against the lower ones.");
+  section.word<PairPlate>("Plate", pair.plate,
+                          {{"frictionless", PairPlate::frictionless},
+                           {"rolling", PairPlate::rolling},
+                           {"sticking", PairPlate::sticking}},
+                          {}, "Three particles: what the lower two stand on.");
+  section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
+  section.quantity("Force", pair.force, "N", above(0), "Largest force.");
+  section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
+  section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
+  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", between(0, 5),
+               "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
+  section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
+}
+
+} // namespace
+
+void declare_scene(Parameters &parameters, Scene &scene) {
+  declare_general(parameters, scene.general);
+  declare_specimen(parameters, scene.specimen);
+  declare_material(parameters, scene.material);
+  declare_effects(parameters, scene.effects);
+  declare_bond(parameters, scene.bond);
+  declare_contact(parameters, scene.contact);
+  declare_platens(parameters, scene.platens);
+  declare_sleeve(parameters, scene.sleeve);
+  declare_loading(parameters, scene.loading);
+  declare_integration(parameters, scene.integration);
+  declare_output(parameters, scene.output, scene.checkpoint);
+  declare_expect(parameters, scene.expect);
+  declare_pair_test(parameters, scene.pair_test);
+}
+
+} // namespace platen::apps

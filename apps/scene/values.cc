@@ -1,0 +1,146 @@
+#include "apps/scene/values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/scene/parameters.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr double largest_whole_number = 9007199254740992.0; // 2^53: beyond it doubles skip whole numbers
+
+void check(double value, const Range &range) {
+  if (!range.holds(value)) throw ValueError("is out of range");
+}
+
+} // namespace
+
+std::string Range::text() const {
+  const bool from = std::isfinite(low), to = std::isfinite(high);
+  if (from && to)
+    return (low_included ? "" : "above ") + shortest_text(low) + " ... " + (high_included ? "" : "below ") +
+           shortest_text(high);
+  if (from) return (low_included ? ">= " : "> ") + shortest_text(low);
+  if (to) return (high_included ? "<= " : "< ") + shortest_text(high);
+  return "";
+}
+
+double read_quantity(const std::string &text, const std::string &si_unit, const Range &range) {
+  if (text.empty()) return not_given;
+  const double value = to_si(text, si_unit);
+  check(value, range);
+  return value;
+}
+
+long read_integer(const std::string &text, const Range &range) {
+  const NumberWithUnit number = split_number(text);
+  if (!number.unit.empty())
+    throw ValueError("is not a whole number: it is followed by \"" + number.unit + "\"");
+  if (number.value != std::floor(number.value)) throw ValueError("is not a whole number");
+  check(number.value, range);
+  if (std::abs(number.value) > largest_whole_number) throw ValueError("is too large for a whole number");
+  return static_cast<long>(number.value);
+}
+
+bool read_flag(const std::string &text) {
+  if (text == "on" || text == "true" || text == "yes") return true;
+  if (text == "off" || text == "false" || text == "no") return false;
+  throw ValueError("is neither on nor off");
+}
+
+Interval read_interval(const std::string &text) {
+  const NumberWithUnit number = split_number(text);
+  if (number.value < 0) throw ValueError("is negative");
+  const bool time = !number.unit.empty();
+  const double value = time ? to_si(number, "s") : static_cast<double>(read_integer(text, at_least(0)));
+  if (value == 0) return {};
+  return {time ? Interval::Kind::time : Interval::Kind::steps, value};
+}
+
+Gap read_gap(const std::string &text) {
+  const NumberWithUnit number = split_number(text);
+  const Gap gap{number.unit == "R_min", number.unit == "R_min" ? number.value : to_si(number, "m")};
+  if (gap.value < 0) throw ValueError("is negative");
+  return gap;
+}
+
+Stiffness read_stiffness(const std::string &text, bool bulk_allowed) {
+  const NumberWithUnit number = split_number(text);
+  Stiffness stiffness{Stiffness::Kind::of_bond, number.value};
+  if (bulk_allowed && number.unit == "bulk")
+    stiffness.kind = Stiffness::Kind::of_bulk;
+  else if (!number.unit.empty())
+    stiffness = {Stiffness::Kind::absolute, to_si(number, "N/m")};
+  check(stiffness.value, above(0));
+  return stiffness;
+}
+
+std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range) {
+  std::vector<double> values;
+  if (text.empty()) return values;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', first), text.size());
+    const std::string item = tidy(text.substr(first, comma - first));
+    try {
+      if (item.empty()) throw ValueError("is empty");
+      values.push_back(read_quantity(item, si_unit, range));
+    } catch (const ValueError &error) {
+      throw ValueError("holds an item, \"" + item + "\", that " + error.what());
+    }
+    first = comma + 1;
+  }
+  return values;
+}
+
+Expectation read_expectation(const std::string &text, const std::string &si_unit) {
+  Expectation expectation;
+  expectation.text = text;
+  if (text.empty()) return expectation;
+  const std::size_t dots = text.find("...");
+  if (dots == std::string::npos) throw ValueError("is no range: \"low ... high\" is");
+  const std::string low = tidy(text.substr(0, dots)), high = tidy(text.substr(dots + 3));
+  if (low.empty() && high.empty()) throw ValueError("is no range: neither low nor high is given");
+  if (!low.empty()) expectation.low = to_si(low, si_unit);
+  if (!high.empty()) expectation.high = to_si(high, si_unit);
+  if (expectation.low > expectation.high) throw ValueError("is an empty range: low is above high");
+  return expectation;
+}
+
+std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
+                      const std::vector<std::string> &not_yet) {
+  const std::string word = tidy(text);
+  const auto position = std::find(words.begin(), words.end(), word);
+  if (std::find(not_yet.begin(), not_yet.end(), word) != not_yet.end())
+    throw ValueError("is not available in this version");
+  if (position == words.end()) {
+    const std::string nearest = nearest_word(word, words);
+    throw ValueError("is not known." + (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?"));
+  }
+  return static_cast<std::size_t>(position - words.begin());
+}
+
+std::string text_of(const Interval &interval) {
+  if (interval.kind == Interval::Kind::none) return "0";
+  return shortest_text(interval.value) + (interval.kind == Interval::Kind::time ? " s" : "");
+}
+
+std::string text_of(const Gap &gap) {
+  return shortest_text(gap.value) + (gap.relative ? " R_min" : " m");
+}
+
+std::string text_of(const Stiffness &stiffness) {
+  const char *unit = stiffness.kind == Stiffness::Kind::absolute  ? " N/m"
+                     : stiffness.kind == Stiffness::Kind::of_bulk ? " bulk"
+                                                                  : "";
+  return shortest_text(stiffness.value) + unit;
+}
+
+std::string joined(const std::vector<std::string> &words) {
+  std::string text;
+  for (const std::string &word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+} // namespace platen::apps

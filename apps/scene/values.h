@@ -1,0 +1,74 @@
+// Texts of a scene file to values and back: ranges, words, and the kinds of number that this format knows.
+// Every function throws ValueError for a text that is no such value.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene.h"
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+
+// The numbers that an entry allows.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_included = true, high_included = true;
+
+  bool holds(double value) const {
+    return (low_included ? value >= low : value > low) && (high_included ? value <= high : value < high);
+  }
+  std::string text() const; // "0 ... 5", "> 0", ">= 0", "above 0 ... 1"; "" for all numbers
+};
+
+inline Range any_number() {
+  return {};
+}
+inline Range above(double low) {
+  Range range;
+  range.low = low, range.low_included = false;
+  return range;
+}
+inline Range at_least(double low) {
+  Range range;
+  range.low = low;
+  return range;
+}
+inline Range between(double low, double high) {
+  return {low, high, true, true};
+}
+inline Range above_up_to(double low, double high) {
+  return {low, high, false, true};
+}
+inline Range between_open(double low, double high) {
+  return {low, high, false, false};
+}
+
+// A number with its unit, inside the range; "" is NaN.
+double read_quantity(const std::string &text, const std::string &si_unit, const Range &range);
+// A whole number without a unit.
+long read_integer(const std::string &text, const Range &range);
+// on / off, true / false, yes / no.
+bool read_flag(const std::string &text);
+// "200" steps, "0.1 ms", "10 min"; 0 is none.
+Interval read_interval(const std::string &text);
+// "0.05 R_min" or a length; not negative.
+Gap read_gap(const std::string &text);
+// "2" of the bond's, "4e5 N/m", and, where it is allowed, "0.01 bulk".
+Stiffness read_stiffness(const std::string &text, bool bulk_allowed);
+// "1 GPa, 2 GPa"; "" is no number.
+std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range);
+// "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
+Expectation read_expectation(const std::string &text, const std::string &si_unit);
+// The place of a word in `words`; `not_yet` are words that this version knows and cannot do.
+std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
+                      const std::vector<std::string> &not_yet);
+
+std::string text_of(const Interval &interval);
+std::string text_of(const Gap &gap);
+std::string text_of(const Stiffness &stiffness);
+std::string joined(const std::vector<std::string> &words); // "a, b, c"
+
+} // namespace platen::apps

@@ -1,0 +1,14 @@
+// What this program was made of.
+#pragma once
+
+#include <string>
+
+namespace platen::apps {
+
+// "Platen 0.1.0 (commit 1a2b3c4, Release)\ncompiler GCC 12.2.0\ndeal.II 9.4.1, Trilinos 13.2.0, VTK 9.1.0".
+std::string version_text();
+
+// The first line only: for summary.json and logs.
+std::string version_line();
+
+} // namespace platen::apps
