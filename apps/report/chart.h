@@ -1,0 +1,75 @@
+// Line charts in the house form: white ground, units at the axes, round ticks, a legend that hides no curve.
+#pragma once
+
+#include <vtkChartXY.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "apps/report/canvas.h"
+#include "apps/report/style.h"
+
+namespace platen::apps::report {
+
+enum class Stroke { solid, dashed };
+
+struct Curve {
+  std::string label;        // empty: not in the legend
+  std::vector<double> x, y; // points with a value that is not finite are left out
+  Colour colour = colours::black;
+  Stroke stroke = Stroke::solid;
+  double width = 4; // pixels
+};
+
+struct Mark { // a dot
+  double x = 0, y = 0;
+  std::string label; // as above
+  Colour colour = colours::black;
+};
+
+struct Chart {
+  std::string x_title, y_title; // with units
+  std::vector<Curve> curves;
+  std::vector<Mark> marks;
+  std::array<double, 2> x_range{0, 0}; // both 0: from the curves
+};
+
+// The x range that a chart takes from its curves and marks; holds zero.
+std::array<double, 2> x_range_of(const Chart &chart);
+
+// Where the legend stands and how far the y axis reaches for it.
+struct LegendPlace {
+  bool left = false; // in the upper left corner, else in the upper right
+  double y_top = 0;  // upper end of the y axis
+};
+
+// The upper corner where a legend of the given size (fractions of the plot) hides no curve; where each does,
+// the y axis is made longer. `x` and `y` are the ranges of the axes without a legend.
+LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array<double, 2> y, double width,
+                         double height);
+
+// Draws charts one above the other, plots of the given heights (pixels), with a head over all, and writes
+// them. Throws OutputError.
+void save_charts(const std::string &title, const std::string &subtitle, const std::vector<Chart> &charts,
+                 const std::vector<int> &heights, const std::filesystem::path &png);
+
+// Pieces that other pictures use too.
+
+// Where the axes of a chart stand, in pixels of the written picture, origin lower left.
+struct PlotArea {
+  double left = 0, bottom = 0, width = 0, height = 0;
+};
+// An empty chart whose axes stand there.
+vtkSmartPointer<vtkChartXY> frame_chart(const PlotArea &area);
+enum class Sign { shown, dropped };
+// An axis over `range` with round ticks, about `intervals` of them.
+void set_axis(vtkAxis *axis, std::array<double, 2> range, int intervals, Sign sign = Sign::shown);
+// The titles of its axes.
+void add_axis_titles(Canvas &canvas, const PlotArea &area, const std::string &x_title,
+                     const std::string &y_title);
+// Lays charts over the whole canvas.
+void add_chart_scene(Canvas &canvas, const std::vector<vtkSmartPointer<vtkChartXY>> &charts);
+
+} // namespace platen::apps::report

@@ -1,0 +1,134 @@
+// Broken bonds as discs in the half specimen, and their density over radius and height.
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkDoubleArray.h>
+#include <vtkFeatureEdges.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRegularPolygonSource.h>
+
+#include <cmath>
+
+#include "apps/report/crack_density.h"
+#include "apps/report/heat_map.h"
+#include "apps/report/pictures.h"
+#include "apps/report/specimen_view.h"
+
+namespace platen::apps::report {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Discs of the bonds' areas, at right angles to their normals.
+void add_discs(vtkRenderer *renderer, const std::vector<Crack> &cracks, bool in_tension, Colour colour) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> normals, sizes;
+  normals->SetName("normal");
+  normals->SetNumberOfComponents(3);
+  sizes->SetName("radius");
+  for (const Crack &crack : cracks) {
+    if (crack.in_tension != in_tension || crack.place.y > 0) continue;
+    points->InsertNextPoint(crack.place.x, crack.place.y, crack.place.z);
+    normals->InsertNextTuple3(crack.nx, crack.ny, crack.nz);
+    sizes->InsertNextValue(std::sqrt(crack.area / pi));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(normals);
+  data->GetPointData()->AddArray(sizes);
+  vtkNew<vtkRegularPolygonSource> disc; // the mapper turns the x axis of the source into the normal
+  disc->SetNumberOfSides(20);
+  disc->SetRadius(1);
+  disc->SetNormal(1, 0, 0);
+  disc->GeneratePolylineOff();
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceConnection(disc->GetOutputPort());
+  mapper->SetOrientationArray("normal");
+  mapper->SetOrientationModeToDirection();
+  mapper->SetScaleArray("radius");
+  mapper->SetScaleModeToScaleByMagnitude();
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+  actor->GetProperty()->SetAmbient(0.45);
+  renderer->AddActor(actor);
+}
+
+// The edges of the half specimen: its cut face and the rims behind it.
+void add_outline(vtkRenderer *renderer, const Extent &extent) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  const auto line = [&](const std::vector<std::array<double, 3>> &path) {
+    lines->InsertNextCell(static_cast<int>(path.size()));
+    for (const auto &point : path)
+      lines->InsertCellPoint(points->InsertNextPoint(point.data()));
+  };
+  const double w = extent.half_width;
+  for (const double z : {extent.bottom, extent.top}) {
+    std::vector<std::array<double, 3>> rim{{w, 0, z}};
+    constexpr int segments = 48;
+    for (int k = 1; k < segments && extent.is_round; ++k)
+      rim.push_back({w * std::cos(pi * k / segments), -w * std::sin(pi * k / segments), z});
+    if (!extent.is_round) rim.insert(rim.end(), {{w, -w, z}, {-w, -w, z}});
+    rim.push_back({-w, 0, z});
+    rim.push_back({w, 0, z});
+    line(rim);
+  }
+  for (const double x : {-w, w})
+    line({{x, 0, extent.bottom}, {x, 0, extent.top}});
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.3, 0.3, 0.3);
+  actor->GetProperty()->SetLineWidth(3 * oversampling);
+  actor->GetProperty()->LightingOff();
+  renderer->AddActor(actor);
+}
+
+std::string counted(const std::vector<Crack> &cracks, bool in_tension) {
+  std::size_t count = 0;
+  for (const Crack &crack : cracks)
+    count += crack.in_tension == in_tension ? 1 : 0;
+  return std::to_string(count) + (in_tension ? " in tension" : " in shear");
+}
+
+} // namespace
+
+void draw_cracks(const Run &run, const Spheres &before_test, const std::filesystem::path &png) {
+  constexpr int width = 1640, height = 1240, head = Canvas::head_height, foot = 80;
+  const std::vector<Crack> cracks = cracks_until(*run.cracks, run.pattern_time(), before_test);
+  const Extent extent = extent_of(before_test);
+  Canvas canvas(width, height);
+  for (const bool in_tension : {true, false}) {
+    const double left = in_tension ? 0 : 0.5;
+    vtkRenderer *renderer =
+        canvas.add_renderer({left, double(foot) / height, left + 0.5, 1 - double(head) / height});
+    add_discs(renderer, cracks, in_tension, in_tension ? colours::vermilion : colours::blue);
+    add_outline(renderer, extent);
+    light_cut(renderer);
+    look_at_cut(renderer, extent, 0.12 * extent.height());
+    canvas.add_text(counted(cracks, in_tension), left + 0.25, 0.5 * foot / height, text_size);
+  }
+  canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", half of the specimen");
+  canvas.save(png);
+}
+
+void draw_crack_density(const Run &run, const Spheres &before_test, const std::filesystem::path &png) {
+  const std::vector<Crack> cracks = cracks_until(*run.cracks, run.pattern_time(), before_test);
+  std::vector<Place> bonds;
+  if (!run.bonds.empty()) bonds = bond_midpoints(run.bonds.frames.front());
+  save_heat_map(run.title, "Bonds broken until " + run.pattern_words(),
+                crack_density(cracks, bonds, extent_of(before_test)), png);
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,113 @@
+// Stress-strain curves and the energy ledger.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "apps/report/chart.h"
+#include "apps/report/pictures.h"
+
+namespace platen::apps::report {
+namespace {
+
+constexpr double mm_per_m = 1e3, pa_per_mpa = 1e6;
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double &value : values)
+    value *= factor;
+  return values;
+}
+
+std::string peak_words(const Run &run) {
+  char text[96];
+  std::snprintf(text, sizeof text, "peak %.1f MPa at %.2f mm/m", run.moments.peak_stress / pa_per_mpa,
+                run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m);
+  return text;
+}
+
+// With one run the kinds of strain have colours, with several the runs have; the lateral strain is told apart
+// by its side then.
+void add_stress_curves(Chart &chart, const Run &run, std::size_t k, bool several) {
+  const std::vector<double> stress = scaled(axial_stress(run.history), 1 / pa_per_mpa);
+  const auto add = [&](const char *column, const std::string &label, Stroke stroke, Colour colour,
+                       double width) {
+    if (!run.history.has(column)) return;
+    chart.curves.push_back({label, scaled(run.history.column(column), mm_per_m), stress,
+                            several ? run_colour(k) : colour, stroke, width});
+  };
+  add("axial_strain_platen",
+      (several ? run.name : std::string("axial")) + ", between platens: " + peak_words(run), Stroke::solid,
+      colours::blue, 5);
+  add("axial_strain_gauge", several ? run.name + ", gauge" : "axial, gauge (middle half)", Stroke::dashed,
+      colours::vermilion, 4);
+  add("lateral_strain", several ? "" : "lateral, gauge (middle half)", Stroke::solid, colours::green, 3);
+  chart.marks.push_back({run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m,
+                         run.moments.peak_stress / pa_per_mpa, "", several ? run_colour(k) : colours::blue});
+}
+
+void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several) {
+  for (const bool in_tension : {true, false}) {
+    const char *column = in_tension ? "broken_tension" : "broken_shear";
+    if (!run.history.has(column)) continue;
+    const std::string words = in_tension ? "broken in tension" : "broken in shear";
+    const Colour colour = in_tension ? colours::vermilion : colours::blue;
+    chart.curves.push_back({several ? run.name + ", " + words : words,
+                            scaled(run.history.column("axial_strain_platen"), mm_per_m),
+                            run.history.column(column), several ? run_colour(k) : colour,
+                            in_tension ? Stroke::solid : Stroke::dashed, 4});
+  }
+}
+
+struct LedgerLine {
+  const char *column, *words;
+  Colour colour;
+  Stroke stroke;
+};
+
+constexpr LedgerLine ledger[] = {
+    {"boundary_work_j", "work of the platens", colours::black, Stroke::solid},
+    {"bond_energy_j", "elastic, bonds", colours::blue, Stroke::solid},
+    {"contact_energy_j", "elastic, contacts", colours::sky_blue, Stroke::solid},
+    {"body_energy_j", "elastic, platens and sleeve", colours::green, Stroke::solid},
+    {"kinetic_energy_j", "kinetic", colours::purple, Stroke::solid},
+    {"fracture_work_j", "broken bonds", colours::vermilion, Stroke::dashed},
+    {"friction_work_j", "friction", colours::orange, Stroke::dashed},
+    {"damping_work_j", "damping", colours::grey, Stroke::dashed},
+    {"energy_residual_j", "residual (error of the ledger)", colours::green, Stroke::dashed},
+};
+
+} // namespace
+
+void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::path &png) {
+  const bool several = runs.size() > 1;
+  Chart stress, broken;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    add_stress_curves(stress, runs[k], k, several);
+    add_broken_bonds(broken, runs[k], k, several);
+  }
+  stress.x_title = several ? "Lateral (left) and axial strain (mm/m), compression positive"
+                           : "Strain (mm/m), compression positive";
+  stress.y_title = "Axial stress (MPa)";
+  broken.x_title = "Axial strain between platens (mm/m)";
+  broken.y_title = "Broken bonds";
+  broken.x_range = x_range_of(stress); // one above the other, strain under strain
+  save_charts(several ? "Runs compared" : runs[0].title, "Stress and broken bonds against strain",
+              {stress, broken}, {800, 450}, png);
+}
+
+void draw_energies(const Run &run, const std::filesystem::path &png) {
+  Chart chart;
+  const std::vector<double> strain = scaled(run.history.column("axial_strain_platen"), mm_per_m);
+  for (const LedgerLine &line : ledger) {
+    if (!run.history.has(line.column)) continue;
+    const std::vector<double> &energy = run.history.column(line.column);
+    const bool plays_a_part =
+        std::any_of(energy.begin(), energy.end(), [](double e) { return std::abs(e) > 0; });
+    if (plays_a_part) chart.curves.push_back({line.words, strain, energy, line.colour, line.stroke, 4});
+  }
+  chart.x_title = "Axial strain between platens (mm/m)";
+  chart.y_title = "Energy (J)";
+  save_charts(run.title, "Where the work of the platens went", {chart}, {900}, png);
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,158 @@
+#include "apps/report/frames.h"
+
+#include <vtkAppendFilter.h>
+#include <vtkCallbackCommand.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+// VTK tells of a damaged file on the screen and returns what it has; here its words become an exception.
+class SilencedVtk {
+public:
+  SilencedVtk() : shown_(vtkObject::GetGlobalWarningDisplay()) { vtkObject::GlobalWarningDisplayOff(); }
+  ~SilencedVtk() { vtkObject::SetGlobalWarningDisplay(shown_); }
+  SilencedVtk(const SilencedVtk &) = delete;
+  SilencedVtk &operator=(const SilencedVtk &) = delete;
+
+private:
+  int shown_;
+};
+
+vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::filesystem::path &file) {
+  const SilencedVtk silenced;
+  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": missing, though the .pvd lists it");
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> on_error;
+  on_error->SetClientData(&failed);
+  on_error->SetCallback(
+      [](vtkObject *, unsigned long, void *flag, void *) { *static_cast<bool *>(flag) = true; });
+  reader->AddObserver(vtkCommand::ErrorEvent, on_error);
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
+  // A cut-off file reads as one without points, and GetErrorCode() stays 0.
+  if (failed || reader->GetErrorCode() != 0 || grid->GetNumberOfPoints() == 0)
+    throw InputError(file.string() + ": damaged or empty, no points could be read");
+  return grid;
+}
+
+std::vector<double> point_field(vtkUnstructuredGrid &grid, const char *name, int component, int components,
+                                const std::string &where) {
+  vtkDataArray *array = grid.GetPointData()->GetArray(name);
+  if (array == nullptr) throw InputError(where + ": no point data \"" + name + "\"");
+  if (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != grid.GetNumberOfPoints())
+    throw InputError(where + ": point data \"" + name + "\" has another shape than expected");
+  std::vector<double> values(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = array->GetComponent(static_cast<vtkIdType>(k), component);
+  return values;
+}
+
+} // namespace
+
+const Frame &FrameSeries::nearest(double time) const {
+  return *std::min_element(frames.begin(), frames.end(), [time](const Frame &a, const Frame &b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  });
+}
+
+FrameSeries read_pvd(const std::filesystem::path &file) {
+  const SilencedVtk silenced;
+  FrameSeries series;
+  series.file = file;
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
+  vtkXMLDataElement *collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (collection == nullptr) throw InputError(file.string() + ": not a whole ParaView collection (.pvd)");
+
+  std::map<double, Frame> by_time;
+  for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
+    vtkXMLDataElement *entry = collection->GetNestedElement(k);
+    const char *name = entry->GetAttribute("file");
+    double time = 0;
+    if (name == nullptr || entry->GetScalarAttribute("timestep", time) != 1)
+      throw InputError(file.string() + ": an entry without file or timestep");
+    Frame &frame = by_time[time];
+    frame.time = time;
+    frame.parts.push_back(file.parent_path() / name);
+  }
+  for (auto &[time, frame] : by_time)
+    series.frames.push_back(std::move(frame));
+  return series;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame) {
+  if (frame.parts.size() == 1) return read_vtu(frame.parts[0]);
+  vtkNew<vtkAppendFilter> joined;
+  for (const auto &part : frame.parts)
+    joined->AddInputData(read_vtu(part));
+  joined->Update();
+  return joined->GetOutput();
+}
+
+double Spheres::outward_displacement(std::size_t k) const {
+  return std::hypot(x[k], y[k]) - std::hypot(x0[k], y0[k]);
+}
+
+double Spheres::damage(std::size_t k) const {
+  const double bonds = intact_bonds[k] + broken_bonds[k];
+  return bonds > 0 ? broken_bonds[k] / bonds : 0;
+}
+
+Spheres read_spheres(const Frame &frame) {
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
+  const std::string where = frame.parts.front().string();
+  Spheres spheres;
+  spheres.time = frame.time;
+  spheres.radius = point_field(*grid, "radius", 0, 1, where);
+  spheres.intact_bonds = point_field(*grid, "intact_bonds", 0, 1, where);
+  spheres.broken_bonds = point_field(*grid, "broken_bonds", 0, 1, where);
+  for (const double id : point_field(*grid, "id", 0, 1, where))
+    spheres.id.push_back(std::llround(id));
+  std::vector<double> *const now[] = {&spheres.x, &spheres.y, &spheres.z};
+  std::vector<double> *const before[] = {&spheres.x0, &spheres.y0, &spheres.z0};
+  for (int d = 0; d < 3; ++d) {
+    *before[d] = point_field(*grid, "displacement", d, 3, where);
+    now[d]->resize(before[d]->size());
+    for (std::size_t k = 0; k < now[d]->size(); ++k) {
+      (*now[d])[k] = grid->GetPoint(static_cast<vtkIdType>(k))[d];
+      (*before[d])[k] = (*now[d])[k] - (*before[d])[k];
+    }
+  }
+  return spheres;
+}
+
+Extent extent_of(const Spheres &spheres) {
+  Extent extent;
+  double reach = 0, half_x = 0, half_y = 0; // of the spheres' skins: from the axis, along x, along y
+  extent.bottom = extent.top = spheres.size() > 0 ? spheres.z0[0] : 0;
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const double r = spheres.radius[k];
+    reach = std::max(reach, std::hypot(spheres.x0[k], spheres.y0[k]) + r);
+    half_x = std::max(half_x, std::abs(spheres.x0[k]) + r);
+    half_y = std::max(half_y, std::abs(spheres.y0[k]) + r);
+    extent.bottom = std::min(extent.bottom, spheres.z0[k] - r);
+    extent.top = std::max(extent.top, spheres.z0[k] + r);
+  }
+  // In a box the corners are filled: the reach is up to sqrt(2) half widths, in a cylinder it is one.
+  constexpr double corner_reach = 1.15;
+  extent.half_width = std::max(half_x, half_y);
+  extent.is_round = reach < corner_reach * extent.half_width;
+  return extent;
+}
+
+} // namespace platen::apps::report

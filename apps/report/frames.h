@@ -1,0 +1,58 @@
+// Time series of VTU files listed by a .pvd, and what a frame of spheres holds.
+#pragma once
+
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace platen::apps::report {
+
+struct Frame {
+  double time = 0;                          // s
+  std::vector<std::filesystem::path> parts; // files that are shown together
+};
+
+struct FrameSeries {
+  std::filesystem::path file; // the .pvd
+  std::vector<Frame> frames;  // by time
+  bool empty() const { return frames.empty(); }
+  // The frame whose time is nearest. The series must not be empty.
+  const Frame &nearest(double time) const;
+};
+
+// Reads the list alone, not the frames. Throws InputError where the file is no .pvd or a frame is not there.
+FrameSeries read_pvd(const std::filesystem::path &file);
+
+// The parts of a frame, joined, cells and points. Throws InputError where a part is missing, damaged or
+// empty.
+vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame);
+
+// A frame of spheres as plain columns.
+struct Spheres {
+  double time = 0;                                // s
+  std::vector<double> x, y, z, radius;            // m, now
+  std::vector<double> x0, y0, z0;                 // m, before the test: position less displacement
+  std::vector<double> intact_bonds, broken_bonds; // each counts for both its ends
+  std::vector<long long> id;
+
+  std::size_t size() const { return x.size(); }
+  double outward_displacement(std::size_t k) const; // m, away from the axis x = y = 0, in the plane across it
+  double damage(std::size_t k) const;               // broken share of the bonds; 0 for a sphere that had none
+};
+
+// Throws InputError where a field is missing or has another length than there are points.
+Spheres read_spheres(const Frame &frame);
+
+// Size of the specimen as it was before the test, skin included.
+struct Extent {
+  bool is_round = true;       // a cylinder; else a box
+  double half_width = 0;      // m, cylinder radius, or half the larger side of the box
+  double bottom = 0, top = 0; // m
+  double height() const { return top - bottom; }
+};
+Extent extent_of(const Spheres &spheres);
+
+} // namespace platen::apps::report

@@ -1,0 +1,37 @@
+// The pictures of a report, one function each. All need an X server (display.h) and throw OutputError where
+// the file cannot be written.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "apps/report/run_folder.h"
+
+namespace platen::apps::report {
+
+// Axial stress against platen, gauge and lateral strain, the peak marked; below, broken bonds by mode against
+// platen strain. Several runs share the axes, one colour each.
+void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::path &png);
+
+// The ledger: where the work of the platens went, against platen strain.
+void draw_energies(const Run &run, const std::filesystem::path &png);
+
+// The half specimen coloured by outward displacement, or by the broken share of each sphere's bonds: when the
+// stress has fallen to 0.8 of the peak (where it did) and at the end. `extent` is the specimen's before the
+// test.
+void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png);
+void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png);
+
+// Damage of several runs side by side, each at its Run::pattern_time(). Runs without frames are left out.
+void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
+
+// The bonds broken up to Run::pattern_time() as discs of their areas in the half specimen: those that broke
+// in tension on the left, in shear on the right. `before_test` is the first frame of the specimen. The run
+// must have cracks.
+void draw_cracks(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
+// The same, counted over radius and height: as a share of the initial bonds where bonds.pvd is there, else
+// per volume.
+void draw_crack_density(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
+} // namespace platen::apps::report

@@ -1,0 +1,22 @@
+# Sources of platen-report but for its main, apps/platen_report.cc. They need nlohmann_json::nlohmann_json, X11::X11
+# (find_package(X11)) and these components of VTK:
+#   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOImage IOXML IOXMLParser
+#   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
+# and vtk_module_autoinit() with them, else nothing is drawn.
+set(PLATEN_REPORT_SOURCES
+  report/canvas.cc
+  report/chart.cc
+  report/comparison.cc
+  report/crack_density.cc
+  report/crack_pictures.cc
+  report/csv.cc
+  report/curves.cc
+  report/display.cc
+  report/frames.cc
+  report/heat_map.cc
+  report/moments.cc
+  report/report.cc
+  report/run_folder.cc
+  report/specimen_pictures.cc
+  report/specimen_view.cc
+  report/style.cc)

@@ -1,0 +1,68 @@
+// Pictures of the cut specimen: outward displacement, damage, and several runs side by side.
+#include <algorithm>
+
+#include "apps/report/pictures.h"
+#include "apps/report/specimen_view.h"
+
+namespace platen::apps::report {
+namespace {
+
+enum class Quantity { outward_displacement, damage };
+
+std::vector<double> values_of(const Spheres &spheres, Quantity quantity) {
+  constexpr double mm_per_m = 1e3;
+  std::vector<double> values(spheres.size());
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = quantity == Quantity::damage ? spheres.damage(k) : spheres.outward_displacement(k) * mm_per_m;
+  return values;
+}
+
+CutView view_at(const Run &run, double time, Quantity quantity, const std::string &caption) {
+  CutView view;
+  view.caption = caption;
+  view.spheres = read_spheres(run.specimen.nearest(time));
+  view.values = values_of(view.spheres, quantity);
+  if (!run.platens.empty()) view.platens = read_frame(run.platens.nearest(time));
+  return view;
+}
+
+Colouring colouring_of(Quantity quantity, const std::vector<CutView> &views) {
+  if (quantity == Quantity::damage) return {Ramp::damage, round_ticks(0, 1, 5), "Share of\nbonds broken"};
+  return {Ramp::displacement, ticks_for(views), "Outward\ndisplacement\n(mm)"};
+}
+
+void draw_pattern_and_end(const Run &run, const Extent &extent, Quantity quantity, const std::string &what,
+                          const std::filesystem::path &png) {
+  std::vector<CutView> views;
+  if (run.moments.post_peak_time)
+    views.push_back(view_at(run, *run.moments.post_peak_time, quantity, "at " + run.pattern_words()));
+  views.push_back(view_at(run, run.moments.end_time, quantity, "at the end"));
+  save_cut_views(run.title, what + ", half of the specimen", views, extent, colouring_of(quantity, views),
+                 png);
+}
+
+} // namespace
+
+void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png) {
+  draw_pattern_and_end(run, extent, Quantity::outward_displacement, "Outward displacement", png);
+}
+
+void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png) {
+  draw_pattern_and_end(run, extent, Quantity::damage, "Damage", png);
+}
+
+void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {
+  std::vector<CutView> views;
+  Extent largest;
+  for (const Run &run : runs) {
+    if (run.specimen.empty()) continue;
+    views.push_back(
+        view_at(run, run.pattern_time(), Quantity::damage, run.name + ", at " + run.pattern_words()));
+    const Extent extent = extent_of(read_spheres(run.specimen.frames.front()));
+    if (extent.height() > largest.height()) largest = extent;
+  }
+  save_cut_views("Damage compared", "Half of each specimen", views, largest,
+                 colouring_of(Quantity::damage, views), png);
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,176 @@
+#include "apps/report/specimen_view.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkClipDataSet.h>
+#include <vtkDataSetMapper.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::apps::report {
+namespace {
+
+constexpr int panel_width = 760, picture_height = 1240, bar_width = 260, caption_height = 80;
+
+vtkSmartPointer<vtkPolyData> half_as_points(const CutView &view) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> radius; // the mapper takes its bytes for floats, whatever they are
+  vtkNew<vtkDoubleArray> value;
+  radius->SetName("radius");
+  value->SetName("value");
+  for (const std::size_t k : kept_half(view.spheres)) {
+    points->InsertNextPoint(view.spheres.x[k], view.spheres.y[k], view.spheres.z[k]);
+    radius->InsertNextValue(static_cast<float>(view.spheres.radius[k]));
+    value->InsertNextValue(view.values[k]);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
+    vertices->InsertNextCell(1, &k);
+  data->SetVerts(vertices);
+  data->GetPointData()->AddArray(radius);
+  data->GetPointData()->AddArray(value);
+  return data;
+}
+
+void add_spheres(vtkRenderer *renderer, const CutView &view, vtkScalarsToColors *colours) {
+  vtkNew<vtkOpenGLSphereMapper> mapper;
+  mapper->SetInputData(half_as_points(view));
+  mapper->SetScaleArray("radius");
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray("value");
+  mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.3);
+  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetSpecular(0.12);
+  actor->GetProperty()->SetSpecularPower(20);
+  renderer->AddActor(actor);
+}
+
+} // namespace
+
+std::vector<std::size_t> kept_half(const Spheres &spheres) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < spheres.size(); ++k)
+    if (spheres.y0[k] <= 0) rows.push_back(k);
+  return rows;
+}
+
+std::vector<double> ticks_for(const std::vector<CutView> &views) {
+  std::vector<double> all;
+  for (const CutView &view : views)
+    for (const std::size_t k : kept_half(view.spheres))
+      all.push_back(view.values[k]);
+  if (all.empty()) return {0, 1};
+  const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), place, all.end());
+  return round_ticks(0, *place > 0 ? *place : 1, 5);
+}
+
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left) {
+  vtkRenderer *renderer = canvas.add_renderer({left, 0, 1, 1});
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()));
+  bar->SetTitle((colouring.title + "\n ").c_str());
+  bar->SetNumberOfLabels(static_cast<int>(colouring.ticks.size()));
+  bar->SetLabelFormat("%g");
+  bar->SetMaximumNumberOfColors(256);
+  bar->UnconstrainedFontSizeOn();
+  set_letters(bar->GetTitleTextProperty(), small_size);
+  set_letters(bar->GetLabelTextProperty(), small_size);
+  bar->SetBarRatio(0.25);
+  bar->SetTextPad(4 * oversampling);
+  bar->SetPosition(0.05, 0.2);
+  bar->SetWidth(0.9);
+  bar->SetHeight(0.6);
+  renderer->AddActor2D(bar);
+}
+
+void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin) {
+  constexpr double rise = 0.12; // tangent of the angle from above, about 7 degrees
+  const double middle = 0.5 * (extent.bottom + extent.top), far = 10 * (extent.height() + extent.half_width);
+  renderer->GetActiveCamera()->ParallelProjectionOn();
+  renderer->GetActiveCamera()->SetFocalPoint(0, 0, middle);
+  renderer->GetActiveCamera()->SetPosition(0, far, middle + rise * far);
+  renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
+  double aspect[2];
+  renderer->ComputeAspect();
+  renderer->GetAspect(aspect);
+  const double for_height = 0.5 * extent.height() + margin,
+               for_width = (extent.half_width + margin) / aspect[0];
+  renderer->GetActiveCamera()->SetParallelScale(std::max(for_height, for_width));
+  renderer->ResetCameraClippingRange();
+}
+
+void light_cut(vtkRenderer *renderer) {
+  renderer->RemoveAllLights();
+  renderer->AutomaticLightCreationOff();
+  const auto add = [renderer](double right, double up, double intensity) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight(); // in camera axes: x right, y up, z towards the eye
+    light->SetPosition(right, up, 1);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(intensity);
+    renderer->AddLight(light);
+  };
+  add(-0.6, 0.8, 0.8);
+  add(0.7, 0.1, 0.3);
+}
+
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, 0);
+  plane->SetNormal(0, -1, 0);
+  vtkNew<vtkClipDataSet> half;
+  half->SetInputData(platens);
+  half->SetClipFunction(plane);
+  vtkNew<vtkDataSetMapper> mapper;
+  mapper->SetInputConnection(half->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.62, 0.66, 0.70);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetAmbient(0.25);
+  renderer->AddActor(actor);
+}
+
+void save_cut_views(const std::string &title, const std::string &subtitle, const std::vector<CutView> &views,
+                    const Extent &extent, const Colouring &colouring, const std::filesystem::path &png) {
+  const int width = static_cast<int>(views.size()) * panel_width + bar_width;
+  Canvas canvas(width, picture_height);
+  const auto colours = colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back());
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const double left = static_cast<double>(k) * panel_width / width,
+                 right = left + double(panel_width) / width;
+    vtkRenderer *renderer = canvas.add_renderer({left, double(caption_height) / picture_height, right,
+                                                 1 - double(Canvas::head_height) / picture_height});
+    add_spheres(renderer, views[k], colours);
+    if (views[k].platens) add_platens(renderer, views[k].platens);
+    light_cut(renderer);
+    look_at_cut(renderer, extent, 0.12 * extent.height());
+    canvas.add_text(views[k].caption, 0.5 * (left + right), 0.5 * caption_height / picture_height, text_size,
+                    0.95 * (right - left));
+  }
+  add_colour_bar(canvas, colouring, 1 - double(bar_width) / width);
+  canvas.add_head(title, subtitle);
+  canvas.save(png);
+}
+
+} // namespace platen::apps::report
