@@ -1,0 +1,118 @@
+#include "dem/measure/damage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace platen::dem {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+double half_width(const Shape &shape) {
+  return shape.kind == ShapeKind::cylinder ? shape.radius : 0.5 * std::min(shape.width_x, shape.width_y);
+}
+
+// Distance from the axis: of a circle, or of the square that the box is.
+double from_axis(const Vector3 &x, const Shape &shape) {
+  if (shape.kind == ShapeKind::cylinder) return std::hypot(x.x, x.y);
+  return std::max(std::abs(x.x), std::abs(x.y));
+}
+
+Vector3 outward(const Vector3 &x, const Shape &shape) {
+  if (shape.kind == ShapeKind::cylinder) {
+    const double r = std::hypot(x.x, x.y);
+    return r > 0 ? Vector3{x.x / r, x.y / r, 0} : Vector3{};
+  }
+  return std::abs(x.x) >= std::abs(x.y) ? Vector3{std::copysign(1.0, x.x), 0, 0}
+                                        : Vector3{0, std::copysign(1.0, x.y), 0};
+}
+
+bool is_broken(int state) {
+  return state >= static_cast<int>(BondState::broken_in_tension);
+}
+
+Vector3 reference_midpoint(const Particles &p, const Bonds &b, std::size_t record) {
+  return 0.5 * (p.reference_position[b.record_first[record]] + p.reference_position[b.record_second[record]]);
+}
+
+struct Count {
+  int initial = 0, broken = 0;
+  void add(bool is) { ++initial, broken += is; }
+  double share() const { return initial == 0 ? not_a_number : static_cast<double>(broken) / initial; }
+};
+
+} // namespace
+
+DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape &shape) {
+  const double rc = half_width(shape), h = shape.height;
+  Count top, bottom, middle;
+  for (std::size_t k = 0; k < b.initial_count(); ++k) {
+    const Vector3 m = reference_midpoint(p, b, k);
+    if (from_axis(m, shape) >= 0.5 * rc) continue;
+    const bool broken = is_broken(b.state[k]);
+    if (m.z < 0.5 * rc) bottom.add(broken);
+    if (m.z > h - 0.5 * rc) top.add(broken);
+    if (std::abs(m.z - 0.5 * h) < 0.25 * rc) middle.add(broken);
+  }
+  return {top.share(), bottom.share(), middle.share()};
+}
+
+std::vector<double> skin_opening(const Particles &p, const Bonds &b, const Shape &shape) {
+  const BondCounts counts = bond_counts(p, b);
+  std::vector<double> sum(10, 0.0), n(10, 0.0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (counts.intact[i] == 0 || from_axis(x, shape) <= 0.8 * half_width(shape)) continue;
+    const std::size_t slice =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(10 * x.z / shape.height), 0, 9));
+    sum[slice] += dot(p.position[i] - x, outward(x, shape));
+    n[slice] += 1;
+  }
+  for (std::size_t s = 0; s < 10; ++s)
+    sum[s] = n[s] > 0 ? sum[s] / n[s] : not_a_number;
+  return sum;
+}
+
+double end_spread(const std::vector<double> &opening) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double o : opening)
+    if (o > largest) largest = o;
+  const double ends = std::fmax(opening.front(), opening.back());
+  return largest > 0 ? ends / largest : not_a_number;
+}
+
+double barrel(const std::vector<double> &opening) {
+  const double middle = 0.5 * (opening[4] + opening[5]);
+  return middle > 0 ? 0.5 * (opening.front() + opening.back()) / middle : not_a_number;
+}
+
+DamageGrid damage_grid(const Particles &p, const Bonds &b, const Shape &shape, int rings, int layers) {
+  DamageGrid grid{rings, layers, {}, {}};
+  grid.initial.assign(static_cast<std::size_t>(rings) * static_cast<std::size_t>(layers), 0);
+  grid.broken = grid.initial;
+  for (std::size_t k = 0; k < b.initial_count(); ++k) {
+    const Vector3 m = reference_midpoint(p, b, k);
+    const int ring =
+        std::clamp(static_cast<int>(rings * from_axis(m, shape) / half_width(shape)), 0, rings - 1);
+    const int layer = std::clamp(static_cast<int>(layers * m.z / shape.height), 0, layers - 1);
+    const std::size_t cell = static_cast<std::size_t>(layer * rings + ring);
+    ++grid.initial[cell];
+    grid.broken[cell] += is_broken(b.state[k]);
+  }
+  return grid;
+}
+
+BondCounts bond_counts(const Particles &p, const Bonds &b) {
+  BondCounts counts;
+  counts.intact.assign(p.size(), 0);
+  counts.broken = counts.intact;
+  for (std::size_t k = 0; k < b.initial_count(); ++k) {
+    std::vector<int> &column = is_broken(b.state[k]) ? counts.broken : counts.intact;
+    ++column[static_cast<std::size_t>(b.record_first[k])];
+    ++column[static_cast<std::size_t>(b.record_second[k])];
+  }
+  return counts;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,43 @@
+// Where a specimen is broken and how it has opened: the measures that tell friction from no friction at its
+// ends.
+#pragma once
+
+#include <vector>
+
+#include "dem/bonds.h"
+#include "dem/packing/specimen.h"
+#include "dem/particles.h"
+
+namespace platen::dem {
+
+// Broken over initial bonds whose reference midpoint lies in a region; NaN where it holds none.
+struct DamageByRegion {
+  double end_top = 0, end_bottom = 0; // r < R_c/2 and within R_c/2 of the end plane
+  double middle = 0;                  // r < R_c/2 and |z - H/2| < R_c/4
+  double worse_end() const { return end_top > end_bottom ? end_top : end_bottom; }
+};
+DamageByRegion damage_by_region(const Particles &particles, const Bonds &bonds, const Shape &shape);
+
+// Mean outward displacement of the skin (reference r > 0.8 R_c, at least one intact bond) in ten slices of
+// equal height from bottom to top, m; NaN for a slice without skin.
+std::vector<double> skin_opening(const Particles &particles, const Bonds &bonds, const Shape &shape);
+// Larger of the two end slices over the largest slice.
+double end_spread(const std::vector<double> &opening);
+// Mean of the two end slices over the mean of the two middle ones.
+double barrel(const std::vector<double> &opening);
+
+// Counts on a grid of rings (equal steps of r) and layers (equal steps of z) by reference midpoint.
+struct DamageGrid {
+  int rings = 0, layers = 0;
+  std::vector<int> initial, broken; // [layer * rings + ring]
+};
+DamageGrid damage_grid(const Particles &particles, const Bonds &bonds, const Shape &shape, int rings,
+                       int layers);
+
+// Initial and broken bonds of each particle.
+struct BondCounts {
+  std::vector<int> intact, broken;
+};
+BondCounts bond_counts(const Particles &particles, const Bonds &bonds);
+
+} // namespace platen::dem

@@ -1,0 +1,92 @@
+#include "dem/measure/gauge.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace platen::dem {
+
+Gauge::Gauge(const Particles &p, const Shape &shape) {
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (std::abs(p.reference_position[i].z - 0.5 * shape.height) < 0.25 * shape.height)
+      rows_.push_back(static_cast<int>(i));
+  for (const int i : rows_)
+    centre_ += p.reference_position[i];
+  if (!rows_.empty()) centre_ *= 1.0 / static_cast<double>(rows_.size());
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const int i : rows_) {
+    const Vector3 x = p.reference_position[i] - centre_;
+    const Eigen::Vector3d v(x.x, x.y, x.z);
+    moments += v * v.transpose();
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(moments);
+  if (rows_.size() < 4 || !lu.isInvertible()) {
+    rows_.clear(); // too few particles to tell a strain
+    return;
+  }
+  const Eigen::Matrix3d inverse = lu.inverse();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      inverse_[3 * r + c] = inverse(r, c);
+}
+
+GaugeStrain Gauge::strain(const Particles &p) const {
+  if (rows_.empty()) return {std::nan(""), std::nan(""), std::nan("")};
+  // Row k of `sum`: sum over particles of u_k (X - X_centre); gradient = sum inverse.
+  Vector3 sum[3];
+  for (const int i : rows_) {
+    const Vector3 x = p.reference_position[i] - centre_, u = p.position[i] - p.reference_position[i];
+    for (int k = 0; k < 3; ++k)
+      sum[k] += u[k] * x;
+  }
+  const auto gradient = [&](int k) {
+    return sum[k].x * inverse_[k] + sum[k].y * inverse_[3 + k] + sum[k].z * inverse_[6 + k];
+  };
+  return {gradient(2), gradient(0), gradient(1)};
+}
+
+ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape) {
+  double mean = 0;
+  for (const double r : p.radius)
+    mean += r / static_cast<double>(p.size());
+  for (int section = 1; section <= 3; ++section) {
+    const double z = 0.25 * section * shape.height;
+    for (int axis = 0; axis < 2; ++axis) {
+      std::array<int, 2> ends{-1, -1};
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vector3 &x = p.reference_position[i];
+        // A slab two spheres thick, and near the diameter, as the thesis' figure 22 shows.
+        if (std::abs(x.z - z) > 2 * mean || std::abs(x[1 - axis]) > 2 * mean) continue;
+        if (ends[0] < 0 || x[axis] < p.reference_position[ends[0]][axis]) ends[0] = static_cast<int>(i);
+        if (ends[1] < 0 || x[axis] > p.reference_position[ends[1]][axis]) ends[1] = static_cast<int>(i);
+      }
+      if (ends[0] >= 0 && ends[1] != ends[0]) across_.push_back(ends);
+    }
+  }
+  along_ = {-1, -1};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (x.x * x.x + x.y * x.y > 9 * mean * mean) continue;
+    if (along_[0] < 0 || x.z < p.reference_position[along_[0]].z) along_[0] = static_cast<int>(i);
+    if (along_[1] < 0 || x.z > p.reference_position[along_[1]].z) along_[1] = static_cast<int>(i);
+  }
+}
+
+double ExtremalPairs::lateral(const Particles &p) const {
+  if (across_.empty()) return std::nan("");
+  double now = 0, before = 0;
+  for (const auto &pair : across_) {
+    now += norm(p.position[pair[1]] - p.position[pair[0]]);
+    before += norm(p.reference_position[pair[1]] - p.reference_position[pair[0]]);
+  }
+  return now / before - 1;
+}
+
+double ExtremalPairs::axial(const Particles &p) const {
+  if (along_[0] < 0 || along_[0] == along_[1]) return std::nan("");
+  return (p.position[along_[1]].z - p.position[along_[0]].z) /
+             (p.reference_position[along_[1]].z - p.reference_position[along_[0]].z) -
+         1;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,46 @@
+// Strain of the middle of a specimen, away from its ends.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dem/packing/specimen.h"
+#include "dem/particles.h"
+
+namespace platen::dem {
+
+struct GaugeStrain {
+  double axial = 0, lateral_x = 0, lateral_y = 0; // tension positive
+  double lateral() const { return 0.5 * (lateral_x + lateral_y); }
+};
+
+// Best-fit displacement gradient over the particles whose reference centre lies in |z - H/2| < H/4: least
+// squares of the displacement on the reference position, less noisy than pairs of single particles.
+class Gauge {
+public:
+  Gauge(const Particles &particles, const Shape &shape);
+  GaugeStrain strain(const Particles &particles) const;
+  std::size_t size() const { return rows_.size(); }
+
+private:
+  std::vector<int> rows_;
+  Vector3 centre_;
+  std::array<double, 9> inverse_{}; // of the second moments of the reference positions
+};
+
+// Lateral and axial strain the way of Tannu 2017 (32)-(34): in three sections (a quarter, half and three
+// quarters of the height) two pairs of outermost particles, along x and along y; the mean of the six
+// distances gives the lateral strain. Axial from the topmost and the lowest particle nearest to the axis of
+// each end.
+class ExtremalPairs {
+public:
+  ExtremalPairs(const Particles &particles, const Shape &shape);
+  double lateral(const Particles &particles) const; // tension positive
+  double axial(const Particles &particles) const;   // tension positive
+
+private:
+  std::vector<std::array<int, 2>> across_;
+  std::array<int, 2> along_{};
+};
+
+} // namespace platen::dem
