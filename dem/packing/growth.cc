@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,10 +20,12 @@ constexpr double bulk_fraction = 0.648, wall_loss = 0.33;
 // The first state at rest is over-full by this fraction; low enough to stay amorphous, high enough to be
 // solid.
 constexpr double overfill = 0.03;
-constexpr double final_overlap = 1e-4; // mean, in mean radii: contacts are known, positions are not strained
+constexpr double final_overlap = 5e-5; // mean, in mean radii: contacts are known, positions are not strained
 constexpr double overlap_step = 0.4;   // each stage aims at this part of the last mean overlap
-constexpr double rough = 1e-2,
-                 fine = 5e-3; // residual force over mean contact force: passing stages, the last one
+// Residual force over mean contact force at which a stage is at rest. Looser stages overshoot: the system
+// still creeps towards denser states, and the last stage then takes far longer.
+constexpr double at_rest = 4e-3;
+constexpr double seating_force = 0.1; // on loose spheres, in mean contact forces: too weak to move the others
 constexpr double jammed_contacts = 4.5; // contacts per sphere (walls counted) that only a rigid packing shows
 constexpr int most_stages = 60, most_attempts = 4;
 constexpr long most_iterations = 200000; // of one stage
@@ -95,18 +95,16 @@ Shape scaled(Shape shape, double s) {
   return shape;
 }
 
-// Shrinks an over-full system at rest until its mean overlap is final_overlap; returns stages, adds
-// iterations.
+// Shrinks an over-full system at rest until its mean overlap is final_overlap, then seats the loose spheres.
+// Returns the number of stages and adds to the iterations.
 int decompress(SoftSpheres &spheres, std::size_t n, Random &random, GrowthReport &made) {
   double slope = 1.8; // mean overlap lost per relative loss of size; measured as soon as two stages are known
   double last_scale = 0, last_overlap = 0;
   double target = 0;
   for (int stage = 1; stage <= most_stages; ++stage) {
     const bool last = target > 0 && target <= final_overlap;
-    if (last) made.loose_spheres = spheres.press_loose_spheres(0.5 * final_overlap, random);
-    made.iterations += spheres.relax(last ? fine : rough, 1e-3 * final_overlap, most_iterations);
+    made.iterations += spheres.relax(at_rest, 1e-3 * final_overlap, most_iterations);
     const Overlaps state = spheres.overlaps();
-if(getenv("DBG")) printf("  stage %d scale %.6f it %ld mean %.3e max %.3e res %.2e contacts %.3f loose %zu\n",stage,spheres.scale(),made.iterations,state.mean,state.max,state.residual_force/state.mean,2.0*state.contacts/n,made.loose_spheres);
     const double scale = spheres.scale(), overlap = state.mean / scale;
     const bool rigid =
         2.0 * static_cast<double>(state.contacts) >= jammed_contacts * static_cast<double>(n) &&
@@ -117,7 +115,11 @@ if(getenv("DBG")) printf("  stage %d scale %.6f it %ld mean %.3e max %.3e res %.
       target = 0;
       continue;
     }
-    if (last && overlap <= 1.5 * final_overlap) return stage;
+    if (last && overlap <= 1.5 * final_overlap) {
+      made.loose_spheres = spheres.press_loose_spheres(seating_force * overlap, random);
+      made.iterations += spheres.relax(at_rest, 0, most_iterations);
+      return stage;
+    }
     if (last_overlap > 1.5 * overlap && last_scale > scale)
       slope = std::clamp((last_overlap - overlap) / (1 - scale / last_scale), 0.5, 4.0);
     target = std::max(overlap_step * overlap, final_overlap);

@@ -33,9 +33,9 @@ public:
   // overlap, or below floor (nothing left to push), or after max_iterations. Returns the iterations used.
   long relax(double tolerance, double floor, long max_iterations);
   Overlaps overlaps();
-  // Pushes every sphere that is not held (fewer than four contacts with held spheres or walls) with the given force
-  // in a direction of its own, from now on, so that relax() seats it on three neighbours: no sphere floats. Returns
-  // how many there are.
+  // Pushes every sphere that is not held (fewer than four contacts with spheres or walls) with the given
+  // force in a direction of its own, from now on, so that relax() seats it on its neighbours: no sphere
+  // floats. Returns how many there are.
   std::size_t press_loose_spheres(double force, Random &random);
   const std::vector<Vector3> &centre() const { return centre_; }
   const std::vector<double> &factor() const { return factor_; }
@@ -47,7 +47,6 @@ private:
   void compute_forces();
   void add_wall_forces();
   void touch(double overlap);
-  std::vector<std::vector<int>> contacts() const;
 
   Shape shape_;
   double scale_ = 1, largest_factor_ = 1;
