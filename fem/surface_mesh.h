@@ -2,19 +2,34 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
+
+#include "fem/point.h"
 
 namespace platen::fem {
 
-using Point = std::array<double, 3>;
-
 // Quadrilaterals with their vertices counter-clockwise seen from outside the body, so that
-// (v1 - v0) x (v3 - v0) points out of the solid. No duplicate vertices: faces that share a corner share its index.
+// (v1 - v0) x (v3 - v0) points out of the solid. No duplicate vertices: faces that share a corner share its
+// index.
 struct SurfaceMesh {
   std::vector<Point> vertices;           // m, current
   std::vector<Point> velocities;         // m/s, one per vertex
   std::vector<std::array<int, 4>> faces; // vertex indices
   std::vector<int> face_tags;            // boundary id of each face (0 unless the body gives another)
 };
+
+// Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
+Point face_area_vector(const SurfaceMesh &surface, std::size_t face);
+
+// Sum of all area vectors (m^2): zero for a closed surface.
+Point total_area_vector(const SurfaceMesh &surface);
+
+// Volume inside a closed surface (m^3), by the divergence theorem; exact for flat faces.
+double enclosed_volume(const SurfaceMesh &surface);
+
+// Faces without area (|area vector| below 1e-12 of their longest diagonal squared): no normal can be given to
+// them.
+std::vector<int> zero_area_faces(const SurfaceMesh &surface);
 
 } // namespace platen::fem

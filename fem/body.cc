@@ -1,0 +1,205 @@
+#include "fem/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace platen::fem {
+namespace {
+
+using Quaternion = std::array<double, 4>;
+
+Quaternion product(const Quaternion &a, const Quaternion &b) {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+
+Quaternion normalised(const Quaternion &q) {
+  const double s = 1.0 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  return {s * q[0], s * q[1], s * q[2], s * q[3]};
+}
+
+// Rotation by the vector phi (axis times angle, rad).
+Quaternion exponential(const Point &phi) {
+  const double angle = norm(phi);
+  const double s = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
+  return normalised({std::cos(0.5 * angle), s * phi[0], s * phi[1], s * phi[2]});
+}
+
+Point rotated(const Quaternion &q, const Point &v) {
+  const Point u = {q[1], q[2], q[3]}, t = 2.0 * cross(u, v);
+  return v + q[0] * t + cross(u, t);
+}
+
+bool is_identity(const Quaternion &q) {
+  return q[1] == 0 && q[2] == 0 && q[3] == 0;
+}
+
+void require(bool holds, const std::string &what) {
+  if (!holds) throw std::invalid_argument("body: " + what);
+}
+
+constexpr std::size_t motion_numbers = 13; // displacement 3, rotation 4, velocity 3, angular velocity 3
+
+} // namespace
+
+Body::Body(Grid grid, const Material &material, BodyKind kind)
+    : grid_(std::move(grid)), material_(material), kind_(kind) {
+  require(grid_ != nullptr, "no grid");
+  require(material.density > 0, "density must be positive");
+  require(material.young_modulus > 0, "Young's modulus must be positive");
+  require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5, "Poisson ratio must lie in (-1, 0.5)");
+  GridSurface extracted = extract_surface(grid_);
+  surface_ = std::move(extracted.surface);
+  grid_vertex_ = std::move(extracted.grid_vertex);
+  const std::vector<int> empty = zero_area_faces(surface_);
+  require(empty.empty(), "surface face " + (empty.empty() ? "" : std::to_string(empty[0])) + " has no area");
+  reference_vertices_ = surface_.vertices;
+  load_.assign(surface_.vertices.size(), Point{});
+  is_loaded_.assign(surface_.vertices.size(), 0);
+
+  const VolumeMoments m = volume_moments(grid_);
+  volume_ = m.volume;
+  reference_centre_ = m.centroid;
+  const double trace = m.second[0] + m.second[4] + m.second[8];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      inertia_[3 * i + j] = material.density * ((i == j ? trace : 0.0) - m.second[3 * i + j]);
+}
+
+Point Body::current_position(const Point &reference) const {
+  // Without rotation the sum is kept plain: a flat face stays flat to the last bit.
+  if (is_identity(rotation_)) return reference + displacement_;
+  return centre() + rotated(rotation_, reference - reference_centre_);
+}
+
+void Body::place_vertices() {
+  const Point middle = centre();
+  const bool turns = angular_velocity_ != Point{};
+  for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
+    surface_.vertices[v] = current_position(reference_vertices_[v]);
+    surface_.velocities[v] =
+        turns ? velocity_ + cross(angular_velocity_, surface_.vertices[v] - middle) : velocity_;
+  }
+}
+
+void Body::set_velocity(const Point &velocity, const Point &angular_velocity) {
+  if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
+  velocity_ = velocity;
+  angular_velocity_ = angular_velocity;
+  place_vertices();
+}
+
+void Body::drift(double dt) {
+  if (velocity_ == Point{} && angular_velocity_ == Point{}) return;
+  displacement_ = displacement_ + dt * velocity_;
+  if (angular_velocity_ != Point{})
+    rotation_ = normalised(product(exponential(dt * angular_velocity_), rotation_));
+  place_vertices();
+}
+
+double Body::largest_move(double dt) const {
+  double reach = 0;
+  if (angular_velocity_ != Point{})
+    for (const Point &v : reference_vertices_)
+      reach = std::max(reach, norm(v - reference_centre_));
+  return std::abs(dt) * (norm(velocity_) + norm(angular_velocity_) * reach);
+}
+
+void Body::clear_loads() {
+  for (const int v : loaded_) {
+    load_[static_cast<std::size_t>(v)] = Point{};
+    is_loaded_[static_cast<std::size_t>(v)] = 0;
+  }
+  loaded_.clear();
+}
+
+void Body::add_surface_force(int vertex, const Point &force) {
+  const std::size_t v = static_cast<std::size_t>(vertex);
+  if (!is_loaded_[v]) loaded_.push_back(vertex);
+  is_loaded_[v] = 1;
+  load_[v] = load_[v] + force;
+}
+
+Point Body::total_force() const {
+  Point sum{};
+  for (const int v : loaded_)
+    sum = sum + contact_load(v);
+  return sum;
+}
+
+Point Body::moment(const Point &about) const {
+  Point sum{};
+  for (const int v : loaded_)
+    sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
+  return sum;
+}
+
+double Body::load_power() const {
+  double sum = 0;
+  for (const int v : loaded_)
+    sum += dot(contact_load(v), surface_.velocities[static_cast<std::size_t>(v)]);
+  return sum;
+}
+
+double Body::kinetic_energy() const {
+  double energy = 0.5 * mass() * dot(velocity_, velocity_);
+  if (angular_velocity_ != Point{}) {
+    const Point w = rotated({rotation_[0], -rotation_[1], -rotation_[2], -rotation_[3]}, angular_velocity_);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        energy += 0.5 * w[i] * inertia_[3 * i + j] * w[j];
+  }
+  return energy;
+}
+
+double Body::internal_energy() const {
+  return 0;
+}
+
+double Body::stable_step() const {
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> Body::state() const {
+  std::vector<double> numbers;
+  const auto append = [&](const auto &values) {
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  };
+  append(displacement_), append(rotation_), append(velocity_), append(angular_velocity_);
+  for (const int v : loaded_) {
+    numbers.push_back(v);
+    append(contact_load(v));
+  }
+  return numbers;
+}
+
+void Body::set_state(const std::vector<double> &numbers) {
+  require(numbers.size() >= motion_numbers && (numbers.size() - motion_numbers) % 4 == 0,
+          "state has " + std::to_string(numbers.size()) + " numbers, expected 13 and four per loaded vertex");
+  for (std::size_t k = motion_numbers; k < numbers.size(); k += 4)
+    require(numbers[k] >= 0 && numbers[k] < static_cast<double>(load_.size()) &&
+                numbers[k] == std::floor(numbers[k]),
+            "state names a vertex that the surface does not have");
+  auto next = numbers.begin();
+  const auto take = [&](auto &values) {
+    for (double &value : values)
+      value = *next++;
+  };
+  take(displacement_), take(rotation_), take(velocity_), take(angular_velocity_);
+  clear_loads();
+  while (next != numbers.end()) {
+    const int vertex = static_cast<int>(*next++);
+    take(load_[static_cast<std::size_t>(vertex)]);
+    is_loaded_[static_cast<std::size_t>(vertex)] = 1;
+    loaded_.push_back(vertex);
+  }
+  place_vertices();
+}
+
+} // namespace platen::fem

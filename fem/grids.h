@@ -1,0 +1,60 @@
+// Finite-element grids of platens, and what a body reads off them. deal.II stays in grids.cc.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fem/surface_mesh.h"
+
+namespace dealii {
+template <int dim, int spacedim>
+class Triangulation;
+}
+
+namespace platen::fem {
+
+using Grid = std::shared_ptr<dealii::Triangulation<3, 3>>;
+
+// Boundary ids of both kinds of plate, as SurfaceMesh::face_tags shows them. A box numbers its sides
+// x-, x+, y-, y+ = 0 ... 3; the mantle of a cylinder is 0.
+constexpr int low_end_tag = 4;  // face z = z_low
+constexpr int high_end_tag = 5; // face z = z_low + thickness
+
+// A round plate: hexahedra in a square core with rings around it, all faces of both ends flat. The mantle is
+// a polygon through points on the circle, so that the area is slightly below that of the circle (by 1 % at 12
+// elements across).
+struct CylinderPlate {
+  double radius = 0;       // m
+  double thickness = 0;    // m, along z
+  double z_low = 0;        // m
+  int elements_across = 8; // along a diameter, at least 3
+  int elements_thick = 2;
+};
+
+// A plate between two corners, all hexahedra alike.
+struct BoxPlate {
+  Point low{}, high{}; // m
+  std::array<int, 3> elements{1, 1, 1};
+};
+
+// Both throw std::invalid_argument, naming the entry, where a size is not positive or a count too small.
+Grid make_grid(const CylinderPlate &plate);
+Grid make_grid(const BoxPlate &plate);
+
+// The boundary of a grid as a surface of quadrilaterals.
+struct GridSurface {
+  SurfaceMesh surface;          // velocities zero
+  std::vector<int> grid_vertex; // vertex index in the grid, one per surface vertex, ascending
+};
+GridSurface extract_surface(const Grid &grid);
+
+// Integrals over the volume of a grid, exact for its trilinear cells.
+struct VolumeMoments {
+  double volume = 0;              // m^3
+  Point centroid{};               // m
+  std::array<double, 9> second{}; // m^5, integral of r_i r_j about the centroid, row by row
+};
+VolumeMoments volume_moments(const Grid &grid);
+
+} // namespace platen::fem
