@@ -89,8 +89,7 @@ private:
   }
   std::string where() const { return levels_.empty() ? "the file" : path(levels_.size()); }
   [[noreturn]] void fail(const std::string &what) {
-    const Origin origin =
-        levels_.empty() || levels_.back().origin.line == 0 ? Origin{name_, line(), 0} : levels_.back().origin;
+    const Origin origin = levels_.empty() ? Origin{name_, 1, 0} : levels_.back().origin;
     throw InputError(origin.text() + ": error: " + what);
   }
   bool scalar(const std::string &value);

@@ -70,7 +70,7 @@ std::string nearest_word(const std::string &word, const std::vector<std::string>
   constexpr std::size_t longest = 200; // more is no slip of the pen, and the distance costs its square
   if (word.size() > longest) return "";
   std::string nearest;
-  int least = std::max(2, static_cast<int>(word.size()) / 3) + 1;
+  int least = (static_cast<int>(word.size()) + 2) / 3 + 1;
   for (const std::string &candidate : candidates) {
     const int distance = edit_distance(word, candidate);
     if (distance < least && distance < static_cast<int>(candidate.size()))
@@ -133,9 +133,20 @@ void Parameters::enter(const std::string &path, const Origin &origin) const {
   std::string message = origin.text() + ": error: " + shown(path) + " is not a section.";
   if (path.find('/') != std::string::npos && is_section(last_name(path)))
     throw InputError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?");
-  const std::string nearest = nearest_word(path, sections_);
+  const std::string nearest = nearest_section(path);
   if (!nearest.empty()) throw InputError(message + " Did you mean \"" + nearest + "\"?");
   throw InputError(message + "\n" + contents_of(section_of(path)));
+}
+
+std::string Parameters::nearest_section(const std::string &path) const {
+  std::vector<std::string> siblings;
+  for (const std::string &section : sections_)
+    if (section_of(section) == section_of(path)) siblings.push_back(last_name(section));
+  const std::string sibling = nearest_word(last_name(path), siblings), outer = section_of(path);
+  if (!sibling.empty()) return (outer.empty() ? "" : outer + "/") + sibling;
+  for (const std::string &section : sections_) // right name, wrong place
+    if (edit_distance(last_name(section), last_name(path)) <= 1) return section;
+  return "";
 }
 
 std::string Parameters::contents_of(const std::string &section) const {
@@ -165,7 +176,7 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
     keys.push_back(last_name(known));
   std::string nearest = nearest_word(key, keys);
   if (!nearest.empty())
-    nearest = section + "/" + nearest;
+    nearest = (section.empty() ? "" : section + "/") + nearest;
   else if (!last_names.empty())
     nearest = last_names.front(); // right key, wrong section
   else
@@ -183,7 +194,7 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
   if (k == entries_.size()) refuse_unknown(path, origin);
   Entry &entry = entries_[k];
   if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
-    throw InputError(origin.text() + ": error: " + path + " = " + shown(text) +
+    throw InputError(origin.text() + ": error: " + path + " = " + shown(trimmed(text)) +
                      " is set twice: it was set to \"" + shown(entry.text) + "\" in " + entry.origin.text() +
                      ". Allowed: once.");
   const std::string value = trimmed(text);

@@ -71,6 +71,7 @@ public:
 
 private:
   [[noreturn]] void refuse_unknown(const std::string &path, const Origin &origin) const;
+  std::string nearest_section(const std::string &path) const; // "" where none is near
   std::string contents_of(const std::string &section) const;
   std::size_t position(const std::string &path) const; // entries_.size() for an unknown path
 

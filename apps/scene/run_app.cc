@@ -20,9 +20,9 @@ std::string plain(const std::string &what) {
   return first == std::string::npos ? what : text.substr(first, last - first + 1);
 }
 
-int tell(const AppDescription &app, const std::string &message, int status) {
+int tell(const std::string &message, int status) {
   std::cout.flush();
-  std::cerr << app.name << ": " << plain(message) << '\n';
+  std::cerr << plain(message) << '\n';
   return status;
 }
 
@@ -47,20 +47,20 @@ int run_app(int argc, char **argv, const AppDescription &app, const AppBody &bod
     std::cout << asked.text;
     return status_done;
   } catch (const InputError &error) {
-    return tell(app, error.what(), status_bad_input);
+    return tell(error.what(), status_bad_input);
   } catch (const CheckFailed &error) {
-    return tell(app, error.what(), status_check_failed);
+    return tell(error.what(), status_check_failed);
   } catch (const OutputError &error) {
-    return tell(app, std::string("error: ") + error.what(), status_output);
+    return tell(std::string("error: ") + error.what(), status_output);
   } catch (const std::filesystem::filesystem_error &error) {
-    return tell(app, std::string("error: ") + error.what(), status_output);
+    return tell(std::string("error: ") + error.what(), status_output);
   } catch (const std::invalid_argument &error) {
-    return tell(app, std::string("error: ") + error.what(), status_bad_input);
+    return tell(std::string("error: ") + error.what(), status_bad_input);
   } catch (const std::bad_alloc &) {
-    return tell(app, "error: the memory is used up; a smaller specimen or larger spheres need less",
+    return tell("error: the memory is used up; a smaller specimen or larger spheres need less",
                 status_numerics);
   } catch (const std::exception &error) {
-    return tell(app, std::string("error: ") + error.what(), status_numerics);
+    return tell(std::string("error: ") + error.what(), status_numerics);
   }
 }
 

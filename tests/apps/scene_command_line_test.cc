@@ -1,0 +1,172 @@
+// Command lines: what they say, what is refused, and the exit status of what the body throws.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+
+#include "apps/scene/command_line.h"
+
+namespace platen::apps {
+namespace {
+
+const std::string good = std::string(PLATEN_TEST_DATA) + "/fragment/good.prm";
+const AppDescription compress{AppKind::compress, "platen-compress", "Crushes.", {}, false};
+const AppDescription study{
+    AppKind::study, "platen-study", "Sweeps.", {"friction", "slenderness", "rate"}, false};
+const AppDescription report{AppKind::report, "platen-report", "Draws.", {}, true};
+
+CommandLine parse(std::vector<const char *> arguments, const AppDescription &app = compress) {
+  arguments.insert(arguments.begin(), app.name.c_str());
+  return read_command_line(static_cast<int>(arguments.size()), arguments.data(), app);
+}
+
+TEST(CommandLine, options_come_before_or_after_the_scene) {
+  for (const auto &arguments : std::vector<std::vector<const char *>>{
+           {"cases/a.prm", "-o", "out", "-s", "A/B = 1", "--set", "A/C = -2", "-t", "3", "--quiet"},
+           {"-t3", "-s", "A/B = 1", "-s", "A/C = -2", "--output=out", "--quiet", "cases/a.prm"},
+           {"--quiet", "--set=A/B = 1", "cases/a.prm", "--set=A/C = -2", "--threads", "3", "-oout"}}) {
+    const CommandLine line = parse(arguments);
+    EXPECT_EQ(line.scene, "cases/a.prm");
+    EXPECT_EQ(line.output, "out");
+    EXPECT_EQ(line.overrides, (std::vector<std::string>{"A/B = 1", "A/C = -2"}));
+    EXPECT_EQ(line.threads, 3);
+    EXPECT_TRUE(line.quiet);
+    EXPECT_FALSE(line.resume || line.overwrite || line.dry_run || line.verbose);
+  }
+}
+
+TEST(CommandLine, output_falls_under_results_by_default) {
+  const CommandLine line = parse({"cases/a.b.prm"});
+  EXPECT_EQ(line.output, "results/a.b");
+  EXPECT_FALSE(line.output_given);
+  EXPECT_EQ(line.threads, 0);
+}
+
+TEST(CommandLine, a_study_takes_its_kind_first) {
+  const CommandLine line = parse({"friction", "a.prm", "--resume"}, study);
+  EXPECT_EQ(line.kind, "friction");
+  EXPECT_EQ(line.scene, "a.prm");
+  EXPECT_TRUE(line.resume);
+  EXPECT_EQ(parse({PLATEN_TEST_DATA}, report).folder, PLATEN_TEST_DATA);
+}
+
+TEST(CommandLine, help_and_version_are_texts) {
+  for (const char *option : {"--output", "--set", "--threads", "--resume", "--overwrite", "--dry-run",
+                             "--print-parameters", "--json", "--quiet", "--verbose", "--version", "--help"})
+    try {
+      parse({"--help"});
+      ADD_FAILURE();
+    } catch (const PrintAndExit &asked) {
+      EXPECT_NE(asked.text.find(option), std::string::npos) << option;
+    }
+  try {
+    parse({"--version"});
+    ADD_FAILURE();
+  } catch (const PrintAndExit &asked) {
+    for (const char *part : {"Platen ", "commit ", "compiler ", "deal.II ", "Trilinos", "VTK "})
+      EXPECT_NE(asked.text.find(part), std::string::npos) << part;
+  }
+}
+
+struct BadLine {
+  std::vector<const char *> arguments;
+  const char *says;
+};
+
+TEST(CommandLine, bad_lines_are_refused) {
+  const BadLine lines[] = {
+      {{}, "no scene is given. Allowed: platen-compress SCENE.prm [options]"},
+      {{"a.prm", "--ovrwrite"}, "--ovrwrite is not an option. Did you mean \"--overwrite\"?"},
+      {{"a.prm", "--thread=3"}, "Did you mean \"--threads\"?"},
+      {{"a.prm", "b.prm"}, "\"b.prm\" is one argument too many after a.prm"},
+      {{"a.prm", "-s", "A/B", "=", "1"}, "\"=\" is one argument too many"},
+      {{"a.prm", "-t", "0"}, "--threads = 0 is no count of threads. Allowed: 1 ... 4096."},
+      {{"a.prm", "-t", "two"}, "--threads = two is no count of threads"},
+      {{"a.prm", "-t", "1.5"}, "--threads = 1.5 is no count of threads"},
+      {{"a.prm", "-t"}, "--threads"},
+      {{"a.prm", "-o"}, "--output"},
+      {{"a.prm", "--output="}, "--output"},
+      {{"a.prm", "--resume", "--overwrite"}, "--resume and --overwrite exclude each other"},
+      {{"a.prm", "--quiet", "--verbose"}, "--quiet and --verbose exclude each other"},
+      {{"a.prm", "--json"}, "--json needs --print-parameters"}};
+  for (const BadLine &bad : lines)
+    try {
+      parse(bad.arguments);
+      ADD_FAILURE() << bad.says;
+    } catch (const InputError &error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find("command line: error: "), 0u) << message;
+      EXPECT_NE(message.find(bad.says), std::string::npos) << message << "\n not: " << bad.says;
+    }
+  EXPECT_THROW(parse({"fricton", "a.prm"}, study), InputError);
+  EXPECT_THROW(parse({"nowhere"}, report), InputError);
+}
+
+// Runs an app on a good scene and gives its exit status.
+int status_of(const AppBody &body, const std::vector<std::string> &options = {}) {
+  std::vector<std::string> arguments = {"platen-compress", good};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  return run_app(static_cast<int>(pointers.size()), pointers.data(), compress, body);
+}
+
+template <class Error>
+AppBody throwing() {
+  return [](const CommandLine &, const Scene &) -> int { throw Error("something happened"); };
+}
+
+TEST(ExitStatus, each_kind_of_failure_has_its_own) {
+  EXPECT_EQ(status_of([](const CommandLine &, const Scene &) { return 0; }), 0);
+  EXPECT_EQ(status_of([](const CommandLine &, const Scene &) { return 130; }), 130);
+  EXPECT_EQ(status_of(throwing<CheckFailed>()), 1);
+  EXPECT_EQ(status_of(throwing<InputError>()), 2);
+  EXPECT_EQ(status_of(throwing<std::invalid_argument>()), 2);
+  EXPECT_EQ(status_of(throwing<NumericsError>()), 3);
+  EXPECT_EQ(status_of(throwing<std::runtime_error>()), 3);
+  EXPECT_EQ(status_of(throwing<OutputError>()), 4);
+}
+
+TEST(ExitStatus, bad_input_is_told_once_and_the_body_does_not_run) {
+  bool ran = false;
+  const AppBody body = [&](const CommandLine &, const Scene &) {
+    ran = true;
+    return 0;
+  };
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(status_of(body, {"--set", "Contact/Friction = 7"}), 2);
+  EXPECT_EQ(
+      ::testing::internal::GetCapturedStderr(),
+      "command line, --set 1: error: Contact/Friction = 7 is out of range. Allowed: 0 ... 5, default 0.5.\n");
+  EXPECT_FALSE(ran);
+}
+
+TEST(ExitStatus, parameters_are_printed_without_running) {
+  bool ran = false;
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(status_of(
+                [&](const CommandLine &, const Scene &) {
+                  ran = true;
+                  return 0;
+                },
+                {"--print-parameters"}),
+            0);
+  EXPECT_NE(::testing::internal::GetCapturedStdout().find("set Sphere radius       = 1 mm"),
+            std::string::npos);
+  EXPECT_FALSE(ran);
+}
+
+TEST(ExitStatus, stack_traces_of_libraries_are_left_out) {
+  ::testing::internal::CaptureStderr();
+  status_of([](const CommandLine &, const Scene &) -> int {
+    throw std::runtime_error(
+        "--------\nAn error occurred in file <x.cc>\nAdditional information: \n    The matrix is "
+        "singular.\n\nStacktrace:\n-----------\n#0 somewhere\n--------\n");
+  });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "The matrix is singular.\n");
+}
+
+} // namespace
+} // namespace platen::apps

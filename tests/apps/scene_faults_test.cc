@@ -1,0 +1,180 @@
+// Every file of tests/apps/faulty has one fault and says itself, in lines "# says: ..." (in a file
+// NAME.json.says for JSON), what the message must hold. Adding a bad scene is adding a file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "apps/scene/declare.h"
+#include "apps/scene/scene_files.h"
+
+namespace platen::apps {
+namespace {
+
+const std::filesystem::path folder = PLATEN_TEST_DATA;
+
+std::string message_of(const std::string &path, const std::vector<std::string> &overrides = {},
+                       AppKind app = AppKind::compress) {
+  try {
+    read_scene(path, overrides, app);
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<std::string> announced(const std::filesystem::path &scene) {
+  const bool json = scene.extension() == ".json";
+  std::ifstream file(json ? scene.string() + ".says" : scene.string());
+  std::vector<std::string> fragments;
+  const std::string sign = json ? "" : "# says: ";
+  for (std::string line; std::getline(file, line);)
+    if (line.compare(0, sign.size(), sign) == 0) fragments.push_back(line.substr(sign.size()));
+  return fragments;
+}
+
+std::vector<std::filesystem::path> faulty_scenes() {
+  std::vector<std::filesystem::path> scenes;
+  for (const auto &file : std::filesystem::directory_iterator(folder))
+    if (file.path().extension() == ".prm" || file.path().extension() == ".json")
+      scenes.push_back(file.path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+TEST(SceneFaults, each_bad_scene_is_refused_with_place_key_value_and_what_is_allowed) {
+  const auto scenes = faulty_scenes();
+  EXPECT_GE(scenes.size(), 60u);
+  for (const auto &scene : scenes) {
+    const std::string message = message_of(scene.string());
+    const std::vector<std::string> fragments = announced(scene);
+    EXPECT_FALSE(fragments.empty()) << scene << " does not say what is wrong with it";
+    EXPECT_FALSE(message.empty()) << scene << " was read";
+    for (const std::string &fragment : fragments)
+      EXPECT_NE(message.find(fragment), std::string::npos)
+          << scene << "\n says: " << message << "\n not: " << fragment;
+    EXPECT_LE(std::count(message.begin(), message.end(), '\n'), 5) << message; // six lines
+  }
+}
+
+TEST(SceneFaults, files_that_are_no_scenes_are_refused) {
+  const auto temporary = std::filesystem::temp_directory_path() / "platen scene faults";
+  std::filesystem::create_directories(temporary / "folder.prm");
+  std::ofstream(temporary / "zero.prm") << "subsection Bond" << '\0' << "end";
+  std::ofstream(temporary / "scene.txt") << "";
+  std::ofstream(temporary / "large.prm") << std::string(5000000, '\n');
+  EXPECT_NE(
+      message_of((temporary / "nowhere.prm").string()).find("cannot be read: No such file or directory."),
+      std::string::npos);
+  EXPECT_NE(message_of((temporary / "folder.prm").string()).find("it is a folder."), std::string::npos);
+  EXPECT_NE(message_of((temporary / "zero.prm").string()).find("no text file."), std::string::npos);
+  EXPECT_NE(message_of((temporary / "scene.txt").string()).find("names that end in .prm or .json."),
+            std::string::npos);
+  EXPECT_NE(message_of((temporary / "large.prm").string()).find("so it is no scene."), std::string::npos);
+  std::filesystem::remove_all(temporary);
+}
+
+struct FaultyOverride {
+  std::vector<std::string> overrides;
+  const char *says;
+};
+
+TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
+  const FaultyOverride faults[] = {
+      {{"Contact/Friction = 0.2", "Contact/Frictoin = 0.3"},
+       "command line, --set 2: error: Contact/Frictoin is not a parameter. Did you mean "
+       "\"Contact/Friction\""},
+      {{"Contact/Friction = 9"},
+       "command line, --set 1: error: Contact/Friction = 9 is out of range. Allowed: 0 ... 5"},
+      {{"Contact/Friction"}, "command line, --set 1: error: \"Contact/Friction\" sets nothing."},
+      {{"Contcat/Friction = 0.3"}, "Contcat is not a section. Did you mean \"Contact\"?"},
+      {{"Friction = 0.3"}, "Friction is not a parameter. Did you mean \"Contact/Friction\""},
+      {{"Bond/Modulus = 40 m"}, "Bond/Modulus = 40 m has the unit \"m\", which is not that of a pressure"},
+      {{"Effects/Bond = cohesive beam"}, "--set 1: error: Effects/Bond = cohesive beam is not available"},
+      {{"Loading/Test = tension"}, "--set 1: error: Loading/Test = tension needs Platens/Attachment = glued"},
+      {{"Scene/Title = a # b"}, "--set 1: error: Scene/Title = a # b holds a \"#\""},
+      {{"= 3"}, "--set 1: error: "},
+      {{""}, "--set 1: error: \"\" sets nothing."}};
+  const auto good = (folder / "fragment" / "good.prm").string();
+  for (const FaultyOverride &fault : faults)
+    EXPECT_NE(message_of(good, fault.overrides).find(fault.says), std::string::npos)
+        << fault.overrides.back() << ": " << message_of(good, fault.overrides);
+}
+
+TEST(SceneFaults, each_app_asks_for_what_it_needs) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  EXPECT_EQ(message_of(good), "");
+  EXPECT_EQ(message_of(good, {"Loading/Axial rate ="}, AppKind::pack), "");
+  EXPECT_EQ(message_of(good, {"Bond/Modulus ="}, AppKind::pack), "");
+  EXPECT_NE(message_of(good, {"Bond/Modulus ="}, AppKind::bar).find("Bond/Modulus is not set"),
+            std::string::npos);
+  EXPECT_NE(message_of(good, {}, AppKind::bonds).find("Pair test/Force is not set"), std::string::npos);
+  EXPECT_EQ(message_of(good, {"Pair test/Force = 3 kN"}, AppKind::bonds), "");
+  EXPECT_EQ(
+      message_of(good, {"Pair test/Force = 3 kN", "Bond/Modulus =", "Pair test/Modulus list = 1 GPa, 2 GPa"},
+                 AppKind::bonds),
+      "");
+}
+
+// Bytes are changed, dropped, doubled and swapped in good scenes: whatever comes out is read or refused by
+// InputError.
+TEST(SceneFaults, mangled_scenes_never_end_in_another_error) {
+  const std::string seeds[] = {
+      "subsection Bond\n set Modulus = 4 GPa # x\n set Gap = 0.05 R_min\nend\nsubsection Platens\n "
+      "subsection Top\n"
+      "  set Stress = 1 \\\n MPa\n end\nend\n#include nowhere.prm\n",
+      "{\"Bond\": {\"Modulus\": \"4 GPa\", \"Damping\": 0.25}, \"Output\": {\"Every\": 100, \"Fields\": "
+      "true}}"};
+  std::mt19937 random(1);
+  const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  int read = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::string text = seeds[round % 2];
+    for (std::size_t k = 0, changes = 1 + pick(4); k < changes && !text.empty(); ++k) {
+      const std::size_t at = pick(text.size());
+      switch (pick(4)) {
+        case 0:
+          text[at] = static_cast<char>(random());
+          break;
+        case 1:
+          text.erase(at, 1 + pick(5));
+          break;
+        case 2:
+          text.insert(at, text.substr(pick(text.size()), 1 + pick(20)));
+          break;
+        default:
+          std::swap(text[at], text[pick(text.size())]);
+      }
+    }
+    Scene scene;
+    Parameters parameters;
+    declare_scene(parameters, scene);
+    try {
+      if (round % 2 == 0)
+        read_prm_text(text, "mangled.prm", parameters);
+      else
+        read_json_text(text, "mangled.json", parameters);
+      ++read;
+    } catch (const InputError &error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.compare(0, 7, "mangled"), 0) << message;
+      EXPECT_LE(std::count(message.begin(), message.end(), '\n'), 5) << message;
+    }
+  }
+  EXPECT_GT(read, 10); // some changes do no harm; otherwise nothing but the first line was tried
+}
+
+TEST(Suggestions, the_nearest_name_is_found_across_slips_of_the_pen) {
+  EXPECT_EQ(edit_distance("Friction", "Frictoin"), 1); // two neighbours swapped
+  EXPECT_EQ(edit_distance("friction", "Friction"), 0); // case does not count
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(nearest_word("hertzz", {"none", "linear", "hertz"}), "hertz");
+  EXPECT_EQ(nearest_word("weather", {"none", "linear", "hertz"}), "");
+  EXPECT_EQ(nearest_word(std::string(100000, 'a'), {"aaaa"}), "");
+}
+
+} // namespace
+} // namespace platen::apps

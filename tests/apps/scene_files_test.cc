@@ -1,0 +1,235 @@
+// Good scenes: the same numbers from every notation, and from what was written.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "apps/scene/declare.h"
+#include "apps/scene/scene_files.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string concrete = R"(# A concrete cylinder.
+subsection Scene
+  set Title = Cylinder, 50 mm
+end
+subsection Specimen
+  set Radius        = 25 mm
+  set Height        = 100 mm   # as in the laboratory
+  set Sphere radius = 1.41 mm
+  set Radius spread = 25 %
+  set Ends          = ground
+end
+subsection Bond
+  set Modulus          = 40 GPa
+  set Tensile strength = 8.9 MPa
+  set Shear strength   = 33 MPa
+  set Friction angle   = 45 degree
+end
+subsection Platens
+  set Friction static = 0.1
+  subsection Top
+    set Friction static = 0.3
+  end
+end
+subsection Loading
+  set Axial rate = 0.1 mm/ms
+end
+subsection Output
+  set Every = 0.1 ms
+end
+subsection Expect
+  set strength_pa = 35 MPa ... 50 MPa
+  subsection cone_top
+    set half_angle_deg = 16 ...
+  end
+end
+)";
+
+const std::string concrete_json = R"({
+  "Scene": {"Title": "Cylinder, 50 mm"},
+  "Specimen": {"Radius": 25e-3, "Height": "100 mm", "Sphere radius": 1.41E-3, "Radius spread": 0.25,
+               "Ends": {"value": "ground", "documentation": "sawn"}},
+  "Bond": {"Modulus": "40 GPa", "Tensile strength": 8900000, "Shear strength": 33e6, "Friction angle": "45 degree"},
+  "Platens": {"Friction static": 0.1, "Top": {"Friction static": 0.3}},
+  "Loading": {"Axial rate": 0.1},
+  "Output": {"Every": "0.1 ms"},
+  "Expect": {"strength_pa": "35 MPa ... 50 MPa", "cone_top": {"half_angle_deg": "16 ..."}}
+})";
+
+class SceneFiles : public ::testing::Test {
+protected:
+  void SetUp() override {
+    // One folder for each test: CTest runs them at the same time.
+    folder_ = fs::temp_directory_path() /
+              (std::string("platen ") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string put(const std::string &name, const std::string &text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  Scene read(const std::string &name, const std::string &text,
+             const std::vector<std::string> &overrides = {}) const {
+    return read_scene(put(name, text), overrides, AppKind::compress);
+  }
+
+  fs::path folder_;
+};
+
+// All bound members as the shortest texts that give the same bits, and what has no single number.
+std::vector<std::string> values_of(const Scene &scene) {
+  Scene copy = scene;
+  Parameters parameters;
+  declare_scene(parameters, copy); // defaults are what the members hold
+  std::vector<std::string> values;
+  for (const Entry &entry : parameters.entries())
+    if (!entry.is_file) values.push_back(entry.path + " = " + entry.default_text);
+  for (const Expectation &e : scene.expect)
+    values.push_back(e.key + " " + shortest_text(e.low) + " " + shortest_text(e.high));
+  for (const double value : scene.pair_test.moduli)
+    values.push_back(shortest_text(value));
+  return values;
+}
+
+TEST_F(SceneFiles, numbers_come_out_in_si) {
+  const Scene scene = read("concrete.prm", concrete);
+  EXPECT_EQ(scene.name, "concrete");
+  EXPECT_EQ(scene.general.title, "Cylinder, 50 mm");
+  EXPECT_DOUBLE_EQ(scene.specimen.radius, 0.025);
+  EXPECT_DOUBLE_EQ(scene.specimen.radius_spread, 0.25);
+  EXPECT_EQ(scene.specimen.ends, EndsKind::ground);
+  EXPECT_DOUBLE_EQ(scene.bond.tensile_strength, 8.9e6);
+  EXPECT_DOUBLE_EQ(scene.bond.friction_angle, 0.78539816339744831);
+  EXPECT_DOUBLE_EQ(scene.loading.axial_rate, 0.1);
+  EXPECT_EQ(scene.output.every.kind, Interval::Kind::time);
+  EXPECT_DOUBLE_EQ(scene.output.every.value, 1e-4);
+  ASSERT_EQ(scene.expect.size(), 2u);
+  EXPECT_EQ(scene.expect[0].key, "strength_pa");
+  EXPECT_EQ(scene.expect[0].origin, (folder_ / "concrete.prm").string() + ":31");
+  EXPECT_EQ(scene.expect[1].key, "cone_top/half_angle_deg");
+}
+
+TEST_F(SceneFiles, a_platen_takes_what_it_is_not_given_from_the_common_value) {
+  const Scene scene = read("concrete.prm", concrete);
+  EXPECT_EQ(scene.platens.top.friction_static, 0.3);
+  EXPECT_EQ(scene.platens.top.friction_dynamic, 0.3);
+  EXPECT_EQ(scene.platens.bottom.friction_static, 0.1);
+  EXPECT_EQ(scene.platens.bottom.friction_dynamic, 0.1);
+  const Scene sliding = read("sliding.prm", concrete, {"Platens/Friction dynamic = 0.05"});
+  EXPECT_EQ(sliding.platens.top.friction_dynamic, 0.05);
+  EXPECT_EQ(sliding.platens.bottom.friction_dynamic, 0.05);
+  EXPECT_DOUBLE_EQ(scene.platens.thickness, 0.01); // a tenth of the height
+}
+
+TEST_F(SceneFiles, json_gives_the_same_numbers_as_prm) {
+  EXPECT_EQ(values_of(read("a.json", concrete_json)), values_of(read("b.prm", concrete)));
+}
+
+TEST_F(SceneFiles, byte_order_mark_and_foreign_line_ends_change_nothing) {
+  std::string crlf;
+  for (const char c : concrete)
+    crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const auto plain = values_of(read("plain.prm", concrete));
+  EXPECT_EQ(values_of(read("crlf.prm", crlf)), plain);
+  EXPECT_EQ(values_of(read("mark.prm", "\xef\xbb\xbf" + crlf)), plain);
+  EXPECT_EQ(values_of(read("mark.json", "\xef\xbb\xbf" + concrete_json)), plain);
+}
+
+TEST_F(SceneFiles, a_written_scene_gives_the_same_bits) {
+  const Scene scene =
+      read("concrete.prm", concrete,
+           {"Contact/Stiffness = 0.01 bulk", "Bond/Gap = 0.123456789 mm", "Checkpoint/Every = 7 min",
+            "Pair test/Modulus list = 1 GPa, 0.3 GPa", "Integration/Damping = 0.1"});
+  std::ostringstream text;
+  write_scene(scene, (folder_ / "results").string(), text);
+  const Scene again = read("results/scene.prm", text.str());
+  EXPECT_EQ(values_of(again), values_of(scene));
+  std::ostringstream second;
+  write_scene(again, (folder_ / "results").string(), second);
+  EXPECT_EQ(second.str(), text.str());
+}
+
+TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
+  put("cases/packings/spheres  a.csv", "x\n");
+  const Scene scene = read(
+      "cases/a.prm", concrete,
+      {"Specimen/Packing = file", "Specimen/File = " + (folder_ / "cases/packings/spheres  a.csv").string()});
+  std::ostringstream text;
+  write_scene(scene, (folder_ / "results/deep/a").string(), text);
+  EXPECT_EQ(text.str().find(folder_.string()), std::string::npos)
+      << "the folders could no longer be moved together";
+  const Scene again = read("results/deep/a/scene.prm", text.str());
+  EXPECT_TRUE(fs::equivalent(again.specimen.file, scene.specimen.file)) << again.specimen.file;
+}
+
+TEST_F(SceneFiles, a_file_is_looked_for_beside_the_scene_that_names_it) {
+  put("packings/spheres.csv", "x\n");
+  std::string with_file = concrete;
+  const std::string key = "  set Ends          = ground\n";
+  with_file.replace(with_file.find(key), key.size(),
+                    key + "  set Packing = file\n  set File = packings/spheres.csv\n");
+  const Scene scene = read("a.prm", with_file);
+  EXPECT_TRUE(fs::equivalent(scene.specimen.file, folder_ / "packings/spheres.csv"));
+}
+
+TEST_F(SceneFiles, a_scene_overrides_what_it_includes) {
+  put("common/base.prm", concrete);
+  const Scene scene =
+      read("a.prm", "include common/base.prm\nsubsection Bond\n  set Modulus = 50 GPa\nend\n");
+  EXPECT_DOUBLE_EQ(scene.bond.modulus, 50e9);
+  EXPECT_DOUBLE_EQ(scene.bond.tensile_strength, 8.9e6);
+}
+
+TEST_F(SceneFiles, the_last_override_holds) {
+  const Scene scene = read("a.prm", concrete, {"Contact/Friction = 0.2", " Contact / Friction=0.3 "});
+  EXPECT_EQ(scene.contact.friction, 0.3);
+}
+
+TEST_F(SceneFiles, printed_json_can_be_read_as_a_scene) {
+  const Scene scene = read("a.prm", concrete);
+  std::ostringstream text;
+  print_parameters(scene, true, text);
+  EXPECT_EQ(values_of(read("b.json", text.str())), values_of(scene));
+}
+
+TEST_F(SceneFiles, every_entry_tells_its_meaning) {
+  const Scene scene = default_scene();
+  std::ostringstream text;
+  print_parameters(scene, false, text);
+  std::set<std::string> paths;
+  for (const Entry &entry : scene.parameters->entries()) {
+    EXPECT_GT(entry.documentation.size(), 10u) << entry.path;
+    EXPECT_EQ(entry.documentation.back(), '.') << entry.path;
+    EXPECT_TRUE(paths.insert(entry.path).second) << entry.path;
+    EXPECT_NE(text.str().find("set " + entry.path.substr(entry.path.rfind('/') + 1)), std::string::npos)
+        << entry.path;
+  }
+}
+
+TEST_F(SceneFiles, entries_without_effect_are_told) {
+  const Scene scene = read("a.prm", concrete, {"Contact/Restitution = 0.5"});
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_EQ(
+      scene.notes[0],
+      "command line, --set 1: note: Contact/Restitution = 0.5 has no effect: Effects/Contact is not hertz.");
+  EXPECT_TRUE(read("b.prm", concrete).notes.empty());
+}
+
+TEST_F(SceneFiles, continued_lines_are_joined) {
+  const Scene scene =
+      read("a.prm", concrete + "subsection Material\n  set Density = 2500 \\\n     kg/m3 # joined\nend\n");
+  EXPECT_DOUBLE_EQ(scene.material.density, 2500);
+}
+
+} // namespace
+} // namespace platen::apps
