@@ -26,8 +26,9 @@ constexpr double overlap_step = 0.4;   // each stage aims at this part of the la
 // still creeps towards denser states, and the last stage then takes far longer.
 constexpr double at_rest = 4e-3;
 constexpr double seating_force = 0.1; // on loose spheres, in mean contact forces: too weak to move the others
-constexpr double jammed_contacts = 4.5; // contacts per sphere (walls counted) that only a rigid packing shows
-constexpr int most_stages = 60, most_attempts = 4;
+constexpr double first_back = 2e-4; // relative growth after shrinking too far; doubled while it does not help
+constexpr double flattest = 0.5, steepest = 4.0; // bounds of the slope of mean overlap over relative size
+constexpr int most_stages = 200, most_attempts = 4;
 constexpr long most_iterations = 200000; // of one stage
 constexpr double radius_tolerance = 0.008;
 constexpr std::size_t most_spheres = 5000000;
@@ -97,31 +98,29 @@ Shape scaled(Shape shape, double s) {
 
 // Shrinks an over-full system at rest until its mean overlap is final_overlap, then seats the loose spheres.
 // Returns the number of stages and adds to the iterations.
-int decompress(SoftSpheres &spheres, std::size_t n, Random &random, GrowthReport &made) {
+int decompress(SoftSpheres &spheres, Random &random, GrowthReport &made) {
   double slope = 1.8; // mean overlap lost per relative loss of size; measured as soon as two stages are known
   double last_scale = 0, last_overlap = 0;
-  double target = 0;
+  double target = 0, back = first_back;
   for (int stage = 1; stage <= most_stages; ++stage) {
     const bool last = target > 0 && target <= final_overlap;
     made.iterations += spheres.relax(at_rest, 1e-3 * final_overlap, most_iterations);
     const Overlaps state = spheres.overlaps();
     const double scale = spheres.scale(), overlap = state.mean / scale;
-    const bool rigid =
-        2.0 * static_cast<double>(state.contacts) >= jammed_contacts * static_cast<double>(n) &&
-        overlap > 0.05 * final_overlap;
-    if (!rigid) { // shrunk too far: half the way back, or a little larger if there is no way back
-      last_overlap = 0;
-      spheres.set_scale(last_scale > scale ? 0.5 * (scale + last_scale) : scale * (1 + 2 * final_overlap));
-      target = 0;
+    if (overlap < 0.05 * final_overlap) { // shrunk too far: nothing is pressed any more
+      spheres.set_scale(scale * (1 + back));
+      back *= 2, target = 0, last_overlap = 0;
+      slope = std::min(1.25 * slope, steepest);
       continue;
     }
+    back = first_back;
     if (last && overlap <= 1.5 * final_overlap) {
       made.loose_spheres = spheres.press_loose_spheres(seating_force * overlap, random);
       made.iterations += spheres.relax(at_rest, 0, most_iterations);
       return stage;
     }
     if (last_overlap > 1.5 * overlap && last_scale > scale)
-      slope = std::clamp((last_overlap - overlap) / (1 - scale / last_scale), 0.5, 4.0);
+      slope = std::clamp((last_overlap - overlap) / (1 - scale / last_scale), flattest, steepest);
     target = std::max(overlap_step * overlap, final_overlap);
     if (overlap <= 1.5 * final_overlap) target = final_overlap;
     last_scale = scale, last_overlap = overlap;
@@ -147,7 +146,7 @@ Specimen random_close_packing_of(const Shape &shape, std::size_t spheres, double
   SoftSpheres soft(unit, std::move(centre), std::move(factor));
   soft.set_scale(std::cbrt(1 + overfill / bulk_fraction));
   GrowthReport made;
-  made.stages = decompress(soft, spheres, random, made);
+  made.stages = decompress(soft, random, made);
 
   Specimen specimen;
   specimen.shape = shape;
