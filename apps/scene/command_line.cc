@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/scene/parameters.h"
+#include "apps/scene/values.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {
@@ -57,12 +58,10 @@ void check(const CommandLine &line, const AppDescription &app) {
   }
   const std::string kind = app.kinds.empty() ? "" : "KIND ";
   if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {
-    std::string kinds;
-    for (const std::string &known : app.kinds)
-      kinds += (kinds.empty() ? "" : ", ") + known;
     const std::string nearest = nearest_word(line.kind, app.kinds);
     fail("KIND = " + line.kind + " is not known." +
-         (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + kinds + ".");
+         (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + joined(app.kinds) +
+         ".");
   }
   if (line.scene.empty() && !line.print_parameters)
     fail("no scene is given. Allowed: " + app.name + " " + kind + "SCENE.prm [options], see --help.");
@@ -77,17 +76,20 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   parser.set_help_flag("-h,--help", "Print this and exit");
   parser.allow_extras(); // refused below, with the nearest option
   bool version = false;
-  if (!app.kinds.empty()) parser.add_option("KIND", line.kind, "What to sweep")->required(false);
+  if (!app.kinds.empty())
+    parser.add_option("KIND", line.kind, "What to sweep: " + joined(app.kinds))->type_name("");
   if (app.reads_folder)
-    parser.add_option("FOLDER", line.folder, "Output folder of a run or a study");
+    parser.add_option("FOLDER", line.folder, "Output folder of a run or a study")->type_name("");
   else
-    parser.add_option("SCENE", line.scene, "Scene file, .prm or .json");
+    parser.add_option("SCENE", line.scene, "Scene file, .prm or .json")->type_name("");
   CLI::Option *output =
-      parser.add_option("-o,--output", line.output, "Output folder [results/<name of the scene>]");
+      parser.add_option("-o,--output", line.output, "Output folder [results/<name of the scene>]")
+          ->type_name("DIR");
   if (!app.reads_folder) {
     parser.add_option("-s,--set", line.overrides, "\"Section/Key = value\", overrides one entry; repeatable")
-        ->allow_extra_args(false);
-    parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it");
+        ->allow_extra_args(false)
+        ->type_name("ENTRY");
+    parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it")->type_name("N");
     parser.add_flag("--resume", line.resume, "Go on from the newest whole checkpoint");
     parser.add_flag("--dry-run", line.dry_run, "Check and tell what would run");
     parser.add_flag("--print-parameters", line.print_parameters, "Print every parameter and exit");

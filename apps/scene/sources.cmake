@@ -11,6 +11,7 @@ set(PLATEN_SCENE_SOURCES
   scene/parameter_writer.cc
   scene/checks.cc
   scene/scene.cc
+  scene/expect.cc
   scene/command_line.cc
   scene/run_app.cc
   scene/version.cc)

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/scene/declare.h"
+#include "apps/scene/expect.h"
 #include "apps/scene/scene_files.h"
 
 namespace platen::apps {
@@ -223,6 +224,21 @@ TEST_F(SceneFiles, entries_without_effect_are_told) {
       scene.notes[0],
       "command line, --set 1: note: Contact/Restitution = 0.5 has no effect: Effects/Contact is not hertz.");
   EXPECT_TRUE(read("b.prm", concrete).notes.empty());
+}
+
+TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
+  const Scene scene = read("a.prm", concrete);
+  const auto failures = [&](double strength, double angle) {
+    return failed_expectations(
+        scene, [&](const std::string &key) { return key == "strength_pa" ? strength : angle; });
+  };
+  EXPECT_TRUE(failures(35e6, 16).empty());
+  EXPECT_TRUE(failures(50e6, 89).empty());
+  ASSERT_EQ(failures(51e6, 20).size(), 1u);
+  EXPECT_EQ(failures(51e6, 20)[0],
+            (folder_ / "a.prm").string() + ":31: strength_pa = 5.1e7 is not in 35 MPa ... 50 MPa");
+  ASSERT_EQ(failures(40e6, not_given).size(), 1u); // expected and not measured
+  EXPECT_NE(failures(40e6, not_given)[0].find("cone_top/half_angle_deg was not measured"), std::string::npos);
 }
 
 TEST_F(SceneFiles, continued_lines_are_joined) {

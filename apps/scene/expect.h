@@ -1,0 +1,19 @@
+// The numbers that a scene expects of itself.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene.h"
+
+namespace platen::apps {
+
+// One line for each expectation that does not hold, e.g. "case.prm:31: strength_pa = 5.2e7 is not in 35 MPa
+// ... 50 MPa". value_of gives the number of a key of summary.json ("cone_top/height_m" for a member of an
+// object) in its unit, NaN where the run did not measure it: what was expected and not measured does not
+// hold.
+std::vector<std::string> failed_expectations(const Scene &scene,
+                                             const std::function<double(const std::string &)> &value_of);
+
+} // namespace platen::apps
