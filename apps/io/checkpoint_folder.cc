@@ -1,0 +1,82 @@
+#include "apps/io/checkpoint_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+namespace platen::apps {
+namespace {
+
+struct Entry {
+  std::uint64_t step = 0;
+  std::filesystem::path path;
+};
+
+std::optional<std::uint64_t> step_of(const std::string &name) {
+  static const std::regex pattern("step_([0-9]{12,18})\\.platen");
+  std::smatch match;
+  if (!std::regex_match(name, match, pattern)) return std::nullopt;
+  return std::stoull(match[1].str());
+}
+
+// Newest first.
+std::vector<Entry> entries_of(const std::filesystem::path &folder) {
+  std::vector<Entry> entries;
+  std::error_code error;
+  for (const auto &file : std::filesystem::directory_iterator(folder, error))
+    if (const auto step = step_of(file.path().filename().string())) entries.push_back({*step, file.path()});
+  std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) { return a.step > b.step; });
+  return entries;
+}
+
+} // namespace
+
+bool is_checkpoint_name(const std::string &name) {
+  static const std::regex pattern("step_[0-9]{12,18}(\\.part)?\\.platen");
+  return std::regex_match(name, pattern);
+}
+
+std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
+                                       const std::function<void(CheckpointWriter &)> &fill) {
+  create_folder(folder);
+  const std::filesystem::path path = folder / fmt::format("step_{:012}.platen", step);
+  write_aside(path, [&](const std::filesystem::path &part) {
+    CheckpointWriter writer(part);
+    fill(writer);
+    writer.finish();
+  });
+
+  int kept = 1;
+  std::error_code ignored; // a file too many does no harm
+  for (const Entry &entry : entries_of(folder))
+    if (entry.step > step || (entry.step < step && ++kept > kept_checkpoints))
+      std::filesystem::remove(entry.path, ignored);
+  for (const auto &file :
+       std::filesystem::directory_iterator(folder, ignored)) { // left by runs that were killed
+    const std::string name = file.path().filename().string();
+    if (is_checkpoint_name(name) && !step_of(name)) std::filesystem::remove(file.path(), ignored);
+  }
+  return path;
+}
+
+FoundCheckpoint newest_whole_checkpoint(const std::filesystem::path &folder) {
+  FoundCheckpoint found;
+  std::string remarks;
+  for (const Entry &entry : entries_of(folder)) {
+    try {
+      CheckpointReader whole(entry.path);
+      found.path = entry.path;
+      found.step = entry.step;
+      return found;
+    } catch (const CheckpointError &error) {
+      found.remarks.push_back(fmt::format("checkpoint not used: {}", error.what()));
+      remarks += fmt::format("\n{}", error.what());
+    }
+  }
+  if (remarks.empty()) throw CheckpointError(folder.string() + ": no checkpoint to go on from");
+  throw CheckpointError(folder.string() + ": no whole checkpoint to go on from" + remarks);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,37 @@
+// The folder that holds the newest checkpoints of a run: checkpoint/step_000000012000.platen.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/io/checkpoint.h"
+
+namespace platen::apps {
+
+constexpr int kept_checkpoints = 2; // the newest, and one to fall back on
+
+// Writes the checkpoint of `step` into `folder` (created where needed): fill() adds the blocks. It is written
+// aside, becomes current by rename when the disk has it, and only then all but the two newest go; checkpoints
+// of later steps are of a run that was taken back, and go too. Where writing fails (OutputError), the former
+// ones stay as they are. Returns the file.
+std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
+                                       const std::function<void(CheckpointWriter &)> &fill);
+
+struct FoundCheckpoint {
+  std::filesystem::path path;
+  std::uint64_t step = 0;
+  std::vector<std::string>
+      remarks; // newer checkpoints that are damaged, one sentence each: to be told to the user
+};
+
+// The newest checkpoint of which every byte holds. Throws CheckpointError where there is none; the text says
+// what is wrong with those that are there.
+FoundCheckpoint newest_whole_checkpoint(const std::filesystem::path &folder);
+
+// Whether a file name is one that write_checkpoint gives (part files included).
+bool is_checkpoint_name(const std::string &name);
+
+} // namespace platen::apps

@@ -1,0 +1,108 @@
+#include "apps/io/csv_writer.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "apps/io/errors.h"
+
+namespace platen::apps {
+namespace {
+
+// Quoted where a comma, a quote or a line end would break the row (RFC 4180).
+void append_text(std::string &line, std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    line += text;
+    return;
+  }
+  line += '"';
+  for (const char c : text) {
+    if (c == '"') line += '"';
+    line += c;
+  }
+  line += '"';
+}
+
+std::string header_line(const std::vector<std::string> &columns) {
+  std::string line;
+  for (const std::string &column : columns) {
+    if (!line.empty()) line += ',';
+    append_text(line, column);
+  }
+  return line + '\n';
+}
+
+// Throws CheckpointError unless `path` begins with the header and has a line end before byte `length`.
+void check_resumable(const std::filesystem::path &path, const std::string &header, std::uint64_t length) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw CheckpointError(path.string() + ": missing or unreadable, the run cannot go on with it");
+  std::string begin(header.size(), '\0');
+  if (!stream.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != header)
+    throw CheckpointError(path.string() + ": its header line is not that of this run");
+  stream.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(stream.tellg());
+  if (size < length)
+    throw CheckpointError(
+        fmt::format("{}: has {} bytes, the checkpoint goes on after {}", path.string(), size, length));
+  char last = '\0';
+  if (length >= header.size()) stream.seekg(static_cast<std::streamoff>(length) - 1).get(last);
+  if (last != '\n')
+    throw CheckpointError(
+        fmt::format("{}: no row ends at byte {}, where the checkpoint goes on", path.string(), length));
+}
+
+} // namespace
+
+void CsvCell::append_to(std::string &line) const {
+  if (const double *number = std::get_if<double>(&value_)) {
+    if (std::isnan(*number))
+      line += "nan"; // whatever its sign
+    else
+      fmt::format_to(std::back_inserter(line), "{}", *number);
+  } else if (const long long *count = std::get_if<long long>(&value_)) {
+    fmt::format_to(std::back_inserter(line), "{}", *count);
+  } else {
+    append_text(line, std::get<std::string_view>(value_));
+  }
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns)
+    : columns_(std::move(columns)), file_(path), line_(header_line(columns_)) {
+  write_line();
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns,
+                     std::uint64_t length)
+    : columns_(std::move(columns)) {
+  check_resumable(path, header_line(columns_), length);
+  file_ = OutputFile(path, OutputFile::Mode::append);
+  file_.truncate(length);
+  bytes_ = length;
+}
+
+void CsvWriter::row(const std::vector<CsvCell> &cells) {
+  if (cells.size() != columns_.size())
+    throw std::logic_error(
+        fmt::format("{}: a row of {} values for {} columns", path().string(), cells.size(), columns_.size()));
+  line_.clear();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (k > 0) line_ += ',';
+    cells[k].append_to(line_);
+  }
+  line_ += '\n';
+  write_line();
+}
+
+void CsvWriter::write_line() {
+  try {
+    file_.write(line_);
+  } catch (const OutputError &) {
+    file_.try_truncate(bytes_);
+    throw;
+  }
+  bytes_ += line_.size();
+}
+
+} // namespace platen::apps

@@ -1,0 +1,65 @@
+// Comma-separated tables that grow row by row as a run goes on: history.csv, cracks.csv.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "apps/io/file.h"
+
+namespace platen::apps {
+
+// One cell: a number, or a word (std::string, literal). The shortest text that reads back to the same double
+// is written, without regard to the locale; what was not measured is NaN, written `nan`.
+class CsvCell {
+public:
+  template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>>
+  CsvCell(T value) {
+    if constexpr (std::is_floating_point_v<T>)
+      value_ = static_cast<double>(value);
+    else
+      value_ = static_cast<long long>(value);
+  }
+  CsvCell(std::string_view text) : value_(text) {}
+  CsvCell(const std::string &text) : value_(std::string_view(text)) {}
+  CsvCell(const char *text) : value_(std::string_view(text)) {}
+  void append_to(std::string &line) const;
+
+private:
+  std::variant<double, long long, std::string_view> value_; // text is looked at, not kept
+};
+
+// Each row reaches the file before row() returns. Failures throw OutputError, and the row that failed is
+// taken off again, so that the file ends with a whole row.
+class CsvWriter {
+public:
+  // A new file with its header line; one that is there is replaced.
+  CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns);
+  // Goes on with a file after its first `length` bytes, as a checkpoint states them (bytes()); what follows
+  // them is cut off, so that the rows of the resumed run stand where those of an uninterrupted one would.
+  // Throws CheckpointError, and leaves the file alone, where it is missing, shorter, has other columns, or no
+  // row ends there.
+  CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns, std::uint64_t length);
+
+  // One value for each column, else std::logic_error.
+  void row(const std::vector<CsvCell> &cells);
+  std::uint64_t bytes() const { return bytes_; } // of header and whole rows
+  // Waits until the disk has all rows: before a checkpoint that states bytes().
+  void sync() { file_.sync(); }
+  const std::vector<std::string> &columns() const { return columns_; }
+  const std::filesystem::path &path() const { return file_.path(); }
+
+private:
+  void write_line();
+  std::vector<std::string> columns_;
+  OutputFile file_;
+  std::uint64_t bytes_ = 0;
+  std::string line_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,159 @@
+#include "apps/io/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "apps/io/errors.h"
+
+namespace platen::apps {
+namespace {
+
+// Calls again what a signal interrupted.
+template <class Call>
+auto uninterrupted(const Call &call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR)
+    result = call();
+  return result;
+}
+
+[[noreturn]] void fail_on(const std::filesystem::path &path, const std::string &what, int error) {
+  throw OutputError(path.string() + ": " + what + ": " + std::strerror(error));
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::filesystem::path &path, Mode mode) : path_(path) {
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : O_APPEND);
+  descriptor_ = uninterrupted([&] { return ::open(path.c_str(), flags, 0666); });
+  if (descriptor_ < 0) fail("cannot be opened for writing");
+}
+
+OutputFile::~OutputFile() {
+  if (is_open()) ::close(descriptor_);
+}
+
+OutputFile::OutputFile(OutputFile &&other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
+
+OutputFile &OutputFile::operator=(OutputFile &&other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+void OutputFile::fail(const char *what) const {
+  fail_on(path_, what, errno);
+}
+
+void OutputFile::write(const void *bytes, std::size_t count) {
+  const char *next = static_cast<const char *>(bytes);
+  while (count > 0) { // a disk that fills up takes a part first
+    const ssize_t written = uninterrupted([&] { return ::write(descriptor_, next, count); });
+    if (written < 0) fail("cannot be written");
+    next += written;
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+bool OutputFile::try_truncate(std::uint64_t new_length) noexcept {
+  const auto end = static_cast<off_t>(new_length);
+  return uninterrupted([&] { return ::ftruncate(descriptor_, end); }) == 0 &&
+         ::lseek(descriptor_, end, SEEK_SET) == end;
+}
+
+void OutputFile::truncate(std::uint64_t new_length) {
+  if (!try_truncate(new_length)) fail("cannot be shortened");
+}
+
+std::uint64_t OutputFile::length() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail("cannot be examined");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void OutputFile::sync() {
+  // EINVAL: a pipe or a device, which has nothing to wait for.
+  if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0 && errno != EINVAL) fail("cannot be written");
+}
+
+void OutputFile::close() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  // After EINTR the descriptor is gone all the same.
+  if (descriptor >= 0 && ::close(descriptor) != 0 && errno != EINTR) fail("cannot be written");
+}
+
+std::filesystem::path part_path(const std::filesystem::path &path) {
+  std::filesystem::path part = path;
+  return part.replace_filename(path.stem().string() + ".part" + path.extension().string());
+}
+
+void sync_folder(const std::filesystem::path &folder) {
+  const std::filesystem::path path = folder.empty() ? "." : folder;
+  const int descriptor =
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (descriptor < 0) fail_on(path, "cannot be opened", errno);
+  const int result = uninterrupted([&] { return ::fsync(descriptor); });
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0 && error != EINVAL)
+    fail_on(path, "cannot be written", error); // EINVAL: no such thing there
+}
+
+void make_current(const std::filesystem::path &part, const std::filesystem::path &path) {
+  {
+    OutputFile whole(part, OutputFile::Mode::append);
+    whole.sync();
+    whole.close();
+  }
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) throw OutputError(path.string() + ": cannot be replaced: " + error.message());
+  sync_folder(path.parent_path());
+}
+
+void write_aside(const std::filesystem::path &path,
+                 const std::function<void(const std::filesystem::path &)> &write) {
+  const std::filesystem::path part = part_path(path);
+  try {
+    write(part);
+    make_current(part, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+}
+
+void write_text_aside(const std::filesystem::path &path, std::string_view text) {
+  write_aside(path, [text](const std::filesystem::path &part) {
+    OutputFile file(part);
+    file.write(text);
+    file.close();
+  });
+}
+
+void write_stream_aside(const std::filesystem::path &path, const std::function<void(std::ostream &)> &write) {
+  write_aside(path, [&](const std::filesystem::path &part) {
+    errno = 0;
+    std::ofstream stream(part, std::ios::binary);
+    if (stream) write(stream);
+    stream.close();
+    if (!stream) fail_on(part, "cannot be written", errno != 0 ? errno : EIO);
+  });
+}
+
+void create_folder(const std::filesystem::path &folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && std::filesystem::is_directory(folder)) return;
+  throw OutputError(folder.string() + ": cannot be created: " + (error ? error.message() : "it is a file"));
+}
+
+} // namespace platen::apps

@@ -1,0 +1,39 @@
+// Time series of frames for ParaView (.pvd): which file belongs to which time.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace platen::apps {
+
+class PvdSeries {
+public:
+  // A series without frames; nothing is written before the first one.
+  explicit PvdSeries(std::filesystem::path path);
+
+  // Adds a frame at `time` (s): a file that is there, named relative to the folder of the .pvd. The .pvd is
+  // rewritten aside and renamed, so it lists whole frames only, at any moment. Several files at one time are
+  // parts of a frame; a time below the last one throws std::logic_error. Throws OutputError.
+  void append(double time, const std::string &file);
+
+  // Goes on with the frames up to and including `up_to_time`, as a checkpoint states it; later ones, written
+  // before the run was stopped, are dropped from the list (the run writes them again). Throws CheckpointError
+  // where the .pvd is damaged, or one of its frames is missing. A .pvd that is not there has no frames.
+  void resume(double up_to_time);
+
+  std::size_t size() const { return frames_.size(); }
+  const std::filesystem::path &path() const { return path_; }
+
+private:
+  struct Frame {
+    double time = 0; // s
+    std::string file;
+  };
+  void write() const;
+  std::filesystem::path path_;
+  std::vector<Frame> frames_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,10 @@
+# Everything that is written. The sources need fmt::fmt, nlohmann_json::nlohmann_json, the xxhash header (compiled in,
+# no library) and these components of VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem.
+set(PLATEN_IO_SOURCES
+  io/file.cc
+  io/checkpoint_writer.cc
+  io/checkpoint_reader.cc
+  io/checkpoint_folder.cc
+  io/csv_writer.cc
+  io/vtu.cc
+  io/pvd.cc)

@@ -1,0 +1,160 @@
+#include "apps/io/vtu.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+
+#include "apps/io/errors.h"
+#include "apps/io/file.h"
+
+namespace platen::apps {
+namespace {
+
+// VTK arrays that look at the caller's values without a copy: they must live as long as the grid.
+vtkSmartPointer<vtkDataArray> view(const std::vector<double> &values) {
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetArray(const_cast<double *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
+  return array;
+}
+vtkSmartPointer<vtkDataArray> view(const std::vector<float> &values) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetArray(const_cast<float *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
+  return array;
+}
+vtkSmartPointer<vtkDataArray> view(const std::vector<int> &values) {
+  auto array = vtkSmartPointer<vtkIntArray>::New();
+  array->SetArray(const_cast<int *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
+  return array;
+}
+
+void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t rows) {
+  for (const Field &field : fields)
+    std::visit(
+        [&](const auto &values) {
+          if (field.components < 1 || values.size() != rows * static_cast<std::size_t>(field.components))
+            throw std::logic_error("field \"" + field.name + "\" has " + std::to_string(values.size()) +
+                                   " values for " + std::to_string(rows) + " rows of " +
+                                   std::to_string(field.components));
+          const auto array = view(values);
+          // The array was filled as one component; this only says how to read it.
+          array->SetNumberOfComponents(field.components);
+          array->SetName(field.name.c_str());
+          to->AddArray(array);
+        },
+        field.values);
+}
+
+void set_points(vtkUnstructuredGrid &grid, const std::vector<dem::Vector3> &points) {
+  static_assert(sizeof(dem::Vector3) == 3 * sizeof(double), "points are passed on as plain numbers");
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  if (!points.empty())
+    coordinates->SetArray(const_cast<double *>(&points.front().x), static_cast<vtkIdType>(3 * points.size()),
+                          1);
+  vtkNew<vtkPoints> vtk_points;
+  vtk_points->SetDataTypeToDouble();
+  vtk_points->SetData(coordinates);
+  grid.SetPoints(vtk_points);
+}
+
+// Cells of `size` points each.
+void set_cells(vtkUnstructuredGrid &grid, int type, int size, const int *corners, std::size_t cells) {
+  vtkNew<vtkCellArray> array;
+  array->AllocateExact(static_cast<vtkIdType>(cells), static_cast<vtkIdType>(cells) * size);
+  for (std::size_t k = 0; k < cells; ++k) {
+    array->InsertNextCell(size);
+    for (int c = 0; c < size; ++c)
+      array->InsertCellPoint(corners[k * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)]);
+  }
+  grid.SetCells(type, array);
+}
+
+void add_time(vtkUnstructuredGrid &grid, double time) { // as readers of single frames expect it
+  vtkNew<vtkDoubleArray> value;
+  value->SetName("TimeValue");
+  value->InsertNextValue(time);
+  grid.GetFieldData()->AddArray(value);
+}
+
+// Write() of the writer says success on a full disk; the error code, and the end of the file, tell the truth.
+void write_part(const std::filesystem::path &part, vtkUnstructuredGrid &grid) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  vtkNew<vtkCallbackCommand> silent; // the error is reported by what is thrown
+  silent->SetCallback([](vtkObject *, unsigned long, void *, void *) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, silent);
+  writer->SetFileName(part.c_str());
+  writer->SetInputData(&grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToZLib();
+  const int written = writer->Write();
+  const unsigned long error = writer->GetErrorCode();
+  if (written == 0 || error != vtkErrorCode::NoError)
+    throw OutputError(part.string() + ": cannot be written: " +
+                      (error != 0 ? vtkErrorCode::GetStringFromErrorCode(error) : "the writer failed"));
+
+  const std::string end = "</VTKFile>\n";
+  std::string found(end.size(), '\0');
+  std::ifstream stream(part, std::ios::binary);
+  stream.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  if (!stream.read(found.data(), static_cast<std::streamsize>(found.size())) || found != end)
+    throw OutputError(part.string() + ": cannot be written: the file is cut off");
+}
+
+void write_grid(const std::filesystem::path &path, vtkUnstructuredGrid &grid) {
+  write_aside(path, [&](const std::filesystem::path &part) { write_part(part, grid); });
+}
+
+} // namespace
+
+Field::Field(std::string field_name, const std::vector<dem::Vector3> &v)
+    : name(std::move(field_name)), components(3) {
+  std::vector<double> flat;
+  flat.reserve(3 * v.size());
+  for (const dem::Vector3 &vector : v)
+    flat.insert(flat.end(), {vector.x, vector.y, vector.z});
+  values = std::move(flat);
+}
+
+void write_points(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+                  const std::vector<Field> &point_fields) {
+  std::vector<int> corners(points.size());
+  std::iota(corners.begin(), corners.end(), 0);
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(*grid, points);
+  set_cells(*grid, VTK_VERTEX, 1, corners.data(), corners.size());
+  add_fields(grid->GetPointData(), point_fields, points.size());
+  add_time(*grid, time);
+  write_grid(path, *grid);
+}
+
+void write_lines(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+                 const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
+                 const std::vector<Field> &line_fields) {
+  const auto outside = [&](int p) { return p < 0 || static_cast<std::size_t>(p) >= points.size(); };
+  for (const auto &line : lines)
+    if (outside(line[0]) || outside(line[1])) throw std::logic_error("a line ends at no point");
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(*grid, points);
+  set_cells(*grid, VTK_LINE, 2, lines.empty() ? nullptr : lines.front().data(), lines.size());
+  add_fields(grid->GetPointData(), point_fields, points.size());
+  add_fields(grid->GetCellData(), line_fields, lines.size());
+  add_time(*grid, time);
+  write_grid(path, *grid);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,46 @@
+// Clouds of particles and sets of lines as VTU files for ParaView: binary (raw appended), compressed (zlib),
+// with named fields. Written aside and renamed, so that a file under its name is always whole.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dem/vector3.h"
+
+namespace platen::apps {
+
+// One field: `components` values for each point (or cell), one after the other. 1: scalar; 3: vector; 6:
+// symmetric tensor in VTK's order xx yy zz xy yz xz; 9: tensor by rows. Units are those of SI; tension is
+// positive.
+struct Field {
+  using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<int>>;
+  std::string name;
+  int components = 1;
+  Values values;
+
+  Field(std::string field_name, std::vector<double> v, int n = 1)
+      : name(std::move(field_name)), components(n), values(std::move(v)) {}
+  Field(std::string field_name, std::vector<float> v, int n = 1)
+      : name(std::move(field_name)), components(n), values(std::move(v)) {}
+  Field(std::string field_name, std::vector<int> v, int n = 1)
+      : name(std::move(field_name)), components(n), values(std::move(v)) {}
+  Field(std::string field_name, const std::vector<dem::Vector3> &v);
+};
+
+// Points, each with a vertex cell, and their fields. `time` (s) is stored with the frame. Throws OutputError
+// where the file cannot be written (a former one stays), std::logic_error where a field has another length
+// than the points.
+void write_points(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+                  const std::vector<Field> &point_fields);
+
+// Lines between two of the points, with fields of the points and of the lines; errors as above, and
+// std::logic_error where a line ends at no point.
+void write_lines(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+                 const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
+                 const std::vector<Field> &line_fields);
+
+} // namespace platen::apps
