@@ -1,5 +1,6 @@
 // The grammar of deal.II's ParameterHandler, line by line: `subsection`, `set`, `end`, `include` (lower or
 // upper case), comments from # to the end of the line, a backslash at the end to continue a line.
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
