@@ -21,63 +21,65 @@ bool before(const ContactSearch::RestDistance &a, const IndexPair &b) {
 } // namespace
 
 void ContactSearch::moved(double distance) {
-  moved_since_wide_ += distance;
-  moved_since_close_ += distance;
+  state_.moved_since_wide += distance;
+  state_.moved_since_close += distance;
 }
 
 bool ContactSearch::update(const Particles &particles, const Bonds *bonds) {
   // Both partners may have moved towards each other.
-  if (!wide_valid_ || 2 * moved_since_wide_ + close_skin_ >= wide_skin_)
+  if (!state_.wide_valid || 2 * state_.moved_since_wide + close_skin_ >= wide_skin_)
     rebuild_wide(particles, bonds);
-  else if (close_valid_ && 2 * moved_since_close_ < close_skin_)
+  else if (state_.close_valid && 2 * state_.moved_since_close < close_skin_)
     return false;
   rebuild_close(particles);
   return true;
 }
 
 void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds) {
-  wide_ = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
+  state_.wide = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
   if (bonds != nullptr)
-    wide_.erase(std::remove_if(wide_.begin(), wide_.end(), [&](IndexPair p) { return is_bonded(*bonds, p); }),
-                wide_.end());
-  moved_since_wide_ = 0;
-  wide_valid_ = true;
+    state_.wide.erase(std::remove_if(state_.wide.begin(), state_.wide.end(),
+                                     [&](IndexPair p) { return is_bonded(*bonds, p); }),
+                      state_.wide.end());
+  state_.moved_since_wide = 0;
+  state_.wide_valid = true;
 }
 
 void ContactSearch::rebuild_close(const Particles &particles) {
-  close_.clear();
-  for (const IndexPair &p : wide_) {
+  state_.close.clear();
+  for (const IndexPair &p : state_.wide) {
     const double reach = particles.radius[p.first] + particles.radius[p.second] + close_skin_;
     if (norm_squared(particles.position[p.second] - particles.position[p.first]) < reach * reach)
-      close_.push_back(p);
+      state_.close.push_back(p);
   }
-  moved_since_close_ = 0;
-  close_valid_ = true;
+  state_.moved_since_close = 0;
+  state_.close_valid = true;
 }
 
 void ContactSearch::add_pair(IndexPair pair) {
-  if (!wide_valid_) return; // the next build finds it
-  const auto at = std::lower_bound(wide_.begin(), wide_.end(), pair);
-  if (at == wide_.end() || !(*at == pair)) wide_.insert(at, pair);
-  close_valid_ = false;
+  if (!state_.wide_valid) return; // the next build finds it
+  const auto at = std::lower_bound(state_.wide.begin(), state_.wide.end(), pair);
+  if (at == state_.wide.end() || !(*at == pair)) state_.wide.insert(at, pair);
+  state_.close_valid = false;
 }
 
 void ContactSearch::set_rest_distance(IndexPair pair, double distance) {
-  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before);
-  if (at != rest_.end() && at->pair == pair)
+  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before);
+  if (at != state_.rest.end() && at->pair == pair)
     at->distance = distance;
   else
-    rest_.insert(at, {pair, distance});
+    state_.rest.insert(at, {pair, distance});
 }
 
 double ContactSearch::rest_distance(IndexPair pair, const Particles &particles) const {
-  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before);
-  if (at != rest_.end() && at->pair == pair) return at->distance;
+  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before);
+  if (at != state_.rest.end() && at->pair == pair) return at->distance;
   return particles.radius[pair.first] + particles.radius[pair.second];
 }
 
 std::size_t ContactSearch::bytes() const {
-  return (wide_.capacity() + close_.capacity()) * sizeof(IndexPair) + rest_.capacity() * sizeof(RestDistance);
+  return (state_.wide.capacity() + state_.close.capacity()) * sizeof(IndexPair) +
+         state_.rest.capacity() * sizeof(RestDistance);
 }
 
 } // namespace platen::dem

@@ -26,27 +26,30 @@ public:
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
-  const std::vector<IndexPair> &close_pairs() const { return close_; }
+  const std::vector<IndexPair> &close_pairs() const { return state_.close; }
   std::size_t bytes() const;
 
-  // What a checkpoint keeps: the pairs with a rest distance of their own.
   struct RestDistance {
     IndexPair pair;
-    double distance;
+    double distance; // m
   };
-  const std::vector<RestDistance> &rest_distances() const { return rest_; }
-  void set_rest_distances(std::vector<RestDistance> rest) { rest_ = std::move(rest); }
-  void invalidate() { wide_valid_ = false; }
+  // Everything that decides when lists are rebuilt and what they hold: a checkpoint keeps it, so that sums
+  // over rows are grouped as they would have been.
+  struct State {
+    double moved_since_wide = 0, moved_since_close = 0; // m
+    int wide_valid = 0, close_valid = 0;
+    std::vector<IndexPair> wide, close;
+    std::vector<RestDistance> rest; // pairs with a rest distance of their own, sorted
+  };
+  const State &state() const { return state_; }
+  void set_state(State state) { state_ = std::move(state); }
 
 private:
   void rebuild_wide(const Particles &particles, const Bonds *bonds);
   void rebuild_close(const Particles &particles);
 
   double wide_skin_, close_skin_;
-  double moved_since_wide_ = 0, moved_since_close_ = 0;
-  bool wide_valid_ = false, close_valid_ = false;
-  std::vector<IndexPair> wide_, close_;
-  std::vector<RestDistance> rest_; // sorted by pair
+  State state_;
 };
 
 } // namespace platen::dem
