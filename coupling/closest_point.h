@@ -1,0 +1,42 @@
+// Closest point of a bilinear quadrilateral, flat or warped, to the origin. The query point is the origin:
+// callers hand over corners relative to the particle's centre, so that no digit of the gap is lost far from
+// the origin of the scene.
+#pragma once
+
+#include <array>
+
+#include "dem/vector3.h"
+
+namespace platen::coupling {
+
+enum class Feature { face, edge, vertex };
+
+using Quad = std::array<dem::Vector3, 4>; // corners, counter-clockwise seen from outside
+
+// x(u, v) = sum w_i x_i with w = ((1-u)(1-v), u(1-v), uv, (1-u)v), 0 <= u, v <= 1.
+struct ClosestPoint {
+  dem::Vector3 point;              // m, from the query point; sum w_i x_i to round-off
+  std::array<double, 4> weights{}; // w_0 + w_1 + w_2 + w_3 = 1 exactly, added in this order
+  double u = 0, v = 0;
+  double distance_squared = 0; // m^2
+  Feature feature = Feature::face;
+  // Edge k joins corners k and k + 1; vertex k is corner k; 0 for the face.
+  int local = 0;
+};
+
+// Global minimum. Exact to round-off for parallelograms (one linear solve) and for edges and corners of any
+// quad; otherwise by Newton's method, safeguarded, to round-off. Quads with coincident corners, without area
+// or of a single point are legal. No NaN for finite corners.
+ClosestPoint closest_point(const Quad &corners);
+
+// Weights at (u, v); their sum is exactly 1.
+std::array<double, 4> bilinear_weights(double u, double v);
+
+// Unit outward normal at (u, v); zero where the quad has no area.
+dem::Vector3 bilinear_normal(const Quad &corners, double u, double v);
+
+// Derivatives of sum w_i f_i with respect to u and v.
+dem::Vector3 derivative_u(const Quad &values, double v);
+dem::Vector3 derivative_v(const Quad &values, double u);
+
+} // namespace platen::coupling

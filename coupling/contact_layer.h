@@ -1,0 +1,151 @@
+// Contact between the particles and the surface of one body: node to surface, one contact per particle. The
+// particle is the node; its sphere touches the closest point of the whole surface, wherever that lies among
+// faces, edges and vertices, so that neither force nor friction history notices the mesh.
+//
+// Normal n from body to particle, gap g = distance of the centre - R - offset, positive when open. Force on
+// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k_n m), m the particle's mass
+// (the body is taken as much heavier); T after dem/laws/coulomb_friction.h with k_t = ratio k_n. It acts at
+// the closest point. v is the particle's velocity there, minus the surface's, both as they were over the last
+// drift (half-step values: their product with dt is the displacement, and the works below are those that
+// velocity Verlet sees).
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "coupling/surface_search.h"
+#include "dem/laws/coulomb_friction.h"
+#include "dem/particles.h"
+#include "dem/stable_step.h"
+#include "dem/table.h"
+#include "fem/body.h"
+
+namespace platen::coupling {
+
+enum class Attachment {
+  free, // contact only: pushes, slides, lets go
+  glued // seated particles are tied to the surface: pull as well as push, no limit to the tangential force
+};
+
+struct SurfaceContact {
+  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m; unused where a column is given
+  double body_stiffness = std::numeric_limits<double>::infinity(); // N/m, in series: 1/k_n = 1/k_p + 1/k_b
+  double tangential_ratio = 0.8;                                   // k_t / k_n, > 0
+  double friction_static = 0;                                      // 1, >= 0; infinity: never slides
+  double friction_dynamic = 0; // 1; both zero: frictionless, no tangential columns
+  double damping = 0;          // fraction of critical, >= 0
+  Attachment attachment = Attachment::free;
+  // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up
+  // to the moment .5 N R. Zero: no seat. Needs rotation.
+  double seat_modulus = 0;
+  double skin =
+      std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
+};
+
+// One contact as it is now, for output.
+struct ActiveContact {
+  int particle = 0;        // row
+  int face = 0;            // of the surface
+  dem::Vector3 point;      // m, on the surface
+  dem::Vector3 normal;     // unit, from body to particle
+  double normal_force = 0; // N, positive when pressed; with `glued` also negative
+  dem::Vector3 shear;      // N, tangential force on the particle
+  bool sliding = false;
+  double slip = 0; // m, path slid since the contact closed
+};
+
+class ContactLayer {
+public:
+  // Throws std::invalid_argument, naming the entry, where a parameter is out of range. `particle_stiffness`
+  // (N/m, one per particle row) replaces the single value; it must outlive the layer.
+  ContactLayer(const dem::Particles &particles, const fem::Body &body, const SurfaceContact &parameters,
+               const dem::Column<double> *particle_stiffness = nullptr);
+
+  // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
+  // last; a second call moves the zero.
+  void seat(int particle, double offset);
+  // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
+  // sawn flush with the surface. Returns how many.
+  int seat_within(const dem::Particles &particles, const fem::Body &body, double depth);
+  int seats() const;
+
+  // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)
+  // since the last call. Throws std::runtime_error where that is more than the smallest radius: a particle
+  // could have passed through a face without being seen.
+  void moved(double distance);
+
+  // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it before
+  // asking for springs or stiffness ahead of the first step.
+  void update_search(const dem::Particles &particles, const fem::Body &body);
+
+  // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
+  // by the step dt (s) that the drift made. Reads position, velocity, radius, mass (angular_velocity); writes
+  // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
+  void add_forces(dem::Particles &particles, fem::Body &body, double dt);
+
+  // Of the last add_forces.
+  const std::vector<ActiveContact> &contacts() const { return active_; } // ascending particle rows
+  double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
+  // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
+  // elsewhere.
+  std::vector<double> vertex_slip(const fem::Body &body) const;
+
+  // Since the start (J).
+  double friction_work = 0; // lost to sliding, including rocking seats
+  double damping_work = 0;  // lost to dashpots
+
+  // Springs of all particles near the surface, for the stable step.
+  std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles, const fem::Body &body) const;
+  // What a servo pushes against, if all particles near the surface touched it.
+  double near_stiffness(const dem::Particles &particles) const; // N/m
+  double near_dashpot(const dem::Particles &particles) const;   // N s/m
+
+  // One row per particle near the surface, ascending. A checkpoint saves the table and both works; after
+  // loading them it calls restored().
+  const dem::Table &history() const { return table_; }
+  dem::Table &history() { return table_; }
+  void restored() { search_.forget(); }
+
+  const SurfaceContact &parameters() const { return parameters_; }
+  const SurfaceSearch &search() const { return search_; }
+
+private:
+  struct RowForce;
+  struct Kinematics;
+  void set_rows(const std::vector<int> &particles);
+  std::vector<int> seated_particles() const;
+  std::size_t add_row(int particle);
+  double stiffness(int particle) const;
+  bool tied(std::size_t row) const;
+  bool holds_history(std::size_t row) const;
+  RowForce row_force(const dem::Particles &particles, const fem::Body &body, std::size_t row, double dt);
+  void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void store(const dem::Particles &particles, std::size_t row, const RowForce &result);
+
+  SurfaceContact parameters_;
+  const dem::Column<double> *particle_stiffness_;
+  double smallest_radius_;
+  SurfaceSearch search_;
+
+  dem::Table table_;
+  dem::Column<int> &particle_ = table_.add<int>("particle", "1");
+  dem::Column<int> &seated_ = table_.add<int>("seated", "1");
+  dem::Column<double> &offset_ = table_.add<double>("offset", "m");
+  dem::Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
+  dem::Column<dem::Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
+  dem::Column<dem::Vector3> *spring_ = nullptr;      // N; with friction or glue
+  dem::Column<int> *sliding_ = nullptr;              // the same
+  dem::Column<double> *slip_ = nullptr;              // m, the same
+  dem::Column<dem::Vector3> *seat_spring_ = nullptr; // N m; with seats
+  dem::Column<int> *seat_sliding_ = nullptr;
+
+  std::vector<RowForce> row_forces_;
+  std::vector<ActiveContact> active_;
+  std::vector<std::array<double, 4>> active_weights_;
+  double elastic_energy_ = 0;
+};
+
+} // namespace platen::coupling

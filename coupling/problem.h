@@ -1,0 +1,118 @@
+// A specimen between two platens: particles, bodies and contact layers on one clock, loaded by motion or by stress.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "coupling/contact_layer.h"
+#include "coupling/servo.h"
+#include "dem/model.h"
+#include "dem/packing/specimen.h"
+#include "fem/body.h"
+
+namespace platen::coupling {
+
+// The run cannot go on: what, where, when and what to try. Apps exit with status 3.
+class NumericsStopped : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+// The scene asks for something that cannot be run. Apps exit with status 2.
+class BadSetup : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Ends { as_packed, ground };
+
+struct PlatenSide {
+  double friction_static = 0, friction_dynamic = 0;
+};
+
+struct PlatenSettings {
+  PlatenSide top, bottom;
+  double stiffness_of_bond = 1;   // multiple of the mean bond's k_n A ...
+  double stiffness_absolute = 0;  // ... or N/m where positive
+  double tangential_ratio = 0.8;
+  double damping = 0.2;           // fraction of critical
+  double overhang = 1.2;          // platen half-width over the specimen's
+  double thickness = 0;           // m
+  int elements_across = 8;
+  fem::Material material{7830, 200e9, 0.3};
+  bool glued = false;
+};
+
+struct LoadingSettings {
+  bool tension = false;
+  double rate = 0;        // m/s, closure (opening) speed of the platens, each moving at half of it
+  double ramp = 0;        // s; 0: ten wave crossings of the height
+  bool servo = false;     // top platen held at a stress instead, bottom at rest
+  double top_stress = 0;  // Pa, pressing
+};
+
+struct ProblemSettings {
+  dem::ModelSettings model;
+  Ends ends = Ends::as_packed;
+  double end_layer = 1;    // mean radii, for ground ends
+  bool seat = false;       // rocking springs of ground spheres
+  PlatenSettings platens;
+  LoadingSettings loading;
+  double safety = 0.8;
+  double fixed_step = 0;   // s; 0: safety times the limit
+};
+
+class Problem {
+public:
+  Problem(const dem::Specimen &specimen, const ProblemSettings &settings);
+
+  void step();
+
+  dem::Model model;
+  fem::Body top, bottom;
+  ContactLayer top_layer, bottom_layer;
+
+  const dem::Shape &shape() const { return shape_; }
+  const ProblemSettings &settings() const { return settings_; }
+  double time() const { return model.time; }
+  long steps() const { return steps_; }
+  double time_step() const { return time_step_; }
+  const std::string &time_step_reason() const { return reason_; }
+  double ramp() const { return ramp_; }                   // s
+  double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
+  double packing_fraction() const { return packing_fraction_; }
+  double coordination_number() const; // bonds per particle times two
+
+  // Laboratory signs: compression positive (tension tests: still compression positive).
+  double closure_strain() const;      // platen to platen, over the height
+  double stress_top() const, stress_bottom() const; // Pa, nominal area
+  double platen_speed() const; // m/s, closure speed now
+  dem::EnergyLedger energy() const;
+  double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
+
+  // Everything beside tables and bodies that a checkpoint keeps, as plain numbers.
+  std::vector<double> numbers() const;
+  void set_numbers(const std::vector<double> &numbers);
+  // After tables, bodies and numbers have been loaded.
+  void restored();
+
+private:
+  void choose_step(bool first);
+  void drift_bodies();
+  std::vector<dem::GroundSpring> ground_springs() const;
+  std::size_t touching() const;
+
+  ProblemSettings settings_;
+  dem::Shape shape_;
+  double packing_fraction_ = 0, wave_crossing_ = 0, ramp_ = 0;
+  double time_step_ = 0;
+  std::string reason_;
+  long steps_ = 0;
+  std::size_t touching_at_choice_ = 0;
+  double boundary_work_ = 0; // J, of both platens
+  double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
+  std::unique_ptr<Servo> servo_;
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,80 @@
+// Which particles are near a body's surface, and where on it each finds its closest point.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "coupling/box_tree.h"
+#include "coupling/closest_point.h"
+#include "dem/particles.h"
+#include "fem/surface_mesh.h"
+
+namespace platen::coupling {
+
+// The closest point of a whole surface to a particle's centre.
+struct SurfacePoint {
+  int face = -1;
+  ClosestPoint local;  // point relative to the centre; weights of the face's corners
+  dem::Vector3 normal; // unit, out of the body; from the surface to the centre where the centre is outside
+  double distance = 0; // m, of the centre; negative inside the body
+};
+
+// Corners of a face relative to a point.
+Quad face_corners(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &origin);
+
+class SurfaceSearch {
+public:
+  // The surface keeps its faces for the life of the search; its vertices may move. skin (m): how far
+  // particles and surface may move relative to each other before the list is made again; larger means rarer
+  // and longer lists.
+  SurfaceSearch(const fem::SurfaceMesh &surface, double skin);
+
+  double skin() const { return skin_; }
+  // Tells that no particle has moved relative to the surface by more than `distance` (m) since the last call:
+  // largest particle displacement plus largest surface displacement.
+  void moved(double distance) { travelled_ += distance; }
+  void forget() { travelled_ = std::numeric_limits<double>::infinity(); }
+  bool stale() const { return !(travelled_ <= skin_); }
+
+  // Lists all particles whose centre is within reach[row] + skin of the surface, and those in `always`
+  // (ascending rows) at any distance. Visits every particle once.
+  void rebuild(const fem::SurfaceMesh &surface, const dem::Column<dem::Vector3> &position,
+               const std::vector<double> &reach, const std::vector<int> &always);
+
+  // Rows of the particles listed, ascending.
+  const std::vector<int> &particles() const { return particles_; }
+
+  // Closest point over the whole surface for entry k of the list, with the centre where it is now. Exact
+  // while the list is not stale, and the same whenever the list was made. Ties go to the lowest face. May be
+  // called from several threads.
+  SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const dem::Vector3 &centre) const;
+
+  // The same by looking at every face: the oracle of the tests, and right for a single question.
+  SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const dem::Vector3 &centre) const;
+
+private:
+  struct NearFace {
+    double distance = 0; // m, when the list was made
+    int face = 0;
+  };
+  std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
+  void collect(const fem::SurfaceMesh &surface, const dem::Vector3 &centre, double limit);
+  SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
+                           const dem::Vector3 &centre) const;
+  dem::Vector3 edge_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
+                           const dem::Vector3 &centre) const;
+  dem::Vector3 vertex_normal(const fem::SurfaceMesh &surface, int face, int corner,
+                             const dem::Vector3 &centre) const;
+
+  double skin_;
+  double travelled_ = std::numeric_limits<double>::infinity();
+  BoxTree tree_;
+  std::vector<int> first_face_of_vertex_, faces_of_vertex_; // faces around each vertex, ascending
+  std::vector<int> particles_;
+  std::vector<std::size_t> first_near_; // entry k has near_[first_near_[k] ... first_near_[k + 1])
+  std::vector<NearFace> near_;          // ascending distance
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,104 @@
+#include "coupling/transfer.h"
+
+#include <array>
+#include <cmath>
+
+namespace platen::coupling {
+
+using dem::cross;
+using dem::dot;
+using dem::norm;
+using dem::norm_squared;
+using dem::Vector3;
+
+namespace {
+
+Vector3 vector(const fem::Point &p) {
+  return {p[0], p[1], p[2]};
+}
+
+Quad corner_velocities(const fem::SurfaceMesh &surface, int face) {
+  const std::array<int, 4> &v = surface.faces[static_cast<std::size_t>(face)];
+  const auto at = [&](std::size_t k) { return vector(surface.velocities[static_cast<std::size_t>(v[k])]); };
+  return {at(0), at(1), at(2), at(3)};
+}
+
+// Corners about their mean.
+Quad arms(const fem::SurfaceMesh &surface, int face) {
+  const fem::Point &p =
+      surface.vertices[static_cast<std::size_t>(surface.faces[static_cast<std::size_t>(face)][0])];
+  Quad q = face_corners(surface, face, vector(p));
+  const Vector3 mean = 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
+  for (Vector3 &corner : q)
+    corner -= mean;
+  return q;
+}
+
+// Solves J x = b with J = sum (r.r 1 - r r^T) over the arms; zero where J is singular (arms on a line).
+Vector3 turn_by_arms(const Quad &r, const Vector3 &b) {
+  Vector3 row[3] = {};
+  double trace = 0;
+  for (const Vector3 &a : r) {
+    trace += norm_squared(a);
+    for (int k = 0; k < 3; ++k)
+      row[k] -= a[k] * a;
+  }
+  for (int k = 0; k < 3; ++k)
+    row[k][k] += trace;
+  const double determinant = dot(row[0], cross(row[1], row[2]));
+  constexpr double on_a_line = 1e-24; // relative: a needle of aspect 1e-12
+  if (!(determinant > on_a_line * trace * trace * trace)) return {};
+  return (b.x * cross(row[1], row[2]) + b.y * cross(row[2], row[0]) + b.z * cross(row[0], row[1])) /
+         determinant;
+}
+
+} // namespace
+
+SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint &point) {
+  const Quad v = corner_velocities(surface, point.face);
+  SurfaceMotion motion;
+  // The sum w_i v_i, written so that equal velocities give that velocity without rounding.
+  for (std::size_t k = 1; k < 4; ++k)
+    motion.velocity += point.local.weights[k] * (v[k] - v[0]);
+  const Vector3 gradient = motion.velocity;
+  motion.velocity += v[0];
+  if (norm_squared(gradient) == 0 && norm_squared(v[2] - v[0]) == 0 && norm_squared(v[3] - v[1]) == 0)
+    return motion;
+
+  // For tangents a, b that move with w: (va . b - vb . a) / 2 = w . (a x b), the antisymmetric part of the
+  // gradient.
+  const Quad corners = face_corners(surface, point.face, vector(surface.vertices[0]));
+  const double pu = point.local.u, pv = point.local.v;
+  const Vector3 a = derivative_u(corners, pv), b = derivative_v(corners, pu);
+  const double area = norm(cross(a, b));
+  if (area > 0) motion.spin = 0.5 * (dot(derivative_u(v, pv), b) - dot(derivative_v(v, pu), a)) / area;
+  return motion;
+}
+
+Vector3 face_rotation(const fem::SurfaceMesh &surface, int face) {
+  const Quad r = arms(surface, face), v = corner_velocities(surface, face);
+  Vector3 circulation;
+  for (std::size_t k = 0; k < 4; ++k)
+    circulation += cross(r[k], v[k] - v[0]);
+  return turn_by_arms(r, circulation);
+}
+
+void apply_force(fem::Body &body, const SurfacePoint &point, const Vector3 &force) {
+  const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(point.face)];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 share = point.local.weights[k] * force;
+    body.add_surface_force(corners[k], {share.x, share.y, share.z});
+  }
+}
+
+void apply_moment(fem::Body &body, int face, const Vector3 &moment) {
+  const Quad r = arms(body.surface(), face);
+  const Vector3 turn = turn_by_arms(r, moment);
+  const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(face)];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 f = cross(turn, r[k]);
+    body.add_surface_force(corners[k], {f.x, f.y, f.z});
+  }
+}
+
+} // namespace platen::coupling
