@@ -1,46 +1,63 @@
-// platen-report: turns an output folder into pictures, and compares several.
+// platen-report: turns an output folder into pictures and a page, and compares several.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
+#include <sstream>
 
 #include "apps/report/display.h"
 #include "apps/report/report.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/version.h"
 
 namespace {
 
+using namespace platen::apps;
+
+struct Wishes {
+  std::string folder, pictures; // pictures: empty for FOLDER/pictures
+  std::vector<std::string> others;
+  bool quiet = false;
+};
+
+void report_on(const Wishes &wishes, char **argv) {
+  std::vector<report::Run> runs{report::read_run(wishes.folder)};
+  for (const std::string &other : wishes.others)
+    runs.push_back(report::read_run(other));
+  report::ensure_display(argv);
+  const std::filesystem::path beside = std::filesystem::path(wishes.folder) / "pictures";
+  std::ostringstream unread;
+  report::write_report(runs, wishes.pictures.empty() ? beside : std::filesystem::path(wishes.pictures),
+                       wishes.quiet ? static_cast<std::ostream &>(unread) : std::cout);
+}
+
 int fail(const std::exception &error, int status) {
-  std::cerr << "platen-report: error: " << error.what() << '\n';
+  std::cout.flush();
+  std::cerr << "error: " << error.what() << '\n';
   return status;
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-  using namespace platen::apps;
-  using namespace platen::apps::report;
-  CLI::App app{"Turns an output folder of a run into pictures (PNG), and compares several runs."};
-  std::string folder, pictures;
-  std::vector<std::string> others;
-  app.add_option("folder", folder, "output folder of a run")->required();
-  app.add_option("-c,--compare", others, "further output folders, drawn and tabled beside the first");
-  app.add_option("-o,--output", pictures, "folder for the pictures; default: FOLDER/pictures");
+  CLI::App app{
+      "Turns an output folder of a run into pictures (PNG) and one HTML page, and compares several runs."};
+  Wishes wishes;
+  app.add_option("folder", wishes.folder, "Output folder of a run")->required();
+  app.add_option("-c,--compare", wishes.others, "Further output folders, drawn and tabled beside the first");
+  app.add_option("-o,--output", wishes.pictures, "Folder for pictures and page; default: FOLDER/pictures");
+  app.add_flag("-q,--quiet", wishes.quiet, "Print errors only");
+  app.set_version_flag("--version", version_text());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
     return app.exit(error) == 0 ? status_done : status_bad_input;
   }
-
   try {
-    std::vector<Run> runs{read_run(folder)};
-    for (const std::string &other : others)
-      runs.push_back(read_run(other));
-    ensure_display(argv);
-    const std::filesystem::path beside = std::filesystem::path(folder) / "pictures";
-    write_report(runs, pictures.empty() ? beside : std::filesystem::path(pictures), std::cout);
-  } catch (const OutputError &error) {
-    return fail(error, status_output);
-  } catch (const std::exception &error) {
+    report_on(wishes, argv);
+  } catch (const InputError &error) {
     return fail(error, status_bad_input);
+  } catch (const std::exception &error) { // OutputError, file system, memory
+    return fail(error, status_output);
   }
   return status_done;
 }

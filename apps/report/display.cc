@@ -8,9 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "apps/scene/errors.h"
 
 namespace platen::apps::report {
 namespace {
@@ -38,11 +39,11 @@ bool is_on_path(const std::string &program) {
 void ensure_display(char **argv) {
   if (display_is_usable()) return;
   if (std::getenv(under_xvfb) != nullptr)
-    throw std::runtime_error("the display that xvfb-run gave cannot be used; pictures need an X server");
+    throw InputError("the display that xvfb-run gave cannot be used; pictures need an X server");
   for (const char *program : {"xvfb-run", "Xvfb", "xauth"})
     if (!is_on_path(program))
-      throw std::runtime_error(std::string("there is no display to draw on and no ") + program +
-                               " to make one; install the packages xvfb and xauth, or set DISPLAY");
+      throw InputError(std::string("there is no display to draw on and no ") + program +
+                       " to make one; install the packages xvfb and xauth, or set DISPLAY");
   setenv(under_xvfb, "1", 1);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   std::vector<const char *> command = {"xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", self.c_str()};
@@ -50,7 +51,7 @@ void ensure_display(char **argv) {
     command.push_back(*argument);
   command.push_back(nullptr);
   execvp(command[0], const_cast<char *const *>(command.data()));
-  throw std::runtime_error(std::string("xvfb-run could not be started: ") + std::strerror(errno));
+  throw InputError(std::string("xvfb-run could not be started: ") + std::strerror(errno));
 }
 
 } // namespace platen::apps::report

@@ -1,6 +1,7 @@
-# Sources of platen-report but for its main, apps/platen_report.cc. They need nlohmann_json::nlohmann_json, X11::X11
+# Sources of platen-report but for its main, apps/platen_report.cc, which also needs CLI11 and version_text()
+# (scene/version.cc). The sources need nlohmann_json::nlohmann_json, X11::X11
 # (find_package(X11)) and these components of VTK:
-#   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOImage IOXML IOXMLParser
+#   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML IOXMLParser
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
@@ -14,6 +15,7 @@ set(PLATEN_REPORT_SOURCES
   report/display.cc
   report/frames.cc
   report/heat_map.cc
+  report/html_page.cc
   report/moments.cc
   report/report.cc
   report/run_folder.cc

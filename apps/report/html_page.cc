@@ -1,0 +1,89 @@
+#include "apps/report/html_page.h"
+
+#include <vtkBase64Utilities.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+constexpr const char *look = R"(<style>
+body { font-family: sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #111; background: #fff; }
+table { border-collapse: collapse; } td, th { padding: 0.2rem 1rem; border-bottom: 1px solid #ccc; text-align: right; }
+td:first-child, th:first-child { text-align: left; padding-left: 0; }
+figure { margin: 2rem 0; } img { max-width: 100%; } figcaption { margin-top: 0.5rem; }
+</style>
+)";
+
+std::string base64_of(const std::filesystem::path &file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream || bytes.empty()) throw OutputError(file.string() + ": cannot be read back");
+  std::vector<unsigned char> text(bytes.size() / 3 * 4 + 8);
+  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char *>(bytes.data()),
+                                                 bytes.size(), text.data());
+  return {text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length)};
+}
+
+std::string row_of(const std::vector<std::string> &fields, const std::string &kind) {
+  std::string row = "<tr>";
+  for (const std::string &field : fields)
+    row.append("<").append(kind).append(">").append(escaped(field)).append("</").append(kind).append(">");
+  return row + "</tr>\n";
+}
+
+} // namespace
+
+std::string escaped(const std::string &text) {
+  std::string html;
+  for (const char letter : text)
+    switch (letter) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += letter;
+    }
+  return html;
+}
+
+void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,
+                const std::vector<Picture> &pictures, const std::filesystem::path &html) {
+  std::ofstream out(html);
+  const std::string title = escaped(runs.front().title);
+  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" << title
+      << "</title>\n"
+      << look << "</head>\n<body>\n<h1>" << title << "</h1>\n<table>\n"
+      << row_of(figures.header, "th");
+  for (const auto &row : figures.rows)
+    out << row_of(row, "td");
+  out << "</table>\n<ul>\n";
+  for (const Run &run : runs) {
+    if (run.summary.contains("version") && run.summary["version"].is_string())
+      out << "<li>" << escaped(run.name + ": " + run.summary["version"].get<std::string>()) << "</li>\n";
+    for (const std::string &remark : run.remarks)
+      out << "<li>" << escaped(run.name + ": " + remark) << "</li>\n";
+  }
+  out << "</ul>\n";
+  for (const Picture &picture : pictures)
+    out << "<figure><img alt=\"" << escaped(picture.caption) << "\" src=\"data:image/png;base64,"
+        << base64_of(picture.file) << "\"><figcaption>" << escaped(picture.caption)
+        << "</figcaption></figure>\n";
+  out << "</body>\n</html>\n";
+  out.close();
+  if (!out) throw OutputError(html.string() + ": could not be written");
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,167 @@
+// platen-report as a user runs it: exit statuses, messages, and what its pictures show.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "apps/report_example.h"
+#include "apps/report_folder.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out, error;
+};
+
+// Runs the program by the shell, with `setting` before it ("VARIABLE=value").
+Outcome run(const TestFolder &folder, const std::string &arguments, const std::string &setting = "") {
+  const std::string out = (folder / "out.txt").string(), error = (folder / "error.txt").string();
+  const std::string command =
+      setting + " '" PLATEN_REPORT_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + error + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
+}
+
+std::string quoted(const std::filesystem::path &path) {
+  return "'" + path.string() + "'";
+}
+
+struct Image {
+  vtkSmartPointer<vtkImageData> data;
+  int width = 0, height = 0;
+  double at(int x, int y, int channel) const { return data->GetScalarComponentAsDouble(x, y, 0, channel); }
+};
+
+Image read_png(const std::filesystem::path &file) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  Image image{reader->GetOutput()};
+  image.width = image.data->GetDimensions()[0];
+  image.height = image.data->GetDimensions()[1];
+  return image;
+}
+
+// Share of pixels that are not white.
+double inked(const Image &image) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      count += image.at(x, y, 0) < 250 || image.at(x, y, 1) < 250 || image.at(x, y, 2) < 250 ? 1 : 0;
+  return static_cast<double>(count) / image.width / image.height;
+}
+
+// Mean of red less the mean of green and blue over a square of 80 pixels about (x, y), fractions.
+double redness(const Image &image, double x, double y) {
+  const int cx = static_cast<int>(x * image.width), cy = static_cast<int>(y * image.height), half = 40;
+  double sum = 0;
+  for (int j = cy - half; j < cy + half; ++j)
+    for (int i = cx - half; i < cx + half; ++i)
+      sum += image.at(i, j, 0) - 0.5 * (image.at(i, j, 1) + image.at(i, j, 2));
+  return sum / (4.0 * half * half);
+}
+
+TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_nor_black) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  const Outcome outcome = run(folder, quoted(folder / "dry"), "env -u DISPLAY");
+  ASSERT_EQ(outcome.status, status_done) << outcome.error;
+  for (const char *name :
+       {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density"}) {
+    const auto file = folder / "dry" / "pictures" / (std::string(name) + ".png");
+    ASSERT_TRUE(std::filesystem::exists(file)) << name;
+    const Image image = read_png(file);
+    EXPECT_GE(image.width, 1000) << name;
+    EXPECT_GT(inked(image), 0.01) << name;
+    EXPECT_LT(inked(image), 0.75) << name;
+    EXPECT_GT(image.at(2, 2, 0) + image.at(2, image.height - 3, 0), 509) << name << ": corners are white";
+  }
+  EXPECT_NE(outcome.out.find("strength (MPa)"), std::string::npos);
+  const std::string page = text_of(folder / "dry" / "pictures" / "report.html");
+  EXPECT_NE(page.find("dry platens"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
+}
+
+TEST(ReportApp, compared_side_by_side_the_hourglass_is_red_in_the_middle_and_the_other_at_its_ends) {
+  const TestFolder folder;
+  ExampleRun lubricated;
+  lubricated.hourglass = false;
+  write_example(folder / "dry", {});
+  write_example(folder / "lubricated", lubricated);
+  const Outcome outcome = run(folder, quoted(folder / "dry") + " --compare " + quoted(folder / "lubricated") +
+                                          " -o " + quoted(folder / "somewhere else"));
+  ASSERT_EQ(outcome.status, status_done) << outcome.error;
+  EXPECT_NE(outcome.out.find("dry / lubricated"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "dry" / "pictures"));
+
+  const Image image = read_png(folder / "somewhere else" / "comparison_damage.png");
+  const double dry = 0.21, other = 0.64, middle = 0.5, end = 0.2; // places in the picture
+  constexpr double clearly = 60; // of 255; intact spheres are grey (0), broken ones dark red (100 and more)
+  EXPECT_GT(redness(image, dry, middle), redness(image, dry, end) + clearly);
+  EXPECT_GT(redness(image, other, end), redness(image, other, middle) + clearly);
+  EXPECT_TRUE(std::filesystem::exists(folder / "somewhere else" / "comparison_stress_strain.png"));
+}
+
+TEST(ReportApp, a_run_without_frames_still_gets_its_curves) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  for (const char *name : {"specimen.pvd", "bonds.pvd", "platens.pvd", "summary.json"})
+    std::filesystem::remove(folder / "dry" / name);
+  const Outcome outcome = run(folder, quoted(folder / "dry"));
+  ASSERT_EQ(outcome.status, status_done) << outcome.error;
+  EXPECT_NE(outcome.out.find("specimen.pvd is not there"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "dry" / "pictures" / "energies.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "dry" / "pictures" / "damage.png"));
+}
+
+TEST(ReportApp, bad_input_ends_with_status_two_one_line_and_no_picture) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  const Outcome missing = run(folder, quoted(folder / "nowhere"));
+  EXPECT_EQ(missing.status, status_bad_input);
+  EXPECT_NE(missing.error.find("no such folder"), std::string::npos);
+  EXPECT_EQ(run(folder, "").status, status_bad_input);
+  EXPECT_EQ(run(folder, quoted(folder / "dry") + " --colour red").status, status_bad_input);
+
+  folder.write("dry/history.csv", "time_s,axial_stress_top_pa\n0,zero\n");
+  const Outcome damaged = run(folder, quoted(folder / "dry"));
+  EXPECT_EQ(damaged.status, status_bad_input);
+  EXPECT_NE(damaged.error.find("history.csv:2"), std::string::npos);
+  EXPECT_EQ(std::count(damaged.error.begin(), damaged.error.end(), '\n'), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "dry" / "pictures"));
+}
+
+TEST(ReportApp, without_display_and_xvfb_it_says_what_to_install) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  const Outcome outcome = run(folder, quoted(folder / "dry"), "env -u DISPLAY PATH=/nonexistent");
+  EXPECT_EQ(outcome.status, status_bad_input);
+  EXPECT_NE(outcome.error.find("xvfb"), std::string::npos) << outcome.error;
+}
+
+TEST(ReportApp, a_folder_that_cannot_be_made_ends_with_status_four) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  const auto file = folder.write("file", "in the way");
+  const Outcome outcome = run(folder, quoted(folder / "dry") + " -o " + quoted(file / "pictures"));
+  EXPECT_EQ(outcome.status, status_output) << outcome.error;
+}
+
+TEST(ReportApp, help_and_version_end_with_status_zero) {
+  const TestFolder folder;
+  EXPECT_EQ(run(folder, "--help").status, status_done);
+  const Outcome version = run(folder, "--version");
+  EXPECT_EQ(version.status, status_done);
+  EXPECT_NE(version.out.find("VTK"), std::string::npos);
+}
+
+} // namespace
+} // namespace platen::apps::report

@@ -1,0 +1,71 @@
+#include "apps/report/specimen_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace platen::apps::report {
+namespace {
+
+// One sphere at p0 before the test and at p now.
+void add_sphere(Spheres &spheres, const std::array<double, 3> &p0, const std::array<double, 3> &p) {
+  spheres.x0.push_back(p0[0]), spheres.y0.push_back(p0[1]), spheres.z0.push_back(p0[2]);
+  spheres.x.push_back(p[0]), spheres.y.push_back(p[1]), spheres.z.push_back(p[2]);
+  spheres.radius.push_back(0.001);
+  spheres.intact_bonds.push_back(0);
+  spheres.broken_bonds.push_back(0);
+  spheres.id.push_back(static_cast<long long>(spheres.id.size()));
+}
+
+TEST(ReportSpecimen, a_sphere_does_not_come_or_go_as_it_crosses_the_cut) {
+  Spheres spheres;
+  add_sphere(spheres, {0, -0.001, 0}, {0, 0.002, 0});
+  add_sphere(spheres, {0, 0.001, 0}, {0, -0.002, 0});
+  EXPECT_EQ(kept_half(spheres), std::vector<std::size_t>{0});
+}
+
+TEST(ReportSpecimen, outward_displacement_is_radial_and_turning_about_the_axis_gives_none) {
+  Spheres spheres;
+  add_sphere(spheres, {0.003, 0.004, 0.01}, {0.006, 0.008, 0.02});
+  add_sphere(spheres, {0.003, 0.004, 0.01}, {-0.004, 0.003, 0.01});
+  EXPECT_NEAR(spheres.outward_displacement(0), 0.005, 1e-15);
+  EXPECT_NEAR(spheres.outward_displacement(1), 0, 1e-15);
+}
+
+TEST(ReportSpecimen, damage_is_the_broken_share_and_a_sphere_without_bonds_has_none) {
+  Spheres spheres;
+  add_sphere(spheres, {}, {});
+  EXPECT_EQ(spheres.damage(0), 0);
+  spheres.intact_bonds[0] = 1;
+  spheres.broken_bonds[0] = 3;
+  EXPECT_EQ(spheres.damage(0), 0.75);
+}
+
+TEST(ReportSpecimen, a_cylinder_is_told_from_a_box_by_its_corners) {
+  Spheres cylinder, box;
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -10; j <= 10; ++j) {
+      const double x = 0.002 * i, y = 0.002 * j;
+      add_sphere(box, {x, y, 0.05}, {x, y, 0.05});
+      if (std::hypot(x, y) <= 0.02) add_sphere(cylinder, {x, y, 0.05}, {x, y, 0.05});
+    }
+  EXPECT_TRUE(extent_of(cylinder).is_round);
+  EXPECT_FALSE(extent_of(box).is_round);
+  EXPECT_NEAR(extent_of(box).half_width, 0.021, 1e-12); // centres reach to 0.02, skins one radius further
+  EXPECT_NEAR(extent_of(box).height(), 0.002, 1e-12);
+}
+
+TEST(ReportSpecimen, one_splinter_does_not_take_the_colours_from_the_rest) {
+  CutView view;
+  for (int k = 0; k < 100; ++k) {
+    add_sphere(view.spheres, {0, -1, 0}, {0, -1, 0});
+    view.values.push_back(k == 99 ? 1e3 : 0.4);
+  }
+  const std::vector<double> ticks = ticks_for({view});
+  EXPECT_EQ(ticks.front(), 0);
+  EXPECT_GE(ticks.back(), 0.4);
+  EXPECT_LT(ticks.back(), 1);
+}
+
+} // namespace
+} // namespace platen::apps::report
