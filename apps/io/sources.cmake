@@ -7,4 +7,11 @@ set(PLATEN_IO_SOURCES
   io/checkpoint_folder.cc
   io/csv_writer.cc
   io/vtu.cc
-  io/pvd.cc)
+  io/pvd.cc
+  io/output_folder.cc
+  io/summary.cc
+  io/machine.cc
+  io/run_log.cc
+  io/progress.cc
+  io/stop_signal.cc
+  io/specimen_csv.cc)

@@ -1,0 +1,118 @@
+#include "apps/io/output_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+
+#include "apps/io/checkpoint_folder.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *frames_folder = "frames", *checkpoint_folder = "checkpoint";
+
+// What the earlier run left, relative to the folder, in the order of names. Links count by their own name.
+std::vector<fs::path> outputs_in(const fs::path &folder) {
+  std::vector<fs::path> found;
+  for (const char *part : {"", frames_folder, checkpoint_folder}) {
+    std::error_code error;
+    for (const auto &entry : fs::directory_iterator(folder / part, error)) {
+      const fs::path relative = fs::path(part) / entry.path().filename();
+      if (is_output_name(relative)) found.push_back(relative);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+[[noreturn]] void fail(const fs::path &folder, const std::string &what) {
+  throw FolderError(fmt::format("output folder {}: {}", folder.string(), what));
+}
+
+// The nearest folder above (or the folder itself) that exists must let us in.
+void check_writable(const fs::path &folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path())
+    there = there.parent_path();
+  if (!fs::is_directory(there, error)) fail(folder, fmt::format("{} is not a folder", there.string()));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    fail(folder, fmt::format("no permission to write into {}", there.string()));
+}
+
+void check_inputs(const fs::path &folder, const std::vector<fs::path> &inputs) {
+  std::error_code error;
+  const fs::path home = fs::weakly_canonical(folder, error);
+  for (const fs::path &input : inputs) {
+    // The folder of the input is resolved, its own name is not: a link there would be replaced too.
+    const fs::path file = fs::weakly_canonical(fs::absolute(input).parent_path(), error) / input.filename();
+    if (is_output_name(file.lexically_relative(home)))
+      fail(folder,
+           fmt::format("the run would replace {}, which it reads; choose another folder with --output",
+                       input.string()));
+  }
+}
+
+} // namespace
+
+std::string OutputPaths::frame_name(const std::string &series, int index) {
+  return fmt::format("{}/{}_{:06}.vtu", frames_folder, series, index);
+}
+
+fs::path default_output_folder(const fs::path &scene_file) {
+  return fs::path("results") / scene_file.stem();
+}
+
+bool is_output_name(const fs::path &relative) {
+  static const std::regex top(
+      "(scene(\\.part)?\\.prm|(history|cracks|specimen|study|costs)(\\.part)?\\.csv"
+      "|summary(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
+      "|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
+  static const std::regex frame("(specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu");
+  const std::string name = relative.filename().string();
+  const fs::path parent = relative.parent_path();
+  if (parent.empty()) return std::regex_match(name, top);
+  if (parent == frames_folder) return std::regex_match(name, frame);
+  return parent == checkpoint_folder && is_checkpoint_name(name);
+}
+
+void check_output_folder(const fs::path &folder, FolderUse use, const std::vector<fs::path> &inputs) {
+  check_writable(folder);
+  const std::vector<fs::path> earlier = outputs_in(folder);
+  if (use == FolderUse::resume) {
+    const bool any = std::any_of(earlier.begin(), earlier.end(), [](const fs::path &file) {
+      return file.parent_path() == checkpoint_folder;
+    });
+    if (!any) fail(folder, "holds no checkpoint to resume from; leave out --resume to start anew");
+    return;
+  }
+  check_inputs(folder, inputs);
+  if (use == FolderUse::fresh && !earlier.empty())
+    fail(folder,
+         fmt::format("holds an earlier run ({}{}); choose another folder with --output, replace the run "
+                     "with --overwrite, or go on with --resume",
+                     earlier.front().string(), earlier.size() > 1 ? ", ..." : ""));
+}
+
+void open_output_folder(const fs::path &folder, FolderUse use, const std::vector<fs::path> &inputs) {
+  check_output_folder(folder, use, inputs);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "cannot be created: " + error.message());
+  if (use != FolderUse::overwrite) return;
+  for (const fs::path &file : outputs_in(folder)) {
+    if (fs::is_directory(fs::symlink_status(folder / file, error)))
+      fail(folder, fmt::format("{} is a folder, not a file of a run", file.string()));
+    fs::remove(folder / file, error);
+    if (error) fail(folder, fmt::format("{} cannot be removed: {}", file.string(), error.message()));
+  }
+  for (const char *part : {frames_folder, checkpoint_folder})
+    fs::remove(folder / part, error); // only where nothing of the user's is left in it
+}
+
+} // namespace platen::apps

@@ -1,0 +1,59 @@
+// The folder that a run writes into: which names are the run's own, and what happens where a folder is in
+// use.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/io/errors.h"
+
+namespace platen::apps {
+
+// Names of all that a run writes into its folder.
+struct OutputPaths {
+  explicit OutputPaths(std::filesystem::path output_folder) : folder(std::move(output_folder)) {}
+  std::filesystem::path folder;
+  std::filesystem::path scene() const { return folder / "scene.prm"; }
+  std::filesystem::path history() const { return folder / "history.csv"; }
+  std::filesystem::path cracks() const { return folder / "cracks.csv"; }
+  std::filesystem::path summary() const { return folder / "summary.json"; }
+  std::filesystem::path log() const { return folder / "run.log"; }
+  std::filesystem::path specimen_csv() const { return folder / "specimen.csv"; }
+  std::filesystem::path specimen_vtu() const { return folder / "specimen.vtu"; }
+  std::filesystem::path study() const { return folder / "study.csv"; }
+  std::filesystem::path costs() const { return folder / "costs.csv"; }
+  std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
+  // series: specimen, bonds, platens, sleeve or contacts.
+  std::filesystem::path series(const std::string &series) const { return folder / (series + ".pvd"); }
+  std::filesystem::path frame(const std::string &series, int index) const {
+    return folder / frame_name(series, index);
+  }
+  // "frames/specimen_000012.vtu": relative to the folder, as a .pvd names it.
+  static std::string frame_name(const std::string &series, int index);
+};
+
+// "results/NAME" for a scene NAME.prm.
+std::filesystem::path default_output_folder(const std::filesystem::path &scene_file);
+
+// Whether a path relative to an output folder is one that the apps write there (OutputPaths, frames,
+// checkpoints, and what a killed run left half written). All else is the user's and is never touched.
+bool is_output_name(const std::filesystem::path &relative);
+
+enum class FolderUse { fresh, overwrite, resume };
+
+// Throws FolderError, and touches nothing, where a run must not write into `folder`:
+//   fresh      it holds an earlier run;
+//   resume     it holds no checkpoint;
+//   any        it cannot be created or written; or one of `inputs` (scene, specimen file) is a file that a
+//   fresh or
+//              overwriting run would replace.
+void check_output_folder(const std::filesystem::path &folder, FolderUse use,
+                         const std::vector<std::filesystem::path> &inputs = {});
+
+// The same check, then creates folder and parents, and for overwrite removes what an earlier run wrote,
+// nothing else. Throws FolderError.
+void open_output_folder(const std::filesystem::path &folder, FolderUse use,
+                        const std::vector<std::filesystem::path> &inputs = {});
+
+} // namespace platen::apps

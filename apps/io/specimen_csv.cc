@@ -1,0 +1,142 @@
+#include "apps/io/specimen_csv.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "apps/io/errors.h"
+#include "apps/io/file.h"
+#include "apps/io/numbers.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr std::string_view header = "x_m,y_m,z_m,radius_m";
+constexpr const char *columns[] = {"x_m", "y_m", "z_m", "radius_m"};
+constexpr std::string_view shape_words = "# shape:";
+constexpr std::size_t write_bytes = 1 << 20; // of text collected before it is written
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string shape_line(const dem::Shape &shape) {
+  if (shape.kind == dem::ShapeKind::cylinder)
+    return fmt::format("{} cylinder radius_m={} height_m={}\n", shape_words, shape.radius, shape.height);
+  return fmt::format("{} box width_x_m={} width_y_m={} height_m={}\n", shape_words, shape.width_x,
+                     shape.width_y, shape.height);
+}
+
+// A file while it is read: knows where it is, for messages.
+struct Place {
+  std::string file;
+  std::size_t line = 0;
+  [[noreturn]] void fail(const std::string &what) const {
+    throw InputError(fmt::format("{}:{}: error: {}", file, line, what));
+  }
+};
+
+dem::Shape read_shape(std::string_view text, const Place &place) {
+  std::istringstream words{std::string(text)};
+  std::string kind;
+  words >> kind;
+  dem::Shape shape;
+  std::map<std::string, double *> wanted;
+  if (kind == "cylinder")
+    wanted = {{"radius_m", &shape.radius}, {"height_m", &shape.height}};
+  else if (kind == "box")
+    wanted = {{"width_x_m", &shape.width_x}, {"width_y_m", &shape.width_y}, {"height_m", &shape.height}};
+  else
+    place.fail(fmt::format("shape \"{}\" is not known; allowed: cylinder, box", kind));
+  shape.kind = kind == "cylinder" ? dem::ShapeKind::cylinder : dem::ShapeKind::box;
+  for (std::string word; words >> word;) {
+    const auto equals = word.find('=');
+    const auto found = wanted.find(word.substr(0, equals));
+    const auto value = equals == std::string::npos ? std::nullopt : number_of(word.substr(equals + 1));
+    if (found == wanted.end() || !value || !std::isfinite(*value) || !(*value > 0))
+      place.fail(fmt::format("shape {}: \"{}\" is no dimension of it with a positive number", kind, word));
+    *found->second = *value;
+    wanted.erase(found);
+  }
+  if (!wanted.empty()) place.fail(fmt::format("shape {}: {} is missing", kind, wanted.begin()->first));
+  return shape;
+}
+
+void read_row(std::string_view row, const Place &place, dem::Specimen &specimen) {
+  double values[4] = {};
+  std::size_t begin = 0;
+  for (int k = 0; k < 4; ++k) {
+    const auto comma = row.find(',', begin);
+    if ((comma == std::string_view::npos) != (k == 3))
+      place.fail(fmt::format("a row has four values ({})", header));
+    const std::string_view text = trimmed(row.substr(begin, comma - begin));
+    const auto value = number_of(text);
+    if (!value || !std::isfinite(*value))
+      place.fail(fmt::format("column {}: \"{}\" is not a finite number", columns[k], text));
+    values[k] = *value;
+    begin = comma + 1;
+  }
+  if (!(values[3] > 0)) place.fail(fmt::format("column radius_m: {} is not positive", values[3]));
+  specimen.centre.push_back({values[0], values[1], values[2]});
+  specimen.radius.push_back(values[3]);
+}
+
+} // namespace
+
+void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &specimen) {
+  write_aside(path, [&](const std::filesystem::path &part) {
+    OutputFile file(part);
+    std::string text = shape_line(specimen.shape) + std::string(header) + '\n';
+    for (std::size_t k = 0; k < specimen.size(); ++k) {
+      const dem::Vector3 &c = specimen.centre[k];
+      fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", c.x, c.y, c.z, specimen.radius[k]);
+      if (text.size() < write_bytes) continue;
+      file.write(text);
+      text.clear();
+    }
+    file.write(text);
+    file.close();
+  });
+}
+
+SpecimenFile read_specimen_csv(const std::filesystem::path &path) {
+  Place place{path.string()};
+  std::error_code error;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, error))
+    throw InputError(path.string() + ": error: cannot be read");
+  SpecimenFile read;
+  bool has_header = false;
+  for (std::string whole; std::getline(stream, whole);) {
+    ++place.line;
+    std::string_view line = whole;
+    if (place.line == 1 && line.substr(0, 3) == "\xef\xbb\xbf") line.remove_prefix(3);
+    line = trimmed(line);
+    if (line.empty()) continue;
+    if (line.front() == '#') {
+      if (line.substr(0, shape_words.size()) != shape_words) continue;
+      read.specimen.shape = read_shape(line.substr(shape_words.size()), place);
+      read.states_shape = true;
+    } else if (has_header) {
+      read_row(line, place, read.specimen);
+    } else if (line == header) {
+      has_header = true;
+    } else {
+      constexpr std::size_t shown = 60; // of a line that may be anything
+      place.fail(fmt::format("\"{}\" is not the header line \"{}\"", line.substr(0, shown), header));
+    }
+  }
+  if (stream.bad()) throw InputError(path.string() + ": error: cannot be read to its end");
+  if (read.specimen.size() == 0) place.fail("the file holds no sphere");
+  return read;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,26 @@
+// Specimens as text: one sphere a row, in full precision.
+//   # shape: cylinder radius_m=0.025 height_m=0.1          or: # shape: box width_x_m=... width_y_m=...
+//   height_m=... x_m,y_m,z_m,radius_m 0.001,-0.0024,0.0013,0.0012
+#pragma once
+
+#include <filesystem>
+
+#include "dem/packing/specimen.h"
+
+namespace platen::apps {
+
+// Writes shape and spheres so that they read back to the same bits. Throws OutputError.
+void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &specimen);
+
+struct SpecimenFile {
+  dem::Specimen specimen;
+  bool states_shape = false; // else specimen.shape is empty and the scene must say what the shape is
+};
+
+// Reads such a file, also one from elsewhere: comment lines (#), empty lines, CR LF, a byte order mark and
+// blanks around numbers are taken. Throws InputError with file, line, column and value where the header is
+// another, a row has too few or too many values, a number is none or not finite, or a radius is not positive;
+// and where no sphere is there.
+SpecimenFile read_specimen_csv(const std::filesystem::path &path);
+
+} // namespace platen::apps

@@ -1,0 +1,52 @@
+#include "apps/io/stop_signal.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+namespace platen::apps {
+namespace {
+
+std::atomic<int> stop{0};
+std::atomic<bool> checkpoint{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "a signal handler must not wait for a lock");
+
+extern "C" void on_stop(int number) {
+  int none = 0;
+  if (!stop.compare_exchange_strong(none, number)) ::_exit(exit_status_of_signal(number));
+}
+
+extern "C" void on_checkpoint(int) {
+  checkpoint = true;
+}
+
+void install(int number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART; // system calls of the run and its libraries go on
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
+} // namespace
+
+void catch_stop_signals() {
+  stop = 0;
+  checkpoint = false;
+  install(SIGINT, on_stop);
+  install(SIGTERM, on_stop);
+  install(SIGUSR1, on_checkpoint);
+  install(SIGXFSZ, SIG_IGN);
+}
+
+int stop_requested() {
+  return stop;
+}
+
+bool take_checkpoint_request() {
+  return checkpoint.exchange(false);
+}
+
+} // namespace platen::apps

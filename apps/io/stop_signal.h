@@ -1,0 +1,22 @@
+// Signals that a run obeys between two steps.
+#pragma once
+
+namespace platen::apps {
+
+// From now on SIGINT and SIGTERM ask the run to stop (a second one ends the process at once, with status 128
+// + signal), SIGUSR1 asks for a checkpoint, and a file that reaches a limit on its size is a failed write
+// instead of the end.
+void catch_stop_signals();
+
+// The signal that asked the run to stop, 0 while none did.
+int stop_requested();
+
+// 130 for SIGINT, 143 for SIGTERM.
+inline int exit_status_of_signal(int signal) {
+  return 128 + signal;
+}
+
+// Whether a checkpoint was asked for since the last call.
+bool take_checkpoint_request();
+
+} // namespace platen::apps
