@@ -1,0 +1,54 @@
+// How good a sphere packing is: density, coordination, overlaps, isotropy, ends. SI units.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dem/packing/specimen.h"
+
+namespace platen::dem {
+
+struct TouchingPair {
+  int first = 0, second = 0; // first < second
+  double gap = 0;            // m, negative where they overlap
+};
+// All pairs of spheres closer than the given gap (m, >= 0), ordered by first, then second.
+std::vector<TouchingPair> touching_pairs(const Specimen &specimen, double gap);
+
+struct QualityMeasure {
+  double gap_tolerance = 1e-3; // in mean radii: spheres this close touch
+  // In mean radii: the core is what lies further than this from every wall and end. Two diameters, since
+  // layering at a flat wall fades over that length in a polydisperse packing.
+  double core_margin = 4;
+};
+
+// Figures of a packing. Those of the core are NaN where the shape has none (is too small).
+struct PackingQuality {
+  std::size_t spheres = 0;
+  double mean_radius = 0;              // m
+  double packing_fraction = 0;         // volume of all spheres over that of the shape, overlaps counted twice
+  double core_packing_fraction = 0;    // volume of spheres clipped to the core over that of the core
+  std::size_t core_spheres = 0;        // centres in the core
+  std::size_t contacts = 0;            // pairs within the gap tolerance
+  double coordination_number = 0;      // 2 contacts / spheres
+  double core_coordination_number = 0; // contacts per sphere with its centre in the core
+  std::size_t rattlers = 0;            // spheres with fewer than four contacts, walls and ends counted
+  double max_overlap = 0;              // in mean radii, of pairs
+  double mean_overlap = 0;             // in mean radii, over the pairs that overlap; 0 where none does
+  double max_wall_overlap = 0;         // in mean radii
+  // Chi-squared of contact directions over 160 pairs of opposite cells (direction_cells.h); isotropic: 1 +-
+  // .11. Of contacts that lie in the core; of all where there is no core.
+  double isotropy_chi_squared = 0;
+  std::size_t touching_bottom = 0, touching_top = 0; // spheres within the gap tolerance of z = 0, z = height
+  double cover_bottom = 0, cover_top = 0;            // their great circles over the cross section
+};
+
+// Throws std::invalid_argument on a specimen that check_specimen() refuses for its numbers (empty, radii not
+// positive, centres not finite) or on a negative tolerance or margin.
+PackingQuality judge_packing(const Specimen &specimen, const QualityMeasure &measure = {});
+
+// The shape of the core: every wall and end moved inwards by margin (m); measures <= 0 where nothing is left.
+// Its z axis starts at 0 like that of every shape: shift centres by -margin along z to use it.
+Shape core_of(const Shape &shape, double margin);
+
+} // namespace platen::dem

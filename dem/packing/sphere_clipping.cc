@@ -1,0 +1,72 @@
+#include "dem/packing/sphere_clipping.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::dem {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Eight Gauss-Legendre points on [-1, 1] (Abramowitz and Stegun, table 25.4), used on several equal pieces
+// because a cut sphere's slices have kinks.
+constexpr double gauss_point[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                   0.9602898564975363};
+constexpr double gauss_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                    0.1012285362903763};
+constexpr int pieces = 6;
+
+template <class Function>
+double integral(double from, double to, const Function &f) {
+  const double half = 0.5 * (to - from) / pieces;
+  double sum = 0;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double middle = from + (2 * piece + 1) * half;
+    for (int k = 0; k < 4; ++k)
+      sum += gauss_weight[k] * (f(middle - half * gauss_point[k]) + f(middle + half * gauss_point[k]));
+  }
+  return half * sum;
+}
+
+// Part of a disc inside the rectangle [-half_x, half_x] x [-half_y, half_y].
+double area_in_rectangle(double x, double y, double r, double half_x, double half_y) {
+  const bool inside = std::abs(x) + r <= half_x && std::abs(y) + r <= half_y;
+  if (inside) return pi * r * r;
+  // Along the angle t with x' = x + r sin t the chord r cos t is smooth up to both ends.
+  const double low = std::max((-half_x - x) / r, -1.0), high = std::min((half_x - x) / r, 1.0);
+  if (low >= high) return 0;
+  return integral(std::asin(low), std::asin(high), [&](double t) {
+    const double half_chord = r * std::cos(t);
+    return r * std::cos(t) *
+           std::max(0.0, std::min(y + half_chord, half_y) - std::max(y - half_chord, -half_y));
+  });
+}
+
+} // namespace
+
+double shared_area_of_discs(double a, double b, double d) {
+  const double small = std::min(a, b);
+  if (d <= std::abs(a - b)) return pi * small * small;
+  if (d >= a + b) return 0;
+  const double angle_a = std::acos(std::clamp((d * d + a * a - b * b) / (2 * d * a), -1.0, 1.0));
+  const double angle_b = std::acos(std::clamp((d * d + b * b - a * a) / (2 * d * b), -1.0, 1.0));
+  return a * a * (angle_a - 0.5 * std::sin(2 * angle_a)) + b * b * (angle_b - 0.5 * std::sin(2 * angle_b));
+}
+
+double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
+  const double clearance = wall_clearance(shape, c);
+  if (clearance >= r) return 4.0 / 3.0 * pi * r * r * r;
+  if (clearance <= -r) return 0;
+  const double low = std::max(-c.z / r, -1.0), high = std::min((shape.height - c.z) / r, 1.0);
+  if (low >= high) return 0;
+  const double from_axis = std::sqrt(c.x * c.x + c.y * c.y);
+  return integral(low, high, [&](double t) {
+    const double slice = r * std::sqrt(std::max(0.0, 1 - t * t));
+    return r * (shape.kind == ShapeKind::cylinder
+                    ? shared_area_of_discs(slice, shape.radius, from_axis)
+                    : area_in_rectangle(c.x, c.y, slice, 0.5 * shape.width_x, 0.5 * shape.width_y));
+  });
+}
+
+} // namespace platen::dem
