@@ -1,0 +1,94 @@
+#include "apps/run/model_setup.h"
+
+#include <cmath>
+#include <limits>
+
+namespace platen::apps {
+namespace {
+
+constexpr double standard_gravity = 9.80665; // m/s^2
+
+// In a scene 0 stands for a strength that is never reached.
+double strength(double value) {
+  return value > 0 ? value : std::numeric_limits<double>::infinity();
+}
+
+dem::RadiusRule radius_rule(RadiusRule rule) {
+  switch (rule) {
+    case RadiusRule::mean:
+      return dem::RadiusRule::mean;
+    case RadiusRule::harmonic:
+      return dem::RadiusRule::harmonic;
+    case RadiusRule::given:
+      return dem::RadiusRule::given;
+    case RadiusRule::minimum:
+      break;
+  }
+  return dem::RadiusRule::minimum;
+}
+
+dem::BondLayout bond_layout(const Bond &from) {
+  dem::BondLayout to;
+  to.modulus = from.modulus;
+  to.radius_multiplier = from.radius_multiplier;
+  to.radius_rule = radius_rule(from.radius_rule);
+  if (from.radius_rule == RadiusRule::given) to.given_radius = from.radius;
+  to.gap = from.gap.value;
+  to.gap_is_relative = from.gap.relative;
+  return to;
+}
+
+dem::ParallelBond::Parameters bond_parameters(const Bond &from) {
+  dem::ParallelBond::Parameters to;
+  to.stiffness_ratio = from.stiffness_ratio;
+  to.tensile_strength = strength(from.tensile_strength);
+  to.shear_strength = strength(from.shear_strength);
+  to.friction_coefficient = std::tan(from.friction_angle);
+  to.moment_contribution = from.moment_contribution;
+  return to;
+}
+
+dem::ContactSettings contact_settings(const Scene &scene) {
+  const Contact &from = scene.contact;
+  const TangentialKind tangential = scene.effects.tangential;
+  dem::ContactSettings to;
+  to.normal =
+      scene.effects.contact == ContactKind::hertz ? dem::NormalContact::hertz : dem::NormalContact::linear;
+  to.tangential = dem::TangentialContact::none;
+  if (tangential == TangentialKind::coulomb) to.tangential = dem::TangentialContact::coulomb;
+  if (tangential == TangentialKind::coulomb_with_rolling_resistance)
+    to.tangential = dem::TangentialContact::coulomb_with_rolling;
+  to.stiffness_rule = from.stiffness.kind == Stiffness::Kind::absolute  ? dem::StiffnessRule::absolute
+                      : from.stiffness.kind == Stiffness::Kind::of_bulk ? dem::StiffnessRule::bulk_fraction
+                                                                        : dem::StiffnessRule::bond_multiple;
+  to.stiffness = from.stiffness.value;
+  to.tangential_ratio = from.tangential_ratio;
+  to.friction = from.friction;
+  to.rolling_friction = from.rolling_friction;
+  to.damping = from.damping;
+  to.restitution = from.restitution;
+  to.young_modulus = scene.material.young_modulus;
+  to.poisson_ratio = scene.material.poisson_ratio;
+  return to;
+}
+
+} // namespace
+
+dem::ModelSettings model_settings(const Scene &scene) {
+  dem::ModelSettings to;
+  to.rotation = scene.effects.rotation;
+  to.density = scene.material.density;
+  to.mass_scaling = scene.integration.mass_scaling;
+  if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
+  to.local_damping = scene.integration.damping;
+  to.bond_dashpot = scene.bond.damping;
+  to.bond_layout = bond_layout(scene.bond);
+  if (scene.effects.bond == BondKind::parallel_bond) to.bond = bond_parameters(scene.bond);
+  if (scene.effects.contact != ContactKind::none) to.contact = contact_settings(scene);
+  to.instruction_set = scene.integration.instruction_set == InstructionSet::baseline
+                           ? dem::InstructionSet::baseline
+                           : dem::best_instruction_set();
+  return to;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,111 @@
+#include "apps/run/specimen_setup.h"
+
+#include <cmath>
+
+#include "apps/io/specimen_csv.h"
+#include "apps/scene/parameters.h"
+#include "dem/packing/advancing_front.h"
+#include "dem/packing/radius_distribution.h"
+
+namespace platen::apps {
+namespace {
+
+// Spheres of a file may reach this far out of the shape, in mean radii: rounded coordinates, soft packings.
+constexpr double file_wall_tolerance = 0.01;
+// Relative difference of lengths that the scene and the specimen file both state.
+constexpr double same_length = 1e-6;
+
+[[noreturn]] void refuse(const Scene &scene, const std::string &path, const std::string &reason) {
+  if (scene.parameters) scene.parameters->refuse(path, reason);
+  throw InputError(path + " " + reason);
+}
+
+dem::RadiusDistribution radii(const SpecimenSection &specimen) {
+  const double mean = specimen.sphere_radius;
+  switch (specimen.radius_distribution) {
+    case RadiusDistribution::equal:
+      return dem::equal_radii(mean);
+    case RadiusDistribution::uniform:
+      return dem::uniform_radii_of_spread(mean, specimen.radius_spread);
+    case RadiusDistribution::two_sizes:
+      break;
+  }
+  const double ratio = specimen.second_radius_ratio, fraction_of_small = specimen.second_fraction;
+  const double large = mean / (1 - fraction_of_small * (1 - ratio));
+  return dem::two_radii(ratio * large, large, 1 - fraction_of_small);
+}
+
+void check_length(const Scene &scene, const char *path, double wanted, double found) {
+  if (std::isnan(wanted) || std::abs(wanted - found) <= same_length * found) return;
+  refuse(scene, path,
+         "contradicts the shape that " + scene.specimen.file + " states, " + std::to_string(found) + " m.");
+}
+
+bool same_kind(SpecimenShape wanted, dem::ShapeKind found) {
+  return wanted == SpecimenShape::bar || (wanted == SpecimenShape::box) == (found == dem::ShapeKind::box);
+}
+
+// The shape of a file holds; what the scene states of it must agree.
+void check_shape(const Scene &scene, const dem::Shape &found) {
+  const SpecimenSection &wanted = scene.specimen;
+  const bool states = scene.parameters && scene.parameters->at("Specimen/Shape").changed();
+  if (states && !same_kind(wanted.shape, found.kind))
+    refuse(scene, "Specimen/Shape", "contradicts the shape that " + wanted.file + " states.");
+  check_length(scene, "Specimen/Height", wanted.height, found.height);
+  if (found.kind == dem::ShapeKind::cylinder) {
+    check_length(scene, "Specimen/Radius", wanted.radius, found.radius);
+  } else {
+    check_length(scene, "Specimen/Width x", wanted.width_x, found.width_x);
+    check_length(scene, "Specimen/Width y", wanted.width_y, found.width_y);
+  }
+}
+
+dem::Specimen read_specimen(const Scene &scene) {
+  SpecimenFile file = read_specimen_csv(scene.specimen.file);
+  if (file.states_shape) {
+    check_shape(scene, file.specimen.shape);
+  } else {
+    file.specimen.shape = specimen_shape(scene);
+    const dem::Shape &shape = file.specimen.shape;
+    const bool whole =
+        shape.height > 0 &&
+        (shape.kind == dem::ShapeKind::cylinder ? shape.radius > 0 : shape.width_x > 0 && shape.width_y > 0);
+    if (!whole)
+      refuse(scene, "Specimen/File",
+             "states no shape: the scene has to give Specimen/Height and Radius, or Width x and Width y.");
+  }
+  const std::vector<std::string> problems = dem::check_specimen(file.specimen, file_wall_tolerance, 4);
+  if (problems.empty()) return std::move(file.specimen);
+  std::string all = "holds no sound specimen:";
+  for (const std::string &problem : problems)
+    all += "\n  " + problem;
+  refuse(scene, "Specimen/File", all);
+}
+
+} // namespace
+
+dem::Shape specimen_shape(const Scene &scene) {
+  const SpecimenSection &specimen = scene.specimen;
+  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.shape == SpecimenShape::disc ||
+                     (specimen.shape == SpecimenShape::bar && specimen.round());
+  return round ? dem::cylinder(specimen.radius, specimen.height)
+               : dem::box(specimen.width_x, specimen.width_y, specimen.height);
+}
+
+dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth) {
+  const SpecimenSection &specimen = scene.specimen;
+  if (specimen.packing == PackingKind::file) return read_specimen(scene);
+  const dem::Shape shape = specimen_shape(scene);
+  if (specimen.packing == PackingKind::advancing_front)
+    return dem::advancing_front(shape, radii(specimen), scene.general.seed);
+  if (specimen.radius_distribution == RadiusDistribution::two_sizes)
+    refuse(
+        scene, "Specimen/Radius distribution",
+        "does not go with Specimen/Packing = random close. Allowed: equal, uniform; or Packing = advancing "
+        "front.");
+  const bool equal = specimen.radius_distribution == RadiusDistribution::equal;
+  return dem::random_close_packing(shape, specimen.sphere_radius, equal ? 0.0 : specimen.radius_spread,
+                                   scene.general.seed, growth);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,23 @@
+// From the section Specimen of a scene to a packing of spheres.
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "dem/packing/growth.h"
+#include "dem/packing/specimen.h"
+
+namespace platen::apps {
+
+// The shape that Specimen/Shape, Radius, Height and Width x, y describe. A bar is round where Radius is
+// given.
+dem::Shape specimen_shape(const Scene &scene);
+
+// Packs the spheres of a scene, or reads them from Specimen/File; the seed of the scene decides all random
+// numbers. `growth` takes the report of a random close packing, where that is asked for.
+// A file's own shape holds; dimensions in the scene must agree with it within 1e-6, and are needed where the
+// file states none. Throws InputError: the file is malformed, holds spheres that coincide or reach out of the
+// shape by more than 0.01 mean radii, contradicts the scene; or the scene asks for two sizes in a random
+// close packing. Throws std::invalid_argument and std::runtime_error as the packers do (does not fit, does
+// not jam).
+dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth = nullptr);
+
+} // namespace platen::apps
