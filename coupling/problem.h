@@ -1,4 +1,5 @@
-// A specimen between two platens: particles, bodies and contact layers on one clock, loaded by motion or by stress.
+// A specimen between two platens: particles, bodies and contact layers on one clock, loaded by motion or by
+// stress.
 #pragma once
 
 #include <memory>
@@ -7,7 +8,6 @@
 #include <vector>
 
 #include "coupling/contact_layer.h"
-#include "coupling/servo.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
@@ -33,12 +33,12 @@ struct PlatenSide {
 
 struct PlatenSettings {
   PlatenSide top, bottom;
-  double stiffness_of_bond = 1;   // multiple of the mean bond's k_n A ...
-  double stiffness_absolute = 0;  // ... or N/m where positive
+  double stiffness_of_bond = 1;  // multiple of the mean bond's k_n A ...
+  double stiffness_absolute = 0; // ... or N/m where positive
   double tangential_ratio = 0.8;
-  double damping = 0.2;           // fraction of critical
-  double overhang = 1.2;          // platen half-width over the specimen's
-  double thickness = 0;           // m
+  double damping = 0.2;  // fraction of critical
+  double overhang = 1.2; // platen half-width over the specimen's
+  double thickness = 0;  // m
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;
@@ -46,21 +46,19 @@ struct PlatenSettings {
 
 struct LoadingSettings {
   bool tension = false;
-  double rate = 0;        // m/s, closure (opening) speed of the platens, each moving at half of it
-  double ramp = 0;        // s; 0: ten wave crossings of the height
-  bool servo = false;     // top platen held at a stress instead, bottom at rest
-  double top_stress = 0;  // Pa, pressing
+  double rate = 0; // m/s, closure (opening) speed of the platens, each moving at half of it
+  double ramp = 0; // s; 0: ten wave crossings of the height
 };
 
 struct ProblemSettings {
   dem::ModelSettings model;
   Ends ends = Ends::as_packed;
-  double end_layer = 1;    // mean radii, for ground ends
-  bool seat = false;       // rocking springs of ground spheres
+  double end_layer = 1; // mean radii, for ground ends
+  bool seat = false;    // rocking springs of ground spheres
   PlatenSettings platens;
   LoadingSettings loading;
   double safety = 0.8;
-  double fixed_step = 0;   // s; 0: safety times the limit
+  double fixed_step = 0; // s; 0: safety times the limit
 };
 
 class Problem {
@@ -85,9 +83,9 @@ public:
   double coordination_number() const; // bonds per particle times two
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
-  double closure_strain() const;      // platen to platen, over the height
+  double closure_strain() const;                    // platen to platen, over the height
   double stress_top() const, stress_bottom() const; // Pa, nominal area
-  double platen_speed() const; // m/s, closure speed now
+  double platen_speed() const;                      // m/s, closure speed now
   dem::EnergyLedger energy() const;
   double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
 
@@ -110,9 +108,8 @@ private:
   std::string reason_;
   long steps_ = 0;
   std::size_t touching_at_choice_ = 0;
-  double boundary_work_ = 0; // J, of both platens
+  double boundary_work_ = 0;                      // J, of both platens
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
-  std::unique_ptr<Servo> servo_;
 };
 
 } // namespace platen::coupling

@@ -1,0 +1,161 @@
+#include "apps/run/fields.h"
+
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "apps/io/file.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/vtu.h"
+#include "dem/measure/damage.h"
+#include "dem/measure/fragments.h"
+#include "dem/measure/stress.h"
+
+namespace platen::apps {
+namespace {
+
+std::vector<dem::Vector3> vectors(const dem::Column<dem::Vector3> &column) {
+  return {column.begin(), column.end()};
+}
+
+} // namespace
+
+FieldSeries::FieldSeries(const std::filesystem::path &folder)
+    : folder_(folder),
+      specimen_(folder / "specimen.pvd"),
+      bonds_(folder / "bonds.pvd"),
+      platens_(folder / "platens.pvd"),
+      contacts_(folder / "contacts.pvd") {
+  create_folder(folder / "frames");
+}
+
+void FieldSeries::write(const coupling::Problem &problem) {
+  if (problem.time() <= last_time_) return;
+  write_specimen(problem);
+  if (problem.model.bonds) write_bonds(problem);
+  write_platens(problem);
+  write_contacts(problem);
+  last_time_ = problem.time();
+  ++count_;
+}
+
+void FieldSeries::resume(double last_time, int count) {
+  last_time_ = last_time;
+  count_ = count;
+  for (PvdSeries *series : {&specimen_, &bonds_, &platens_, &contacts_})
+    series->resume(last_time);
+}
+
+void FieldSeries::write_specimen(const coupling::Problem &problem) {
+  const dem::Model &model = problem.model;
+  const dem::Particles &p = model.particles;
+  const std::size_t n = p.size();
+  std::vector<dem::Vector3> displacement(n);
+  for (std::size_t i = 0; i < n; ++i)
+    displacement[i] = p.position[i] - p.reference_position[i];
+  std::vector<double> stress;
+  stress.reserve(9 * n);
+  for (const auto &s :
+       dem::particle_stress(p, model.bonds.get(), model.contacts.get(), problem.packing_fraction()))
+    stress.insert(stress.end(), s.begin(), s.end());
+  std::vector<Field> fields{{"radius", std::vector<double>(p.radius.begin(), p.radius.end())},
+                            {"displacement", displacement},
+                            {"velocity", vectors(p.velocity)},
+                            {"stress", std::move(stress), 9},
+                            {"id", std::vector<int>(p.id.begin(), p.id.end())}};
+  if (p.has_rotation()) {
+    // As a rotation vector, rad.
+    std::vector<dem::Vector3> rotation(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const dem::Quaternion q = (*p.orientation)[i];
+      const dem::Vector3 v = q.w < 0 ? -dem::vector_part(q) : dem::vector_part(q);
+      const double sine = dem::norm(v);
+      if (sine > 0) rotation[i] = (2 * std::atan2(sine, std::abs(q.w)) / sine) * v;
+    }
+    fields.emplace_back("rotation", rotation);
+  }
+  if (model.bonds) {
+    const dem::BondCounts counts = dem::bond_counts(p, *model.bonds);
+    std::vector<double> damage(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const int all = counts.intact[i] + counts.broken[i]; all > 0)
+        damage[i] = static_cast<double>(counts.broken[i]) / all;
+    fields.emplace_back("intact_bonds", counts.intact);
+    fields.emplace_back("broken_bonds", counts.broken);
+    fields.emplace_back("damage", std::move(damage));
+    fields.emplace_back("fragment", dem::find_fragments(p, model.bonds.get()).of_particle);
+  }
+  write_points(folder_ / OutputPaths::frame_name("specimen", count_), problem.time(), vectors(p.position),
+               fields);
+  specimen_.append(problem.time(), OutputPaths::frame_name("specimen", count_));
+}
+
+void FieldSeries::write_bonds(const coupling::Problem &problem) {
+  const dem::Particles &p = problem.model.particles;
+  const dem::Bonds &b = *problem.model.bonds;
+  const std::size_t n = b.initial_count();
+  std::vector<std::array<int, 2>> lines(n);
+  std::vector<int> state(b.state.begin(), b.state.end());
+  std::vector<double> damage(n), normal(n, 0.0), shear(n, 0.0),
+      when(b.break_time.begin(), b.break_time.end());
+  for (std::size_t k = 0; k < n; ++k) {
+    lines[k] = {b.record_first[k], b.record_second[k]};
+    damage[k] = state[k] >= static_cast<int>(dem::BondState::broken_in_tension) ? 1.0 : 0.0;
+  }
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    if (b.normal_stiffness[k] == 0.0) continue;
+    const auto response = b.response(k, p);
+    const std::size_t record = static_cast<std::size_t>(b.record[k]);
+    normal[record] = response.normal_force;
+    shear[record] = response.shear_force;
+  }
+  write_lines(folder_ / OutputPaths::frame_name("bonds", count_), problem.time(), vectors(p.position), lines,
+              {},
+              {{"state", std::move(state)},
+               {"damage", std::move(damage)},
+               {"normal_force", std::move(normal)},
+               {"shear_force", std::move(shear)},
+               {"break_time", std::move(when)}});
+  bonds_.append(problem.time(), OutputPaths::frame_name("bonds", count_));
+}
+
+void FieldSeries::write_platens(const coupling::Problem &problem) {
+  // Two files a frame: parts of one series.
+  const auto one = [&](const fem::Body &body, const coupling::ContactLayer &layer, int index) {
+    const std::string name = OutputPaths::frame_name("platens", index);
+    write_stream_aside(folder_ / name,
+                       [&](std::ostream &stream) { body.write_vtu(stream, layer.vertex_slip(body)); });
+    platens_.append(problem.time(), name);
+  };
+  one(problem.bottom, problem.bottom_layer, 2 * count_);
+  one(problem.top, problem.top_layer, 2 * count_ + 1);
+}
+
+void FieldSeries::write_contacts(const coupling::Problem &problem) {
+  std::vector<dem::Vector3> points, normals, shears;
+  std::vector<double> normal_force, shear_force, slip;
+  std::vector<int> sliding, particle;
+  for (const coupling::ContactLayer *layer : {&problem.bottom_layer, &problem.top_layer})
+    for (const coupling::ActiveContact &c : layer->contacts()) {
+      points.push_back(c.point);
+      normals.push_back(c.normal);
+      shears.push_back(c.shear);
+      normal_force.push_back(c.normal_force);
+      shear_force.push_back(dem::norm(c.shear));
+      slip.push_back(c.slip);
+      sliding.push_back(c.sliding ? 1 : 0);
+      particle.push_back(problem.model.particles.id[static_cast<std::size_t>(c.particle)]);
+    }
+  write_points(folder_ / OutputPaths::frame_name("contacts", count_), problem.time(), points,
+               {{"normal", normals},
+                {"shear", shears},
+                {"normal_force", std::move(normal_force)},
+                {"shear_force", std::move(shear_force)},
+                {"slip", std::move(slip)},
+                {"sliding", std::move(sliding)},
+                {"particle", std::move(particle)}});
+  contacts_.append(problem.time(), OutputPaths::frame_name("contacts", count_));
+}
+
+} // namespace platen::apps

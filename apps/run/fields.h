@@ -1,0 +1,35 @@
+// Frames for ParaView: specimen, bonds, platens and platen contacts on one clock.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/io/pvd.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+class FieldSeries {
+public:
+  // Frames land in `folder`/frames, the .pvd files in `folder`.
+  explicit FieldSeries(const std::filesystem::path &folder);
+
+  // Writes one frame of everything; a second call at the same time does nothing. Throws OutputError.
+  void write(const coupling::Problem &problem);
+  // Goes on after the frame of `last_time` (s), the number of frames written so far being `count`.
+  void resume(double last_time, int count);
+  double last_time() const { return last_time_; } // s, of the last frame; -1 before the first
+  int count() const { return count_; }
+
+private:
+  void write_specimen(const coupling::Problem &problem);
+  void write_bonds(const coupling::Problem &problem);
+  void write_platens(const coupling::Problem &problem);
+  void write_contacts(const coupling::Problem &problem);
+
+  std::filesystem::path folder_;
+  PvdSeries specimen_, bonds_, platens_, contacts_;
+  double last_time_ = -1;
+  int count_ = 0;
+};
+
+} // namespace platen::apps

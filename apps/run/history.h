@@ -1,0 +1,50 @@
+// One row of history.csv: what is measured at every sample of a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/io/csv_writer.h"
+#include "coupling/problem.h"
+#include "dem/energy.h"
+#include "dem/measure/gauge.h"
+
+namespace platen::apps {
+
+// Laboratory signs: stresses and axial strains positive in compression, lateral strain negative where the
+// specimen bulges. NaN: not measured.
+struct Sample {
+  double time = 0;                            // s
+  double strain_platen = 0, strain_gauge = 0; // compression positive
+  double lateral_strain = 0, volumetric_strain = 0;
+  double lateral_extremal = 0, axial_extremal = 0; // Tannu's pairs of outermost particles
+  double stress_top = 0, stress_bottom = 0;        // Pa
+  double confining_pressure = 0;                   // Pa
+  double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
+  double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0,
+         boundary = 0;     // J
+  double residual = 0;     // J
+  double unbalanced = 0;   // 1
+  double platen_speed = 0; // m/s
+  double time_step = 0;    // s
+  double touching = 0;     // grain contacts
+
+  double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
+  double internal() const { return bond + contact + body; }            // J
+};
+
+const std::vector<std::string> &history_columns();
+std::vector<CsvCell> history_row(const Sample &sample);
+
+// Measures a problem; the gauges remember its reference state.
+class Sampler {
+public:
+  explicit Sampler(const coupling::Problem &problem);
+  Sample operator()(const coupling::Problem &problem) const;
+
+private:
+  dem::Gauge gauge_;
+  dem::ExtremalPairs pairs_;
+};
+
+} // namespace platen::apps

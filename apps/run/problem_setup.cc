@@ -1,0 +1,79 @@
+#include "apps/run/problem_setup.h"
+
+#include "apps/run/model_setup.h"
+
+namespace platen::apps {
+namespace {
+
+struct Effect {
+  bool on;
+  const char *word;
+};
+
+std::vector<Effect> effects(const Scene &s) {
+  const Effects &e = s.effects;
+  const bool bonded = e.bond != BondKind::none, touching = e.contact != ContactKind::none;
+  return {{bonded, "parallel bond"},
+          {touching && e.contact == ContactKind::linear, "linear contact"},
+          {touching && e.contact == ContactKind::hertz, "hertz contact"},
+          {touching && e.tangential != TangentialKind::none, "coulomb friction"},
+          {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
+          {e.rotation, "rotation"},
+          {bonded && e.rotation, "bond moments"},
+          {e.gravity, "gravity"},
+          {s.integration.damping > 0, "local damping"},
+          {bonded && s.bond.damping > 0, "bond dashpots"},
+          {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
+           "contact dashpots"},
+          {s.platens.damping > 0, "platen dashpots"},
+          {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
+          {s.platens.attachment == Attachment::glued, "glued ends"},
+          {s.specimen.seat, "seats"},
+          {s.integration.mass_scaling > 1, "mass scaling"}};
+}
+
+std::vector<std::string> chosen(const Scene &scene, bool on) {
+  std::vector<std::string> words;
+  for (const Effect &e : effects(scene))
+    if (e.on == on) words.emplace_back(e.word);
+  return words;
+}
+
+} // namespace
+
+std::vector<std::string> effects_on(const Scene &scene) {
+  return chosen(scene, true);
+}
+std::vector<std::string> effects_off(const Scene &scene) {
+  return chosen(scene, false);
+}
+
+coupling::ProblemSettings problem_settings(const Scene &scene) {
+  const Platens &from = scene.platens;
+  coupling::ProblemSettings to;
+  to.model = model_settings(scene);
+  to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
+  to.end_layer = scene.specimen.end_layer;
+  to.seat = scene.specimen.seat;
+  to.platens.top = {from.top.friction_static, from.top.friction_dynamic};
+  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic};
+  if (from.stiffness.kind == Stiffness::Kind::absolute)
+    to.platens.stiffness_absolute = from.stiffness.value;
+  else
+    to.platens.stiffness_of_bond = from.stiffness.value;
+  to.platens.tangential_ratio = from.tangential_ratio;
+  to.platens.damping = from.damping;
+  to.platens.overhang = from.overhang;
+  to.platens.thickness = from.thickness;
+  to.platens.elements_across = from.elements_across;
+  to.platens.material = {from.density, from.young_modulus, from.poisson_ratio};
+  to.platens.glued = from.attachment == Attachment::glued;
+  to.loading.tension = scene.loading.test == LoadingTest::tension;
+  to.loading.rate = scene.loading.axial_rate;
+  to.loading.ramp = scene.loading.ramp;
+  to.safety = scene.integration.safety;
+  to.fixed_step = scene.integration.time_step;
+  return to;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,133 @@
+#include "apps/run/results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/measure/damage.h"
+
+namespace platen::apps {
+namespace {
+
+// A peak counts once the stress has fallen to this share of it: where the pattern is measured.
+constexpr double pattern_share = 0.8;
+// Moduli are secants at this share of the strength (Bamforth; Tannu 2017).
+constexpr double modulus_share = 0.4;
+
+} // namespace
+
+Pattern measure_pattern(const coupling::Problem &problem) {
+  Pattern p;
+  p.time = problem.time();
+  p.strain = problem.closure_strain();
+  if (!problem.model.bonds) return p;
+  const dem::Bonds &bonds = *problem.model.bonds;
+  const dem::DamageByRegion damage = dem::damage_by_region(problem.model.particles, bonds, problem.shape());
+  p.end_top = damage.end_top;
+  p.end_bottom = damage.end_bottom;
+  p.middle = damage.middle;
+  p.end_spread = dem::end_spread(dem::skin_opening(problem.model.particles, bonds, problem.shape()));
+  p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
+  p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
+  return p;
+}
+
+bool Results::add(const Sample &sample, const coupling::Problem &problem) {
+  samples_.push_back(sample);
+  const double now = stress(sample);
+  if (now > peak_) {
+    peak_ = now;
+    at_eighty_ = Pattern{};
+    if (problem.model.bonds)
+      barrel_ =
+          dem::barrel(dem::skin_opening(problem.model.particles, *problem.model.bonds, problem.shape()));
+    return false;
+  }
+  if (peak_ > 0 && now < pattern_share * peak_ && measured_for_ != peak_) {
+    at_eighty_ = measure_pattern(problem);
+    measured_for_ = peak_;
+    return true;
+  }
+  return false;
+}
+
+bool Results::fallen_to(double share) const {
+  return !samples_.empty() && peak_ > 0 && stress(samples_.back()) < share * peak_;
+}
+
+std::size_t Results::peak_row() const {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < samples_.size(); ++k)
+    if (stress(samples_[k]) > stress(samples_[best])) best = k;
+  return best;
+}
+
+double Results::strength() const {
+  return peak_ > 0 ? peak_ : not_measured;
+}
+
+double Results::strain_at_peak_platen() const {
+  return peak_ > 0 ? sign_ * samples_[peak_row()].strain_platen : not_measured;
+}
+double Results::strain_at_peak_gauge() const {
+  return peak_ > 0 ? sign_ * samples_[peak_row()].strain_gauge : not_measured;
+}
+double Results::time_at_peak() const {
+  return peak_ > 0 ? samples_[peak_row()].time : not_measured;
+}
+
+Results::Crossing Results::ascending(double share) const {
+  for (std::size_t k = 1; k < samples_.size() && peak_ > 0; ++k) {
+    const double before = stress(samples_[k - 1]), after = stress(samples_[k]);
+    if (after >= share * peak_) return {true, k, (share * peak_ - before) / (after - before)};
+  }
+  return {};
+}
+
+double Results::at(const Crossing &c, double Sample::*value) const {
+  return (1 - c.weight) * samples_[c.after - 1].*value + c.weight * samples_[c.after].*value;
+}
+
+double Results::youngs_modulus_gauge() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? modulus_share * peak_ / (sign_ * at(c, &Sample::strain_gauge)) : not_measured;
+}
+double Results::youngs_modulus_platen() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? modulus_share * peak_ / (sign_ * at(c, &Sample::strain_platen)) : not_measured;
+}
+double Results::poisson_ratio() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? -at(c, &Sample::lateral_strain) / at(c, &Sample::strain_gauge) : not_measured;
+}
+double Results::poisson_ratio_extremal() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? -at(c, &Sample::lateral_extremal) / at(c, &Sample::axial_extremal) : not_measured;
+}
+
+double Results::energy_residual_relative() const {
+  const Crossing c = ascending(0.1);
+  if (!c.found) return not_measured;
+  double largest = 0;
+  for (std::size_t k = c.after; k < samples_.size(); ++k)
+    largest = std::max(largest, std::abs(samples_[k].residual));
+  return largest / samples_[peak_row()].boundary;
+}
+
+double Results::kinetic_to_internal_max() const {
+  const Crossing c = ascending(0.1);
+  if (!c.found) return not_measured;
+  double largest = 0;
+  for (std::size_t k = c.after; k <= peak_row(); ++k)
+    largest = std::max(largest, samples_[k].kinetic / samples_[k].internal());
+  return largest;
+}
+
+void Results::restore(std::vector<Sample> samples, const Progress &progress) {
+  samples_ = std::move(samples);
+  at_eighty_ = progress.at_eighty;
+  barrel_ = progress.barrel;
+  peak_ = progress.peak;
+  measured_for_ = progress.measured_for;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,78 @@
+// What a test says of its specimen: strength, moduli, damage; followed while the run goes on.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "apps/run/history.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
+// Damage and opening when the stress has fallen to 0.8 of the peak (or at the end of a run).
+struct Pattern {
+  double time = not_measured, strain = not_measured; // s, platen strain
+  double end_top = not_measured, end_bottom = not_measured, middle = not_measured, end_spread = not_measured;
+  double broken_tension = not_measured, broken_shear = not_measured;
+};
+Pattern measure_pattern(const coupling::Problem &problem);
+
+class Results {
+public:
+  // Stresses and strains are taken with this sign: +1 compression, -1 tension.
+  explicit Results(bool tension) : sign_(tension ? -1.0 : 1.0) {}
+
+  // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
+  // measured.
+  bool add(const Sample &sample, const coupling::Problem &problem);
+  // The stress has fallen to this share of the peak, after it.
+  bool fallen_to(double share) const;
+  void finish(const coupling::Problem &problem) { last_ = measure_pattern(problem); }
+
+  // Of all samples; NaN where the run did not get there.
+  double strength() const; // Pa, positive
+  double strain_at_peak_platen() const, strain_at_peak_gauge() const;
+  double youngs_modulus_gauge() const, youngs_modulus_platen() const; // Pa, secant at 40 % of the strength
+  double poisson_ratio() const;                                       // gauge, at 40 % of the strength
+  double poisson_ratio_extremal() const;                              // Tannu's way, there
+  // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
+  double energy_residual_relative() const;
+  double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
+  double time_at_peak() const;            // s
+
+  const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
+  const Pattern &last_pattern() const { return last_; }
+  double barrel_at_peak() const { return barrel_; }
+  const std::vector<Sample> &samples() const { return samples_; }
+
+  // For checkpoints.
+  struct Progress {
+    Pattern at_eighty;
+    double barrel = not_measured;
+    double peak = 0;          // Pa
+    double measured_for = -1; // the peak that at_eighty belongs to, Pa
+  };
+  Progress progress() const { return {at_eighty_, barrel_, peak_, measured_for_}; }
+  void restore(std::vector<Sample> samples, const Progress &progress);
+
+private:
+  std::size_t peak_row() const;
+  // Samples on the ascending branch on both sides of a share of the strength, and the weight of the second.
+  struct Crossing {
+    bool found = false;
+    std::size_t after = 0;
+    double weight = 0;
+  };
+  Crossing ascending(double share) const;
+  double at(const Crossing &crossing, double Sample::*value) const;
+  double stress(const Sample &s) const { return sign_ * s.stress(); }
+
+  double sign_;
+  std::vector<Sample> samples_;
+  Pattern at_eighty_, last_;
+  double barrel_ = not_measured, peak_ = 0, measured_for_ = -1;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,82 @@
+#include "apps/run/run_state.h"
+
+namespace platen::apps {
+namespace {
+
+void save_search(CheckpointWriter &to, const dem::ContactSearch::State &s) {
+  to.add("search/moved", std::vector<double>{s.moved_since_wide, s.moved_since_close});
+  to.add("search/valid", std::vector<int>{s.wide_valid, s.close_valid});
+  to.add("search/wide", s.wide);
+  to.add("search/close", s.close);
+  to.add("search/rest", s.rest);
+}
+
+dem::ContactSearch::State load_search(const CheckpointReader &from) {
+  dem::ContactSearch::State s;
+  std::vector<double> moved;
+  std::vector<int> valid;
+  from.get("search/moved", moved);
+  from.get("search/valid", valid);
+  if (moved.size() != 2 || valid.size() != 2) throw CheckpointError("block search/moved has another length");
+  s.moved_since_wide = moved[0];
+  s.moved_since_close = moved[1];
+  s.wide_valid = valid[0];
+  s.close_valid = valid[1];
+  from.get("search/wide", s.wide);
+  from.get("search/close", s.close);
+  from.get("search/rest", s.rest);
+  return s;
+}
+
+} // namespace
+
+void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
+                const FileMarks &marks) {
+  const dem::Model &model = problem.model;
+  to.add("problem", problem.numbers());
+  to.add_table("particles", model.particles.table);
+  if (model.bonds) {
+    to.add_table("bonds", model.bonds->table);
+    to.add_table("bond_records", model.bonds->records);
+  }
+  if (model.contacts) {
+    to.add_table("contacts", model.contacts->table);
+    save_search(to, model.contacts->search_state().state());
+  }
+  to.add("top/body", problem.top.state());
+  to.add("bottom/body", problem.bottom.state());
+  to.add_table("top/contacts", problem.top_layer.history());
+  to.add_table("bottom/contacts", problem.bottom_layer.history());
+  to.add("samples", results.samples());
+  to.add("results", results.progress());
+  to.add("marks", marks);
+}
+
+FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results) {
+  dem::Model &model = problem.model;
+  from.read_table("particles", model.particles.table);
+  if (model.bonds) {
+    from.read_table("bonds", model.bonds->table);
+    from.read_table("bond_records", model.bonds->records);
+  }
+  if (model.contacts) {
+    from.read_table("contacts", model.contacts->table);
+    model.contacts->search_state().set_state(load_search(from));
+  }
+  std::vector<double> numbers;
+  from.get("top/body", numbers);
+  problem.top.set_state(numbers);
+  from.get("bottom/body", numbers);
+  problem.bottom.set_state(numbers);
+  from.read_table("top/contacts", problem.top_layer.history());
+  from.read_table("bottom/contacts", problem.bottom_layer.history());
+  from.get("problem", numbers);
+  problem.set_numbers(numbers);
+  problem.restored();
+  std::vector<Sample> samples;
+  from.get("samples", samples);
+  results.restore(std::move(samples), from.value<Results::Progress>("results"));
+  return from.value<FileMarks>("marks");
+}
+
+} // namespace platen::apps

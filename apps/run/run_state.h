@@ -1,0 +1,26 @@
+// What a checkpoint of a run holds: everything that decides the next step and the next row.
+#pragma once
+
+#include <cstdint>
+
+#include "apps/io/checkpoint.h"
+#include "apps/run/fields.h"
+#include "apps/run/results.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+// Where the files of a run stood.
+struct FileMarks {
+  std::uint64_t history_bytes = 0, cracks_bytes = 0;
+  double last_frame = -1; // s
+  std::int64_t frames = 0;
+  double wall_seconds = 0; // of all runs so far
+};
+
+void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
+                const FileMarks &marks);
+// Into a problem made from the same scene. Throws CheckpointError.
+FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results);
+
+} // namespace platen::apps

@@ -1,0 +1,10 @@
+set(PLATEN_RUN_SOURCES
+  run/compression.cc
+  run/fields.cc
+  run/history.cc
+  run/model_setup.cc
+  run/problem_setup.cc
+  run/results.cc
+  run/run_state.cc
+  run/specimen_setup.cc
+  run/summary_of_run.cc)

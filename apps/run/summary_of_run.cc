@@ -1,0 +1,161 @@
+#include "apps/run/summary_of_run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <limits>
+
+#include "apps/run/problem_setup.h"
+#include "apps/scene/expect.h"
+#include "apps/scene/version.h"
+#include "dem/measure/fragments.h"
+#include "dem/measure/moduli.h"
+
+namespace platen::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double peak_memory() { // bytes
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+Json stage_seconds(const dem::StageClock &clock) {
+  Json stages;
+  for (int k = 0; k < dem::stage_count; ++k)
+    stages[dem::stage_names[static_cast<std::size_t>(k)]] = clock.seconds(static_cast<dem::Stage>(k));
+  return stages;
+}
+
+std::size_t bytes_per_bond(const dem::Model &model) {
+  return model.bonds
+             ? model.bonds->table.bytes_per_row() + model.bonds->records.bytes_per_row() + 2 * sizeof(int)
+             : 0;
+}
+
+void add_pattern(Json &to, const char *prefix, const Pattern &p) {
+  const std::string start = prefix;
+  to[start + "end_damage_top"] = p.end_top;
+  to[start + "end_damage_bottom"] = p.end_bottom;
+  to[start + "middle_damage"] = p.middle;
+  to[start + "end_spread"] = p.end_spread;
+}
+
+// Speed of a slow test: how often a wave crosses the specimen until the peak.
+double crossings_to_peak(const coupling::Problem &problem, const Results &results) {
+  return problem.wave_crossing() > 0 ? results.time_at_peak() / problem.wave_crossing() : not_measured;
+}
+
+} // namespace
+
+Json summary_of_run(const std::string &status, const Scene &scene, const coupling::Problem &problem,
+                    const Results &results, const RunCosts &costs) {
+  const dem::Model &model = problem.model;
+  const double particles = static_cast<double>(model.particles.size());
+  Json s;
+  s["status"] = status;
+  s["app"] = "platen-compress";
+  s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
+  s["version"] = version_line();
+  s["effects"] = effects_on(scene);
+  s["effects_off"] = effects_off(scene);
+  s["test"] = scene.loading.test == LoadingTest::tension ? "tension" : "compression";
+  s["particles"] = model.particles.size();
+  s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
+  s["coordination_number"] = problem.coordination_number();
+  s["packing_fraction"] = problem.packing_fraction();
+  s["seated_top"] = problem.top_layer.seats();
+  s["seated_bottom"] = problem.bottom_layer.seats();
+  s["steps"] = problem.steps();
+  s["time_step_s"] = problem.time_step();
+  s["time_step_reason"] = problem.time_step_reason();
+  s["instruction_set"] = dem::name(model.settings().instruction_set);
+  s["threads"] = costs.threads;
+  s["wall_seconds"] = costs.wall_seconds;
+  s["setup_seconds"] = costs.setup_seconds;
+  s["particle_steps_per_second"] =
+      costs.step_seconds > 0 ? particles * static_cast<double>(costs.steps_here) / costs.step_seconds
+                             : not_measured;
+  s["stage_seconds"] = stage_seconds(model.clock);
+  s["peak_memory_bytes"] = peak_memory();
+  s["bytes_per_particle"] = model.particles.table.bytes_per_row();
+  s["bytes_per_bond"] = bytes_per_bond(model);
+  s["strength_pa"] = results.strength();
+  s["strain_at_peak_platen"] = results.strain_at_peak_platen();
+  s["strain_at_peak_gauge"] = results.strain_at_peak_gauge();
+  s["youngs_modulus_gauge_pa"] = results.youngs_modulus_gauge();
+  s["youngs_modulus_platen_pa"] = results.youngs_modulus_platen();
+  s["poisson_ratio"] = results.poisson_ratio();
+  s["poisson_ratio_extremal"] = results.poisson_ratio_extremal();
+  if (model.bonds) {
+    const dem::NetworkModuli moduli = dem::network_moduli(*model.bonds, problem.shape().volume());
+    s["youngs_modulus_voigt_pa"] =
+        model.broken_tension + model.broken_shear == 0 ? moduli.young_voigt : not_measured;
+  }
+  s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
+  s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
+  s["energy_residual_relative"] = results.energy_residual_relative();
+  s["kinetic_to_internal_max"] = results.kinetic_to_internal_max();
+  s["wave_crossings_to_peak"] = crossings_to_peak(problem, results);
+  add_pattern(s, "", results.pattern());
+  add_pattern(s, "final_", results.last_pattern());
+  s["barrel_at_peak"] = results.barrel_at_peak();
+  const dem::Fragments fragments = dem::find_fragments(model.particles, model.bonds.get());
+  s["fragments"] = fragments.count;
+  s["loose_particles"] = fragments.single;
+  s["cone_top"] = nullptr; // not measured by this app yet
+  s["cone_bottom"] = nullptr;
+  return s;
+}
+
+std::vector<std::string> missed_expectations(const Scene &scene, const Json &summary) {
+  return failed_expectations(scene, [&](const std::string &key) {
+    const Json::json_pointer path("/" + key);
+    if (!summary.contains(path) || !summary.at(path).is_number()) return not_measured;
+    return summary.at(path).get<double>();
+  });
+}
+
+std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
+                          const RunCosts &costs) {
+  const bool tension = scene.loading.test == LoadingTest::tension;
+  const Pattern &p = results.pattern();
+  std::string text;
+  const auto line = [&](const std::string &what, const std::string &value) {
+    text += fmt::format("  {:<34}{}\n", what, value);
+  };
+  line(tension ? "tensile strength" : "compressive strength",
+       fmt::format("{:.2f} MPa", results.strength() / 1e6));
+  line("strain at peak (platen, gauge)",
+       fmt::format("{:.5f}, {:.5f}", results.strain_at_peak_platen(), results.strain_at_peak_gauge()));
+  line("Young's modulus (gauge, platen)",
+       fmt::format("{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
+                   results.youngs_modulus_platen() / 1e9));
+  line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
+  line("broken bonds (tension, shear)",
+       fmt::format("{}, {} of {}", problem.model.broken(dem::BondState::broken_in_tension),
+                   problem.model.broken(dem::BondState::broken_in_shear),
+                   problem.model.bonds ? problem.model.bonds->initial_count() : 0));
+  if (!std::isnan(p.strain) && !tension) {
+    line("damage at 0.8 of the peak, after it",
+         fmt::format("top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top, p.end_bottom, p.middle));
+    line("end spread, barrel at peak", fmt::format("{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak()));
+  }
+  line("energy residual over work", fmt::format("{:.2e}", results.energy_residual_relative()));
+  line("kinetic over internal, to peak", fmt::format("{:.2e}", results.kinetic_to_internal_max()));
+  const double crossings = crossings_to_peak(problem, results);
+  line("wave crossings to the peak",
+       fmt::format("{:.0f}{}", crossings, crossings < 100 ? " (fast: 120 are advised)" : ""));
+  line("steps, seconds",
+       fmt::format("{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
+                   problem.model.bonds && costs.step_seconds > 0
+                       ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *
+                             static_cast<double>(costs.steps_here) / costs.step_seconds
+                       : 0.0));
+  return text;
+}
+
+} // namespace platen::apps

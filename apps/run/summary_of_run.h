@@ -1,0 +1,34 @@
+// summary.json of a test between platens.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/run/results.h"
+#include "apps/scene/scene.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+struct RunCosts {
+  int threads = 1;
+  double wall_seconds = 0, setup_seconds = 0; // s, of all parts of the run; of this part
+  long steps_here = 0;                        // steps that this part made
+  double step_seconds = 0;                    // s, of those steps
+};
+
+// status: "done", "stopped" or "failed". Numbers that were not measured are NaN, written null.
+nlohmann::ordered_json summary_of_run(const std::string &status, const Scene &scene,
+                                      const coupling::Problem &problem, const Results &results,
+                                      const RunCosts &costs);
+
+// The expected numbers of the scene that did not come out, one line each.
+std::vector<std::string> missed_expectations(const Scene &scene, const nlohmann::ordered_json &summary);
+
+// A few lines for the screen: strength, strains, moduli, damage, energy.
+std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
+                          const RunCosts &costs);
+
+} // namespace platen::apps

@@ -1,0 +1,283 @@
+#include "coupling/problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dem/measure/moduli.h"
+#include "dem/parallel.h"
+#include "fem/grids.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+// Margin of the platens' particle lists, in mean radii.
+constexpr double surface_skin = 0.3;
+// The step is looked at again after this many steps, if contacts have grown by this share of the particles.
+constexpr long steps_between_choices = 1000;
+constexpr double growth_of_contacts = 0.02;
+
+// As packed, a platen meets the outermost sphere; ground, it lies in the end plane.
+double platen_plane(const dem::Specimen &s, bool top, Ends ends) {
+  if (ends == Ends::ground) return top ? s.shape.height : 0.0;
+  double z = top ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.size(); ++i)
+    z = top ? std::max(z, s.centre[i].z + s.radius[i]) : std::min(z, s.centre[i].z - s.radius[i]);
+  return z;
+}
+
+fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const PlatenSettings &p = settings.platens;
+  const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  if (s.shape.kind == dem::ShapeKind::cylinder)
+    return fem::make_grid(
+        fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2});
+  const double x = 0.5 * p.overhang * s.shape.width_x, y = 0.5 * p.overhang * s.shape.width_y;
+  return fem::make_grid(
+      fem::BoxPlate{{-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}});
+}
+
+// Without bonds the stiffness that a bond would have still measures the grains.
+double platen_stiffness(const dem::Model &model, const ProblemSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (p.stiffness_absolute > 0) return p.stiffness_absolute;
+  double sum = 0;
+  if (model.bonds && model.bonds->size() > 0) {
+    const dem::Bonds &b = *model.bonds;
+    for (std::size_t k = 0; k < b.size(); ++k)
+      sum += pi * b.bond_radius[k] * b.bond_radius[k] * b.normal_stiffness[k];
+    return p.stiffness_of_bond * sum / static_cast<double>(b.size());
+  }
+  for (const double r : model.particles.radius)
+    sum += settings.model.bond_layout.axial_stiffness(r, r);
+  return p.stiffness_of_bond * sum / static_cast<double>(std::max<std::size_t>(model.particles.size(), 1));
+}
+
+SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
+                              const ProblemSettings &settings, const PlatenSide &side) {
+  const PlatenSettings &p = settings.platens;
+  SurfaceContact c;
+  c.particle_stiffness = platen_stiffness(model, settings);
+  c.tangential_ratio = p.tangential_ratio;
+  c.friction_static = side.friction_static;
+  c.friction_dynamic = side.friction_dynamic;
+  c.damping = p.damping;
+  c.attachment = p.glued ? Attachment::glued : Attachment::free;
+  c.seat_modulus = settings.seat ? settings.model.bond_layout.modulus : 0.0;
+  c.skin = surface_skin * dem::mean_radius(s);
+  return c;
+}
+
+double smooth_start(double x) {
+  return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
+}
+
+} // namespace
+
+Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
+    : model(specimen, settings.model),
+      top(platen_grid(specimen, settings, true), settings.platens.material),
+      bottom(platen_grid(specimen, settings, false), settings.platens.material),
+      top_layer(model.particles, top, layer_settings(model, specimen, settings, settings.platens.top)),
+      bottom_layer(model.particles, bottom,
+                   layer_settings(model, specimen, settings, settings.platens.bottom)),
+      settings_(settings),
+      shape_(specimen.shape) {
+  double solid = 0;
+  for (const double r : specimen.radius)
+    solid += 4.0 / 3.0 * pi * r * r * r;
+  packing_fraction_ = solid / shape_.volume();
+  if (settings.ends == Ends::ground || settings.platens.glued) {
+    const double depth = settings.end_layer * dem::mean_radius(specimen);
+    const int seats = std::min(top_layer.seat_within(model.particles, top, depth),
+                               bottom_layer.seat_within(model.particles, bottom, depth));
+    if (seats == 0)
+      throw BadSetup(
+          "no sphere of the specimen lies within the end layer of a platen; a larger Specimen/End layer, or "
+          "a specimen that reaches its end planes, is needed");
+  }
+  const double modulus = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
+  const double density = settings.model.density * settings.model.mass_scaling * packing_fraction_;
+  wave_crossing_ = modulus > 0 ? shape_.height * std::sqrt(density / modulus) : 0.0;
+  ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
+  choose_step(true);
+}
+
+std::vector<dem::GroundSpring> Problem::ground_springs() const {
+  std::vector<dem::GroundSpring> springs = bottom_layer.ground_springs(model.particles, bottom);
+  const std::vector<dem::GroundSpring> more = top_layer.ground_springs(model.particles, top);
+  springs.insert(springs.end(), more.begin(), more.end());
+  return springs;
+}
+
+std::size_t Problem::touching() const {
+  return (model.contacts ? model.contacts->touching_count() : 0) + top_layer.contacts().size() +
+         bottom_layer.contacts().size();
+}
+
+// The step never grows: bonds that break only soften, contacts that close may stiffen.
+void Problem::choose_step(bool first) {
+  const dem::StableStep limit = model.stable_step(ground_springs(), settings_.platens.damping);
+  touching_at_choice_ = touching();
+  if (settings_.fixed_step > 0) {
+    if (settings_.fixed_step > limit.limit) {
+      const std::string numbers = std::to_string(settings_.fixed_step) +
+                                  " s is above the stability limit of " + std::to_string(limit.limit) +
+                                  " s (" + limit.reason + ")";
+      if (first) throw BadSetup("Integration/Time step: " + numbers);
+      throw NumericsStopped("the time step of " + numbers + " at " + std::to_string(time()) +
+                            " s; try a smaller Integration/Time step, or leave it to the program");
+    }
+    time_step_ = settings_.fixed_step;
+    reason_ = "given by the scene";
+    return;
+  }
+  const double step = settings_.safety * limit.limit;
+  if (!std::isfinite(step))
+    throw BadSetup("nothing in the scene has a stiffness that gives a time step; set Integration/Time step");
+  if (first || step < time_step_) {
+    time_step_ = step;
+    reason_ = limit.reason;
+  }
+}
+
+void Problem::drift_bodies() {
+  const double sign = settings_.loading.tension ? -1.0 : 1.0, middle = model.time - 0.5 * time_step_;
+  const double start = ramp_ > 0 ? smooth_start(middle / ramp_) : 1.0;
+  const double speed = 0.5 * sign * settings_.loading.rate * start;
+  top.set_velocity({0, 0, -speed});
+  bottom.set_velocity({0, 0, speed});
+  top.drift(time_step_);
+  bottom.drift(time_step_);
+  top.clear_loads();
+  bottom.clear_loads();
+}
+
+void Problem::step() {
+  if (steps_ > 0 && steps_ % steps_between_choices == 0 &&
+      static_cast<double>(touching()) >
+          static_cast<double>(touching_at_choice_) +
+              growth_of_contacts * static_cast<double>(model.particles.size())) {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
+    choose_step(false);
+  }
+  const double dt = time_step_;
+  model.begin_step(dt);
+  {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
+    drift_bodies();
+  }
+  model.compute_forces(dt);
+  {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+    top_layer.moved(model.last_motion().fastest * dt + top.largest_move(dt));
+    bottom_layer.moved(model.last_motion().fastest * dt + bottom.largest_move(dt));
+    top_layer.add_forces(model.particles, top, dt);
+    bottom_layer.add_forces(model.particles, bottom, dt);
+  }
+  model.end_step(dt);
+  // The machine holds each platen against the particles: its work is minus theirs, by the trapezoid over the
+  // drift.
+  const double force_top = top.total_force()[2], force_bottom = bottom.total_force()[2];
+  boundary_work_ -= 0.5 * dt *
+                    ((reaction_top_ + force_top) * top.velocity()[2] +
+                     (reaction_bottom_ + force_bottom) * bottom.velocity()[2]);
+  reaction_top_ = force_top;
+  reaction_bottom_ = force_bottom;
+  ++steps_;
+  if (!std::isfinite(model.last_sums().kinetic_energy))
+    throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_) + ", time " +
+                          std::to_string(time()) +
+                          " s; try a smaller Integration/Safety or Loading/Axial rate");
+}
+
+double Problem::coordination_number() const {
+  if (!model.bonds || model.particles.size() == 0) return 0;
+  return 2.0 * static_cast<double>(model.bonds->initial_count()) /
+         static_cast<double>(model.particles.size());
+}
+
+double Problem::closure_strain() const {
+  return (bottom.displacement()[2] - top.displacement()[2]) / shape_.height;
+}
+double Problem::stress_top() const {
+  return reaction_top_ / shape_.cross_section();
+}
+double Problem::stress_bottom() const {
+  return -reaction_bottom_ / shape_.cross_section();
+}
+double Problem::platen_speed() const {
+  return bottom.velocity()[2] - top.velocity()[2];
+}
+
+dem::EnergyLedger Problem::energy() const {
+  dem::EnergyLedger e = model.energy();
+  e.contacts += top_layer.elastic_energy() + bottom_layer.elastic_energy();
+  e.friction += top_layer.friction_work + bottom_layer.friction_work;
+  e.damping += top_layer.damping_work + bottom_layer.damping_work;
+  e.boundary += boundary_work_;
+  return e;
+}
+
+double Problem::unbalanced_ratio() const {
+  if (!model.bonds || model.intact_bonds() == 0) return std::numeric_limits<double>::quiet_NaN();
+  const dem::Bonds &b = *model.bonds;
+  const double sum = dem::ordered_sum<double>(b.size(), [&](std::size_t first, std::size_t last) {
+    double s = 0;
+    for (std::size_t k = first; k < last; ++k)
+      s += dem::norm(b.force[k]);
+    return s;
+  });
+  const double bonds = sum / static_cast<double>(model.intact_bonds());
+  const double net = model.last_sums().unbalanced / static_cast<double>(model.particles.size());
+  return bonds > 0 ? net / bonds : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> Problem::numbers() const {
+  return {model.time,
+          time_step_,
+          static_cast<double>(steps_),
+          static_cast<double>(touching_at_choice_),
+          boundary_work_,
+          reaction_top_,
+          reaction_bottom_,
+          model.works.damping,
+          model.works.fracture,
+          model.works.weight,
+          static_cast<double>(model.broken_tension),
+          static_cast<double>(model.broken_shear),
+          model.contacts ? model.contacts->friction_work : 0.0,
+          model.contacts ? model.contacts->damping_work : 0.0,
+          top_layer.friction_work,
+          top_layer.damping_work,
+          bottom_layer.friction_work,
+          bottom_layer.damping_work};
+}
+
+void Problem::set_numbers(const std::vector<double> &n) {
+  if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
+  model.time = n[0];
+  time_step_ = n[1];
+  steps_ = static_cast<long>(n[2]);
+  touching_at_choice_ = static_cast<std::size_t>(n[3]);
+  boundary_work_ = n[4];
+  reaction_top_ = n[5];
+  reaction_bottom_ = n[6];
+  model.works = {n[7], n[8], n[9]};
+  model.broken_tension = static_cast<long>(n[10]);
+  model.broken_shear = static_cast<long>(n[11]);
+  if (model.contacts) model.contacts->friction_work = n[12], model.contacts->damping_work = n[13];
+  top_layer.friction_work = n[14];
+  top_layer.damping_work = n[15];
+  bottom_layer.friction_work = n[16];
+  bottom_layer.damping_work = n[17];
+}
+
+void Problem::restored() {
+  top_layer.restored();
+  bottom_layer.restored();
+  if (model.bonds) model.bonds->restored(model.particles.size());
+}
+
+} // namespace platen::coupling
