@@ -90,24 +90,31 @@ void SoftSpheres::touch(double overlap) {
   now_.max = std::max(now_.max, overlap);
 }
 
+// Force along an axis on a sphere of radius r at x between walls at -half and half, both of which it may
+// touch.
+double SoftSpheres::squeeze(double x, double r, double half) {
+  const double right = x + r - half, left = r - half - x;
+  double force = 0;
+  if (right > 0) force -= right, touch(right);
+  if (left > 0) force += left, touch(left);
+  return force;
+}
+
 void SoftSpheres::add_wall_forces() {
+  const double half_height = 0.5 * shape_.height;
   for (std::size_t i = 0; i < centre_.size(); ++i) {
     const Vector3 &c = centre_[i];
     const double r = radius_[i];
-    if (c.z < r) force_[i].z += r - c.z, touch(r - c.z);
-    if (c.z > shape_.height - r) force_[i].z -= c.z - shape_.height + r, touch(c.z - shape_.height + r);
-    if (shape_.kind == ShapeKind::cylinder) {
-      const double across = c.x * c.x + c.y * c.y, inner = shape_.radius - r;
-      if (inner > 0 && across <= inner * inner) continue;
-      const double distance = std::sqrt(across), overlap = distance - inner;
-      if (distance > 0) force_[i].x -= overlap * c.x / distance, force_[i].y -= overlap * c.y / distance;
-      touch(overlap);
-    } else {
-      const double beyond_x = std::abs(c.x) - 0.5 * shape_.width_x + r,
-                   beyond_y = std::abs(c.y) - 0.5 * shape_.width_y + r;
-      if (beyond_x > 0) force_[i].x -= std::copysign(beyond_x, c.x), touch(beyond_x);
-      if (beyond_y > 0) force_[i].y -= std::copysign(beyond_y, c.y), touch(beyond_y);
+    force_[i].z += squeeze(c.z - half_height, r, half_height);
+    if (shape_.kind == ShapeKind::box) {
+      force_[i].x += squeeze(c.x, r, 0.5 * shape_.width_x);
+      force_[i].y += squeeze(c.y, r, 0.5 * shape_.width_y);
+      continue;
     }
+    const double across = c.x * c.x + c.y * c.y, inner = shape_.radius - r;
+    if (inner > 0 && across <= inner * inner) continue;
+    const double distance = std::sqrt(across), force = squeeze(distance, r, shape_.radius);
+    if (distance > 0) force_[i].x += force * c.x / distance, force_[i].y += force * c.y / distance;
   }
 }
 

@@ -45,6 +45,7 @@ private:
   void build_pairs();
   bool pairs_are_stale() const;
   void compute_forces();
+  double squeeze(double x, double r, double half);
   void add_wall_forces();
   void touch(double overlap);
 

@@ -15,7 +15,7 @@ constexpr double gauss_point[4] = {0.1834346424956498, 0.5255324099163290, 0.796
                                    0.9602898564975363};
 constexpr double gauss_weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                     0.1012285362903763};
-constexpr int pieces = 6;
+constexpr int pieces = 3;
 
 template <class Function>
 double integral(double from, double to, const Function &f) {
@@ -43,6 +43,13 @@ double area_in_rectangle(double x, double y, double r, double half_x, double hal
   });
 }
 
+// Radius of the slice whose rim just meets the side wall, for a centre within it or not.
+double clearance_of_side(const Shape &shape, const Vector3 &c, double from_axis) {
+  if (shape.kind == ShapeKind::cylinder) return std::abs(shape.radius - from_axis);
+  return std::min(std::abs(0.5 * shape.width_x - std::abs(c.x)),
+                  std::abs(0.5 * shape.width_y - std::abs(c.y)));
+}
+
 } // namespace
 
 double shared_area_of_discs(double a, double b, double d) {
@@ -61,12 +68,17 @@ double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
   const double low = std::max(-c.z / r, -1.0), high = std::min((shape.height - c.z) / r, 1.0);
   if (low >= high) return 0;
   const double from_axis = std::sqrt(c.x * c.x + c.y * c.y);
-  return integral(low, high, [&](double t) {
-    const double slice = r * std::sqrt(std::max(0.0, 1 - t * t));
-    return r * (shape.kind == ShapeKind::cylinder
-                    ? shared_area_of_discs(slice, shape.radius, from_axis)
-                    : area_in_rectangle(c.x, c.y, slice, 0.5 * shape.width_x, 0.5 * shape.width_y));
-  });
+  const auto slice = [&](double t) { // at the height r sin t, where the slice is a disc of radius r cos t
+    const double disc = r * std::cos(t);
+    return disc * (shape.kind == ShapeKind::cylinder
+                       ? shared_area_of_discs(disc, shape.radius, from_axis)
+                       : area_in_rectangle(c.x, c.y, disc, 0.5 * shape.width_x, 0.5 * shape.width_y));
+  };
+  // The slices have a kink where their rim first meets the wall; no piece of the integral lies across it.
+  const double kink = std::acos(std::clamp(clearance_of_side(shape, c, from_axis) / r, 0.0, 1.0));
+  const double start = std::asin(low), end = std::asin(high);
+  const double first = std::clamp(-kink, start, end), second = std::clamp(kink, start, end);
+  return integral(start, first, slice) + integral(first, second, slice) + integral(second, end, slice);
 }
 
 } // namespace platen::dem
