@@ -1,7 +1,6 @@
 // The bytes of a checkpoint file that are no values: header, block header, trailer, checksums (checkpoint.h).
 #pragma once
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <cstdint>

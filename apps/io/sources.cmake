@@ -1,5 +1,5 @@
-# Everything that is written. The sources need fmt::fmt, nlohmann_json::nlohmann_json, the xxhash header (compiled in,
-# no library) and these components of VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem.
+# Everything that is written. The sources need fmt::fmt, nlohmann_json::nlohmann_json, xxhash and these components of
+# VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem and the header apps/scene/errors.h.
 set(PLATEN_IO_SOURCES
   io/file.cc
   io/checkpoint_writer.cc

@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -13,7 +14,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
@@ -90,12 +92,20 @@ void add_time(vtkUnstructuredGrid &grid, double time) { // as readers of single 
   grid.GetFieldData()->AddArray(value);
 }
 
+// Codes below VTK's own are those of the system.
+std::string reason(unsigned long code) {
+  if (code == vtkErrorCode::OutOfDiskSpaceError) return std::strerror(ENOSPC);
+  if (code > 0 && code < vtkErrorCode::FirstVTKErrorCode) return std::strerror(static_cast<int>(code));
+  return "the VTK writer failed with code " + std::to_string(code);
+}
+
 // Write() of the writer says success on a full disk; the error code, and the end of the file, tell the truth.
 void write_part(const std::filesystem::path &part, vtkUnstructuredGrid &grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   vtkNew<vtkCallbackCommand> silent; // the error is reported by what is thrown
   silent->SetCallback([](vtkObject *, unsigned long, void *, void *) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
   writer->SetFileName(part.c_str());
   writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
@@ -104,8 +114,7 @@ void write_part(const std::filesystem::path &part, vtkUnstructuredGrid &grid) {
   const int written = writer->Write();
   const unsigned long error = writer->GetErrorCode();
   if (written == 0 || error != vtkErrorCode::NoError)
-    throw OutputError(part.string() + ": cannot be written: " +
-                      (error != 0 ? vtkErrorCode::GetStringFromErrorCode(error) : "the writer failed"));
+    throw OutputError(part.string() + ": cannot be written: " + reason(error));
 
   const std::string end = "</VTKFile>\n";
   std::string found(end.size(), '\0');
