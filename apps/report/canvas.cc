@@ -5,7 +5,12 @@
 #include <vtkPNGWriter.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
 
 #include "apps/report/style.h"
 
@@ -81,11 +86,20 @@ void Canvas::save(const std::filesystem::path &png) const {
   averaged->SetInputConnection(image->GetOutputPort());
   averaged->SetShrinkFactors(oversampling, oversampling, 1);
   averaged->MeanOn();
-  vtkNew<vtkPNGWriter> writer;
+  vtkNew<vtkPNGWriter>
+      writer; // into memory: on a full disk VTK and libpng would each print words of their own
   writer->SetInputConnection(averaged->GetOutputPort());
-  writer->SetFileName(png.c_str());
+  writer->WriteToMemoryOn();
   writer->Write();
-  if (writer->GetErrorCode() != 0) throw OutputError(png.string() + ": could not be written");
+  vtkUnsignedCharArray *bytes = writer->GetResult();
+  std::ofstream stream(png, std::ios::binary);
+  stream.write(reinterpret_cast<const char *>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
+  stream.close();
+  if (stream) return;
+  const std::string why = std::generic_category().message(errno);
+  std::error_code ignored;
+  std::filesystem::remove(png, ignored); // half a picture is none
+  throw OutputError(png.string() + ": could not be written: " + why);
 }
 
 } // namespace platen::apps::report

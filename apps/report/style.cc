@@ -41,10 +41,11 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
   const double raw = (high - low) / wanted, power = std::pow(10.0, std::floor(std::log10(raw)));
   const double step = power * (raw <= 1.4 * power ? 1 : raw <= 3 * power ? 2 : raw <= 7 * power ? 5 : 10);
   constexpr double slack = 1e-9; // of a step: a border that is met but for rounding needs no further interval
-  const double first = std::floor(low / step + slack), last = std::ceil(high / step - slack);
+  const long first = std::lround(std::floor(low / step + slack)),
+             last = std::lround(std::ceil(high / step - slack));
   std::vector<double> ticks;
-  for (double k = first; k <= last; ++k)
-    ticks.push_back(k * step);
+  for (long k = first; k <= last; ++k)
+    ticks.push_back(static_cast<double>(k) * step);
   return ticks;
 }
 
