@@ -56,7 +56,8 @@ void add_discs(vtkRenderer *renderer, const std::vector<Crack> &cracks, bool in_
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
-  actor->GetProperty()->SetAmbient(0.45);
+  actor->GetProperty()->SetAmbient(0.4);
+  actor->GetProperty()->SetDiffuse(0.65);
   renderer->AddActor(actor);
 }
 
@@ -99,7 +100,7 @@ std::string counted(const std::vector<Crack> &cracks, bool in_tension) {
   std::size_t count = 0;
   for (const Crack &crack : cracks)
     count += crack.in_tension == in_tension ? 1 : 0;
-  return std::to_string(count) + (in_tension ? " in tension" : " in shear");
+  return std::to_string(count) + (in_tension ? " in tension" : " in shear") + " (both halves)";
 }
 
 } // namespace
@@ -116,7 +117,7 @@ void draw_cracks(const Run &run, const Spheres &before_test, const std::filesyst
     add_discs(renderer, cracks, in_tension, in_tension ? colours::vermilion : colours::blue);
     add_outline(renderer, extent);
     light_cut(renderer);
-    look_at_cut(renderer, extent, 0.12 * extent.height());
+    look_at_cut(renderer, extent, 0.06 * extent.height());
     canvas.add_text(counted(cracks, in_tension), left + 0.25, 0.5 * foot / height, text_size);
   }
   canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", half of the specimen");
