@@ -1,6 +1,7 @@
 #include "apps/io/pvd.h"
 
 #include <fmt/format.h>
+#include <vtkObject.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
@@ -38,6 +39,15 @@ std::string escaped(const std::string &text) {
   return result;
 }
 
+// What is wrong with a file is said by what is thrown; VTK would print its own words besides.
+vtkSmartPointer<vtkXMLDataElement> read_xml(const std::filesystem::path &path) {
+  const int warnings = vtkObject::GetGlobalWarningDisplay();
+  vtkObject::SetGlobalWarningDisplay(0);
+  auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  vtkObject::SetGlobalWarningDisplay(warnings);
+  return root;
+}
+
 } // namespace
 
 PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) {}
@@ -53,8 +63,7 @@ void PvdSeries::append(double time, const std::string &file) {
 void PvdSeries::resume(double up_to_time) {
   frames_.clear();
   if (!std::filesystem::exists(path_)) return;
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path_.c_str()));
+  const auto root = read_xml(path_);
   vtkXMLDataElement *collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (collection == nullptr) throw CheckpointError(path_.string() + ": not a whole ParaView collection");
   std::vector<Frame> kept;

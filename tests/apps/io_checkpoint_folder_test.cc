@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <set>
 
 #include "apps/io/checkpoint_folder.h"
@@ -89,8 +90,12 @@ TEST_F(CheckpointFolder, on_a_full_disk_keeps_the_former_ones) {
 }
 
 TEST_F(CheckpointFolder, always_holds_a_whole_one_however_the_run_is_killed) {
-  write(1);
-  std::uint64_t step = 1;
+  using clock = std::chrono::steady_clock;
+  const auto start = clock::now();
+  for (std::uint64_t k = 1; k <= 5; ++k)
+    write(k);
+  const double write_seconds = std::chrono::duration<double>(clock::now() - start).count() / 5;
+  std::uint64_t step = 5;
   for (int kill_number = 0; kill_number < 200; ++kill_number) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
@@ -98,7 +103,8 @@ TEST_F(CheckpointFolder, always_holds_a_whole_one_however_the_run_is_killed) {
       for (std::uint64_t k = step + 1;; ++k)
         write(k);
     }
-    usleep(static_cast<useconds_t>(131 * (kill_number % 50))); // 0 ... 6.4 ms: every phase of a write
+    // From the start to the fourth write: every phase of one.
+    usleep(static_cast<useconds_t>(4e6 * write_seconds * (kill_number % 50) / 50));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const FoundCheckpoint found = newest_whole_checkpoint(checkpoints_);

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "apps/io/errors.h"
+#include "apps/io/file.h"
+#include "apps/io/stop_signal.h"
+#include "io_folder.h"
+
+namespace platen::apps {
+namespace {
+
+// Exit status of a process that runs body(), which returns it; -1 where a signal ended it.
+template <class Body>
+int status_of(const Body &body) {
+  const pid_t child = fork();
+  if (child == 0) _exit(body());
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(StopSignal, asks_the_run_to_stop_and_gives_its_exit_status) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const int status = status_of([number] {
+      catch_stop_signals();
+      if (stop_requested() != 0) return 1;
+      raise(number);
+      if (stop_requested() != number) return 2;
+      return exit_status_of_signal(stop_requested());
+    });
+    EXPECT_EQ(status, number == SIGINT ? 130 : 143);
+  }
+}
+
+TEST(StopSignal, given_twice_ends_the_process_at_once) {
+  EXPECT_EQ(status_of([] {
+              catch_stop_signals();
+              raise(SIGINT);
+              raise(SIGTERM);
+              return 1; // not reached
+            }),
+            143);
+}
+
+TEST(StopSignal, user_1_asks_for_one_checkpoint_and_lets_the_run_go_on) {
+  EXPECT_EQ(status_of([] {
+              catch_stop_signals();
+              if (take_checkpoint_request()) return 1;
+              raise(SIGUSR1);
+              raise(SIGUSR1);
+              if (!take_checkpoint_request()) return 2;
+              if (take_checkpoint_request()) return 3;
+              return stop_requested() == 0 ? 0 : 4;
+            }),
+            0);
+}
+
+class FileLimit : public testing::ScratchFolder {};
+
+TEST_F(FileLimit, is_a_failed_write_and_not_the_end_of_the_process) {
+  const auto name = folder_ / "limited";
+  EXPECT_EQ(status_of([name] {
+              catch_stop_signals();
+              const rlimit none{0, RLIM_INFINITY};
+              setrlimit(RLIMIT_FSIZE, &none);
+              OutputFile file(name);
+              try {
+                file.write("text");
+              } catch (const OutputError &) {
+                return 0;
+              }
+              return 1;
+            }),
+            0);
+}
+
+} // namespace
+} // namespace platen::apps
