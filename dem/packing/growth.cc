@@ -16,7 +16,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 // Packing fraction of a large jammed packing, and its loss at walls in units of mean radius times surface
 // over volume: fitted to this program's own packings, used only to guess the number of spheres.
-constexpr double bulk_fraction = 0.648, wall_loss = 0.33;
+constexpr double bulk_fraction = 0.6465, wall_loss = 0.29;
 // The first state at rest is over-full by this fraction; low enough to stay amorphous, high enough to be
 // solid.
 constexpr double overfill = 0.03;
