@@ -19,6 +19,18 @@ Rotation<double> rotation(const Quaternion &q) {
   return {q.w, q.x, q.y, q.z};
 }
 
+// dU/dt at the velocities of the last drift.
+double power_taken(const BrokenBond &b, const Particles &p) {
+  const auto along = [](const Triple<double> &a, const Vector3 &v) {
+    return a.x * v.x + a.y * v.y + a.z * v.z;
+  };
+  double power = along(b.last.force, p.velocity[b.second] - p.velocity[b.first]);
+  if (p.has_rotation())
+    power -= along(b.last.torque_i, (*p.angular_velocity)[b.first]) +
+             along(b.last.torque_j, (*p.angular_velocity)[b.second]);
+  return power;
+}
+
 } // namespace
 
 double BondLayout::bond_radius(double ri, double rj) const {
@@ -99,6 +111,11 @@ void Bonds::rebuild_incidence(std::size_t particles) {
   }
 }
 
+void Bonds::restored(std::size_t particles) {
+  broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
+  rebuild_incidence(particles);
+}
+
 void Bonds::compact() {
   std::vector<int> intact;
   intact.reserve(size());
@@ -117,7 +134,8 @@ std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, 
     const std::size_t k = static_cast<std::size_t>(b.row);
     const double area = pi * bond_radius[k] * bond_radius[k];
     broken.push_back(
-        {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0});
+        {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0, 0.0});
+    broken.back().power = power_taken(broken.back(), particles);
     normal_stiffness[k] = 0;
     force[k] = {};
     if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};

@@ -73,6 +73,8 @@ struct Bonds {
   // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
   void compact();
   void rebuild_incidence(std::size_t particles);
+  // After the tables have been loaded from a checkpoint.
+  void restored(std::size_t particles);
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
@@ -85,6 +87,7 @@ struct BrokenBond {
   BondState mode = BondState::broken_in_tension;
   double rest_length = 0, area = 0;    // m, m^2
   ParallelBond::Response<double> last; // at the break
+  double power = 0;                    // W, rate at which the bond was taking up energy
   double released = 0;                 // J
 };
 

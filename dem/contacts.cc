@@ -255,7 +255,7 @@ std::size_t Contacts::row_of(IndexPair pair) const {
   return low;
 }
 
-void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken) {
+void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt) {
   for (BrokenBond &b : broken) {
     const double ri = p.radius[b.first], rj = p.radius[b.second], c = settings_.coefficient(ri, rj, layout_);
     const double length = norm(p.position[b.second] - p.position[b.first]);
@@ -269,32 +269,52 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
   if (search_.update(p, &bonds)) carry_rows(p);
   for (BrokenBond &b : broken) {
     b.released = b.last.energy;
+    double power = b.power;
     const std::size_t k = row_of({b.first, b.second});
-    if (k == table.size() || !(IndexPair{first[k], second[k]} == IndexPair{b.first, b.second})) continue;
-    rest_distance[k] = search_.rest_distance({b.first, b.second}, p);
-    overlap[k] = std::max(0.0, rest_distance[k] - norm(p.position[b.second] - p.position[b.first]));
-    if (overlap[k] == 0) continue;
-    touching[k] = 1;
-    b.released = std::max(0.0, b.released - elastic_energy(settings_.normal, coefficient[k], overlap[k]));
-    if (spring != nullptr && b.mode == BondState::broken_in_shear) keep_shear(k, b);
+    if (k < table.size() && IndexPair{first[k], second[k]} == IndexPair{b.first, b.second})
+      power -= start_contact(p, k, dt, b);
+    b.released = std::max(0.0, b.released - 0.5 * dt * power);
   }
 }
 
-// A bond that breaks in shear hands its shear force to the contact, as much as friction and the energy allow.
-void Contacts::keep_shear(std::size_t k, BrokenBond &b) {
-  const bool linear = settings_.normal == NormalContact::linear;
+// Puts a broken bond's energy into its contact; returns the power that the contact takes up, W.
+double Contacts::start_contact(const Particles &p, std::size_t k, double dt, BrokenBond &b) {
+  rest_distance[k] = search_.rest_distance({b.first, b.second}, p);
+  const Vector3 d = p.position[b.second] - p.position[b.first];
+  const double length = norm(d), lever = p.radius[b.first] / (p.radius[b.first] + p.radius[b.second]);
+  overlap[k] = std::max(0.0, rest_distance[k] - length);
+  if (overlap[k] == 0) return 0;
+  touching[k] = 1;
+  b.released = std::max(0.0, b.released - elastic_energy(settings_.normal, coefficient[k], overlap[k]));
+  const Vector3 n = d / length, ri = lever * d, rj = ri - d;
+  Vector3 v = p.velocity[b.second] - p.velocity[b.first];
+  if (p.has_rotation())
+    v += cross((*p.angular_velocity)[b.second], rj) - cross((*p.angular_velocity)[b.first], ri);
+  const double pressing = settings_.normal == NormalContact::linear
+                              ? LinearContact::force(coefficient[k], overlap[k])
+                              : HertzContact::force(coefficient[k], overlap[k]);
+  double power = -pressing * dot(v, n);
+  if (spring != nullptr && b.mode == BondState::broken_in_shear) {
+    const Vector3 slip_velocity = v - dot(v, n) * n, kept = keep_shear(k, pressing, b);
+    // The row's next evaluation adds this drift's slip, which the bond's shear force holds already.
+    (*spring)[k] = kept - (*tangential_stiffness)[k] * dt * slip_velocity;
+    power += dot(kept, slip_velocity);
+  }
+  return power;
+}
+
+// A bond that breaks in shear hands its shear force (N) to the contact, as much as friction and the energy
+// allow.
+Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
   double &kt = (*tangential_stiffness)[k];
-  if (!linear)
+  if (settings_.normal == NormalContact::hertz)
     kt = HertzContact::tangential_ratio(settings_.poisson_ratio) *
          HertzContact::stiffness(coefficient[k], overlap[k]);
-  if (!(kt > 0)) return;
-  const double pressing = linear ? LinearContact::force(coefficient[k], overlap[k])
-                                 : HertzContact::force(coefficient[k], overlap[k]);
-  const Vector3 shear{b.last.shear.x, b.last.shear.y, b.last.shear.z};
+  if (!(kt > 0) || !(b.last.shear_force > 0)) return {};
   const double kept =
       std::min({b.last.shear_force, settings_.friction * pressing, std::sqrt(2 * kt * b.released)});
-  if (b.last.shear_force > 0) (*spring)[k] = (kept / b.last.shear_force) * shear;
   b.released = std::max(0.0, b.released - 0.5 * kept * kept / kt);
+  return (kept / b.last.shear_force) * Vector3{b.last.shear.x, b.last.shear.y, b.last.shear.z};
 }
 
 double Contacts::stored_energy(std::size_t k) const {

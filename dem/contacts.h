@@ -69,9 +69,10 @@ public:
   // Adds the rows' forces and torques to the particles, in row order.
   void add_to(Particles &particles) const;
   // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
-  // kept up to the Coulomb limit) and sets what each released: bond energy minus what its contact holds, J,
-  // >= 0.
-  void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken);
+  // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
+  // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
+  // is the contact's).
+  void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt);
   double energy() const; // J, stored in normal, tangential and rolling springs
   std::size_t touching_count() const;
 
@@ -97,7 +98,8 @@ private:
   void release(std::size_t k, Dissipation &lost);
   void carry_rows(const Particles &particles);
   double stored_energy(std::size_t k) const;
-  void keep_shear(std::size_t k, BrokenBond &broken);
+  double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
+  Vector3 keep_shear(std::size_t k, double pressing, BrokenBond &broken);
   std::size_t row_of(IndexPair pair) const;
 
   ContactSettings settings_;

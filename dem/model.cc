@@ -19,15 +19,14 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
 }
 
 void Model::begin_step(double dt) {
-  Motion motion;
   {
     StageClock::Lap lap(clock, Stage::motion);
-    motion = kick_and_drift(particles, dt, settings_.gravity);
+    motion_ = kick_and_drift(particles, dt, settings_.gravity);
   }
   time += dt;
   if (contacts) {
     StageClock::Lap lap(clock, Stage::search);
-    contacts->search(particles, bonds.get(), motion.fastest * dt);
+    contacts->search(particles, bonds.get(), motion_.fastest * dt);
   }
 }
 
@@ -36,7 +35,7 @@ void Model::compute_forces(double dt) {
     StageClock::Lap lap(clock, Stage::bonds);
     breaks_.clear();
     compute_bond_forces(particles, *bonds, settings_.instruction_set, breaks_);
-    if (!breaks_.empty()) break_bonds();
+    if (!breaks_.empty()) break_bonds(dt);
     if (settings_.bond_dashpot > 0)
       works.damping += dt * add_bond_dashpots(particles, *bonds, settings_.bond_dashpot);
   }
@@ -47,13 +46,13 @@ void Model::compute_forces(double dt) {
   }
 }
 
-void Model::break_bonds() {
+void Model::break_bonds(double dt) {
   std::vector<BrokenBond> broken = bonds->break_rows(breaks_, particles, time);
   if (contacts)
-    contacts->take_over(particles, *bonds, broken);
+    contacts->take_over(particles, *bonds, broken, dt);
   else
     for (BrokenBond &b : broken)
-      b.released = b.last.energy;
+      b.released = b.last.energy - 0.5 * dt * b.power;
   for (const BrokenBond &b : broken) {
     works.fracture += b.released;
     (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;

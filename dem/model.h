@@ -61,6 +61,7 @@ public:
 
   EnergyLedger energy() const; // without bodies and surfaces
   const KickSums &last_sums() const { return sums_; }
+  const Motion &last_motion() const { return motion_; }
   const ModelSettings &settings() const { return settings_; }
   std::vector<Crack> take_cracks();
   std::size_t intact_bonds() const;
@@ -77,8 +78,9 @@ public:
 private:
   ModelSettings settings_;
   KickSums sums_;
+  Motion motion_;
   std::vector<BondBreak> breaks_;
-  void break_bonds();
+  void break_bonds(double dt);
 };
 
 } // namespace platen::dem
