@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "dem/laws/hertz_contact.h"
 #include "dem/laws/linear_contact.h"
@@ -54,18 +55,36 @@ void multiply(Mode &a, double s) {
   });
 }
 
-double narrowing(double xi) {
-  const double f = std::sqrt(1 + xi * xi) - xi;
-  return 1 / (f * f);
+// Constant of a dashpot, from the spring beside it and the mass (or inertia) that hangs on it.
+double dashpot(double fraction, double stiffness, double mass) {
+  return 2 * fraction * std::sqrt(stiffness * mass);
+}
+double joint(double a, double b) {
+  return a * b / (a + b);
 }
 
+enum class Matrix { stiffness, damping };
+
+// Springs, or the dashpots that act along the same directions.
 class Operator {
 public:
-  Operator(const Particles &p, const Bonds *bonds, const Contacts *contacts,
+  Operator(Matrix matrix, const Particles &p, const Bonds *bonds, const Contacts *contacts,
            const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots)
-      : p_(p), ground_(ground), surface_factor_(narrowing(dashpots.surfaces)) {
-    if (bonds != nullptr) add_bonds(*bonds, narrowing(dashpots.bonds));
-    if (contacts != nullptr) add_contacts(*contacts, narrowing(dashpots.contacts));
+      : p_(p), ground_(ground) {
+    const bool damping = matrix == Matrix::damping;
+    if (bonds != nullptr && !(damping && dashpots.bonds == 0)) add_bonds(*bonds);
+    const std::size_t bonded = springs_.size();
+    if (contacts != nullptr && !(damping && dashpots.contacts == 0)) add_contacts(*contacts);
+    if (damping) {
+      for (std::size_t k = 0; k < springs_.size(); ++k)
+        turn_into_dashpot(springs_[k], k < bonded ? dashpots.bonds : dashpots.contacts);
+      if (dashpots.surfaces == 0) ground_.clear();
+      for (GroundSpring &g : ground_) {
+        g.normal_stiffness =
+            dashpot(dashpots.surfaces, g.normal_stiffness, p.mass[static_cast<std::size_t>(g.particle)]);
+        g.tangential_stiffness = g.rotational_stiffness = 0;
+      }
+    }
     force_.resize(springs_.size());
     torque_first_.resize(p.has_rotation() ? springs_.size() : 0);
     torque_second_.resize(torque_first_.size());
@@ -86,37 +105,46 @@ public:
   Mode apply(const Mode &x);
 
 private:
-  void add_bonds(const Bonds &b, double factor) {
+  void add_bonds(const Bonds &b) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       const double half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
-      const double axial = factor * b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
+      const double axial = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
       if (axial == 0.0) continue;
       const double shear = b.law.parameters.stiffness_ratio * axial;
       springs_.push_back({static_cast<std::size_t>(b.first[k]), static_cast<std::size_t>(b.second[k]),
                           b.lever[k], axial, shear, 0.5 * half_square * axial, half_square * shear});
     }
   }
-  void add_contacts(const Contacts &c, double factor) {
+  void add_contacts(const Contacts &c) {
     const bool linear = c.settings().normal == NormalContact::linear;
     for (std::size_t k = 0; k < c.table.size(); ++k) {
       if (!c.touching[k]) continue;
       const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-      const double stiffness = factor * (linear ? LinearContact::stiffness(c.coefficient[k], c.overlap[k])
-                                                : HertzContact::stiffness(c.coefficient[k], c.overlap[k]));
-      const double shear = c.tangential_stiffness != nullptr ? factor * (*c.tangential_stiffness)[k] : 0.0;
+      const double stiffness = linear ? LinearContact::stiffness(c.coefficient[k], c.overlap[k])
+                                      : HertzContact::stiffness(c.coefficient[k], c.overlap[k]);
+      const double shear = c.tangential_stiffness != nullptr ? (*c.tangential_stiffness)[k] : 0.0;
       springs_.push_back({i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness, shear, 0, 0});
     }
   }
 
+  void turn_into_dashpot(PairSpring &s, double fraction) const {
+    const double mass = joint(p_.mass[s.first], p_.mass[s.second]);
+    s.axial = dashpot(fraction, s.axial, mass);
+    s.shear = dashpot(fraction, s.shear, mass);
+    if (!p_.has_rotation()) return;
+    const double inertia = joint((*p_.inertia)[s.first], (*p_.inertia)[s.second]);
+    s.bending = dashpot(fraction, s.bending, inertia);
+    s.twisting = dashpot(fraction, s.twisting, inertia);
+  }
+
   const Particles &p_;
-  const std::vector<GroundSpring> &ground_;
-  double surface_factor_;
+  std::vector<GroundSpring> ground_;
   std::vector<PairSpring> springs_;
   std::vector<Vector3> force_, torque_first_, torque_second_;
   std::vector<std::size_t> offset_, entry_;
 };
 
-// y = M^-1/2 K M^-1/2 x
+// y = M^-1/2 K M^-1/2 x, or with C for K
 Mode Operator::apply(const Mode &x) {
   const bool with_turn = turning();
   Mode scaled = x;
@@ -153,11 +181,9 @@ Mode Operator::apply(const Mode &x) {
     Vector3 u = scaled.u[i];
     if (with_turn) u += cross(scaled.turn[i], g.arm);
     const double un = dot(u, g.normal);
-    const Vector3 force =
-        surface_factor_ * (g.normal_stiffness * un * g.normal + g.tangential_stiffness * (u - un * g.normal));
+    const Vector3 force = g.normal_stiffness * un * g.normal + g.tangential_stiffness * (u - un * g.normal);
     y.u[i] += force;
-    if (with_turn)
-      y.turn[i] += cross(g.arm, force) + surface_factor_ * g.rotational_stiffness * scaled.turn[i];
+    if (with_turn) y.turn[i] += cross(g.arm, force) + g.rotational_stiffness * scaled.turn[i];
   }
   for_each(p_.size(), [&](std::size_t i) {
     y.u[i] *= 1 / std::sqrt(p_.mass[i]);
@@ -197,20 +223,20 @@ int loudest_particle(const Mode &mode) {
   return static_cast<int>(best);
 }
 
-} // namespace
+struct LargestEigenvalue {
+  double value = 0; // from above
+  int iterations = 0;
+  Mode mode; // roughly
+};
 
-StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
-                       const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
-  StableStep result;
-  result.limit = std::numeric_limits<double>::infinity();
-  result.reason = "nothing elastic in the scene limits the step";
-  Operator stiffness(particles, bonds, contacts, ground, dashpots);
-  if (particles.size() == 0 || stiffness.empty()) return result;
-  Mode x = start_mode(particles.size(), stiffness.turning()), before(particles.size(), stiffness.turning());
+// Lanczos; the residual of the largest Ritz value is added to it.
+LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
+  LargestEigenvalue result;
+  Mode x = start_mode(particles, matrix.turning()), before(particles, matrix.turning());
   std::vector<double> alpha, beta;
   double largest = 0, residual = 0;
   for (int it = 0; it < most_iterations; ++it) {
-    Mode y = stiffness.apply(x);
+    Mode y = matrix.apply(x);
     alpha.push_back(inner(x, y));
     add(y, -alpha.back(), x);
     if (it > 0) add(y, -beta.back(), before);
@@ -218,7 +244,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     const int n = it + 1;
     Eigen::VectorXd diagonal = Eigen::Map<Eigen::VectorXd>(alpha.data(), n), side(std::max(n - 1, 0));
     for (int k = 0; k + 1 < n; ++k)
-      side[k] = beta[k];
+      side[k] = beta[static_cast<std::size_t>(k)];
     const bool look = it < 4 || it % 5 == 4 || it + 1 == most_iterations;
     if (look) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
@@ -233,14 +259,37 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     x = y;
     multiply(x, 1 / length);
   }
-  result.omega = std::sqrt(largest + residual);
-  result.limit = 2 / result.omega;
+  result.value = largest + residual;
+  result.mode = std::move(x);
+  return result;
+}
+
+} // namespace
+
+// The dashpots see half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
+// largest eigenvalues of K and C apart (their sum is an upper bound) that is a quadratic equation for dt. A
+// dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because that mode is
+// faster than the pair.
+StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
+                       const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
+  StableStep result;
+  result.limit = std::numeric_limits<double>::infinity();
+  result.reason = "nothing elastic in the scene limits the step";
+  Operator stiffness(Matrix::stiffness, particles, bonds, contacts, ground, dashpots);
+  if (particles.size() == 0 || stiffness.empty()) return result;
+  LargestEigenvalue squared = largest_eigenvalue(stiffness, particles.size());
+  Operator damping(Matrix::damping, particles, bonds, contacts, ground, dashpots);
+  const double rate = damping.empty() ? 0.0 : largest_eigenvalue(damping, particles.size()).value; // 1/s
+  result.iterations = squared.iterations;
+  result.omega = std::sqrt(squared.value);
+  result.limit = (std::sqrt(rate * rate + 4 * squared.value) - rate) / squared.value;
   // A few more applications bring out the place that sets the limit.
-  for (int it = 0; it < 3; ++it) {
+  Mode &x = squared.mode;
+  for (int it = 0; it < 12; ++it) {
     x = stiffness.apply(x);
     multiply(x, 1 / std::sqrt(std::max(inner(x, x), 1e-300)));
   }
-  result.particle_id = particles.id[loudest_particle(x)];
+  result.particle_id = particles.id[static_cast<std::size_t>(loudest_particle(x))];
   result.reason = "2/omega of bonds, contacts and platens, highest mode at particle " +
                   std::to_string(result.particle_id);
   return result;

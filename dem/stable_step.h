@@ -22,7 +22,7 @@ struct GroundSpring {
 };
 
 struct StableStep {
-  double limit = 0;     // s, 2 / omega_max; infinite where nothing is stiff
+  double limit = 0;     // s, 2 / omega_max, less with dashpots; infinite where nothing is stiff
   double omega = 0;     // rad/s, upper estimate of the highest frequency
   int iterations = 0;   // of the Lanczos process
   int particle_id = -1; // id of the particle that moves most in the highest mode
@@ -30,8 +30,8 @@ struct StableStep {
 };
 
 // Lanczos on M^-1/2 K M^-1/2; the residual of the largest Ritz value is added, so the estimate is from above.
-// `damping_fraction`: dashpots of that fraction of critical in bonds and in contacts and platens narrow the
-// limit by sqrt(1 + xi^2) - xi. `bonds`, `contacts` may be null.
+// `dashpots`: fractions of critical damping, which narrow the limit, (sqrt(1 + xi^2) - xi) for a single mode
+// of damping ratio xi. `bonds`, `contacts` may be null.
 struct DashpotFractions {
   double bonds = 0, contacts = 0, surfaces = 0;
 };
