@@ -1,0 +1,311 @@
+// How bonds are laid, how they break and what takes their place.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "dem/packing/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double breaking_strain = tensile_strength / modulus;
+
+std::size_t bonds_at_gap(double gap, double ri, double rj, double allowed, bool relative) {
+  Specimen s = spheres({{0, 0, 0}, {ri + rj + gap, 0, 0}});
+  s.radius = {ri, rj};
+  ModelSettings settings = bonded();
+  settings.bond_layout.gap = allowed;
+  settings.bond_layout.gap_is_relative = relative;
+  return Model(s, settings).bonds->size();
+}
+
+TEST(bond_failure, the_gap_decides_who_is_bonded) {
+  const double small = radius, large = 3 * radius;
+  for (const auto &[ri, rj] : {std::pair{small, large}, std::pair{large, small}}) {
+    EXPECT_EQ(bonds_at_gap(.0499 * small, ri, rj, .05, true), 1u); // of the smaller radius
+    EXPECT_EQ(bonds_at_gap(.0501 * small, ri, rj, .05, true), 0u);
+    EXPECT_EQ(bonds_at_gap(.99e-5, ri, rj, 1e-5, false), 1u); // m
+    EXPECT_EQ(bonds_at_gap(1.01e-5, ri, rj, 1e-5, false), 0u);
+    EXPECT_EQ(bonds_at_gap(-.3 * small, ri, rj, 0, true), 1u); // overlapping
+  }
+}
+
+TEST(bond_failure, the_rule_decides_the_radius) {
+  BondLayout layout;
+  layout.radius_multiplier = .8;
+  layout.given_radius = 7e-4;
+  const auto radius_by = [&](RadiusRule rule) {
+    layout.radius_rule = rule;
+    return layout.bond_radius(1e-3, 3e-3);
+  };
+  EXPECT_DOUBLE_EQ(radius_by(RadiusRule::minimum), .8e-3);
+  EXPECT_DOUBLE_EQ(radius_by(RadiusRule::mean), 1.6e-3);
+  EXPECT_DOUBLE_EQ(radius_by(RadiusRule::harmonic), 1.2e-3);
+  EXPECT_DOUBLE_EQ(radius_by(RadiusRule::given), 5.6e-4);
+}
+
+TEST(bond_failure, spheres_with_one_centre_cannot_be_bonded) {
+  EXPECT_THROW(Model(spheres({{1, 2, 3}, {1, 2, 3}}), bonded()), std::invalid_argument);
+}
+
+// A pair moved by hand: no step, so no inertia. Returns force and torque on the first sphere.
+class Pair {
+public:
+  explicit Pair(const ModelSettings &settings) : model(row(1, {1, 0, 0}), settings) {}
+  void place(const Vector3 &displacement, const Vector3 &turn = {}) {
+    Particles &p = model.particles;
+    p.position[1] = p.reference_position[1] + displacement;
+    if (p.has_rotation()) (*p.orientation)[1] = rotation_quaternion(turn);
+    for (std::size_t i = 0; i < 2; ++i)
+      p.force[i] = (*p.torque)[i] = {};
+    model.compute_forces(1e-9);
+  }
+  // On the first sphere, by bond and contact.
+  Vector3 force() const {
+    return model.bonds->force.size() > 0 ? model.bonds->force[0] + contact() : contact();
+  }
+  Vector3 contact() const { return model.particles.force[0]; }
+  bool intact() const { return model.intact_bonds() == 1; }
+
+  Model model;
+};
+
+TEST(bond_failure, tension_breaks_brittly_at_the_strength) {
+  Pair pair(breakable());
+  double most = 0;
+  for (int s = 1; s <= 1100; ++s) {
+    pair.place({2 * radius * breaking_strain * s / 1000, 0, 0});
+    if (!pair.intact()) {
+      EXPECT_GE(s, 1000); // round-off may bring 1000 itself to either side
+      EXPECT_LE(s, 1001);
+      break;
+    }
+    most = std::max(most, pair.force().x);
+  }
+  EXPECT_FALSE(pair.intact());
+  EXPECT_EQ(norm(pair.force()), 0);
+  EXPECT_NEAR(most, tensile_strength * area, 2e-3 * tensile_strength * area); // load steps of a thousandth
+  EXPECT_EQ(pair.model.broken_tension, 1);
+  // The fracture work is what the bond held: F^2 / (2 k).
+  const double held = .5 * tensile_strength * area * 2 * radius * breaking_strain;
+  EXPECT_NEAR(pair.model.works.fracture, held, 3e-3 * held);
+}
+
+TEST(bond_failure, a_crack_is_logged_where_and_when_it_opens) {
+  Pair pair(breakable());
+  pair.model.time = 3.5;
+  pair.place({2 * radius * 1.2 * breaking_strain, 0, 0});
+  const std::vector<Crack> cracks = pair.model.take_cracks();
+  ASSERT_EQ(cracks.size(), 1u);
+  EXPECT_EQ(cracks[0].mode, BondState::broken_in_tension);
+  EXPECT_EQ(cracks[0].time, 3.5);
+  EXPECT_NEAR(cracks[0].point.x, radius, 1e-3 * radius);
+  EXPECT_NEAR(std::abs(cracks[0].normal.x), 1, 1e-12);
+  EXPECT_DOUBLE_EQ(cracks[0].area, area);
+  EXPECT_EQ(cracks[0].energy, pair.model.works.fracture);
+  EXPECT_TRUE(pair.model.take_cracks().empty());
+  EXPECT_EQ(pair.model.bonds->state[0], static_cast<int>(BondState::broken_in_tension));
+  EXPECT_EQ(pair.model.bonds->break_time[0], 3.5);
+}
+
+// A load put on at once doubles the force in an undamped system.
+TEST(bond_failure, a_sudden_load_breaks_at_half_the_strength) {
+  for (const auto &[share, holds] : {std::pair{.495, true}, std::pair{.505, false}}) {
+    Model model(row(1, {1, 0, 0}), breakable());
+    const double load = share * tensile_strength * area;
+    const double dt = .02 / std::sqrt(2 * normal_stiffness * area / model.particles.mass[0]);
+    model.particles.force[0].x = -load, model.particles.force[1].x = load; // from t = 0 on
+    for (int s = 0; s < 1000 && model.intact_bonds() == 1; ++s)            // three periods
+      step(model, dt, [&](Particles &p) { p.force[0].x -= load, p.force[1].x += load; });
+    EXPECT_EQ(model.intact_bonds() == 1, holds) << share;
+  }
+}
+
+TEST(bond_failure, a_broken_bond_never_pulls_again_and_pushes_from_where_it_was) {
+  Pair pair(breakable());
+  pair.place({2 * radius * 1.01 * breaking_strain, 0, 0});
+  ASSERT_FALSE(pair.intact());
+  const double k = normal_stiffness * area; // contact stiffness = bond stiffness
+  for (int cycle = 0; cycle < 3; ++cycle)
+    for (const double strain : {1e-3, 1e-4, 0.0, -1e-4, -1e-3, -1e-5, 1e-6, 5e-3}) {
+      const double e = 2 * radius * strain;
+      pair.place({e, 0, 0});
+      const double expected = strain < 0 ? k * e : 0;
+      EXPECT_NEAR(pair.force().x, expected, 1e-12 * k * radius) << strain; // pushing is negative on the first
+      EXPECT_EQ(pair.force().y, 0);
+      EXPECT_FALSE(pair.intact());
+    }
+}
+
+TEST(bond_failure, compression_alone_breaks_nothing) {
+  Pair pair(breakable());
+  for (double strain = 0; strain < .05; strain += 1e-3) // 200 times the tensile strength
+    pair.place({-2 * radius * strain, 0, 0});
+  EXPECT_TRUE(pair.intact());
+}
+
+TEST(bond_failure, a_gap_that_was_bonded_pushes_only_once_it_is_closed) {
+  ModelSettings settings = breakable();
+  settings.bond_layout.gap = .1;
+  Model model(spheres({{0, 0, 0}, {2.05 * radius, 0, 0}}), settings);
+  ASSERT_EQ(model.intact_bonds(), 1u);
+  Particles &p = model.particles;
+  const auto place = [&](double distance) {
+    p.position[1].x = distance;
+    p.force[0] = p.force[1] = {};
+    model.contacts->search(p, model.bonds.get(), .2 * radius); // further than any move below
+    model.compute_forces(1e-9);
+    return p.force[0].x;
+  };
+  place(2.1 * radius); // breaks
+  ASSERT_EQ(model.intact_bonds(), 0u);
+  EXPECT_EQ(place(2.001 * radius), 0);
+  EXPECT_LT(place(1.999 * radius), 0);
+}
+
+// Shear under compression, for contacts softer and stiffer than the bond: what the bond held and the contact
+// does not is released, and never negative.
+TEST(bond_failure, handing_over_to_a_contact_never_makes_energy) {
+  for (const double multiple : {1e-4, .1, 1.0, 3.0, 100.0})
+    for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
+      for (const double strain : {-1e-6, -1e-4, -2e-3}) {
+        ModelSettings settings = breakable();
+        settings.contact->normal = normal;
+        settings.contact->stiffness = multiple;
+        settings.contact->young_modulus = multiple * modulus;
+        settings.contact->poisson_ratio = .2;
+        Pair pair(settings);
+        const double slip = .99 * 2 * radius * shear_strength / (stiffness_ratio * modulus);
+        pair.place({2 * radius * strain, slip, 0});
+        ASSERT_TRUE(pair.intact());
+        const double held = pair.model.energy().stored();
+        pair.place({2 * radius * strain, 1.01 * slip / .99, 0});
+        ASSERT_FALSE(pair.intact());
+        EXPECT_EQ(pair.model.broken_shear, 1);
+        const EnergyLedger after = pair.model.energy();
+        EXPECT_GE(after.fracture, 0);
+        // The move itself adds up to 4 % of the shear energy; friction takes at once what is above its limit.
+        EXPECT_NEAR(after.contacts + after.fracture + after.friction, 1.02 * held, .025 * held)
+            << multiple << " " << strain;
+        EXPECT_LE(after.contacts, 1.05 * held);
+      }
+}
+
+TEST(bond_failure, compression_does_not_jump_at_equal_stiffness) {
+  Pair pair(breakable());
+  const double slip = 2 * radius * shear_strength / (stiffness_ratio * modulus), strain = -1e-3;
+  // On the circle of constant distance, so that the compression is the same on both sides of the break.
+  const double length = 2 * radius * (1 + strain);
+  const auto at = [&](double share) {
+    const double angle = std::asin(share * slip / (2 * radius));
+    pair.place({length * std::cos(angle) - 2 * radius, length * std::sin(angle), 0});
+    return angle;
+  };
+  at(.999);
+  ASSERT_TRUE(pair.intact());
+  const double before = pair.model.bonds->response(0, pair.model.particles).normal_force;
+  const double angle = at(1.001);
+  ASSERT_FALSE(pair.intact());
+  const Vector3 n{std::cos(angle), std::sin(angle), 0};
+  EXPECT_NEAR(dot(pair.contact(), n), before, 1e-12 * std::abs(before));
+}
+
+TEST(bond_failure, shear_force_is_kept_up_to_the_coulomb_limit) {
+  for (const double strain : {-2e-4, -4e-3}) {
+    ModelSettings settings = breakable();
+    settings.contact->tangential_ratio = stiffness_ratio; // so that the contact can hold the bond's energy
+    Pair pair(settings);
+    const double slip = 2 * radius * shear_strength / (stiffness_ratio * modulus);
+    pair.place({2 * radius * strain, 1.001 * slip, 0});
+    ASSERT_FALSE(pair.intact());
+    const double pressing = -normal_stiffness * area * 2 * radius * strain;
+    const double kept = std::min(1.001 * shear_strength * area, .5 * pressing);
+    EXPECT_NEAR(pair.contact().y, kept, .02 * kept); // the plane has turned by slip / length
+  }
+}
+
+TEST(bond_failure, a_bond_broken_in_tension_hands_over_no_shear) {
+  ModelSettings settings = breakable();
+  settings.bond->moment_contribution = 1;
+  Pair pair(settings);
+  // Compressed, bent far beyond the tensile strength, and sheared a little.
+  pair.place({-2 * radius * 1e-4, 1e-3 * radius, 0}, {0, 0, .01});
+  ASSERT_EQ(pair.model.broken_tension, 1);
+  EXPECT_LT(std::abs(dot(pair.contact(), Vector3{0, 1, 0})), 1e-2 * norm(pair.contact()));
+}
+
+// Whole packing beyond its strength at once: every bond's energy is in the book, to round-off.
+TEST(bond_failure, a_burst_releases_what_was_stored) {
+  ModelSettings settings = breakable();
+  settings.contact.reset();
+  Model model(packed_box(14, 14, 14), settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.position[i] = (1 + 1.005 * breaking_strain) * p.position[i];
+  const double stored = bond_energy(p, *model.bonds);
+  const std::size_t bonds = model.intact_bonds();
+  model.compute_forces(1e-9);
+  EXPECT_EQ(model.intact_bonds(), 0u);
+  EXPECT_EQ(model.broken_tension, static_cast<long>(bonds));
+  EXPECT_NEAR(model.works.fracture, stored, 1e-10 * stored);
+}
+
+// A free block flies apart, cracks and collides with itself; no damping.
+struct Burst {
+  double linear_drift, angular_drift, energy_residual;
+  long broken;
+};
+
+Burst burst(double step_over_limit, double damping) {
+  ModelSettings settings = breakable();
+  settings.contact->damping = damping;
+  Model model(packed_box(16, 16, 16), settings);
+  Particles &p = model.particles;
+  Random random(3);
+  const Vector3 middle = 8 * radius * Vector3{0, 0, 1};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 x = (p.position[i] - middle) / radius;
+    p.velocity[i] = .1 * x + 2 * random.direction() + cross(Vector3{.02, .01, -.03}, x) + Vector3{1, 2, -1};
+    (*p.angular_velocity)[i] = (.2 / radius) * random.direction();
+  }
+  const double dt = step_over_limit * model.stable_step({}, 0).limit;
+  const Momentum before = momentum(p);
+  const EnergyLedger start = model.energy();
+  std::size_t most = 0;
+  for (int s = 0; s < static_cast<int>(800 / step_over_limit); ++s) {
+    step(model, dt);
+    most = std::max(most, model.contacts->touching_count());
+  }
+  const Momentum after = momentum(p);
+  const EnergyLedger end = model.energy();
+  EXPECT_GT(most, 10u);
+  return {norm(after.linear - before.linear) / before.linear_scale,
+          norm(after.angular - before.angular) / before.angular_scale,
+          std::abs(end.residual() - start.residual()) / start.kinetic,
+          model.broken_tension + model.broken_shear};
+}
+
+TEST(bond_failure, cracking_conserves_momentum_and_angular_momentum) {
+  const Burst b = burst(.5, .2);
+  EXPECT_GT(b.broken, 100);
+  EXPECT_LT(b.linear_drift, 1e-10);
+  EXPECT_LT(b.angular_drift, 1e-10);
+}
+
+TEST(bond_failure, the_energy_book_of_a_cracking_body_closes) {
+  for (const double damping : {0.0, .2}) {
+    const Burst coarse = burst(.8, damping), fine = burst(.2, damping);
+    EXPECT_GT(fine.broken, 100);
+    EXPECT_LT(coarse.energy_residual, 1e-2) << damping;
+    EXPECT_LT(fine.energy_residual, damping > 0 ? 2e-3 : 1e-3)
+        << damping; // dashpots are booked to first order
+  }
+}
+
+} // namespace
+} // namespace platen::dem

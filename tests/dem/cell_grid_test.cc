@@ -1,0 +1,89 @@
+// Near pairs against the sum over all pairs.
+#include "dem/cell_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/packing/random.h"
+
+namespace platen::dem {
+namespace {
+
+struct Cloud {
+  std::vector<Vector3> centre;
+  std::vector<double> radius;
+};
+
+std::vector<IndexPair> all_near_pairs(const Cloud &c, double margin) {
+  std::vector<IndexPair> pairs;
+  for (std::size_t i = 0; i < c.centre.size(); ++i)
+    for (std::size_t j = i + 1; j < c.centre.size(); ++j) {
+      const double reach = c.radius[i] + c.radius[j] + margin;
+      if (norm_squared(c.centre[j] - c.centre[i]) < reach * reach)
+        pairs.push_back({static_cast<int>(i), static_cast<int>(j)});
+    }
+  return pairs;
+}
+
+Cloud cloud(std::size_t n, const Vector3 &extent, double smallest, double largest, std::uint64_t seed) {
+  Random random(seed);
+  Cloud c;
+  for (std::size_t k = 0; k < n; ++k) {
+    c.centre.push_back(
+        {random.uniform(0, extent.x), random.uniform(0, extent.y), random.uniform(0, extent.z)});
+    c.radius.push_back(smallest * std::pow(largest / smallest, random.uniform()));
+  }
+  return c;
+}
+
+void expect_same(const Cloud &c, double margin) {
+  const std::vector<IndexPair> found = near_pairs(c.centre.data(), c.radius.data(), c.centre.size(), margin),
+                               expected = all_near_pairs(c, margin);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    ASSERT_TRUE(found[k] == expected[k]) << k;
+}
+
+TEST(cell_grid, finds_exactly_the_near_pairs) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    for (const double margin : {0.0, 1e-3, .3})
+      expect_same(cloud(1500, {1, 1, 1}, .03, .05, seed), margin);
+}
+
+TEST(cell_grid, sizes_may_differ_a_hundredfold) {
+  expect_same(cloud(2500, {1, 1, 1}, 1e-3, .1, 4), 0);
+  expect_same(cloud(2500, {1, 1, 1}, 1e-3, .1, 5), .01);
+}
+
+TEST(cell_grid, flat_long_and_distant_clouds_are_searched_too) {
+  expect_same(cloud(1500, {1, 1, 0}, .01, .02, 6), .005);
+  expect_same(cloud(1500, {50, .01, .01}, .01, .02, 7), .005);
+  Cloud two = cloud(800, {1, 1, 1}, .03, .05, 8);
+  for (std::size_t k = 0; k < 400; ++k)
+    two.centre[k] += {1e6, -1e6, 1e6};
+  expect_same(two, .01);
+}
+
+TEST(cell_grid, spheres_on_a_lattice_of_the_cell_size_are_not_lost) {
+  Cloud lattice;
+  for (int x = 0; x < 9; ++x)
+    for (int y = 0; y < 9; ++y)
+      for (int z = 0; z < 9; ++z) {
+        lattice.centre.push_back({.1 * x, .1 * y, .1 * z});
+        lattice.radius.push_back(.05);
+      }
+  expect_same(lattice, 1e-6);
+  expect_same(lattice, .05);
+}
+
+TEST(cell_grid, nothing_and_one_have_no_pairs) {
+  EXPECT_TRUE(near_pairs(nullptr, nullptr, 0, 1.0).empty());
+  const Vector3 centre{1, 2, 3};
+  const double radius = 1;
+  EXPECT_TRUE(near_pairs(&centre, &radius, 1, 1.0).empty());
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,300 @@
+// Contacts between unbonded spheres against closed forms of impact, friction and rolling.
+#include "dem/contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/laws/hertz_contact.h"
+#include "dem/packing/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double grain_modulus = 70e9, grain_poisson = .25;
+
+ModelSettings unbonded(NormalContact normal, TangentialContact tangential, double stiffness) {
+  ModelSettings s;
+  s.density = 2400;
+  s.contact = ContactSettings{};
+  s.contact->normal = normal;
+  s.contact->tangential = tangential;
+  s.contact->stiffness_rule = StiffnessRule::absolute;
+  s.contact->stiffness = stiffness;
+  s.contact->young_modulus = grain_modulus;
+  s.contact->poisson_ratio = grain_poisson;
+  return s;
+}
+
+struct Impact {
+  double max_overlap = 0, contact_time = 0, rebound = 0; // m, s, relative speed after over before
+};
+
+// Two spheres meet head on at relative speed v.
+Impact impact(Model &model, double v, double dt) {
+  Particles &p = model.particles;
+  p.velocity[0].x = .5 * v, p.velocity[1].x = -.5 * v;
+  Impact result;
+  int touched = 0;
+  for (int s = 0; s < 1000000; ++s) {
+    step(model, dt);
+    const double overlap = p.radius[0] + p.radius[1] - norm(p.position[1] - p.position[0]);
+    result.max_overlap = std::max(result.max_overlap, overlap);
+    if (overlap > 0)
+      ++touched;
+    else if (touched > 0)
+      break;
+  }
+  result.contact_time = touched * dt;
+  result.rebound = (p.velocity[1].x - p.velocity[0].x) / v;
+  return result;
+}
+
+Specimen nearly_touching(double r0 = radius, double r1 = radius) {
+  Specimen s = spheres({{0, 0, 0}, {(r0 + r1) * (1 + 1e-9), 0, 0}});
+  s.radius = {r0, r1};
+  return s;
+}
+
+// d_max = (15 m v^2 / (16 E* sqrt(R*)))^(2/5), contact time 2.9433 d_max / v (m, R*, E* effective).
+TEST(contact, hertz_impact_has_its_overlap_and_duration) {
+  for (const double other : {radius, 3 * radius}) {
+    Model model(nearly_touching(radius, other), unbonded(NormalContact::hertz, TangentialContact::none, 0));
+    const Particles &p = model.particles;
+    const double m = p.mass[0] * p.mass[1] / (p.mass[0] + p.mass[1]), v = .2;
+    const double effective_modulus = grain_modulus / (2 * (1 - grain_poisson * grain_poisson));
+    const double effective_radius = radius * other / (radius + other);
+    const double deepest =
+        std::pow(15 * m * v * v / (16 * effective_modulus * std::sqrt(effective_radius)), .4);
+    const double duration = 2.9432751 * deepest / v;
+    const Impact i = impact(model, v, duration / 5000);
+    EXPECT_NEAR(i.max_overlap, deepest, 1e-5 * deepest);    // time step squared
+    EXPECT_NEAR(i.contact_time, duration, 1e-3 * duration); // counted in steps
+    EXPECT_NEAR(i.rebound, 1, 1e-6);
+  }
+}
+
+// x'' = -(x^1.5 + c x^.25 x') in units of the undamped impact, by a fine Runge-Kutta scheme of its own.
+double hertz_restitution_by_quadrature(double damping_fraction, bool clamped) {
+  const double c = 2 * damping_fraction * std::sqrt(1.5); // k = 1.5 x^.5, m = 1
+  const auto acceleration = [&](double x, double v) {
+    if (x <= 0) return 0.0;
+    const double force = x * std::sqrt(x) + c * std::pow(x, .25) * v;
+    return -(clamped ? std::max(0.0, force) : force);
+  };
+  double x = 0, v = 1;
+  const double h = 1e-4;
+  do {
+    const double a1 = acceleration(x, v), a2 = acceleration(x + .5 * h * v, v + .5 * h * a1);
+    const double a3 = acceleration(x + .5 * h * (v + .5 * h * a1), v + .5 * h * a2);
+    const double a4 = acceleration(x + h * (v + .5 * h * a2), v + h * a3);
+    x += h * (v + h * (a1 + a2 + a3) / 6);
+    v += h * (a1 + 2 * a2 + 2 * a3 + a4) / 6;
+  } while (x > 0);
+  return -v;
+}
+
+TEST(contact, hertz_dashpot_gives_the_restitution_asked_for) {
+  for (const double e : {.1, .3, .5, .7, .9, 1.0}) {
+    const double fraction = HertzContact::damping_fraction(e);
+    // Free to attract at the end, the law gives e itself; held at zero instead, spheres part a little faster.
+    EXPECT_NEAR(hertz_restitution_by_quadrature(fraction, false), e, 2e-3) << e;
+    const double expected = hertz_restitution_by_quadrature(fraction, true);
+    ModelSettings settings = unbonded(NormalContact::hertz, TangentialContact::none, 0);
+    settings.contact->restitution = e;
+    Model model(nearly_touching(), settings);
+    const Impact i = impact(model, .2, 1e-9);
+    EXPECT_NEAR(i.rebound, expected, 2e-3)
+        << e; // dashpots act at half-step velocities: first order in the step
+    EXPECT_GE(i.rebound, e - 2e-3);
+  }
+}
+
+// Without attraction: e = exp(-(xi/w)(pi - atan(2 xi w/(1 - 2 xi^2)))), w = sqrt(1 - xi^2), xi < 1/sqrt(2)
+// (Schwager and Poeschel 2007, Granular Matter 9:465).
+TEST(contact, linear_dashpot_gives_the_restitution_of_a_damped_oscillator) {
+  for (const double xi : {0.0, .1, .2, .5}) {
+    const double w = std::sqrt(1 - xi * xi);
+    const double expected = std::exp(-(xi / w) * (pi - std::atan2(2 * xi * w, 1 - 2 * xi * xi)));
+    ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::none, 1e6);
+    settings.contact->damping = xi;
+    Model model(nearly_touching(), settings);
+    const double period = pi * std::sqrt(.5 * model.particles.mass[0] / 1e6);
+    const Impact i = impact(model, .2, period / 5000);
+    EXPECT_NEAR(i.rebound, expected, 2e-3) << xi;
+    const double lost = .25 * model.particles.mass[0] * .04 * (1 - i.rebound * i.rebound);
+    EXPECT_NEAR(model.contacts->damping_work, lost, 2e-3 * lost + 1e-12);
+  }
+}
+
+TEST(contact, linear_impact_is_half_an_oscillation) {
+  Model model(nearly_touching(), unbonded(NormalContact::linear, TangentialContact::none, 1e6));
+  const double omega = std::sqrt(1e6 / (.5 * model.particles.mass[0])), v = .2;
+  const Impact i = impact(model, v, pi / omega / 5000);
+  EXPECT_NEAR(i.max_overlap, v / omega, 1e-6 * v / omega);
+  EXPECT_NEAR(i.contact_time, pi / omega, 1e-3 * pi / omega);
+}
+
+// kap = E/(3(1 - 2 nu)); f kap_i R_i kap_j R_j/(kap_i R_i + kap_j R_j).
+TEST(contact, a_fraction_of_the_bulk_stiffness_is_what_it_says) {
+  ContactSettings s;
+  s.stiffness_rule = StiffnessRule::bulk_fraction;
+  s.stiffness = .01, s.young_modulus = 17e9, s.poisson_ratio = .15;
+  EXPECT_NEAR(s.coefficient(1e-3, 1e-3, {}), .01 * 8.0952381e9 * 1e-3 / 2, 1e-2);
+}
+
+TEST(contact, spheres_that_overlap_from_the_start_are_at_rest) {
+  Model model(spheres({{0, 0, 0}, {1.5 * radius, 0, 0}, {.2 * radius, 1.1 * radius, 0}}),
+              unbonded(NormalContact::linear, TangentialContact::coulomb, 1e6));
+  for (int s = 0; s < 100; ++s)
+    step(model, 1e-7);
+  EXPECT_EQ(kinetic_energy(model.particles), 0);
+  model.particles.velocity[1].x = -1e-3; // and push once they are pressed further
+  for (int s = 0; s < 10; ++s)
+    step(model, 1e-7);
+  EXPECT_GT(model.contacts->energy(), 0);
+}
+
+// Sphere 0 held, sphere 1 pressed on it by N and pulled sideways by a force that grows.
+TEST(contact, sliding_starts_at_the_coulomb_limit) {
+  const double mu = .4, pressing = 10, k = 1e8; // N, N/m: the plane turns by 4e-5 until sliding
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, k);
+  settings.rotation = false;
+  settings.contact->friction = mu;
+  settings.local_damping = .7;
+  Model model(nearly_touching(), settings);
+  Particles &p = model.particles;
+  p.mass[0] = 1e30;
+  const double dt = .1 * std::sqrt(p.mass[1] / k);
+  double pull = 0, onset = 0;
+  for (int s = 0; s < 200000 && onset == 0; ++s) {
+    if (s > 2000) pull = std::min(pull + 5e-5, 2 * mu * pressing);
+    step(model, dt, [&](Particles &q) { q.force[1] += {-pressing, pull, 0}; });
+    const bool slides = model.contacts->table.size() > 0 && (*model.contacts->sliding)[0];
+    if (s > 2000 && slides) onset = pull;
+    if (s > 2000 && !slides && pull < .9 * mu * pressing) {
+      EXPECT_NEAR(p.position[1].y, pull / (.5 * k), .05 * mu * pressing / (.5 * k)); // k_t = k/2
+    }
+  }
+  EXPECT_NEAR(onset, mu * pressing, 2e-3 * mu * pressing);
+}
+
+TEST(contact, friction_never_exceeds_its_limit) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
+    ModelSettings settings = unbonded(normal, TangentialContact::coulomb, 1e6);
+    settings.contact->friction = .3;
+    Random random(2);
+    std::vector<Vector3> centres;
+    for (int k = 0; k < 125; ++k)
+      centres.push_back(2.05 * radius * Vector3{1.0 * (k % 5), 1.0 * (k / 5 % 5), 1.0 * (k / 25)});
+    Model model(spheres(centres), settings);
+    for (Vector3 &v : model.particles.velocity)
+      v = 2 * random.direction();
+    std::size_t held = 0;
+    for (int s = 0; s < 2000; ++s) {
+      step(model, 2e-7);
+      const Contacts &c = *model.contacts;
+      for (std::size_t k = 0; k < c.table.size(); ++k) {
+        if (!c.touching[k]) continue;
+        const Vector3 n = (*c.normal)[k], t = (*c.spring)[k];
+        const double pressing = -dot(c.force[k], n);
+        ASSERT_LE(norm(t), .3 * pressing * (1 + 1e-12));
+        ASSERT_LE(std::abs(dot(t, n)), 1e-12 * pressing);
+        ++held;
+      }
+    }
+    EXPECT_GT(held, 1000u);
+  }
+}
+
+// Oblique impact that slides throughout: the tangential impulse is mu times the normal one, 2 m* v_n.
+TEST(contact, gross_sliding_turns_impulse_into_spin) {
+  const double mu = .3, vn = .1, vt = 1;
+  // So stiff that the normal turns by 1e-4 while they touch.
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, 1e9);
+  settings.contact->friction = mu;
+  Model model(nearly_touching(), settings);
+  Particles &p = model.particles;
+  p.velocity[0] = {.5 * vn, -.5 * vt, 0}, p.velocity[1] = {-.5 * vn, .5 * vt, 0};
+  const double before = kinetic_energy(p), duration = pi * std::sqrt(.5 * p.mass[0] / 1e9);
+  for (int s = 0; s < 4000; ++s)
+    step(model, duration / 2000);
+  ASSERT_EQ(model.contacts->touching_count(), 0u);
+  const double impulse = p.mass[0] * vn;
+  EXPECT_NEAR(p.velocity[1].x, .5 * vn, 5e-3 * vn);
+  EXPECT_NEAR(p.velocity[1].y, .5 * vt - mu * impulse / p.mass[1], 1e-3 * vn);
+  for (std::size_t i = 0; i < 2; ++i) // both surfaces are dragged along: the same sense of spin
+    EXPECT_NEAR((*p.angular_velocity)[i].z, mu * impulse * radius / (*p.inertia)[i],
+                2e-3 * mu * impulse * radius / (*p.inertia)[i]);
+  EXPECT_NEAR(model.contacts->friction_work, before - kinetic_energy(p),
+              1e-3 * model.contacts->friction_work);
+}
+
+TEST(contact, friction_work_is_the_kinetic_energy_lost) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
+    for (const double vt : {.05, .2, .6}) { // sticks throughout, sticks and slides, slides
+      ModelSettings settings = unbonded(normal, TangentialContact::coulomb, 1e8);
+      settings.contact->friction = .3;
+      Model model(nearly_touching(radius, 2 * radius), settings);
+      Particles &p = model.particles;
+      p.velocity[0] = {.2, -vt, .03}, p.velocity[1] = {-.1, .5 * vt, 0};
+      (*p.angular_velocity)[0] = {20, 10, -5};
+      const double before = kinetic_energy(p);
+      for (int s = 0; s < 40000; ++s)
+        step(model, 1e-9);
+      ASSERT_EQ(model.contacts->touching_count(), 0u);
+      EXPECT_GE(model.contacts->friction_work, 0);
+      EXPECT_NEAR(model.contacts->friction_work, before - kinetic_energy(p), 1e-3 * before) << vt;
+    }
+}
+
+// Two spheres pressed together spin against each other like gear wheels: no slip, only rolling. The resisting
+// moment mu_r R* N slows each at mu_r R* N / I.
+TEST(contact, rolling_resistance_stops_a_gear_pair_in_time) {
+  const double pressing = 5, rolling = .02, k = 1e7;
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb_with_rolling, k);
+  settings.contact->friction = .5;
+  settings.contact->rolling_friction = rolling;
+  Specimen specimen = spheres({{0, 0, 0}, {2 * radius, 0, 0}});
+  Model model(specimen, settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < 2; ++i) // overlap in balance with the pressing force
+    p.position[i].x += (i == 0 ? .5 : -.5) * pressing / k;
+  const double spin = 200;
+  (*p.angular_velocity)[0].z = -spin, (*p.angular_velocity)[1].z = spin;
+  p.force[0].x = p.force[1].x = 0;
+  const double deceleration = rolling * .5 * radius * pressing / (*p.inertia)[0];
+  const double before = kinetic_energy(p), dt = 1e-7;
+  const int until = static_cast<int>(.5 * spin / deceleration / dt);
+  const auto press = [&](Particles &q) { q.force[0].x += pressing, q.force[1].x -= pressing; };
+  for (int s = 0; s < until; ++s)
+    step(model, dt, press);
+  EXPECT_NEAR((*p.angular_velocity)[1].z, .5 * spin,
+              5e-3 * spin); // the rolling spring takes a moment to load
+  for (int s = 0; s < 2 * until; ++s)
+    step(model, dt, press);
+  EXPECT_LT(std::abs((*p.angular_velocity)[1].z), .02 * spin);
+  EXPECT_NEAR(model.contacts->friction_work + model.contacts->energy() - .5 * pressing * pressing / k +
+                  kinetic_energy(p),
+              before, 1e-2 * before);
+}
+
+TEST(contact, gear_pairs_roll_freely_without_rolling_resistance) {
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, 1e7);
+  settings.contact->friction = .5;
+  Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}}), settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < 2; ++i)
+    p.position[i].x += (i == 0 ? .5 : -.5) * 5e-7;
+  (*p.angular_velocity)[0].z = -200, (*p.angular_velocity)[1].z = 200;
+  for (int s = 0; s < 20000; ++s)
+    step(model, 1e-7, [](Particles &q) { q.force[0].x += 5, q.force[1].x -= 5; });
+  EXPECT_NEAR((*p.angular_velocity)[1].z, 200, 1e-6 * 200);
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,94 @@
+#include "tests/dem/examples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "dem/packing/advancing_front.h"
+
+namespace platen::dem::examples {
+
+Specimen spheres(std::vector<Vector3> centres, double r) {
+  Specimen s;
+  s.radius.assign(centres.size(), r);
+  s.centre = std::move(centres);
+  s.shape = box(1, 1, 1);
+  return s;
+}
+
+Specimen row(int bonds, const Vector3 &direction) {
+  const Vector3 unit = direction / norm(direction);
+  std::vector<Vector3> centres;
+  for (int k = 0; k <= bonds; ++k)
+    centres.push_back(2 * radius * k * unit);
+  return spheres(std::move(centres));
+}
+
+Specimen packed_box(double x, double y, double z, std::uint64_t seed) {
+  return advancing_front(box(x * radius, y * radius, z * radius), equal_radii(radius), seed);
+}
+
+ModelSettings bonded() {
+  ModelSettings s;
+  s.density = 2400;
+  s.bond_layout.modulus = modulus;
+  s.bond_layout.gap = 1e-6;
+  s.bond = ParallelBond::Parameters{};
+  s.bond->stiffness_ratio = stiffness_ratio;
+  return s;
+}
+
+ModelSettings breakable() {
+  ModelSettings s = bonded();
+  s.bond->tensile_strength = tensile_strength;
+  s.bond->shear_strength = shear_strength;
+  s.contact = ContactSettings{};
+  s.contact->friction = .5;
+  return s;
+}
+
+std::size_t row_of(const Particles &particles, int id) {
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    if (particles.id[k] == id) return k;
+  throw std::out_of_range("no such particle");
+}
+
+Loads bond_loads(const Particles &p, const Bonds &b) {
+  Loads loads{std::vector<Vector3>(p.size()), std::vector<Vector3>(p.size())};
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+    loads.force[i] += b.force[k];
+    loads.force[j] -= b.force[k];
+    if (b.torque_first == nullptr) continue;
+    loads.torque[i] += (*b.torque_first)[k];
+    loads.torque[j] += (*b.torque_second)[k];
+  }
+  return loads;
+}
+
+void turn_rigidly(Particles &p, const Quaternion &turn, const Vector3 &centre) {
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    p.position[k] = centre + rotate(turn, p.position[k] - centre);
+    p.velocity[k] = rotate(turn, p.velocity[k]);
+    if (!p.has_rotation()) continue;
+    (*p.orientation)[k] = normalised(turn * (*p.orientation)[k]);
+    (*p.angular_velocity)[k] = rotate(turn, (*p.angular_velocity)[k]);
+  }
+}
+
+Momentum momentum(const Particles &p) {
+  Momentum sum;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const Vector3 linear = p.mass[k] * p.velocity[k];
+    const Vector3 orbital = cross(p.position[k], linear);
+    const Vector3 spin = p.has_rotation() ? (*p.inertia)[k] * (*p.angular_velocity)[k] : Vector3{};
+    sum.linear += linear;
+    sum.angular += orbital + spin;
+    sum.linear_scale += norm(linear);
+    sum.angular_scale += norm(orbital) + norm(spin);
+  }
+  return sum;
+}
+
+} // namespace platen::dem::examples

@@ -1,0 +1,66 @@
+// Small models that the tests of the particle library share. SI units.
+#pragma once
+
+#include <vector>
+
+#include "dem/model.h"
+#include "dem/packing/specimen.h"
+
+namespace platen::dem::examples {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double radius = 1.3e-3;      // m, of every sphere unless a test says otherwise
+constexpr double modulus = 40e9;       // Pa, G_b
+constexpr double stiffness_ratio = .4; // k_s / k_n
+constexpr double tensile_strength = 9e6, shear_strength = 33e6; // Pa
+
+// Quantities of one bond between equal spheres of `radius`, lambda = 1.
+constexpr double area = pi * radius * radius;                          // m^2
+constexpr double second_moment = area * radius * radius / 4;           // I, m^4
+constexpr double polar_moment = area * radius * radius / 2;            // J, m^4
+constexpr double normal_stiffness = modulus / (2 * radius);            // k_n, Pa/m
+constexpr double shear_stiffness = stiffness_ratio * normal_stiffness; // k_s, Pa/m
+
+Specimen spheres(std::vector<Vector3> centres, double r = radius);
+// n + 1 touching spheres in a row along `direction`, the first at the origin.
+Specimen row(int bonds, const Vector3 &direction);
+// Advancing-front packing of a box of these widths over the sphere radius; Z just below 6.
+Specimen packed_box(double x, double y, double z, std::uint64_t seed = 1);
+
+// Unbreakable bonds of the constants above, bonded where spheres touch (gap 1e-6 of the radius), rotation on,
+// no contacts, no damping.
+ModelSettings bonded();
+// The same with the strengths above, and contacts of the bond's stiffness with friction .5 and without
+// dashpot.
+ModelSettings breakable();
+
+// One whole step. `load` is called where surfaces would act: between forces and second half kick.
+template <class Load>
+void step(Model &model, double dt, const Load &load) {
+  model.begin_step(dt);
+  model.compute_forces(dt);
+  load(model.particles);
+  model.end_step(dt);
+}
+inline void step(Model &model, double dt) {
+  step(model, dt, [](Particles &) {});
+}
+
+// Row of the particle that was `id` in the specimen.
+std::size_t row_of(const Particles &particles, int id);
+// Forces and torques of bonds on every particle, row by row; contacts and weight are not in it.
+struct Loads {
+  std::vector<Vector3> force, torque;
+};
+Loads bond_loads(const Particles &particles, const Bonds &bonds);
+
+// Rotation and translation of the whole model: positions, orientations, velocities.
+void turn_rigidly(Particles &particles, const Quaternion &turn, const Vector3 &centre);
+
+struct Momentum {
+  Vector3 linear, angular;                    // kg m/s, kg m^2/s about the origin, spin included
+  double linear_scale = 0, angular_scale = 0; // sums of magnitudes, to compare with
+};
+Momentum momentum(const Particles &particles);
+
+} // namespace platen::dem::examples

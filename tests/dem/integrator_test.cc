@@ -1,0 +1,204 @@
+// The time integration: order, energy, momentum, rotation, damping.
+#include "dem/integrator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+// A bonded bar, 3 x 3 x 12 spheres on a cubic lattice.
+Specimen bar() {
+  std::vector<Vector3> centres;
+  for (int z = 0; z < 12; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x)
+        centres.push_back(2 * radius * Vector3{1.0 * x, 1.0 * y, 1.0 * z});
+  return spheres(centres);
+}
+
+// Long waves along and across the bar, and a twist: smooth, so that the error of the time step is what is
+// seen.
+void set_in_motion(Particles &p) {
+  const double length = 24 * radius;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 x = p.position[i];
+    const double c = std::cos(pi * x.z / length);
+    p.velocity[i] = {.2 * c, .1 * c * c - .05, .5 * c};
+    p.velocity[i] += cross(Vector3{0, 0, 20 * c}, x);
+    (*p.angular_velocity)[i] = {0, 0, 20 * c};
+  }
+}
+
+std::vector<Vector3> positions_after(double duration, int steps) {
+  Model model(bar(), bonded());
+  set_in_motion(model.particles);
+  for (int s = 0; s < steps; ++s)
+    step(model, duration / steps);
+  return {model.particles.position.begin(), model.particles.position.end()};
+}
+
+double difference(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    sum += norm_squared(a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
+// The forces at rest are zero, so the first half kick is exact. Errors against a run with steps 16 times
+// finer differ from those against the exact motion by 1/256.
+TEST(integrator, halving_the_step_quarters_the_error) {
+  Model model(bar(), bonded());
+  const double limit = model.stable_step({}, 0).limit, duration = 200 * limit;
+  const auto finest = positions_after(duration, 200 * 64);
+  const double coarse = difference(positions_after(duration, 200 * 4), finest),
+               fine = difference(positions_after(duration, 200 * 8), finest);
+  const double expected =
+      (1 - 1 / 256.0) / (1 / 4.0 - 1 / 256.0); // of second order, seen against the finest run
+  EXPECT_NEAR(coarse / fine, expected, .05 * expected);
+}
+
+TEST(integrator, energy_stays_in_a_narrow_band_without_trend) {
+  Model model(bar(), bonded());
+  set_in_motion(model.particles);
+  const double dt = .1 * model.stable_step({}, 0).limit, start = model.energy().stored();
+  const int steps = 40000;
+  double most = 0, sum_t = 0, sum_e = 0, sum_tt = 0, sum_te = 0;
+  int n = 0;
+  for (int s = 1; s <= steps; ++s) {
+    step(model, dt);
+    if (s % 20 != 0) continue;
+    const double e = model.energy().stored() / start - 1;
+    most = std::max(most, std::abs(e));
+    ++n, sum_t += s, sum_e += e, sum_tt += 1.0 * s * s, sum_te += s * e;
+  }
+  const double slope = (n * sum_te - sum_t * sum_e) / (n * sum_tt - sum_t * sum_t);
+  EXPECT_LT(most, 1e-3);
+  // A band of 1e-4 that wanders over 2000 samples leaves a slope of about 1e-4 / (sqrt(2000) 4e4) by chance.
+  EXPECT_LT(std::abs(slope), 3e-10); // per step
+  EXPECT_EQ(model.energy().lost(), 0);
+}
+
+TEST(integrator, the_energy_band_shrinks_with_the_square_of_the_step) {
+  const auto band = [](double share) {
+    Model model(bar(), bonded());
+    set_in_motion(model.particles);
+    const double dt = share * model.stable_step({}, 0).limit, start = model.energy().stored();
+    double most = 0;
+    for (int s = 0; s < static_cast<int>(400 / share); ++s) {
+      step(model, dt);
+      most = std::max(most, std::abs(model.energy().stored() / start - 1));
+    }
+    return most;
+  };
+  EXPECT_NEAR(band(.2) / band(.1), 4, .4); // extremes of a signal, not its error at one time
+}
+
+TEST(integrator, momentum_is_conserved_to_round_off) {
+  Model model(bar(), bonded());
+  set_in_motion(model.particles);
+  const Momentum before = momentum(model.particles);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 20000; ++s)
+    step(model, dt);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LT(norm(after.linear - before.linear), 1e-11 * before.linear_scale);
+  EXPECT_LT(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+// A lone sphere: orientation after a million steps keeps its norm and has turned by w t. The rotation of one
+// step is exact to (w dt)^3 / 12.
+TEST(integrator, orientation_keeps_its_norm_and_turns_by_the_spin) {
+  ModelSettings settings = bonded();
+  settings.bond.reset();
+  Model model(spheres({{0, 0, 0}}), settings);
+  const Vector3 axis = Vector3{1, -2, 2} / 3;
+  const double spin = 100, dt = 1e-5;
+  (*model.particles.angular_velocity)[0] = spin * axis;
+  const int steps = 1000000;
+  for (int s = 0; s < steps; ++s)
+    step(model, dt);
+  const Quaternion q = (*model.particles.orientation)[0];
+  EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1, 1e-14);
+  const double angle = 2 * std::atan(.5 * spin * dt) * steps;
+  EXPECT_NEAR(angle, spin * dt * steps, std::pow(spin * dt, 3) / 12 * steps * 1.01);
+  const Quaternion expected = rotation_quaternion(std::fmod(angle, 4 * pi) * axis);
+  const double overlap = q.w * expected.w + q.x * expected.x + q.y * expected.y + q.z * expected.z;
+  EXPECT_NEAR(std::abs(overlap), 1, 1e-14 * steps * 1e-2);
+}
+
+TEST(integrator, a_thrown_sphere_follows_its_parabola) {
+  ModelSettings settings = bonded();
+  settings.bond.reset();
+  settings.gravity = {0, 0, -9.80665};
+  Model model(spheres({{0, 0, 0}}), settings);
+  Particles &p = model.particles;
+  p.velocity[0] = {1, 0, 3};
+  p.force[0] = p.mass[0] * settings.gravity; // from t = 0 on
+  for (int s = 0; s < 1000; ++s)
+    step(model, 1e-4);
+  EXPECT_NEAR(p.position[0].x, .1, 1e-13);
+  EXPECT_NEAR(p.position[0].z, .3 - .5 * 9.80665 * .01, 1e-13); // leapfrog is exact for a constant force
+  // The work of the weight is booked at full-step velocities: half a step's kick is open at either end.
+  const double open = .5 * 1e-4 * p.mass[0] * 9.80665 * 9.80665 * .1;
+  EXPECT_NEAR(model.energy().residual(), .5 * p.mass[0] * 10, 1.01 * open);
+}
+
+// Cundall's damping on a free oscillator: a constant share of the force acts against the motion. A quarter
+// cycle inwards releases (1 - a) of the energy, one outwards stores 1/(1 + a) of it.
+TEST(integrator, local_damping_takes_a_fixed_share_of_every_half_cycle) {
+  const double alpha = .2;
+  ModelSettings settings = bonded();
+  settings.local_damping = alpha;
+  Model model(row(1, {1, 0, 0}), settings);
+  Particles &p = model.particles;
+  const double start = 1e-4 * radius;
+  p.position[0].x -= .5 * start, p.position[1].x += .5 * start;
+  p.force[0].x = normal_stiffness * area * start, p.force[1].x = -p.force[0].x;
+  const double omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]);
+  const double energy = bond_energy(p, *model.bonds);
+  std::vector<double> extremes;
+  double before = start, sign = -1;
+  for (int s = 0; s < 6000 && extremes.size() < 4; ++s) {
+    step(model, .005 / omega);
+    const double now = norm(p.position[1] - p.position[0]) - 2 * radius;
+    if (sign * (now - before) < 0) {
+      extremes.push_back(std::abs(before));
+      sign = -sign;
+    }
+    before = now;
+  }
+  ASSERT_EQ(extremes.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double expected = start * std::pow((1 - alpha) / (1 + alpha), .5 * static_cast<double>(k + 1));
+    EXPECT_NEAR(extremes[k], expected, .01 * expected); // the force jumps when the motion turns
+  }
+  EXPECT_NEAR(model.energy().stored() + model.energy().damping, energy, 1e-3 * energy);
+}
+
+TEST(integrator, bond_dashpots_damp_by_their_fraction) {
+  const double xi = .1;
+  ModelSettings settings = bonded();
+  settings.bond_dashpot = xi;
+  Model model(row(1, {1, 0, 0}), settings);
+  Particles &p = model.particles;
+  const double omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]), v = 1e-5 * radius * omega;
+  p.velocity[0].x = -.5 * v, p.velocity[1].x = .5 * v;
+  const double dt = .001 / omega, damped = omega * std::sqrt(1 - xi * xi), energy = kinetic_energy(p);
+  double t = 0;
+  for (int s = 0; s < 10000; ++s) {
+    step(model, dt), t += dt;
+    const double expected = v / damped * std::exp(-xi * omega * t) * std::sin(damped * t);
+    ASSERT_NEAR(norm(p.position[1] - p.position[0]) - 2 * radius, expected, 2e-3 * v / omega);
+  }
+  EXPECT_NEAR(model.energy().stored() + model.energy().damping, energy, 5e-3 * energy);
+}
+
+} // namespace
+} // namespace platen::dem

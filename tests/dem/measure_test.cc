@@ -1,0 +1,234 @@
+// What is read off a specimen: strain, stress, damage, opening, pieces, moduli.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "dem/measure/damage.h"
+#include "dem/measure/fragments.h"
+#include "dem/measure/gauge.h"
+#include "dem/measure/moduli.h"
+#include "dem/measure/stress.h"
+#include "dem/packing/advancing_front.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+Specimen small_cylinder() {
+  return advancing_front(cylinder(7 * radius, 24 * radius), uniform_radii_of_spread(radius, .25), 4);
+}
+
+// Rows of the displacement gradient; lengths in the specimen do not matter to an affine motion.
+struct Gradient {
+  Vector3 row[3];
+  Vector3 operator()(const Vector3 &x) const { return {dot(row[0], x), dot(row[1], x), dot(row[2], x)}; }
+};
+
+void deform(Particles &p, const Gradient &g, const Vector3 &shift) {
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.position[i] = p.reference_position[i] + g(p.reference_position[i]) + shift;
+}
+
+TEST(measure, the_gauge_reads_an_affine_motion_exactly) {
+  const Specimen specimen = small_cylinder();
+  Model model(specimen, bonded());
+  const Gauge gauge(model.particles, specimen.shape);
+  EXPECT_GT(gauge.size(), 50u);
+  EXPECT_LT(gauge.size(), model.particles.size());
+  const Gradient g{{{1.1e-3, 4e-4, -7e-4}, {2e-4, .9e-3, 3e-4}, {-5e-4, 6e-4, -4.2e-3}}};
+  deform(model.particles, g, {.3, -.2, .1});
+  const GaugeStrain s = gauge.strain(model.particles);
+  // Positions of .3 m against displacements of 1e-6 m: 1e-16 * .3 / 1e-5 relative, averaged over the
+  // particles.
+  EXPECT_NEAR(s.axial, -4.2e-3, 1e-12);
+  EXPECT_NEAR(s.lateral_x, 1.1e-3, 1e-12);
+  EXPECT_NEAR(s.lateral_y, .9e-3, 1e-12);
+  EXPECT_NEAR(s.lateral(), 1e-3, 1e-12);
+}
+
+TEST(measure, the_gauge_does_not_see_the_ends) {
+  const Specimen specimen = small_cylinder();
+  Model model(specimen, bonded());
+  Particles &p = model.particles;
+  const Gauge gauge(p, specimen.shape);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.reference_position[i].z < 3 * radius) p.position[i].z -= 1e-3;
+  EXPECT_EQ(gauge.strain(p).axial, 0);
+}
+
+TEST(measure, extremal_pairs_read_an_affine_motion) {
+  const Specimen specimen = small_cylinder();
+  Model model(specimen, bonded());
+  const ExtremalPairs pairs(model.particles, specimen.shape);
+  const Gradient g{{{1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, -4e-3}}};
+  deform(model.particles, g, {});
+  EXPECT_NEAR(pairs.axial(model.particles), -4e-3, 1e-12);
+  // Lateral pairs are not quite level: their z difference, below 4 R on 14 R, contracts by 4e-3.
+  EXPECT_NEAR(pairs.lateral(model.particles), 1e-3, .15e-3);
+}
+
+// Sum over particles of V sigma : eps is twice the energy stored, for spheres that follow an affine strain.
+TEST(measure, particle_stress_does_the_work_that_the_bonds_store) {
+  Model model(packed_box(12, 12, 12), bonded());
+  Particles &p = model.particles;
+  const double e = 1e-6; // the work conjugate changes by a relative strain
+  const Gradient g{{{e, .5 * e, 0}, {.5 * e, -2 * e, .3 * e}, {0, .3 * e, .7 * e}}};
+  deform(p, g, {});
+  model.compute_forces(1e-9);
+  const double fraction = .55;
+  const auto stress = particle_stress(p, model.bonds.get(), nullptr, fraction);
+  double work = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double volume = 4.0 / 3.0 * pi * std::pow(p.radius[i], 3) / fraction;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) {
+        work += volume * stress[i][3 * r + c] * g.row[r][static_cast<int>(c)];
+        EXPECT_EQ(stress[i][3 * r + c], stress[i][3 * c + r]);
+      }
+  }
+  const double stored = bond_energy(p, *model.bonds);
+  EXPECT_NEAR(work, 2 * stored, 1e-4 * stored);
+}
+
+TEST(measure, a_pulled_row_is_under_tension_of_force_over_section) {
+  Model model(row(4, {1, 0, 0}), bonded());
+  Particles &p = model.particles;
+  deform(p, {{{1e-4, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, {});
+  model.compute_forces(1e-9);
+  const auto stress = particle_stress(p, model.bonds.get(), nullptr, 1);
+  const double force = modulus * area * 1e-4, volume = 4.0 / 3.0 * pi * std::pow(radius, 3);
+  EXPECT_NEAR(stress[row_of(p, 2)][0], force * 2 * radius / volume, 2e-4 * force / area); // lengths now
+  EXPECT_NEAR(stress[row_of(p, 0)][0], force * radius / volume, 2e-4 * force / area);     // one bond only
+}
+
+// k = 1: the affine bound and the static estimate meet, E = K/3 and nu = 0. Otherwise the bound is above.
+TEST(measure, network_moduli_meet_at_equal_stiffness) {
+  const Specimen specimen = packed_box(14, 14, 14);
+  for (const double k : {.3, .7, 1.0}) {
+    ModelSettings settings = bonded();
+    settings.bond->stiffness_ratio = k;
+    Model model(specimen, settings);
+    const NetworkModuli m = network_moduli(*model.bonds, specimen.shape.volume());
+    const double sum =
+        static_cast<double>(model.bonds->size()) * 4 * radius * radius * normal_stiffness * area;
+    const double stiffness = sum / specimen.shape.volume();
+    EXPECT_NEAR(m.young_voigt, stiffness / 3 * (2 + 3 * k) / (4 + k), 1e-9 * stiffness);
+    EXPECT_NEAR(m.poisson_voigt, (1 - k) / (4 + k), 1e-15);
+    EXPECT_GE(m.young_voigt, m.young_reuss * (1 - 1e-12));
+    if (k == 1) {
+      EXPECT_NEAR(m.young_voigt, m.young_reuss, 1e-12 * stiffness);
+    }
+  }
+}
+
+// Shear force of a bond under affine strain, averaged over directions, is what the formula says; a packing is
+// isotropic to a few percent.
+TEST(measure, the_affine_bound_is_the_energy_of_an_affine_strain) {
+  const Specimen specimen = packed_box(26, 26, 26);
+  ModelSettings settings = bonded();
+  settings.rotation = false;
+  Model model(specimen, settings);
+  const NetworkModuli m = network_moduli(*model.bonds, specimen.shape.volume());
+  const double nu = m.poisson_voigt, e = 1e-6;
+  // Uniaxial stress of the affine solid: strains e, -nu e, -nu e store E e^2 / 2 per volume.
+  deform(model.particles, {{{e, 0, 0}, {0, -nu * e, 0}, {0, 0, -nu * e}}}, {});
+  const double expected = .5 * m.young_voigt * e * e * specimen.shape.volume();
+  EXPECT_NEAR(bond_energy(model.particles, *model.bonds), expected, .05 * expected);
+}
+
+// Bonds broken by hand.
+void break_where(Model &model, const std::function<bool(const Vector3 &midpoint)> &where) {
+  std::vector<BondBreak> breaks;
+  Bonds &b = *model.bonds;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const Vector3 middle = .5 * (model.particles.reference_position[static_cast<std::size_t>(b.first[k])] +
+                                 model.particles.reference_position[static_cast<std::size_t>(b.second[k])]);
+    if (where(middle)) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  }
+  b.break_rows(breaks, model.particles, 1.0);
+}
+
+TEST(measure, damage_is_counted_where_it_is) {
+  const Specimen specimen = small_cylinder();
+  const double rc = specimen.shape.radius, h = specimen.shape.height;
+  Model model(specimen, bonded());
+  break_where(model, [&](const Vector3 &m) { return m.z > h - .5 * rc; });
+  DamageByRegion d = damage_by_region(model.particles, *model.bonds, specimen.shape);
+  EXPECT_EQ(d.end_top, 1);
+  EXPECT_EQ(d.end_bottom, 0);
+  EXPECT_EQ(d.middle, 0);
+  EXPECT_EQ(d.worse_end(), 1);
+  break_where(model, [&](const Vector3 &m) { return std::abs(m.z - .5 * h) < .25 * rc; });
+  model.bonds->compact(); // measures read the records, not the rows
+  d = damage_by_region(model.particles, *model.bonds, specimen.shape);
+  EXPECT_EQ(d.middle, 1);
+  EXPECT_EQ(d.end_bottom, 0);
+  const DamageGrid grid = damage_grid(model.particles, *model.bonds, specimen.shape, 3, 10);
+  EXPECT_EQ(std::accumulate(grid.initial.begin(), grid.initial.end(), 0),
+            static_cast<int>(model.bonds->initial_count()));
+  EXPECT_EQ(std::accumulate(grid.broken.begin(), grid.broken.end(), 0),
+            static_cast<int>(model.bonds->initial_count() - model.bonds->size()));
+  EXPECT_EQ(grid.broken[0], 0); // bottom layer
+}
+
+TEST(measure, a_barrel_is_told_from_a_column) {
+  const Specimen specimen = small_cylinder();
+  const double h = specimen.shape.height;
+  Model model(specimen, bonded());
+  Particles &p = model.particles;
+  const auto bulge = [&](double ends) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vector3 &x = p.reference_position[i];
+      const double s = 2 * x.z / h - 1, share = 1e-3 * (1 - (1 - ends) * s * s);
+      p.position[i] = {x.x * (1 + share), x.y * (1 + share), x.z};
+    }
+    return skin_opening(p, *model.bonds, specimen.shape);
+  };
+  const std::vector<double> column = bulge(1), barrelled = bulge(0);
+  ASSERT_EQ(column.size(), 10u);
+  EXPECT_NEAR(barrel(column), 1, .05);
+  EXPECT_NEAR(end_spread(column), 1, .05);
+  EXPECT_LT(barrel(barrelled), .3);
+  EXPECT_LT(end_spread(barrelled), .35);
+}
+
+TEST(measure, pieces_are_what_bonds_hold_together) {
+  Model model(row(9, {0, 0, 1}), bonded());
+  Fragments f = find_fragments(model.particles, model.bonds.get());
+  EXPECT_EQ(f.count, 1);
+  EXPECT_EQ(f.single, 0);
+  EXPECT_EQ(f.particles[0], 10);
+  // Cut into 4, 5 and a single one.
+  break_where(model, [](const Vector3 &m) {
+    const int bond = static_cast<int>(m.z / (2 * radius));
+    return bond == 3 || bond == 8;
+  });
+  f = find_fragments(model.particles, model.bonds.get());
+  EXPECT_EQ(f.count, 2);
+  EXPECT_EQ(f.single, 1);
+  EXPECT_EQ(f.particles, (std::vector<int>{5, 4, 1}));
+  EXPECT_EQ(f.of_particle[row_of(model.particles, 9)], 2);
+  EXPECT_EQ(f.of_particle[row_of(model.particles, 4)], 0);
+  EXPECT_NEAR(std::accumulate(f.mass.begin(), f.mass.end(), 0.0), 10 * model.particles.mass[0], 1e-18);
+  EXPECT_EQ(find_fragments(model.particles, nullptr).single, 10);
+}
+
+TEST(measure, bonds_are_counted_at_both_ends) {
+  Model model(row(3, {0, 0, 1}), bonded());
+  break_where(model, [](const Vector3 &m) { return m.z < 2 * radius; });
+  const BondCounts c = bond_counts(model.particles, *model.bonds);
+  const auto at = [&](const std::vector<int> &column, int id) { return column[row_of(model.particles, id)]; };
+  EXPECT_EQ(at(c.broken, 0), 1);
+  EXPECT_EQ(at(c.intact, 0), 0);
+  EXPECT_EQ(at(c.broken, 1), 1);
+  EXPECT_EQ(at(c.intact, 1), 1);
+  EXPECT_EQ(at(c.intact, 2), 2);
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,309 @@
+// The bond law by itself: one bond driven by hand.
+#include "dem/laws/parallel_bond.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/packing/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+using Vec = Triple<double>;
+using Geometry = ParallelBond::Geometry<double>;
+using BondMotion = ParallelBond::Motion<double>;
+using Response = ParallelBond::Response<double>;
+
+constexpr double bond_length = 2 * radius;
+
+Vec vec(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+Vector3 vec(const Vec &a) {
+  return {a.x, a.y, a.z};
+}
+Rotation<double> rotation(const Quaternion &q) {
+  return {q.w, q.x, q.y, q.z};
+}
+Quaternion quaternion(const Rotation<double> &r) {
+  return {r.w, r.x, r.y, r.z};
+}
+Quaternion random_turn(Random &random, double most) {
+  return rotation_quaternion(random.uniform(0, most) * random.direction());
+}
+
+ParallelBond breakable_bond(double friction = 0, double beta = 1) {
+  return {{stiffness_ratio, tensile_strength, shear_strength, friction, beta}};
+}
+
+// Equal spheres along x.
+Geometry along_x() {
+  return {{bond_length, 0, 0}, bond_length, .5, normal_stiffness, radius};
+}
+BondMotion at_rest() {
+  return {{bond_length, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
+}
+
+struct RandomBond {
+  Geometry geometry;
+  BondMotion motion;
+};
+// Unequal spheres in any direction, turned and strained finitely.
+RandomBond random_bond(Random &random) {
+  const Vector3 direction = random.direction();
+  const double length = bond_length * random.uniform(.6, 1.4);
+  RandomBond b;
+  b.geometry = {vec(length * direction), length, random.uniform(.2, .8), normal_stiffness, radius};
+  const Quaternion common = random_turn(random, 3);
+  b.motion.distance =
+      vec(rotate(common, length * (random.uniform(.8, 1.2) * direction + .2 * random.direction())));
+  b.motion.turn_i = rotation(random_turn(random, .5) * common);
+  b.motion.turn_j = rotation(random_turn(random, .5) * common);
+  return b;
+}
+
+// Linear: only round-off of the length, 1e-16 over the strain of 1e-5, is left.
+TEST(parallel_bond, axial_force_follows_youngs_modulus) {
+  const double force = 100; // N
+  BondMotion m = at_rest();
+  m.distance.x += force * bond_length / (modulus * area);
+  const Response r = breakable_bond()(along_x(), m);
+  EXPECT_NEAR(r.force.x, force, 1e-10 * force);
+  EXPECT_NEAR(r.normal_force, force, 1e-10 * force);
+  EXPECT_EQ(r.force.y, 0);
+  EXPECT_EQ(r.force.z, 0);
+}
+
+TEST(parallel_bond, tension_breaks_at_strength_times_area) {
+  BondMotion m = at_rest();
+  m.distance.x += tensile_strength * bond_length / modulus;
+  const Response r = breakable_bond()(along_x(), m);
+  EXPECT_NEAR(r.tension_ratio, 1, 1e-10);
+  EXPECT_NEAR(r.force.x, tensile_strength * area, 1e-10 * tensile_strength * area);
+  EXPECT_NEAR(r.shear_ratio, 0, 1e-14);
+}
+
+// Ends turned against each other about y: sigma_c I / R_b.
+TEST(parallel_bond, bending_breaks_at_the_section_modulus) {
+  const double strength = tensile_strength * second_moment / radius;
+  const double angle = strength / (normal_stiffness * second_moment);
+  BondMotion m = at_rest();
+  m.turn_i = rotation(rotation_quaternion({0, -.5 * angle, 0}));
+  m.turn_j = rotation(rotation_quaternion({0, .5 * angle, 0}));
+  const Response r = breakable_bond()(along_x(), m);
+  // sin(angle) for angle: angle^2 / 6 = 3e-8 here.
+  EXPECT_NEAR(r.tension_ratio, 1, 1e-7);
+  EXPECT_NEAR(r.torque_i.y, strength, 1e-7 * strength);
+  EXPECT_NEAR(r.torque_i.y / strength, r.tension_ratio, 1e-10);
+  EXPECT_NEAR(r.torque_j.y, -r.torque_i.y, 1e-12 * strength);
+  EXPECT_LT(r.shear_ratio, 1e-10);
+}
+
+TEST(parallel_bond, bending_stiffness_is_that_of_the_section) {
+  const double angle = 1e-6; // relative error angle^2 / 6
+  BondMotion m = at_rest();
+  m.turn_j = rotation(rotation_quaternion({0, 0, angle}));
+  m.distance = vec(.5 * bond_length * (Vector3{1, 0, 0} + Vector3{std::cos(angle), std::sin(angle), 0}));
+  const Response r = breakable_bond()(along_x(), m); // the contact points stay together: no shear
+  const double moment = normal_stiffness * second_moment * angle;
+  EXPECT_NEAR(r.torque_i.z, moment, 1e-9 * moment);
+  EXPECT_NEAR(r.torque_j.z, -moment, 1e-9 * moment);
+}
+
+TEST(parallel_bond, torsion_breaks_at_the_polar_section_modulus) {
+  const double strength = shear_strength * polar_moment / radius;
+  const double angle = strength / (shear_stiffness * polar_moment);
+  BondMotion m = at_rest();
+  m.turn_j = rotation(rotation_quaternion({angle, 0, 0}));
+  const Response r = breakable_bond()(along_x(), m);
+  const double softening = angle * angle / 6; // sin(angle) for angle
+  EXPECT_NEAR(r.shear_ratio, 1 - softening, 1e-9);
+  EXPECT_NEAR(r.torque_i.x, strength * (1 - softening), 1e-9 * strength);
+  EXPECT_NEAR(r.torque_i.x / strength, r.shear_ratio, 1e-10);
+  EXPECT_EQ(r.tension_ratio, 0);
+}
+
+// Spheres shifted against each other without turning: no moment at the contact point.
+TEST(parallel_bond, shear_follows_its_stiffness) {
+  const double slip = 1e-6 * bond_length;
+  BondMotion m = at_rest();
+  m.distance.y = slip;
+  const Response r = breakable_bond()(along_x(), m);
+  const double force = shear_stiffness * area * slip;
+  EXPECT_NEAR(r.force.y, force, 1e-9 * force); // second order in slip / length
+  EXPECT_NEAR(r.torque_i.z, .5 * bond_length * force, 1e-9 * .5 * bond_length * force);
+}
+
+TEST(parallel_bond, shear_breaks_at_strength_times_area) {
+  const double slip = shear_strength / shear_stiffness;
+  BondMotion m = at_rest();
+  // On the sphere around i, so that shear is all there is: the slip is the component along the tangent.
+  const double angle = std::asin(slip / bond_length);
+  m.distance = {bond_length * std::cos(angle), bond_length * std::sin(angle), 0};
+  const Response r = breakable_bond()(along_x(), m);
+  EXPECT_NEAR(r.shear_ratio, 1, 1e-10);
+  EXPECT_NEAR(r.shear_force, shear_strength * area, 1e-10 * shear_strength * area);
+  EXPECT_NEAR(r.tension_ratio, 0, 1e-10);
+}
+
+TEST(parallel_bond, compression_alone_never_breaks) {
+  for (const double strain : {1e-6, 1e-3, .1, .5}) {
+    BondMotion m = at_rest();
+    m.distance.x *= 1 - strain;
+    const Response r = breakable_bond()(along_x(), m);
+    EXPECT_LT(r.tension_ratio, 0);
+    EXPECT_NEAR(r.shear_ratio, 0, 1e-12);
+  }
+}
+
+TEST(parallel_bond, friction_angle_raises_the_shear_strength_by_the_compression) {
+  const double tangent = std::tan(42 * pi / 180), pressure = 20e6; // Pa
+  BondMotion m = at_rest();
+  const double length = bond_length * (1 - pressure / modulus);
+  const double strength = shear_strength + tangent * pressure;
+  // The slip is |u_s| of u = d - D.
+  const double angle = std::asin(strength / shear_stiffness / bond_length);
+  m.distance = {length * std::cos(angle), length * std::sin(angle), 0};
+  EXPECT_NEAR(breakable_bond(tangent)(along_x(), m).shear_ratio, 1, 1e-10);
+  EXPECT_NEAR(breakable_bond()(along_x(), m).shear_ratio, strength / shear_strength, 1e-9);
+  // Tension takes nothing away.
+  const double longer = bond_length * (1 + 1e-4);
+  m.distance = {longer * std::cos(angle), longer * std::sin(angle), 0};
+  EXPECT_NEAR(breakable_bond(tangent)(along_x(), m).shear_ratio, strength / shear_strength, 1e-9);
+}
+
+TEST(parallel_bond, moment_contribution_scales_only_the_moments) {
+  BondMotion m = at_rest();
+  m.distance.x *= 1 + 1e-5;
+  const double axial = breakable_bond()(along_x(), m).tension_ratio;
+  m.turn_i = rotation(rotation_quaternion({-1e-5, -1e-4, 0}));
+  m.turn_j = rotation(rotation_quaternion({1e-5, 1e-4, 0}));
+  const Response whole = breakable_bond(0, 1)(along_x(), m), third = breakable_bond(0, .3)(along_x(), m),
+                 none = breakable_bond(0, 0)(along_x(), m);
+  EXPECT_NEAR(none.tension_ratio, axial, 1e-14);
+  EXPECT_NEAR(third.tension_ratio - axial, .3 * (whole.tension_ratio - axial), 1e-12);
+  EXPECT_NEAR(third.shear_ratio - none.shear_ratio, .3 * (whole.shear_ratio - none.shear_ratio), 1e-12);
+  EXPECT_EQ(whole.energy, none.energy); // strength only
+}
+
+// Action on j is minus the force, by construction; the moments must balance about any point too.
+TEST(parallel_bond, forces_and_moments_balance_for_any_finite_motion) {
+  Random random(7);
+  const ParallelBond law = breakable_bond();
+  for (int trial = 0; trial < 2000; ++trial) {
+    const RandomBond b = random_bond(random);
+    const Response r = law(b.geometry, b.motion);
+    const Vector3 lever = cross(vec(b.motion.distance), vec(r.force));
+    const Vector3 sum = vec(r.torque_i) + vec(r.torque_j) - lever; // T_i + T_j + d x F_j
+    EXPECT_LE(norm(sum), 1e-13 * (norm(vec(r.torque_i)) + norm(vec(r.torque_j)) + norm(lever)));
+  }
+}
+
+// Central differences: h^2 of truncation against 1e-16 / h of round-off leaves about 1e-9 of the scale.
+TEST(parallel_bond, forces_are_derivatives_of_the_stored_energy) {
+  Random random(11);
+  const ParallelBond law = breakable_bond();
+  const double h = 1e-5;
+  for (int trial = 0; trial < 200; ++trial) {
+    const RandomBond b = random_bond(random);
+    const Response r = law(b.geometry, b.motion);
+    const double scale = r.energy / bond_length * 10 + norm(vec(r.force));
+    for (int c = 0; c < 3; ++c) {
+      Vector3 e;
+      e[c] = h;
+      const auto slope = [&](auto change) {
+        BondMotion plus = b.motion, minus = b.motion;
+        change(plus, e);
+        change(minus, -e);
+        return (law(b.geometry, plus).energy - law(b.geometry, minus).energy) / (2 * h);
+      };
+      const double by_distance =
+          slope([](BondMotion &m, const Vector3 &s) { m.distance = m.distance + vec(bond_length * s); }) /
+          bond_length;
+      const double by_turn_i = slope([](BondMotion &m, const Vector3 &s) {
+        m.turn_i = rotation(rotation_quaternion(s) * quaternion(m.turn_i));
+      });
+      const double by_turn_j = slope([](BondMotion &m, const Vector3 &s) {
+        m.turn_j = rotation(rotation_quaternion(s) * quaternion(m.turn_j));
+      });
+      EXPECT_NEAR(vec(r.force)[c], by_distance, 1e-7 * scale); // on i, which moves against d
+      EXPECT_NEAR(vec(r.torque_i)[c], -by_turn_i, 1e-7 * scale * bond_length);
+      EXPECT_NEAR(vec(r.torque_j)[c], -by_turn_j, 1e-7 * scale * bond_length);
+    }
+  }
+}
+
+TEST(parallel_bond, naming_the_other_end_first_changes_nothing) {
+  Random random(13);
+  const ParallelBond law = breakable_bond(.7, .5);
+  for (int trial = 0; trial < 500; ++trial) {
+    const RandomBond b = random_bond(random);
+    Geometry g = b.geometry;
+    g.reference = {-g.reference.x, -g.reference.y, -g.reference.z};
+    g.lever = 1 - g.lever;
+    const BondMotion m{scale(-1.0, b.motion.distance), b.motion.turn_j, b.motion.turn_i};
+    const Response one = law(b.geometry, b.motion), other = law(g, m);
+    const double force = norm(vec(one.force)), torque = norm(vec(one.torque_i)) + norm(vec(one.torque_j));
+    EXPECT_LE(norm(vec(one.force) + vec(other.force)), 1e-12 * force);
+    EXPECT_LE(norm(vec(one.torque_i) - vec(other.torque_j)), 1e-12 * torque);
+    EXPECT_LE(norm(vec(one.torque_j) - vec(other.torque_i)), 1e-12 * torque);
+    EXPECT_NEAR(one.energy, other.energy, 1e-12 * one.energy);
+    EXPECT_NEAR(one.tension_ratio, other.tension_ratio, 1e-12 * std::abs(one.tension_ratio) + 1e-12);
+    EXPECT_NEAR(one.shear_ratio, other.shear_ratio, 1e-12 * one.shear_ratio);
+  }
+}
+
+TEST(parallel_bond, the_frame_of_reference_does_not_matter) {
+  Random random(17);
+  const ParallelBond law = breakable_bond();
+  for (int trial = 0; trial < 500; ++trial) {
+    const RandomBond b = random_bond(random);
+    const Quaternion q = random_turn(random, 6);
+    BondMotion turned_motion;
+    turned_motion.distance = vec(rotate(q, vec(b.motion.distance)));
+    turned_motion.turn_i = rotation(q * quaternion(b.motion.turn_i));
+    turned_motion.turn_j = rotation(q * quaternion(b.motion.turn_j));
+    const Response before = law(b.geometry, b.motion), after = law(b.geometry, turned_motion);
+    const double torque = norm(vec(before.torque_i)) + norm(vec(before.torque_j));
+    EXPECT_LE(norm(rotate(q, vec(before.force)) - vec(after.force)), 1e-12 * norm(vec(before.force)));
+    EXPECT_LE(norm(rotate(q, vec(before.torque_i)) - vec(after.torque_i)), 1e-12 * torque);
+    EXPECT_LE(norm(rotate(q, vec(before.torque_j)) - vec(after.torque_j)), 1e-12 * torque);
+    EXPECT_NEAR(before.tension_ratio, after.tension_ratio, 1e-10);
+  }
+}
+
+TEST(parallel_bond, without_turning_both_forms_agree) {
+  Random random(19);
+  const ParallelBond law = breakable_bond(.5);
+  for (int trial = 0; trial < 200; ++trial) {
+    RandomBond b = random_bond(random);
+    b.motion.turn_i = b.motion.turn_j = {1, 0, 0, 0};
+    b.motion.distance = b.geometry.reference + vec(.1 * bond_length * random.direction());
+    const Response with = law(b.geometry, b.motion);
+    const Response without = law.without_rotation(b.geometry, b.motion.distance);
+    EXPECT_LE(norm(vec(with.force) - vec(without.force)), 1e-12 * norm(vec(with.force)));
+    EXPECT_NEAR(with.energy, without.energy, 1e-12 * with.energy);
+    EXPECT_NEAR(with.tension_ratio, without.tension_ratio, 1e-10 * std::abs(with.tension_ratio));
+    EXPECT_NEAR(with.shear_ratio, without.shear_ratio, 1e-10 * with.shear_ratio);
+  }
+}
+
+TEST(parallel_bond, a_broken_bond_is_silent) {
+  Random random(23);
+  const ParallelBond law = breakable_bond();
+  RandomBond b = random_bond(random);
+  b.geometry.normal_stiffness = 0;
+  const Response r = law(b.geometry, b.motion);
+  EXPECT_EQ(norm(vec(r.force)), 0);
+  EXPECT_EQ(norm(vec(r.torque_i)), 0);
+  EXPECT_EQ(norm(vec(r.torque_j)), 0);
+  EXPECT_EQ(r.energy, 0);
+  EXPECT_EQ(r.tension_ratio, 0);
+  EXPECT_NEAR(r.shear_ratio, 0, 1e-12);
+}
+} // namespace
+} // namespace platen::dem

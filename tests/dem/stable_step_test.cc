@@ -1,0 +1,133 @@
+// The predicted limit of the time step against the one found by running.
+#include "dem/stable_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dem/packing/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+// Grows without bound at this step?
+bool runs_away(const Specimen &specimen, const ModelSettings &settings, double dt) {
+  Model model(specimen, settings);
+  Random random(1);
+  double start = 0;
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    model.particles.velocity[i] = 1e-6 * random.direction(); // far inside the linear range
+    if (model.particles.has_rotation())
+      (*model.particles.angular_velocity)[i] = (1e-6 / radius) * random.direction();
+  }
+  start = kinetic_energy(model.particles);
+  for (int s = 0; s < 600; ++s) {
+    step(model, dt);
+    // Just below the limit the scheme's own energy swings by 1/(1 - (dt/limit)^2), here up to 25.
+    if (!(kinetic_energy(model.particles) < 300 * start)) return true;
+  }
+  return false;
+}
+
+double real_limit(const Specimen &specimen, const ModelSettings &settings, double guess) {
+  double low = .5 * guess, high = 2 * guess;
+  EXPECT_FALSE(runs_away(specimen, settings, low));
+  EXPECT_TRUE(runs_away(specimen, settings, high));
+  while (high - low > .002 * guess)
+    (runs_away(specimen, settings, .5 * (low + high)) ? high : low) = .5 * (low + high);
+  return .5 * (low + high);
+}
+
+// Growth of 300 in 600 steps needs dt about 5e-5 above the limit: the running limit is sharp to the
+// bisection.
+void expect_close_from_below(const Specimen &specimen, const ModelSettings &settings) {
+  const StableStep predicted = Model(specimen, settings).stable_step({}, 0);
+  const double ratio = predicted.limit / real_limit(specimen, settings, predicted.limit);
+  EXPECT_GE(ratio, .7);
+  EXPECT_LE(ratio, 1.002);
+  EXPECT_FALSE(predicted.reason.empty());
+}
+
+TEST(stable_step, of_a_pair_is_that_of_its_stiffest_mode) {
+  Model model(row(1, {1, 0, 0}), bonded());
+  const double m = model.particles.mass[0];
+  // Axial 2 k_n A/m; shear with rolling 7 k_s A/m; bending 5 k_n I/(m R^2), twist 5 k_s J/(m R^2).
+  const double omega = std::sqrt(std::max(2.0, 7 * stiffness_ratio) * normal_stiffness * area / m);
+  const StableStep s = model.stable_step({}, 0);
+  EXPECT_GE(s.omega, omega * (1 - 1e-9));
+  EXPECT_LE(s.omega, 1.01 * omega);
+  EXPECT_DOUBLE_EQ(s.limit, 2 / s.omega);
+  expect_close_from_below(row(1, {1, 0, 0}), bonded());
+}
+
+TEST(stable_step, of_a_chain) {
+  expect_close_from_below(row(12, {1, 2, -1}), bonded());
+}
+
+TEST(stable_step, of_a_bonded_block) {
+  expect_close_from_below(packed_box(12, 12, 12), bonded());
+}
+
+TEST(stable_step, of_a_block_without_rotation) {
+  ModelSettings settings = bonded();
+  settings.rotation = false;
+  expect_close_from_below(packed_box(12, 12, 12), settings);
+}
+
+TEST(stable_step, of_a_block_of_unequal_spheres_with_dashpots) {
+  ModelSettings settings = bonded();
+  settings.bond_dashpot = .2;
+  Specimen specimen = packed_box(10, 10, 10);
+  // Smaller spheres, bonds over the gaps: masses differ eightfold.
+  for (std::size_t k = 0; k < specimen.size(); k += 3)
+    specimen.radius[k] *= .5;
+  settings.bond_layout.gap = 1.1;
+  const StableStep predicted = Model(specimen, settings).stable_step({}, 0);
+  EXPECT_FALSE(runs_away(specimen, settings, .95 * predicted.limit));
+  EXPECT_TRUE(runs_away(specimen, settings, 1.8 * predicted.limit));
+}
+
+// On a spring k the lone sphere has omega^2 = k/m; the lever adds k_t R^2 / I = 2.5 k_t/m.
+TEST(stable_step, knows_springs_to_the_ground) {
+  ModelSettings settings = bonded();
+  settings.bond.reset();
+  Model model(spheres({{0, 0, 0}}), settings);
+  GroundSpring ground;
+  ground.normal = {0, 0, 1}, ground.arm = {0, 0, -radius};
+  ground.normal_stiffness = 1e6;
+  const double m = model.particles.mass[0];
+  EXPECT_NEAR(model.stable_step({ground}, 0).omega, std::sqrt(1e6 / m), 1e-2 * std::sqrt(1e6 / m));
+  ground.tangential_stiffness = .8e6;
+  EXPECT_NEAR(model.stable_step({ground}, 0).omega, std::sqrt(3.5 * .8e6 / m),
+              1e-2 * std::sqrt(3.5 * .8e6 / m));
+}
+
+TEST(stable_step, is_unlimited_where_nothing_is_stiff) {
+  ModelSettings settings = bonded();
+  settings.bond.reset();
+  EXPECT_EQ(Model(spheres({{0, 0, 0}}), settings).stable_step({}, 0).limit,
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(stable_step, grows_with_the_root_of_scaled_mass) {
+  ModelSettings settings = bonded();
+  const double plain = Model(row(5, {1, 0, 0}), settings).stable_step({}, 0).limit;
+  settings.mass_scaling = 100;
+  EXPECT_NEAR(Model(row(5, {1, 0, 0}), settings).stable_step({}, 0).limit, 10 * plain, 1e-9 * plain);
+}
+
+TEST(stable_step, names_the_particle_that_sets_it) {
+  Specimen specimen = row(9, {1, 0, 0});
+  ModelSettings settings = bonded();
+  settings.bond_layout.gap = 1.6; // of the smaller radius: next neighbours, not those after them
+  specimen.radius[4] *= .4;       // light
+  Model model(specimen, settings);
+  EXPECT_EQ(model.stable_step({}, 0).particle_id, 4);
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,73 @@
+// Results do not depend on the number of threads, to the last bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "dem/packing/random.h"
+#include "dem/parallel.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+struct Outcome {
+  std::vector<unsigned char> state; // every column, byte by byte
+  EnergyLedger energy;
+  long broken = 0;
+  std::size_t touching = 0;
+  double limit = 0;
+};
+
+void append(std::vector<unsigned char> &state, const Table &table) {
+  for (const auto &column : table.columns()) {
+    const auto *bytes = static_cast<const unsigned char *>(column->bytes());
+    state.insert(state.end(), bytes, bytes + column->size() * column->bytes_per_row());
+  }
+}
+
+// A free block of some thousand spheres that cracks, with friction and dashpots.
+Outcome cracking_block(int threads) {
+  const ThreadLimit limit(threads);
+  ModelSettings settings = breakable();
+  settings.contact->damping = .2;
+  settings.local_damping = .1;
+  settings.bond_dashpot = .05;
+  Model model(packed_box(30, 30, 30), settings);
+  Particles &p = model.particles;
+  Random random(9);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = .1 * (p.position[i] / radius) + 2 * random.direction();
+    (*p.angular_velocity)[i] = (.1 / radius) * random.direction();
+  }
+  Outcome o;
+  o.limit = model.stable_step({}, 0).limit;
+  for (int s = 0; s < 250; ++s)
+    step(model, .5 * o.limit);
+  append(o.state, p.table);
+  append(o.state, model.bonds->table);
+  append(o.state, model.bonds->records);
+  append(o.state, model.contacts->table);
+  o.energy = model.energy();
+  o.broken = model.broken_tension + model.broken_shear;
+  o.touching = model.contacts->touching_count();
+  EXPECT_GT(p.size(), 2500u);
+  return o;
+}
+
+TEST(threads, one_two_and_four_give_the_same_bits) {
+  const Outcome one = cracking_block(1);
+  EXPECT_GT(one.broken, 500);
+  EXPECT_GT(one.touching, 50u);
+  for (const int threads : {2, 4, 1}) {
+    const Outcome other = cracking_block(threads);
+    ASSERT_EQ(other.state.size(), one.state.size()) << threads;
+    EXPECT_EQ(std::memcmp(other.state.data(), one.state.data(), one.state.size()), 0) << threads;
+    EXPECT_EQ(std::memcmp(&other.energy, &one.energy, sizeof one.energy), 0) << threads;
+    EXPECT_EQ(other.limit, one.limit) << threads;
+  }
+}
+
+} // namespace
+} // namespace platen::dem
