@@ -69,6 +69,12 @@ TEST_F(CheckpointFolder, names_all_that_is_wrong_where_none_is_whole) {
   EXPECT_TRUE(contains(text, first.string()) && contains(text, second.string())) << text;
 }
 
+TEST_F(CheckpointFolder, drops_what_a_killed_run_left_half_written) {
+  put(checkpoints_ / "step_000000000099.part.platen", "half");
+  write(10);
+  EXPECT_EQ(names(), std::set<std::string>{"step_000000000010.platen"});
+}
+
 TEST_F(CheckpointFolder, leaves_files_of_the_user_alone) {
   put(checkpoints_ / "notes.txt", "mine");
   put(checkpoints_ / "step_1.platen.bak", "mine");

@@ -194,6 +194,16 @@ TEST_F(Checkpoint, with_any_single_bit_flipped_is_refused) {
   EXPECT_NO_THROW(CheckpointReader{path_});
 }
 
+TEST_F(Checkpoint, names_the_block_that_is_damaged) {
+  write(5);
+  std::string bytes = content_of(path_);
+  const std::size_t place = bytes.find("second line");
+  ASSERT_NE(place, std::string::npos);
+  bytes[place] = 'S';
+  put(path_, bytes);
+  EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }), "block \"scene\""));
+}
+
 TEST_F(Checkpoint, of_another_version_or_program_is_refused_with_the_reason) {
   write(1);
   const std::string whole = content_of(path_);
