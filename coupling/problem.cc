@@ -17,6 +17,9 @@ constexpr double surface_skin = 0.3;
 // The step is looked at again after this many steps, if contacts have grown by this share of the particles.
 constexpr long steps_between_choices = 1000;
 constexpr double growth_of_contacts = 0.02;
+// Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
+// hard specimen.
+constexpr double servo_gain = 5;
 
 // As packed, a platen meets the outermost sphere; ground, it lies in the end plane.
 double platen_plane(const dem::Specimen &s, bool top, Ends ends) {
@@ -101,6 +104,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   const double density = settings.model.density * settings.model.mass_scaling * packing_fraction_;
   wave_crossing_ = modulus > 0 ? shape_.height * std::sqrt(density / modulus) : 0.0;
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
+  if (settings.loading.servo)
+    servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   choose_step(true);
 }
 
@@ -142,12 +147,24 @@ void Problem::choose_step(bool first) {
   }
 }
 
-void Problem::drift_bodies() {
-  const double sign = settings_.loading.tension ? -1.0 : 1.0, middle = model.time - 0.5 * time_step_;
+void Problem::set_platen_speeds() {
+  const LoadingSettings &loading = settings_.loading;
+  const double middle = model.time - 0.5 * time_step_;
   const double start = ramp_ > 0 ? smooth_start(middle / ramp_) : 1.0;
-  const double speed = 0.5 * sign * settings_.loading.rate * start;
+  if (servo_) {
+    const double wanted = start * loading.top_stress * shape_.cross_section();
+    top.set_velocity(
+        {0, 0, -servo_->velocity(wanted, reaction_top_, top_layer.servo_load(model.particles), time_step_)});
+    bottom.set_velocity({0, 0, 0});
+    return;
+  }
+  const double speed = (loading.tension ? -0.5 : 0.5) * loading.rate * start;
   top.set_velocity({0, 0, -speed});
   bottom.set_velocity({0, 0, speed});
+}
+
+void Problem::drift_bodies() {
+  set_platen_speeds();
   top.drift(time_step_);
   bottom.drift(time_step_);
   top.clear_loads();
@@ -235,7 +252,8 @@ double Problem::unbalanced_ratio() const {
 }
 
 std::vector<double> Problem::numbers() const {
-  return {model.time,
+  return {servo_ ? servo_->state()[0] : 0.0,
+          model.time,
           time_step_,
           static_cast<double>(steps_),
           static_cast<double>(touching_at_choice_),
@@ -257,21 +275,22 @@ std::vector<double> Problem::numbers() const {
 
 void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
-  model.time = n[0];
-  time_step_ = n[1];
-  steps_ = static_cast<long>(n[2]);
-  touching_at_choice_ = static_cast<std::size_t>(n[3]);
-  boundary_work_ = n[4];
-  reaction_top_ = n[5];
-  reaction_bottom_ = n[6];
-  model.works = {n[7], n[8], n[9]};
-  model.broken_tension = static_cast<long>(n[10]);
-  model.broken_shear = static_cast<long>(n[11]);
-  if (model.contacts) model.contacts->friction_work = n[12], model.contacts->damping_work = n[13];
-  top_layer.friction_work = n[14];
-  top_layer.damping_work = n[15];
-  bottom_layer.friction_work = n[16];
-  bottom_layer.damping_work = n[17];
+  if (servo_) servo_->set_state({n[0]});
+  model.time = n[1];
+  time_step_ = n[2];
+  steps_ = static_cast<long>(n[3]);
+  touching_at_choice_ = static_cast<std::size_t>(n[4]);
+  boundary_work_ = n[5];
+  reaction_top_ = n[6];
+  reaction_bottom_ = n[7];
+  model.works = {n[8], n[9], n[10]};
+  model.broken_tension = static_cast<long>(n[11]);
+  model.broken_shear = static_cast<long>(n[12]);
+  if (model.contacts) model.contacts->friction_work = n[13], model.contacts->damping_work = n[14];
+  top_layer.friction_work = n[15];
+  top_layer.damping_work = n[16];
+  bottom_layer.friction_work = n[17];
+  bottom_layer.damping_work = n[18];
 }
 
 void Problem::restored() {

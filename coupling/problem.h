@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/contact_layer.h"
+#include "coupling/servo.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
@@ -46,8 +47,10 @@ struct PlatenSettings {
 
 struct LoadingSettings {
   bool tension = false;
-  double rate = 0; // m/s, closure (opening) speed of the platens, each moving at half of it
-  double ramp = 0; // s; 0: ten wave crossings of the height
+  double rate = 0;    // m/s, closure (opening) speed of the platens, each moving at half of it
+  double ramp = 0;    // s; 0: ten wave crossings of the height
+  bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
+  double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
 };
 
 struct ProblemSettings {
@@ -97,6 +100,7 @@ public:
 
 private:
   void choose_step(bool first);
+  void set_platen_speeds();
   void drift_bodies();
   std::vector<dem::GroundSpring> ground_springs() const;
   std::size_t touching() const;
@@ -110,6 +114,7 @@ private:
   std::size_t touching_at_choice_ = 0;
   double boundary_work_ = 0;                      // J, of both platens
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
+  std::unique_ptr<Servo> servo_;                  // null where both platens are driven
 };
 
 } // namespace platen::coupling

@@ -149,9 +149,12 @@ Test::Test(const CommandLine &command, const Scene &scene)
   } catch (const coupling::BadSetup &e) {
     throw InputError(scene.path + ": " + e.what());
   }
-  const double way = scene.loading.target_strain * problem_->shape().height;
-  expected_steps_ =
-      std::max(1.0, (way / scene.loading.axial_rate + 0.5 * problem_->ramp()) / problem_->time_step());
+  const double seconds =
+      scene.platens.top_control == PlatenControl::stress
+          ? problem_->ramp() + scene.loading.hold
+          : scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate +
+                0.5 * problem_->ramp();
+  expected_steps_ = std::max(1.0, seconds / problem_->time_step());
   sampler_ = std::make_unique<Sampler>(*problem_);
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
@@ -273,13 +276,18 @@ bool Test::checkpoint_due() const {
 }
 
 bool Test::finished() const {
+  if (scene_.platens.top_control == PlatenControl::stress &&
+      problem_->time() >= problem_->ramp() + scene_.loading.hold)
+    return true;
   if (std::abs(problem_->closure_strain()) >= scene_.loading.target_strain) return true;
   return scene_.loading.stop_at_residual > 0 && results_.fallen_to(scene_.loading.stop_at_residual);
 }
 
 ProgressSample Test::where() const {
   ProgressSample p;
-  p.fraction = std::min(1.0, std::abs(problem_->closure_strain()) / scene_.loading.target_strain);
+  p.fraction = std::min(1.0, scene_.platens.top_control == PlatenControl::stress
+                                 ? problem_->time() / (problem_->ramp() + scene_.loading.hold)
+                                 : std::abs(problem_->closure_strain()) / scene_.loading.target_strain);
   p.step = static_cast<std::uint64_t>(problem_->steps());
   p.time = problem_->time();
   p.strain = problem_->closure_strain();

@@ -71,6 +71,8 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.tension = scene.loading.test == LoadingTest::tension;
   to.loading.rate = scene.loading.axial_rate;
   to.loading.ramp = scene.loading.ramp;
+  to.loading.servo = from.top_control == PlatenControl::stress;
+  to.loading.top_stress = from.top_stress;
   to.safety = scene.integration.safety;
   to.fixed_step = scene.integration.time_step;
   return to;

@@ -180,6 +180,8 @@ void SceneCheck::platens() const {
     refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
   const bool stress = platens.top_control == PlatenControl::stress;
   if (stress && platens.top_stress == 0) refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
+  if (stress && scene_.loading.ramp == 0)
+    refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
 }
@@ -233,7 +235,8 @@ void SceneCheck::notes() {
     for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio"})
       note(key, "Platens/Kind = rigid");
   if (scene_.platens.top_control == PlatenControl::motion)
-    note("Platens/Top/Stress", "Platens/Top/Control = motion");
+    for (const char *key : {"Platens/Top/Stress", "Loading/Hold"})
+      note(key, "Platens/Top/Control = motion");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
     for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})

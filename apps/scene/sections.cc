@@ -194,6 +194,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
                    "Speed of closure (tension: of opening).");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
+  section.quantity("Hold", loading.hold, "s", at_least(0),
+                   "How long the stress of Platens/Top/Control = stress is held after the ramp.");
   section.number("Target strain", loading.target_strain, above_up_to(0, 1),
                  "Closure over height at which the run is over.");
   section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
