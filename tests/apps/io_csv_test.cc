@@ -146,11 +146,12 @@ TEST_F(Csv, keeps_whole_rows_where_the_room_ends_within_one) {
   const std::string before = content_of(path_);
   rlimit old_limit{};
   getrlimit(RLIMIT_FSIZE, &old_limit);
-  signal(SIGXFSZ, SIG_IGN);
+  const auto old_action = signal(SIGXFSZ, SIG_IGN);
   const rlimit small{before.size() + 5, old_limit.rlim_max}; // five bytes of the next row fit
   setrlimit(RLIMIT_FSIZE, &small);
   EXPECT_THROW(write_row(csv, 2), OutputError);
   setrlimit(RLIMIT_FSIZE, &old_limit);
+  signal(SIGXFSZ, old_action);
   EXPECT_EQ(content_of(path_), before);
   write_row(csv, 2); // and goes on when there is room again
   EXPECT_EQ(content_of(path_).substr(0, before.size()), before);

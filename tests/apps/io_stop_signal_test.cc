@@ -63,6 +63,7 @@ class FileLimit : public testing::ScratchFolder {};
 TEST_F(FileLimit, is_a_failed_write_and_not_the_end_of_the_process) {
   const auto name = folder_ / "limited";
   EXPECT_EQ(status_of([name] {
+              signal(SIGXFSZ, SIG_DFL);
               catch_stop_signals();
               const rlimit none{0, RLIM_INFINITY};
               setrlimit(RLIMIT_FSIZE, &none);
