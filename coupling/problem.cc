@@ -15,7 +15,7 @@ constexpr double pi = 3.14159265358979323846;
 // Margin of the platens' particle lists, in mean radii.
 constexpr double surface_skin = 0.3;
 // The step is looked at again after this many steps, if contacts have grown by this share of the particles.
-constexpr long steps_between_choices = 1000;
+constexpr long steps_between_choices = 400;
 constexpr double growth_of_contacts = 0.02;
 // Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
 // hard specimen.
@@ -100,12 +100,14 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
           "no sphere of the specimen lies within the end layer of a platen; a larger Specimen/End layer, or "
           "a specimen that reaches its end planes, is needed");
   }
-  const double modulus = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
+  voigt_modulus_ = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
   const double density = settings.model.density * settings.model.mass_scaling * packing_fraction_;
-  wave_crossing_ = modulus > 0 ? shape_.height * std::sqrt(density / modulus) : 0.0;
+  wave_crossing_ = voigt_modulus_ > 0 ? shape_.height * std::sqrt(density / voigt_modulus_) : 0.0;
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
+  // Pairs that are about to touch count in the first step too.
+  if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
 }
 
@@ -116,15 +118,15 @@ std::vector<dem::GroundSpring> Problem::ground_springs() const {
   return springs;
 }
 
-std::size_t Problem::touching() const {
-  return (model.contacts ? model.contacts->touching_count() : 0) + top_layer.contacts().size() +
+std::size_t Problem::springs_near() const {
+  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.contacts().size() +
          bottom_layer.contacts().size();
 }
 
 // The step never grows: bonds that break only soften, contacts that close may stiffen.
 void Problem::choose_step(bool first) {
   const dem::StableStep limit = model.stable_step(ground_springs(), settings_.platens.damping);
-  touching_at_choice_ = touching();
+  near_at_choice_ = springs_near();
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string numbers = std::to_string(settings_.fixed_step) +
@@ -173,8 +175,8 @@ void Problem::drift_bodies() {
 
 void Problem::step() {
   if (steps_ > 0 && steps_ % steps_between_choices == 0 &&
-      static_cast<double>(touching()) >
-          static_cast<double>(touching_at_choice_) +
+      static_cast<double>(springs_near()) >
+          static_cast<double>(near_at_choice_) +
               growth_of_contacts * static_cast<double>(model.particles.size())) {
     dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
     choose_step(false);
@@ -256,7 +258,7 @@ std::vector<double> Problem::numbers() const {
           model.time,
           time_step_,
           static_cast<double>(steps_),
-          static_cast<double>(touching_at_choice_),
+          static_cast<double>(near_at_choice_),
           boundary_work_,
           reaction_top_,
           reaction_bottom_,
@@ -279,7 +281,7 @@ void Problem::set_numbers(const std::vector<double> &n) {
   model.time = n[1];
   time_step_ = n[2];
   steps_ = static_cast<long>(n[3]);
-  touching_at_choice_ = static_cast<std::size_t>(n[4]);
+  near_at_choice_ = static_cast<std::size_t>(n[4]);
   boundary_work_ = n[5];
   reaction_top_ = n[6];
   reaction_bottom_ = n[7];

@@ -83,6 +83,7 @@ public:
   double ramp() const { return ramp_; }                   // s
   double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
+  double voigt_modulus() const { return voigt_modulus_; } // Pa, upper bound of the intact network; 0 without bonds
   double coordination_number() const; // bonds per particle times two
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
@@ -95,6 +96,7 @@ public:
   // Everything beside tables and bodies that a checkpoint keeps, as plain numbers.
   std::vector<double> numbers() const;
   void set_numbers(const std::vector<double> &numbers);
+  void set_time_step_reason(const std::string &reason) { reason_ = reason; }
   // After tables, bodies and numbers have been loaded.
   void restored();
 
@@ -103,15 +105,15 @@ private:
   void set_platen_speeds();
   void drift_bodies();
   std::vector<dem::GroundSpring> ground_springs() const;
-  std::size_t touching() const;
+  std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
 
   ProblemSettings settings_;
   dem::Shape shape_;
-  double packing_fraction_ = 0, wave_crossing_ = 0, ramp_ = 0;
+  double packing_fraction_ = 0, voigt_modulus_ = 0, wave_crossing_ = 0, ramp_ = 0;
   double time_step_ = 0;
   std::string reason_;
   long steps_ = 0;
-  std::size_t touching_at_choice_ = 0;
+  std::size_t near_at_choice_ = 0;
   double boundary_work_ = 0;                      // J, of both platens
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
   std::unique_ptr<Servo> servo_;                  // null where both platens are driven

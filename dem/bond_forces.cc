@@ -79,11 +79,11 @@ void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSe
   }
 }
 
-double add_bond_dashpots(const Particles &p, Bonds &b, double alpha) {
+double add_bond_dashpots(const Particles &p, Bonds &b, double alpha, double dt) {
   constexpr double pi = 3.14159265358979323846;
   const bool turning = p.has_rotation();
   return ordered_sum<double>(b.size(), [&](std::size_t first, std::size_t last) {
-    double power = 0;
+    double work = 0;
     for (std::size_t k = first; k < last; ++k) {
       const double stiffness = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
       if (stiffness == 0.0) continue;
@@ -100,7 +100,8 @@ double add_bond_dashpots(const Particles &p, Bonds &b, double alpha) {
       const double vn = dot(v, n);
       const Vector3 vs = v - vn * n, force = cn * vn * n + cs * vs;
       b.force[k] += force;
-      power += dot(force, v);
+      work += 0.5 * dt * dot(force + (*b.dashpot_force)[k], v);
+      (*b.dashpot_force)[k] = force;
       if (!turning) continue;
       const double inertia = (*p.inertia)[i] * (*p.inertia)[j] / ((*p.inertia)[i] + (*p.inertia)[j]);
       const double cb = 2 * alpha * std::sqrt(0.5 * half_square * stiffness * inertia);
@@ -110,9 +111,10 @@ double add_bond_dashpots(const Particles &p, Bonds &b, double alpha) {
       const Vector3 moment = cb * (w - wn * n) + ct * wn * n;
       (*b.torque_first)[k] += cross(ri, force) + moment;
       (*b.torque_second)[k] -= cross(rj, force) + moment;
-      power += dot(moment, w);
+      work += 0.5 * dt * dot(moment + (*b.dashpot_moment)[k], w);
+      (*b.dashpot_moment)[k] = moment;
     }
-    return power;
+    return work;
   });
 }
 

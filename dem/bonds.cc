@@ -95,6 +95,11 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const Paralle
   rebuild_incidence(n);
 }
 
+void Bonds::add_dashpot_columns() {
+  dashpot_force = &table.add<Vector3>("dashpot_force", "N");
+  if (torque_first != nullptr) dashpot_moment = &table.add<Vector3>("dashpot_moment", "N m");
+}
+
 void Bonds::rebuild_incidence(std::size_t particles) {
   incidence_offset.assign(particles + 1, 0);
   for (std::size_t k = 0; k < size(); ++k) {

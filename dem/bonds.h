@@ -51,6 +51,9 @@ struct Bonds {
   Column<Vector3> &force = table.add<Vector3>("force", "N");
   Column<Vector3> *torque_first = nullptr; // N m; only with rotation
   Column<Vector3> *torque_second = nullptr;
+  // Only with dashpots: what they exerted on the first particle in the last step.
+  Column<Vector3> *dashpot_force = nullptr;  // N
+  Column<Vector3> *dashpot_moment = nullptr; // N m; only with rotation
 
   // One row per initial bond, in the order of creation: what output and measures read.
   Table records;
@@ -68,6 +71,7 @@ struct Bonds {
   // Bonds all pairs within the layout's reach; pairs are sorted by (first, second).
   Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &law);
 
+  void add_dashpot_columns();
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
@@ -101,8 +105,9 @@ void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSe
                          std::vector<BondBreak> &breaks);
 
 // Adds dashpots of fraction alpha of critical (F = 2 alpha sqrt(K m*) v, and the rotational analogue) to the
-// rows; returns the dissipated power, W.
-double add_bond_dashpots(const Particles &particles, Bonds &bonds, double alpha);
+// rows, from the velocities of the last drift, which took dt. Returns the energy that they took in it, J: by
+// the mean of their forces at its two ends, as the leapfrog sees it. Needs add_dashpot_columns().
+double add_bond_dashpots(const Particles &particles, Bonds &bonds, double alpha, double dt);
 
 double bond_energy(const Particles &particles, const Bonds &bonds); // J
 

@@ -13,6 +13,8 @@ namespace {
 // Margins of the two pair lists in mean radii: the wide list lasts some hundred steps of a fast fragment, the
 // close one keeps pairs that are merely near out of the contact loop.
 constexpr double wide_skin = 0.5, close_skin = 0.06;
+// Overlap in smaller radii at which a Hertz contact that is about to form is counted in the time step.
+constexpr double early_overlap = 2e-3;
 
 double mean_radius(const Particles &particles) {
   double sum = 0;
@@ -75,6 +77,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
   }
   dashpot_ = settings.normal == NormalContact::hertz ? HertzContact::damping_fraction(settings.restitution)
                                                      : settings.damping;
+  if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
   // Spheres that overlap from the start touch from their initial distance, bonded or not.
   for (const IndexPair &p :
        near_pairs(particles.position.data(), particles.radius.data(), particles.size(), 0.0))
@@ -149,10 +152,15 @@ Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std:
     if (dashpot_ > 0) {
       const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
       pressing = std::max(0.0, elastic - 2 * dashpot_ * std::sqrt(kn * m) * vn); // no attraction
-      lost.damping += (elastic - pressing) * vn * dt;
     }
     force[k] = -pressing * n;
-    if (spring != nullptr) tangential_force<Law>(p, dt, k, n, pressing, kn, v - vn * n, lost);
+    Vector3 drag = (elastic - pressing) * n; // the dashpots' part, on first
+    if (spring != nullptr) tangential_force<Law>(p, dt, k, n, pressing, kn, v - vn * n, drag, lost);
+    if (dashpot != nullptr) {
+      // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
+      lost.damping += 0.5 * dt * dot(drag + (*dashpot)[k], v);
+      (*dashpot)[k] = drag;
+    }
     if (torque_first == nullptr) continue;
     (*torque_first)[k] = cross(ri, force[k]);
     (*torque_second)[k] = -cross(rj, force[k]);
@@ -169,7 +177,8 @@ Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std:
 // Lost work by the trapezoid rule that matches the leapfrog: (T_n + T_n+1)/2 . (T_trial - T_n+1)/k_t.
 template <class Law>
 void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, const Vector3 &n,
-                                double pressing, double kn, const Vector3 &slip_velocity, Dissipation &lost) {
+                                double pressing, double kn, const Vector3 &slip_velocity, Vector3 &drag,
+                                Dissipation &lost) {
   double &kt = (*tangential_stiffness)[k];
   Vector3 &stored = (*spring)[k];
   stored = turned_into_plane(stored, n);
@@ -193,9 +202,9 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, co
   if (dashpot_ > 0 && !slides) {
     const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
     const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-    const Vector3 drag = 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
-    force[k] += drag;
-    lost.damping += dot(drag, slip_velocity) * dt;
+    const Vector3 tangential_drag = 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
+    force[k] += tangential_drag;
+    drag += tangential_drag;
   }
 }
 
@@ -223,6 +232,7 @@ void Contacts::release(std::size_t k, Dissipation &lost) {
     (*spring)[k] = {};
     (*sliding)[k] = 0;
   }
+  if (dashpot != nullptr) (*dashpot)[k] = {};
   if (rolling != nullptr) {
     if ((*rolling_stiffness)[k] > 0)
       lost.friction += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
@@ -315,6 +325,18 @@ Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
       std::min({b.last.shear_force, settings_.friction * pressing, std::sqrt(2 * kt * b.released)});
   b.released = std::max(0.0, b.released - 0.5 * kept * kept / kt);
   return (kept / b.last.shear_force) * Vector3{b.last.shear.x, b.last.shear.y, b.last.shear.z};
+}
+
+ContactStiffness Contacts::stiffness_bound(double ri, double rj, double approach) const {
+  const double c = settings_.coefficient(ri, rj, layout_);
+  const bool linear = settings_.normal == NormalContact::linear;
+  const double normal_stiffness =
+      linear ? LinearContact::stiffness(c, approach)
+             : HertzContact::stiffness(c, std::max(approach, early_overlap * std::min(ri, rj)));
+  if (settings_.tangential == TangentialContact::none) return {normal_stiffness, 0};
+  return {normal_stiffness,
+          normal_stiffness * (linear ? settings_.tangential_ratio
+                                     : HertzContact::tangential_ratio(settings_.poisson_ratio))};
 }
 
 double Contacts::stored_energy(std::size_t k) const {

@@ -37,6 +37,10 @@ struct ContactSettings {
   double coefficient(double ri, double rj, const BondLayout &layout) const;
 };
 
+struct ContactStiffness {
+  double normal = 0, tangential = 0; // N/m
+};
+
 class Contacts {
 public:
   Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout);
@@ -56,6 +60,7 @@ public:
   Column<double> *tangential_stiffness = nullptr; // N/m
   Column<int> *sliding = nullptr;
   Column<Vector3> *torque_first = nullptr, *torque_second = nullptr; // N m; only with rotation
+  Column<Vector3> *dashpot = nullptr; // N, on first, in the last step; only with dashpots
   // Only with rolling resistance.
   Column<Vector3> *rolling = nullptr;          // moment on first, N m
   Column<double> *rolling_stiffness = nullptr; // N m
@@ -75,6 +80,9 @@ public:
   void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt);
   double energy() const; // J, stored in normal, tangential and rolling springs
   std::size_t touching_count() const;
+  // Stiffness of a pair that overlaps by `approach` (m), or soon will: Hertz' law, which has none at
+  // touching, is taken at 0.2 % of the smaller radius at least.
+  ContactStiffness stiffness_bound(double ri, double rj, double approach) const;
 
   ContactSearch &search_state() { return search_; }
   const ContactSearch &search_state() const { return search_; }
@@ -92,7 +100,8 @@ private:
   Dissipation compute_rows(const Particles &particles, double dt, std::size_t begin, std::size_t end);
   template <class Law>
   void tangential_force(const Particles &particles, double dt, std::size_t k, const Vector3 &n,
-                        double pressing, double kn, const Vector3 &slip_velocity, Dissipation &lost);
+                        double pressing, double kn, const Vector3 &slip_velocity, Vector3 &drag,
+                        Dissipation &lost);
   void rolling_moment(const Particles &particles, double dt, std::size_t k, const Vector3 &n, double pressing,
                       Dissipation &lost);
   void release(std::size_t k, Dissipation &lost);

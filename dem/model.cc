@@ -14,6 +14,7 @@ constexpr double compaction_share = 0.02;
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
     : particles(specimen, settings.density * settings.mass_scaling, settings.rotation), settings_(settings) {
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
+  if (bonds && settings.bond_dashpot > 0) bonds->add_dashpot_columns();
   if (settings.contact)
     contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout);
 }
@@ -37,7 +38,7 @@ void Model::compute_forces(double dt) {
     compute_bond_forces(particles, *bonds, settings_.instruction_set, breaks_);
     if (!breaks_.empty()) break_bonds(dt);
     if (settings_.bond_dashpot > 0)
-      works.damping += dt * add_bond_dashpots(particles, *bonds, settings_.bond_dashpot);
+      works.damping += add_bond_dashpots(particles, *bonds, settings_.bond_dashpot, dt);
   }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);

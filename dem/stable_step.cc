@@ -8,8 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "dem/laws/hertz_contact.h"
-#include "dem/laws/linear_contact.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -72,7 +70,7 @@ public:
            const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots)
       : p_(p), ground_(ground) {
     const bool damping = matrix == Matrix::damping;
-    if (bonds != nullptr && !(damping && dashpots.bonds == 0)) add_bonds(*bonds);
+    if (bonds != nullptr && !(damping && dashpots.bonds == 0)) add_bonds(*bonds, contacts);
     const std::size_t bonded = springs_.size();
     if (contacts != nullptr && !(damping && dashpots.contacts == 0)) add_contacts(*contacts);
     if (damping) {
@@ -105,25 +103,28 @@ public:
   Mode apply(const Mode &x);
 
 private:
-  void add_bonds(const Bonds &b) {
+  // A bond that breaks leaves a contact, which may be the stiffer of the two.
+  void add_bonds(const Bonds &b, const Contacts *contacts) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       const double half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
       const double axial = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
       if (axial == 0.0) continue;
       const double shear = b.law.parameters.stiffness_ratio * axial;
-      springs_.push_back({static_cast<std::size_t>(b.first[k]), static_cast<std::size_t>(b.second[k]),
-                          b.lever[k], axial, shear, 0.5 * half_square * axial, half_square * shear});
+      const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+      const ContactStiffness after = contacts != nullptr
+                                         ? contacts->stiffness_bound(p_.radius[i], p_.radius[j], 0.0)
+                                         : ContactStiffness{};
+      springs_.push_back({i, j, b.lever[k], std::max(axial, after.normal), std::max(shear, after.tangential),
+                          0.5 * half_square * axial, half_square * shear});
     }
   }
+  // Pairs that touch, and those that are near enough to touch soon.
   void add_contacts(const Contacts &c) {
-    const bool linear = c.settings().normal == NormalContact::linear;
     for (std::size_t k = 0; k < c.table.size(); ++k) {
-      if (!c.touching[k]) continue;
       const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-      const double stiffness = linear ? LinearContact::stiffness(c.coefficient[k], c.overlap[k])
-                                      : HertzContact::stiffness(c.coefficient[k], c.overlap[k]);
-      const double shear = c.tangential_stiffness != nullptr ? (*c.tangential_stiffness)[k] : 0.0;
-      springs_.push_back({i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness, shear, 0, 0});
+      const ContactStiffness stiffness = c.stiffness_bound(p_.radius[i], p_.radius[j], c.overlap[k]);
+      springs_.push_back(
+          {i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness.normal, stiffness.tangential, 0, 0});
     }
   }
 
