@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/laws/coulomb_friction.h"
 #include "dem/laws/hertz_contact.h"
 #include "dem/laws/linear_contact.h"
+#include "dem/laws/rotating_plane.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -32,13 +34,6 @@ double elastic_energy(NormalContact law, double coefficient, double overlap) {
 double overlap_of_energy(NormalContact law, double coefficient, double energy) {
   return law == NormalContact::linear ? std::sqrt(2 * energy / coefficient)
                                       : std::pow(2.5 * energy / coefficient, 0.4);
-}
-
-// `vector` laid into the plane normal to n, its length kept.
-Vector3 turned_into_plane(const Vector3 &vector, const Vector3 &n) {
-  const Vector3 flat = vector - dot(vector, n) * n;
-  const double length = norm(flat);
-  return length > 0 ? (norm(vector) / length) * flat : Vector3{};
 }
 
 } // namespace
@@ -155,6 +150,7 @@ Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std:
     }
     force[k] = -pressing * n;
     Vector3 drag = (elastic - pressing) * n; // the dashpots' part, on first
+    if (rolling != nullptr) rolling_moment(p, dt, k, n, pressing, lost);
     if (spring != nullptr) tangential_force<Law>(p, dt, k, n, pressing, kn, v - vn * n, drag, lost);
     if (dashpot != nullptr) {
       // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
@@ -165,7 +161,6 @@ Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std:
     (*torque_first)[k] = cross(ri, force[k]);
     (*torque_second)[k] = -cross(rj, force[k]);
     if (rolling != nullptr) {
-      rolling_moment(p, dt, k, n, pressing, lost);
       (*torque_first)[k] += (*rolling)[k];
       (*torque_second)[k] -= (*rolling)[k];
     }
@@ -173,33 +168,30 @@ Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std:
   return lost;
 }
 
-// Incremental spring in the turned contact plane; beyond the Coulomb limit the stored spring is rescaled.
-// Lost work by the trapezoid rule that matches the leapfrog: (T_n + T_n+1)/2 . (T_trial - T_n+1)/k_t.
+// Coulomb's spring in the turned contact plane.
 template <class Law>
 void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, const Vector3 &n,
                                 double pressing, double kn, const Vector3 &slip_velocity, Vector3 &drag,
                                 Dissipation &lost) {
   double &kt = (*tangential_stiffness)[k];
-  Vector3 &stored = (*spring)[k];
-  stored = turned_into_plane(stored, n);
+  CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], n), (*sliding)[k]};
   if constexpr (!Law::constant_stiffness) {
     // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
     const double now = HertzContact::tangential_ratio(settings_.poisson_ratio) * kn;
-    const double before = 0.5 * norm_squared(stored) / kt;
-    if (now < kt) stored *= now / kt;
-    if (kt > 0 && norm_squared(stored) > 0) lost.friction += before - 0.5 * norm_squared(stored) / now;
+    const double before = 0.5 * norm_squared(state.spring) / kt;
+    if (now < kt) state.spring *= now / kt;
+    if (kt > 0 && norm_squared(state.spring) > 0)
+      lost.friction += before - 0.5 * norm_squared(state.spring) / now;
     kt = now;
   }
-  const Vector3 trial = stored + kt * dt * slip_velocity;
-  const double length = norm(trial), limit = settings_.friction * pressing;
-  const bool slides = length > limit;
-  const Vector3 held = slides ? (limit / length) * trial : trial;
-  if (slides) lost.friction += 0.5 * dot(stored + held, trial - held) / kt;
-  (*sliding)[k] = slides;
-  stored = held;
+  const CoulombFriction friction{{settings_.friction, settings_.friction}};
+  const CoulombFriction::Result result = friction(state, dt * slip_velocity, pressing, kt);
+  lost.friction += result.dissipated;
+  (*sliding)[k] = state.sliding;
+  (*spring)[k] = state.spring;
   (*normal)[k] = n;
-  force[k] += held;
-  if (dashpot_ > 0 && !slides) {
+  force[k] += result.force;
+  if (dashpot_ > 0 && !state.sliding) {
     const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
     const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
     const Vector3 tangential_drag = 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
@@ -208,18 +200,21 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, co
   }
 }
 
+// The same law turns a rolling spring k_t R*^2 with the limit rolling_friction R* N. Called before the
+// tangential force, which renews the normal.
 void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, const Vector3 &n, double pressing,
                               Dissipation &lost) {
   const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
   const double effective = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
   const double stiffness = (*rolling_stiffness)[k] = (*tangential_stiffness)[k] * effective * effective;
+  if (!(stiffness > 0)) return; // Hertz' contact at its first step
   const Vector3 w = (*p.angular_velocity)[j] - (*p.angular_velocity)[i];
-  const Vector3 stored = turned_into_plane((*rolling)[k], n);
-  const Vector3 trial = stored + stiffness * dt * (w - dot(w, n) * n);
-  const double length = norm(trial), limit = settings_.rolling_friction * effective * pressing;
-  const Vector3 held = length > limit ? (limit / length) * trial : trial;
-  if (length > limit) lost.friction += 0.5 * dot(stored + held, trial - held) / stiffness;
-  (*rolling)[k] = held;
+  const double limit = settings_.rolling_friction * effective;
+  CoulombFriction::State state{carry_with_plane((*rolling)[k], (*normal)[k], n), 0};
+  const CoulombFriction::Result result =
+      CoulombFriction{{limit, limit}}(state, dt * (w - dot(w, n) * n), pressing, stiffness);
+  lost.friction += result.dissipated;
+  (*rolling)[k] = state.spring;
 }
 
 void Contacts::release(std::size_t k, Dissipation &lost) {
@@ -308,6 +303,7 @@ double Contacts::start_contact(const Particles &p, std::size_t k, double dt, Bro
     const Vector3 slip_velocity = v - dot(v, n) * n, kept = keep_shear(k, pressing, b);
     // The row's next evaluation adds this drift's slip, which the bond's shear force holds already.
     (*spring)[k] = kept - (*tangential_stiffness)[k] * dt * slip_velocity;
+    (*normal)[k] = n;
     power += dot(kept, slip_velocity);
   }
   return power;
