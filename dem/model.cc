@@ -107,6 +107,7 @@ StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double su
                           ? settings_.contact->damping
                           : 0.5; // Hertz: stiffness grows with the overlap; a reserve instead of a law
   dashpots.surfaces = surface_dashpot;
+  dashpots.local = settings_.local_damping;
   return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
 }
 

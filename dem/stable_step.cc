@@ -283,7 +283,8 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   const double rate = damping.empty() ? 0.0 : largest_eigenvalue(damping, particles.size()).value; // 1/s
   result.iterations = squared.iterations;
   result.omega = std::sqrt(squared.value);
-  result.limit = (std::sqrt(rate * rate + 4 * squared.value) - rate) / squared.value;
+  const double holding = 1 + dashpots.local, k = holding * squared.value, c = holding * rate;
+  result.limit = (std::sqrt(c * c + 4 * k) - c) / k;
   // A few more applications bring out the place that sets the limit.
   Mode &x = squared.mode;
   for (int it = 0; it < 12; ++it) {

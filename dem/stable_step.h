@@ -32,8 +32,11 @@ struct StableStep {
 // Lanczos on M^-1/2 K M^-1/2; the residual of the largest Ritz value is added, so the estimate is from above.
 // `dashpots`: fractions of critical damping, which narrow the limit, (sqrt(1 + xi^2) - xi) for a single mode
 // of damping ratio xi. `bonds`, `contacts` may be null.
+// Local damping of alpha narrows it by sqrt(1 + alpha): where each step turns the velocity round, it acts as
+// a stiffness.
 struct DashpotFractions {
   double bonds = 0, contacts = 0, surfaces = 0;
+  double local = 0; // alpha, 0 ... 1
 };
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots);

@@ -33,6 +33,18 @@ bool runs_away(const Specimen &specimen, const ModelSettings &settings, double d
   return false;
 }
 
+// Loses nearly all of its energy by and by, as a damped model must.
+bool comes_to_rest(const Specimen &specimen, const ModelSettings &settings, double dt) {
+  Model model(specimen, settings);
+  Random random(1);
+  for (Vector3 &v : model.particles.velocity)
+    v = 1e-6 * random.direction();
+  const double start = kinetic_energy(model.particles);
+  for (int s = 0; s < 3000; ++s)
+    step(model, dt);
+  return model.energy().stored() < .02 * start;
+}
+
 double real_limit(const Specimen &specimen, const ModelSettings &settings, double guess) {
   double low = .5 * guess, high = 2 * guess;
   EXPECT_FALSE(runs_away(specimen, settings, low));
@@ -89,6 +101,21 @@ TEST(stable_step, of_a_block_of_unequal_spheres_with_dashpots) {
   const StableStep predicted = Model(specimen, settings).stable_step({}, 0);
   EXPECT_FALSE(runs_away(specimen, settings, .95 * predicted.limit));
   EXPECT_TRUE(runs_away(specimen, settings, 1.8 * predicted.limit));
+}
+
+// Local damping holds against the motion with (1 + alpha) of the force: at large steps, where every step
+// turns the velocity round, that is a spring stiffer by as much.
+TEST(stable_step, knows_local_damping) {
+  const Specimen specimen = packed_box(10, 10, 10);
+  ModelSettings settings = bonded();
+  const double undamped = Model(specimen, settings).stable_step({}, 0).limit;
+  for (const double alpha : {.2, .5, .9}) {
+    settings.local_damping = alpha;
+    const double limit = Model(specimen, settings).stable_step({}, 0).limit;
+    EXPECT_NEAR(limit, undamped / std::sqrt(1 + alpha), 1e-9 * undamped);
+    EXPECT_TRUE(comes_to_rest(specimen, settings, .99 * limit)) << alpha;
+    EXPECT_FALSE(comes_to_rest(specimen, settings, 1.02 * limit)) << alpha; // the estimate is within 1 %
+  }
 }
 
 // On a spring k the lone sphere has omega^2 = k/m; the lever adds k_t R^2 / I = 2.5 k_t/m.
