@@ -1,0 +1,99 @@
+// A run is its scene: neither threads nor stops nor crashes of the machine change a byte of what it finds.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "apps/io_folder.h"
+#include "apps/program.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class Determinism : public ScratchFolder {
+protected:
+  // Crushes the specimen whole into the folder `name`.
+  void crush(const std::string &name, const std::string &threads,
+             const std::vector<std::string> &options = {}) {
+    std::vector<std::string> arguments{scene_, "-o", name, "-t", threads, "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_compress(arguments, folder_);
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+  }
+  // Starts or goes on with a run, and sends `signal` once history.csv holds `rows` lines; gives how the run
+  // ended.
+  int stop_at(const std::string &name, long rows, int signal, std::vector<std::string> options) {
+    options.insert(options.begin(), {scene_, "-o", name, "--quiet"});
+    Program program(compress_command(options), folder_);
+    const auto reached = [&] { return lines_in(folder_ / name / "history.csv") >= rows; };
+    EXPECT_TRUE(program.wait_until(reached)) << content_of(folder_ / "error.txt");
+    program.send(signal);
+    return program.wait();
+  }
+  Outcome resume(const std::string &name, const std::string &threads) {
+    return run_compress({scene_, "-o", name, "-t", threads, "--resume", "--quiet"}, folder_);
+  }
+  nlohmann::json figures(const std::string &name) const {
+    nlohmann::json summary = summary_in(folder_ / name);
+    for (const char *cost : {"threads", "wall_seconds", "setup_seconds", "particle_steps_per_second",
+                             "stage_seconds", "peak_memory_bytes"})
+      summary.erase(cost);
+    return summary;
+  }
+
+  const std::string scene_ = test_scene("crushed.prm");
+};
+
+TEST_F(Determinism, threads_change_no_byte) {
+  // Packed closely: the packing has to repeat too, and more spheres touch.
+  const std::vector<std::string> close{"-s", "Specimen/Packing = random close"};
+  crush("one", "1", close);
+  const auto one = results_in(folder_ / "one");
+  // A run that is worth repeating: more than one block of rows in every loop, failure of both kinds, grains
+  // that touch again, frames.
+  EXPECT_GT(summary_in(folder_ / "one")["particles"], 1024);
+  EXPECT_GT(summary_in(folder_ / "one")["broken_tension"], 500);
+  EXPECT_GT(summary_in(folder_ / "one")["broken_shear"], 50);
+  EXPECT_GT(column_of(folder_ / "one/history.csv", "grain_contacts").back(), 20);
+  EXPECT_GT(lines_in(folder_ / "one/specimen.pvd"), 8);
+  for (const char *threads : {"2", "4"}) {
+    crush(threads, threads, close);
+    EXPECT_EQ(difference(one, results_in(folder_ / threads)), "") << threads << " threads";
+    EXPECT_EQ(figures("one"), figures(threads));
+  }
+}
+
+TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
+  crush("whole", "2");
+  EXPECT_EQ(stop_at("stopped", 30, SIGTERM, {"-t", "1"}), 143);
+  EXPECT_EQ(summary_in(folder_ / "stopped")["status"], "stopped");
+  EXPECT_EQ(stop_at("stopped", 110, SIGTERM, {"-t", "2", "--resume"}), 143);
+  const Outcome last = resume("stopped", "4");
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+  EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
+TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
+  crush("whole", "1");
+  // Row 132 is step 2600: after the checkpoint of step 2500, so that rows, cracks and a frame have to go.
+  EXPECT_EQ(stop_at("killed", 132, SIGKILL, {"-t", "2"}), -SIGKILL);
+  EXPECT_FALSE(fs::exists(folder_ / "killed/summary.json"));
+  const Outcome last = resume("killed", "1");
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "killed")), "");
+  EXPECT_EQ(figures("whole"), figures("killed"));
+}
+
+TEST_F(Determinism, only_the_same_scene_is_resumed) {
+  EXPECT_EQ(stop_at("stopped", 10, SIGINT, {}), 130);
+  const auto before = results_in(folder_ / "stopped");
+  const Outcome changed =
+      run_compress({scene_, "-o", "stopped", "--resume", "-s", "Bond/Tensile strength = 9 MPa"}, folder_);
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_TRUE(contains(changed.error, "was:   set Tensile strength")) << changed.error;
+  EXPECT_TRUE(contains(changed.error, "9.5 MPa")) << changed.error;
+  EXPECT_TRUE(contains(changed.error, "now:   set Tensile strength")) << changed.error;
+  EXPECT_EQ(difference(before, results_in(folder_ / "stopped")), "");
+}
+
+} // namespace
+} // namespace platen::apps::testing
