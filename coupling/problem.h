@@ -83,8 +83,8 @@ public:
   double ramp() const { return ramp_; }                   // s
   double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
-  double voigt_modulus() const { return voigt_modulus_; } // Pa, upper bound of the intact network; 0 without bonds
-  double coordination_number() const; // bonds per particle times two
+  double voigt_modulus() const { return voigt_modulus_; } // Pa, intact; 0 without bonds
+  double coordination_number() const;                     // bonds per particle times two
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
   double closure_strain() const;                    // platen to platen, over the height
@@ -104,6 +104,7 @@ private:
   void choose_step(bool first);
   void set_platen_speeds();
   void drift_bodies();
+  void announce_motion(double dt);
   std::vector<dem::GroundSpring> ground_springs() const;
   std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
 

@@ -34,6 +34,7 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
                 const FileMarks &marks) {
   const dem::Model &model = problem.model;
   to.add("problem", problem.numbers());
+  to.add_text("reason", problem.time_step_reason());
   to.add_table("particles", model.particles.table);
   if (model.bonds) {
     to.add_table("bonds", model.bonds->table);
@@ -72,6 +73,7 @@ FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, R
   from.read_table("bottom/contacts", problem.bottom_layer.history());
   from.get("problem", numbers);
   problem.set_numbers(numbers);
+  problem.set_time_step_reason(from.text("reason"));
   problem.restored();
   std::vector<Sample> samples;
   from.get("samples", samples);
