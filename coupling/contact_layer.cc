@@ -105,6 +105,8 @@ std::size_t ContactLayer::add_row(int particle) {
   return row;
 }
 
+ContactLayer::~ContactLayer() = default;
+
 void ContactLayer::seat(int particle, double offset) {
   require(std::isfinite(offset), "a seat's offset must be finite");
   const std::size_t row = add_row(particle);
@@ -371,18 +373,14 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
   return springs;
 }
 
-double ContactLayer::near_stiffness(const dem::Particles &) const {
-  double sum = 0;
-  for (const int particle : particle_)
-    sum += stiffness(particle);
-  return sum;
-}
-
-double ContactLayer::near_dashpot(const dem::Particles &particles) const {
-  double sum = 0;
-  for (const int particle : particle_)
-    sum += 2 * parameters_.damping * std::sqrt(stiffness(particle) * particles.mass[index(particle)]);
-  return sum;
+ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
+  ServoLoad load;
+  for (const int particle : particle_) {
+    const double k = stiffness(particle);
+    load.stiffness += k;
+    load.impedance += std::sqrt(k * particles.mass[index(particle)]);
+  }
+  return load;
 }
 
 } // namespace platen::coupling

@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+#include "coupling/servo.h"
 #include "coupling/surface_search.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/particles.h"
@@ -61,6 +62,7 @@ public:
   // (N/m, one per particle row) replaces the single value; it must outlive the layer.
   ContactLayer(const dem::Particles &particles, const fem::Body &body, const SurfaceContact &parameters,
                const dem::Column<double> *particle_stiffness = nullptr);
+  ~ContactLayer();
 
   // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
   // last; a second call moves the zero.
@@ -75,8 +77,8 @@ public:
   // could have passed through a face without being seen.
   void moved(double distance);
 
-  // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it before
-  // asking for springs or stiffness ahead of the first step.
+  // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it
+  // before asking for springs or stiffness ahead of the first step.
   void update_search(const dem::Particles &particles, const fem::Body &body);
 
   // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
@@ -97,9 +99,8 @@ public:
 
   // Springs of all particles near the surface, for the stable step.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles, const fem::Body &body) const;
-  // What a servo pushes against, if all particles near the surface touched it.
-  double near_stiffness(const dem::Particles &particles) const; // N/m
-  double near_dashpot(const dem::Particles &particles) const;   // N s/m
+  // What a servo pushes against: all particles near the surface, touching or not.
+  ServoLoad servo_load(const dem::Particles &particles) const;
 
   // One row per particle near the surface, ascending. A checkpoint saves the table and both works; after
   // loading them it calls restored().

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "dem/measure/moduli.h"
 #include "dem/parallel.h"
@@ -72,6 +73,12 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
   return c;
 }
 
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
 }
@@ -96,9 +103,9 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     const int seats = std::min(top_layer.seat_within(model.particles, top, depth),
                                bottom_layer.seat_within(model.particles, bottom, depth));
     if (seats == 0)
-      throw BadSetup(
-          "no sphere of the specimen lies within the end layer of a platen; a larger Specimen/End layer, or "
-          "a specimen that reaches its end planes, is needed");
+      throw BadSetup("Specimen/End layer",
+                     "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen that reaches "
+                     "its end planes.");
   }
   voigt_modulus_ = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
   const double density = settings.model.density * settings.model.mass_scaling * packing_fraction_;
@@ -129,11 +136,12 @@ void Problem::choose_step(bool first) {
   near_at_choice_ = springs_near();
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
-      const std::string numbers = std::to_string(settings_.fixed_step) +
-                                  " s is above the stability limit of " + std::to_string(limit.limit) +
-                                  " s (" + limit.reason + ")";
-      if (first) throw BadSetup("Integration/Time step: " + numbers);
-      throw NumericsStopped("the time step of " + numbers + " at " + std::to_string(time()) +
+      const std::string above =
+          "is above the stability limit of " + text_of(limit.limit) + " s (" + limit.reason + ")";
+      if (first)
+        throw BadSetup("Integration/Time step", above + ". Allowed: up to that, or 0: the program chooses.");
+      throw NumericsStopped("the time step of " + text_of(settings_.fixed_step) + " s " + above + " at " +
+                            text_of(time()) +
                             " s; try a smaller Integration/Time step, or leave it to the program");
     }
     time_step_ = settings_.fixed_step;
@@ -142,7 +150,8 @@ void Problem::choose_step(bool first) {
   }
   const double step = settings_.safety * limit.limit;
   if (!std::isfinite(step))
-    throw BadSetup("nothing in the scene has a stiffness that gives a time step; set Integration/Time step");
+    throw BadSetup("Integration/Time step",
+                   "has to be given: nothing in the scene has a stiffness that would give it.");
   if (first || step < time_step_) {
     time_step_ = step;
     reason_ = limit.reason;
@@ -173,6 +182,17 @@ void Problem::drift_bodies() {
   bottom.clear_loads();
 }
 
+// A layer refuses a motion that could carry a particle through a face unseen.
+void Problem::announce_motion(double dt) {
+  const double particles = model.last_motion().fastest * dt;
+  try {
+    top_layer.moved(particles + top.largest_move(dt));
+    bottom_layer.moved(particles + bottom.largest_move(dt));
+  } catch (const std::runtime_error &e) {
+    throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what());
+  }
+}
+
 void Problem::step() {
   if (steps_ > 0 && steps_ % steps_between_choices == 0 &&
       static_cast<double>(springs_near()) >
@@ -190,8 +210,7 @@ void Problem::step() {
   model.compute_forces(dt);
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-    top_layer.moved(model.last_motion().fastest * dt + top.largest_move(dt));
-    bottom_layer.moved(model.last_motion().fastest * dt + bottom.largest_move(dt));
+    announce_motion(dt);
     top_layer.add_forces(model.particles, top, dt);
     bottom_layer.add_forces(model.particles, bottom, dt);
   }
@@ -207,8 +226,7 @@ void Problem::step() {
   ++steps_;
   if (!std::isfinite(model.last_sums().kinetic_energy))
     throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_) + ", time " +
-                          std::to_string(time()) +
-                          " s; try a smaller Integration/Safety or Loading/Axial rate");
+                          text_of(time()) + " s; try a smaller Integration/Safety or Loading/Axial rate");
 }
 
 double Problem::coordination_number() const {

@@ -20,10 +20,15 @@ class NumericsStopped : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
-// The scene asks for something that cannot be run. Apps exit with status 2.
+// The scene asks for something that cannot be run: what is wrong with which entry. Apps exit with status 2.
 class BadSetup : public std::runtime_error {
 public:
-  using std::runtime_error::runtime_error;
+  BadSetup(std::string entry, const std::string &reason)
+      : std::runtime_error(reason), entry_(std::move(entry)) {}
+  const std::string &entry() const { return entry_; } // "Section/Key"
+
+private:
+  std::string entry_;
 };
 
 enum class Ends { as_packed, ground };

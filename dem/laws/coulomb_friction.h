@@ -8,10 +8,10 @@
 
 namespace platen::dem {
 
-// The spring holds until its force exceeds mu_s N; then it slides at mu_d N, the stored force rescaled to that limit
-// with its direction kept, until a trial force below mu_d N sticks again (Cundall and Strack 1979; the two
-// coefficients as platen tests on concrete give them). A coefficient of infinity never slides. With mu_d > mu_s
-// sliding starts without a rise: the force never exceeds the trial.
+// The spring holds until its force exceeds mu_s N; then it slides at mu_d N, the stored force rescaled to
+// that limit with its direction kept, until a trial force below mu_d N sticks again (Cundall and Strack 1979;
+// the two coefficients as platen tests on concrete give them). A coefficient of infinity never slides. With
+// mu_d > mu_s sliding starts without a rise: the force never exceeds the trial.
 struct CoulombFriction {
   struct Parameters {
     double friction_static = std::numeric_limits<double>::quiet_NaN();  // 1, >= 0
@@ -29,13 +29,14 @@ struct CoulombFriction {
 
   Parameters parameters;
 
-  // stretch: relative tangential displacement over the step (m), in the plane of the contact, with the sign that the
-  // force is to have: force = + tangential_stiffness stretch. normal_force: N, >= 0 when pressed; 0 or less lets go
-  // of the spring. tangential_stiffness: N/m, positive.
+  // stretch: relative tangential displacement over the step (m), in the plane of the contact, with the sign
+  // that the force is to have: force = + tangential_stiffness stretch. normal_force: N, >= 0 when pressed; 0
+  // or less lets go of the spring. tangential_stiffness: N/m, positive.
   //
-  // dissipated = 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t: with the spring's energy T^2 / (2 k_t) it adds up to
-  // the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
-  Result operator()(State &state, const Vector3 &stretch, double normal_force, double tangential_stiffness) const {
+  // dissipated = 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t: with the spring's energy T^2 / (2 k_t) it adds
+  // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
+  Result operator()(State &state, const Vector3 &stretch, double normal_force,
+                    double tangential_stiffness) const {
     const Vector3 before = state.spring, trial = before + tangential_stiffness * stretch;
     Result result;
     if (!(normal_force > 0)) {

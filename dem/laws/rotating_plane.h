@@ -1,13 +1,14 @@
-// Carries a vector that lives in a contact plane (a tangential spring, a rolling moment) along with the plane.
+// Carries a vector that lives in a contact plane (a tangential spring, a rolling moment) along with the
+// plane.
 #pragma once
 
 #include "dem/vector3.h"
 
 namespace platen::dem {
 
-// The vector after the smallest rotation that takes unit normal `from` to unit normal `to` (Rodrigues' formula in
-// the form without angle). The result lies in the plane of `to` and has the length of the vector's part in the old
-// plane, both to round-off, so that history neither leaks nor grows over millions of turns.
+// The vector after the smallest rotation that takes unit normal `from` to unit normal `to` (Rodrigues'
+// formula in the form without angle). The result lies in the plane of `to` and has the length of the vector's
+// part in the old plane, both to round-off, so that history neither leaks nor grows over millions of turns.
 inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, const Vector3 &to) {
   const Vector3 flat = vector - dot(vector, from) * from;
   if (from.x == to.x && from.y == to.y && from.z == to.z) return flat;
