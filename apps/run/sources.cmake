@@ -3,6 +3,7 @@ set(PLATEN_RUN_SOURCES
   run/fields.cc
   run/history.cc
   run/model_setup.cc
+  run/pack.cc
   run/problem_setup.cc
   run/results.cc
   run/run_state.cc

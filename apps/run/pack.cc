@@ -1,0 +1,148 @@
+#include "apps/run/pack.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/io/file.h"
+#include "apps/io/machine.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/run_log.h"
+#include "apps/io/specimen_csv.h"
+#include "apps/io/summary.h"
+#include "apps/io/vtu.h"
+#include "apps/run/specimen_setup.h"
+#include "apps/scene/errors.h"
+#include "apps/scene/expect.h"
+#include "apps/scene/version.h"
+#include "dem/packing/ends.h"
+#include "dem/packing/quality.h"
+
+namespace platen::apps {
+namespace {
+
+// Gaps, in mean radii, at which coordination is counted: touching spheres of an advancing front, of a jammed
+// packing, and neighbours that a bond of that gap would reach.
+constexpr double tolerances[] = {1e-4, 1e-3, 0.05, 0.1};
+
+struct Judgement {
+  dem::PackingQuality quality; // at 1e-3 mean radii
+  std::vector<double> coordination;
+  std::size_t seated_bottom = 0, seated_top = 0; // as the scene prepares the ends
+};
+
+Judgement judge(const dem::Specimen &specimen, const Scene &scene) {
+  Judgement j;
+  j.quality = dem::judge_packing(specimen);
+  for (const double tolerance : tolerances)
+    j.coordination.push_back(
+        2.0 * static_cast<double>(dem::touching_pairs(specimen, tolerance * j.quality.mean_radius).size()) /
+        static_cast<double>(specimen.size()));
+  const bool ground = scene.specimen.ends == EndsKind::ground;
+  const dem::SpecimenEnds ends =
+      dem::seat_ends(specimen, ground ? dem::EndPreparation::ground : dem::EndPreparation::as_packed,
+                     scene.specimen.end_layer);
+  j.seated_bottom = ends.bottom.particle.size();
+  j.seated_top = ends.top.particle.size();
+  return j;
+}
+
+Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
+  const dem::PackingQuality &q = j.quality;
+  Json s;
+  s["status"] = "done";
+  s["app"] = "platen-pack";
+  s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
+  s["version"] = version_line();
+  s["particles"] = q.spheres;
+  s["mean_radius_m"] = q.mean_radius;
+  s["packing_fraction"] = q.packing_fraction;
+  s["core_packing_fraction"] = q.core_packing_fraction;
+  s["coordination_number"] = q.coordination_number;
+  s["core_coordination_number"] = q.core_coordination_number;
+  for (std::size_t k = 0; k < j.coordination.size(); ++k)
+    s[fmt::format("coordination_number_at_gap_{}", tolerances[k])] = j.coordination[k];
+  s["rattlers"] = q.rattlers;
+  s["max_overlap_over_radius"] = q.max_overlap;
+  s["mean_overlap_over_radius"] = q.mean_overlap;
+  s["max_wall_overlap_over_radius"] = q.max_wall_overlap;
+  s["isotropy_chi_squared"] = q.isotropy_chi_squared;
+  s["touching_bottom"] = q.touching_bottom;
+  s["touching_top"] = q.touching_top;
+  s["seated_bottom"] = j.seated_bottom;
+  s["seated_top"] = j.seated_top;
+  s["wall_seconds"] = seconds;
+  s["peak_memory_bytes"] = peak_memory_bytes();
+  return s;
+}
+
+std::string report_of(const Judgement &j, double seconds) {
+  const dem::PackingQuality &q = j.quality;
+  std::string text = fmt::format("  spheres                    {} of mean radius {:.4g} mm\n", q.spheres,
+                                 1e3 * q.mean_radius);
+  text += fmt::format("  packing fraction           {:.4f}, core {:.4f}\n", q.packing_fraction,
+                      q.core_packing_fraction);
+  text += "  coordination number       ";
+  for (std::size_t k = 0; k < j.coordination.size(); ++k)
+    text += fmt::format(" {:.2f} at {} R{}", j.coordination[k], tolerances[k],
+                        k + 1 < j.coordination.size() ? "," : "\n");
+  text += fmt::format("  core coordination number   {:.2f} at 0.001 R\n", q.core_coordination_number);
+  text += fmt::format("  overlap over radius        mean {:.1e}, largest {:.1e}\n", q.mean_overlap,
+                      q.max_overlap);
+  text +=
+      fmt::format("  isotropy, chi squared      {:.2f} (isotropic: 1.0 +- 0.1)\n", q.isotropy_chi_squared);
+  text += fmt::format("  at the ends                touching {} and {}, seated {} and {}\n",
+                      q.touching_bottom, q.touching_top, j.seated_bottom, j.seated_top);
+  text += fmt::format("  seconds                    {:.1f}\n", seconds);
+  return text;
+}
+
+} // namespace
+
+int run_pack(const CommandLine &command, const Scene &scene) {
+  const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
+  if (command.resume)
+    throw InputError("command line: --resume: a packing has nothing to resume; leave it out");
+  std::vector<std::filesystem::path> inputs{command.scene};
+  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
+  const OutputPaths paths(command.output);
+  if (!command.dry_run) check_output_folder(paths.folder, use, inputs);
+  if (command.dry_run) {
+    const dem::Shape shape = specimen_shape(scene);
+    fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n",
+               scene.general.title.empty() ? scene.name : scene.general.title, 1e6 * shape.volume(),
+               1e3 * scene.specimen.sphere_radius);
+    return status_done;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const dem::Specimen specimen = make_specimen(scene);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Judgement judgement = judge(specimen, scene);
+
+  open_output_folder(paths.folder, use, inputs);
+  RunLog log(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal));
+  log.open(paths.log(), false, {version_text(), command.text, 1});
+  write_stream_aside(paths.scene(),
+                     [&](std::ostream &out) { write_scene(scene, paths.folder.string(), out); });
+  write_specimen_csv(paths.specimen_csv(), specimen);
+  std::vector<int> id(specimen.size());
+  std::iota(id.begin(), id.end(), 0);
+  write_points(paths.specimen_vtu(), 0.0, specimen.centre, {{"radius", specimen.radius}, {"id", id}});
+  const Json summary = summary_of(scene, judgement, seconds);
+  write_summary(paths.summary(), summary);
+  log.info("{}", report_of(judgement, seconds));
+  log.info("results are in {}", paths.folder.string());
+  const std::vector<std::string> missed = failed_expectations(scene, [&](const std::string &key) {
+    return summary.contains(key) && summary[key].is_number() ? summary[key].get<double>() : not_given;
+  });
+  for (const std::string &line : missed)
+    log.error("expected: {}", line);
+  return missed.empty() ? status_done : status_check_failed;
+}
+
+} // namespace platen::apps
