@@ -1,0 +1,85 @@
+#include "apps/bonds/closed_forms.h"
+
+#include <cmath>
+#include <limits>
+
+namespace platen::apps {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+const double root3 = std::sqrt(3.0);
+
+} // namespace
+
+double BondSection::area() const {
+  return pi * bond_radius * bond_radius;
+}
+
+double BondSection::bending_stiffness() const {
+  return modulus / length() * area() * bond_radius * bond_radius / 4; // I = A R_b^2 / 4
+}
+
+double BondSection::twisting_stiffness() const {
+  return stiffness_ratio * modulus / length() * area() * bond_radius * bond_radius / 2; // J = A R_b^2 / 2
+}
+
+double pair_stiffness(const BondSection &bond, PairPath path) {
+  switch (path) {
+    case PairPath::shear:
+      return bond.shear_stiffness();
+    case PairPath::bending:
+      return bond.bending_stiffness();
+    case PairPath::twisting:
+      return bond.twisting_stiffness();
+    case PairPath::tension:
+    case PairPath::compression:
+    case PairPath::cyclic:
+      break;
+  }
+  return bond.axial_stiffness();
+}
+
+double pair_strength(const BondSection &bond, PairPath path) {
+  switch (path) {
+    case PairPath::shear:
+      return bond.shear_strength * bond.area();
+    case PairPath::bending: // sigma_c I / (beta R_b)
+      return bond.tensile_strength * bond.area() * bond.bond_radius / (4 * bond.moment_contribution);
+    case PairPath::twisting: // tau_c J / (beta R_b)
+      return bond.shear_strength * bond.area() * bond.bond_radius / (2 * bond.moment_contribution);
+    case PairPath::compression:
+      return std::numeric_limits<double>::infinity();
+    case PairPath::tension:
+    case PairPath::cyclic:
+      break;
+  }
+  return bond.tensile_strength * bond.area();
+}
+
+// Base sphere at (R, 0), top sphere at (0, sqrt(3) R); the base sphere moves out by u and rolls outwards by
+// theta = t / R, the top one moves down by w = 1. Inclined bond: stretch u/2 - sqrt(3)/2, slip sqrt(3)/2 u +
+// 1/2
+// + t, relative rotation theta; the base bond stretches by 2u and bends by 2 theta, half of it for each half.
+PyramidResponse pyramid_response(const Pyramid &pyramid) {
+  const BondSection &b = pyramid.bond;
+  const double k = b.stiffness_ratio;
+  const double bending = b.bending_stiffness() / (b.axial_stiffness() * b.sphere_radius * b.sphere_radius);
+  // Energy / (k_n A) = 1/2 (u a11 u + 2 u a12 t + t a22 t) + f1 u + f2 t + 1/2 c.
+  double a11 = .25 + .75 * k, a12 = root3 / 2 * k, a22 = k + bending;
+  const double f1 = -root3 / 4 + root3 / 4 * k, f2 = k / 2, c = .75 + .25 * k;
+  if (pyramid.base_bond) a11 += 2, a22 += 2 * bending;
+  double u = 0, t = 0;
+  if (pyramid.plate == PairPlate::frictionless && pyramid.rotation) {
+    const double determinant = a11 * a22 - a12 * a12;
+    u = (-f1 * a22 + f2 * a12) / determinant;
+    t = (-f2 * a11 + f1 * a12) / determinant;
+  } else if (pyramid.plate == PairPlate::frictionless) {
+    u = -f1 / a11;
+  } else if (pyramid.plate == PairPlate::rolling) { // t = u
+    u = t = -(f1 + f2) / (a11 + 2 * a12 + a22);
+  } // sticking: neither moves nor turns
+  const double energy = .5 * (a11 * u * u + 2 * a12 * u * t + a22 * t * t) + f1 * u + f2 * t + .5 * c;
+  return {2 * 2 * energy * b.axial_stiffness(), root3 * u, t / b.sphere_radius}; // two halves; F = 2 E / w
+}
+
+} // namespace platen::apps

@@ -1,0 +1,42 @@
+// platen-bonds: bond tests on two and three spheres, measured and by hand side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/bonds/load_path.h"
+#include "apps/scene/command_line.h"
+
+namespace platen::apps {
+
+// One pair of bond modulus and stiffness ratio.
+struct BondRun {
+  double modulus = 0, stiffness_ratio = 0; // Pa, 1
+  PathResult path;
+  long steps = 0;
+  double time_step = 0; // s
+  std::string time_step_reason;
+  double fracture_work = 0; // J
+  int bonds = 0;
+  long broken_tension = 0, broken_shear = 0;
+  double bond_area = 0; // m^2
+  dem::StageClock clock;
+
+  // The same by closed forms: stiffness (N/m or N m), breaking load (N or N m; infinite, or NaN where none is
+  // known) and strain ratio (three spheres, else NaN).
+  double stiffness_by_hand = 0, strength_by_hand = 0, strain_ratio_by_hand = 0;
+};
+
+// Runs every combination of the scene's moduli and stiffness ratios. Throws InputError where the scene asks
+// for what this test cannot do, NumericsError where the spheres do not come to rest.
+std::vector<BondRun> run_bond_tests(const Scene &scene);
+
+// What the closed form gives for a row: displacement (m) or rotation (rad) under the row's load of two
+// spheres, the strain ratio of three; NaN once a bond has broken.
+double row_by_hand(const Scene &scene, const BondRun &run, const RigReading &row);
+double row_measured(const Scene &scene, const RigReading &row);
+
+// The whole app: output folder, bonds.csv, summary.json, log; returns the exit status.
+int run_bonds(const CommandLine &command, const Scene &scene);
+
+} // namespace platen::apps

@@ -1,0 +1,6 @@
+# Sources of platen-bonds but for its main, apps/platen_bonds.cc; linked with platen_run.
+set(PLATEN_BONDS_SOURCES
+  bonds/bond_rig.cc
+  bonds/closed_forms.cc
+  bonds/load_path.cc
+  bonds/run_bonds.cc)
