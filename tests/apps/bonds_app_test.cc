@@ -30,13 +30,13 @@ protected:
   }
   ~BondsApp() override { fs::remove_all(folder); }
 
-  int run(const std::string &scene, const std::string &to, bool overwrite = false) const {
+  int run(const std::string &file, const std::string &to, bool overwrite = false) const {
     CommandLine command;
-    command.scene = scene;
+    command.scene = file;
     command.output = (folder / to).string();
     command.quiet = true;
     command.overwrite = overwrite;
-    return run_bonds(command, read_scene(scene, {}, AppKind::bonds));
+    return run_bonds(command, read_scene(file, {}, AppKind::bonds));
   }
 
   fs::path folder;

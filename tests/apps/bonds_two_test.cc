@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(bonds_two, Path,
                                          PathCase{"shear", .25e9 * section, false},
                                          PathCase{"bending", .5e9 * section * 1e-3 / 4, true},
                                          PathCase{"twisting", .25e9 * section * 1e-3 / 2, false}),
-                         [](const testing::TestParamInfo<PathCase> &info) { return info.param.word; });
+                         [](const testing::TestParamInfo<PathCase> &path) { return path.param.word; });
 
 TEST(bonds_two, compression_breaks_nothing) {
   const BondRun run =

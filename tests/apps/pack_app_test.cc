@@ -1,0 +1,184 @@
+// platen-pack: every kind of packing from a scene to the output folder, and back in from its file.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/io/specimen_csv.h"
+#include "apps/run/pack.h"
+#include "apps/run/specimen_setup.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr const char *cylinder =
+    "subsection Specimen\n"
+    "  set Shape = cylinder\n"
+    "  set Radius = 8 mm\n"
+    "  set Height = 20 mm\n"
+    "  set Sphere radius = 1 mm\n"
+    "end\n";
+
+std::string text_of(const fs::path &path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class PackApp : public testing::Test {
+protected:
+  PackApp() : folder(fs::temp_directory_path() / ("platen_pack_" + std::to_string(::getpid()))) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    write("small.prm", cylinder);
+  }
+  ~PackApp() override { fs::remove_all(folder); }
+
+  void write(const std::string &name, const std::string &text) const { std::ofstream(folder / name) << text; }
+  Scene scene(const std::string &name, const Words &overrides = {}) const {
+    return read_scene((folder / name).string(), overrides, AppKind::pack);
+  }
+  int run(const Scene &of, const std::string &to) const {
+    CommandLine command;
+    command.scene = of.path;
+    command.output = (folder / to).string();
+    command.quiet = true;
+    return run_pack(command, of);
+  }
+  nlohmann::json summary(const std::string &of) const {
+    return nlohmann::json::parse(text_of(folder / of / "summary.json"));
+  }
+
+  fs::path folder;
+};
+
+TEST_F(PackApp, judges_what_it_packs) {
+  ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
+  for (const char *name : {"specimen.csv", "specimen.vtu", "summary.json", "scene.prm", "run.log"})
+    EXPECT_TRUE(fs::exists(folder / "a" / name)) << name;
+  const nlohmann::json s = summary("a");
+  const dem::Specimen written = read_specimen_csv(folder / "a/specimen.csv").specimen;
+  EXPECT_EQ(s["particles"], written.size());
+  const double fraction = dem::volume_of_spheres(written) / written.shape.volume();
+  EXPECT_NEAR(s["packing_fraction"].get<double>(), fraction, 1e-12);
+  // Each sphere of the front touches three earlier ones: 3 N - 6 contacts.
+  const double n = static_cast<double>(written.size());
+  EXPECT_NEAR(s["coordination_number"].get<double>(), 2 * (3 * n - 6) / n, .02);
+}
+
+TEST_F(PackApp, the_same_seed_gives_the_same_file) {
+  ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
+  ASSERT_EQ(run(scene("small.prm"), "b"), status_done);
+  ASSERT_EQ(run(scene("small.prm", {"Scene/Seed = 2"}), "c"), status_done);
+  EXPECT_EQ(text_of(folder / "a/specimen.csv"), text_of(folder / "b/specimen.csv"));
+  EXPECT_NE(text_of(folder / "a/specimen.csv"), text_of(folder / "c/specimen.csv"));
+}
+
+// A packing that is read back is the packing that was written, bit for bit, shape included.
+TEST_F(PackApp, a_written_packing_is_read_back) {
+  ASSERT_EQ(
+      run(scene("small.prm", {"Specimen/Packing = random close", "Specimen/Radius spread = 0.25"}), "a"),
+      status_done);
+  write("again.prm", "subsection Specimen\n  set Packing = file\n  set File = a/specimen.csv\nend\n");
+  ASSERT_EQ(run(scene("again.prm"), "b"), status_done);
+  EXPECT_EQ(text_of(folder / "a/specimen.csv"), text_of(folder / "b/specimen.csv"));
+  // Jammed against flat ends: about .6 with its walls, and many spheres on each platen.
+  const nlohmann::json s = summary("b");
+  EXPECT_GT(s["packing_fraction"].get<double>(), .54);
+  EXPECT_GT(s["touching_bottom"].get<int>(), 15);
+  EXPECT_GT(s["touching_top"].get<int>(), 15);
+}
+
+TEST_F(PackApp, packs_boxes_and_bars) {
+  write("box.prm",
+        "subsection Specimen\n  set Shape = box\n  set Width x = 12 mm\n  set Width y = 9 mm\n"
+        "  set Height = 15 mm\n  set Sphere radius = 1 mm\nend\n");
+  const dem::Specimen box = make_specimen(scene("box.prm"));
+  EXPECT_EQ(box.shape.kind, dem::ShapeKind::box);
+  EXPECT_DOUBLE_EQ(box.shape.width_y, 9e-3);
+  EXPECT_TRUE(dem::check_specimen(box).empty());
+  const dem::Specimen bar =
+      make_specimen(scene("box.prm", {"Specimen/Shape = bar", "Specimen/Height = 40 mm"}));
+  EXPECT_EQ(bar.shape.kind, dem::ShapeKind::box);
+  EXPECT_TRUE(dem::check_specimen(bar).empty());
+  const dem::Specimen round = make_specimen(scene("small.prm", {"Specimen/Shape = bar"}));
+  EXPECT_EQ(round.shape.kind, dem::ShapeKind::cylinder);
+}
+
+TEST_F(PackApp, radii_follow_their_distribution) {
+  const Words uniform{"Specimen/Radius spread = 0.4"};
+  const Words two{"Specimen/Radius distribution = two sizes", "Specimen/Second radius ratio = 0.6",
+                  "Specimen/Second fraction = 0.3"};
+  const dem::Specimen u = make_specimen(scene("small.prm", uniform)),
+                      t = make_specimen(scene("small.prm", two));
+  EXPECT_NEAR(dem::mean_radius(u), 1e-3, .02e-3);
+  EXPECT_GE(dem::smallest_radius(u), .8e-3);
+  EXPECT_LE(dem::largest_radius(u), 1.2e-3);
+  // Mean 1 mm, ratio .6, three in ten small: large = 1/(1 - .3 x .4) mm.
+  const double large = 1e-3 / .88;
+  std::size_t small_ones = 0;
+  for (const double r : t.radius) {
+    EXPECT_TRUE(std::abs(r - large) < 1e-12 || std::abs(r - .6 * large) < 1e-12) << r;
+    small_ones += r < .8 * large;
+  }
+  EXPECT_NEAR(static_cast<double>(small_ones) / static_cast<double>(t.size()), .3, .1);
+  EXPECT_EQ(dem::smallest_radius(make_specimen(scene("small.prm"))), 1e-3);
+}
+
+TEST_F(PackApp, a_file_that_contradicts_the_scene_is_refused) {
+  ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
+  const std::string file = "subsection Specimen\n  set Packing = file\n  set File = a/specimen.csv\n";
+  const auto refused = [&](const std::string &lines) {
+    write("wrong.prm", file + lines + "end\n");
+    EXPECT_THROW(run(scene("wrong.prm"), "x"), InputError) << lines;
+    EXPECT_FALSE(fs::exists(folder / "x")) << lines;
+  };
+  refused("  set Radius = 7 mm\n");
+  refused("  set Height = 20.1 mm\n");
+  refused("  set Shape = box\n  set Width x = 16 mm\n  set Width y = 16 mm\n");
+  write("agrees.prm", file + "  set Radius = 8 mm\n  set Height = 20 mm\nend\n");
+  EXPECT_EQ(run(scene("agrees.prm"), "b"), status_done);
+}
+
+TEST_F(PackApp, an_unsound_file_is_refused) {
+  const auto refused = [&](const std::string &rows) {
+    write("spheres.csv", "# shape: cylinder radius_m=0.01 height_m=0.02\nx_m,y_m,z_m,radius_m\n" + rows);
+    write("wrong.prm", "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\nend\n");
+    EXPECT_THROW(run(scene("wrong.prm"), "x"), InputError) << rows;
+    EXPECT_FALSE(fs::exists(folder / "x")) << rows;
+  };
+  refused("0,0,0.01,0.001\n0,0,0.01,0.001\n"); // one centre
+  refused("0,0,0.0005,0.001\n");               // out of the bottom
+  refused("0.0095,0,0.01,0.001\n");            // out of the side
+  refused("0,0,0.01,-0.001\n");                // no radius
+  refused("");                                 // no sphere
+}
+
+TEST_F(PackApp, a_file_without_a_shape_takes_that_of_the_scene) {
+  write("spheres.csv", "x_m,y_m,z_m,radius_m\n0,0,0.01,0.001\n0.002,0,0.01,0.001\n");
+  const std::string file = "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\n";
+  write("shapeless.prm", file + "end\n");
+  EXPECT_THROW(make_specimen(scene("shapeless.prm")), InputError);
+  write("shaped.prm", file + "  set Radius = 8 mm\n  set Height = 20 mm\nend\n");
+  EXPECT_DOUBLE_EQ(make_specimen(scene("shaped.prm")).shape.radius, 8e-3);
+}
+
+TEST_F(PackApp, what_no_packer_can_do_is_refused) {
+  EXPECT_THROW(make_specimen(scene("small.prm", {"Specimen/Packing = random close",
+                                                 "Specimen/Radius distribution = two sizes"})),
+               InputError);
+}
+
+} // namespace
+} // namespace platen::apps
