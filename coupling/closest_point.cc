@@ -106,6 +106,7 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
     const bool hold_v = (v <= 0 && gv > 0) || (v >= 1 && gv < 0);
     if (hold_u && hold_v) return false;
     double du = 0, dv = 0;
+    bool newton = false;
     if (hold_u || hold_v) {
       if (!hold_u) du = aa > 0 ? -gu / aa : 0;
       if (!hold_v) dv = bb > 0 ? -gv / bb : 0;
@@ -113,6 +114,7 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
       const double d = aa * bb - off * off;
       du = -(gu * bb - gv * off) / d;
       dv = -(gv * aa - gu * off) / d;
+      newton = true;
     } else {
       const double damping = 1e-3 * (aa + bb), d = (aa + damping) * (bb + damping) - ab * ab;
       if (!(d > 0)) return false;
@@ -121,7 +123,7 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
     }
     // Close to the minimum f no longer shows progress (it is flat there): the last steps are taken unchecked.
     const bool last_steps = std::abs(gu * du + gv * dv) < 1e-9 * f;
-    if (last_steps) ++unchecked;
+    if (last_steps && newton) ++unchecked;
     double step = 1, nu = 0, nv = 0, nf = f;
     for (int halving = 0; halving < 40; ++halving, step *= 0.5) {
       nu = std::clamp(u + step * du, 0.0, 1.0);
@@ -137,6 +139,11 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
 }
 
 } // namespace
+
+double preference(const ClosestPoint &point) {
+  constexpr double per_feature = 1e-14;
+  return point.distance_squared * (1 + per_feature * static_cast<int>(point.feature));
+}
 
 std::array<double, 4> bilinear_weights(double u, double v) {
   std::array<double, 4> w = {(1 - u) * (1 - v), u * (1 - v), u * v, 0};
@@ -184,7 +191,7 @@ ClosestPoint closest_point(const Quad &q) {
     u = start_u, v = start_v;
     if (!descend(q, twist, u, v)) return;
     const ClosestPoint c = at(q, u, v);
-    if (c.distance_squared < best.distance_squared) best = c;
+    if (preference(c) < preference(best)) best = c;
   };
   try_from(0.5, 0.5);
   if (foot == Foot::inside && best.feature == Feature::face) return best; // the only minimum

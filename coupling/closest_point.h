@@ -29,6 +29,11 @@ struct ClosestPoint {
 // or of a single point are legal. No NaN for finite corners.
 ClosestPoint closest_point(const Quad &corners);
 
+// Orders candidates: the smallest comes first. Near an edge, the foot on one face and the edge point of its
+// neighbour are equally far to round-off, although their directions may differ by the root of it (1e-8); so a
+// face goes before an edge and an edge before a vertex when squared distances agree to 1e-14.
+double preference(const ClosestPoint &point); // m^2
+
 // Weights at (u, v); their sum is exactly 1.
 std::array<double, 4> bilinear_weights(double u, double v);
 

@@ -121,8 +121,8 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
     const NearFace &candidate = near_[n];
     if (candidate.distance - travelled_ > best_distance * (1 + margin)) break;
     const ClosestPoint c = closest_point(face_corners(surface, candidate.face, centre));
-    if (c.distance_squared > best.distance_squared) continue;
-    if (c.distance_squared == best.distance_squared && candidate.face > best_face) continue;
+    if (preference(c) > preference(best)) continue;
+    if (preference(c) == preference(best) && candidate.face > best_face) continue;
     best = c;
     best_distance = std::sqrt(c.distance_squared);
     best_face = candidate.face;
@@ -136,7 +136,7 @@ SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vec
   int best_face = -1;
   for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
     const ClosestPoint c = closest_point(face_corners(surface, face, centre));
-    if (c.distance_squared >= best.distance_squared) continue;
+    if (preference(c) >= preference(best)) continue;
     best = c;
     best_face = face;
   }
@@ -152,16 +152,21 @@ SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, co
   s.local = local;
   const Vector3 out = -local.point;
   const Quad corners = face_corners(surface, face, centre);
+  Vector3 mean;
   if (local.feature == Feature::face) {
-    s.normal = bilinear_normal(corners, local.u, local.v);
-    s.distance = dot(out, s.normal);
-    return s;
+    mean = bilinear_normal(corners, local.u, local.v);
+    if (norm_squared(mean) > 0) {
+      s.normal = mean;
+      s.distance = dot(out, mean);
+      return s;
+    }
+  } else {
+    mean = local.feature == Feature::edge ? edge_normal(surface, face, local, centre)
+                                          : vertex_normal(surface, face, local.local, centre);
   }
-  const Vector3 mean = local.feature == Feature::edge ? edge_normal(surface, face, local, centre)
-                                                      : vertex_normal(surface, face, local.local, centre);
   // Across an edge inside a flat face the direction from surface to centre is that of the normal up to
   // round-off of the corners; there, and where the centre lies on the surface, the normal itself is taken.
-  const double noise = 8 * std::numeric_limits<double>::epsilon() * largest_corner(corners);
+  const double noise = 32 * std::numeric_limits<double>::epsilon() * largest_corner(corners);
   const double size = norm(out);
   if (norm_squared(mean) > 0 && norm(cross(out, mean)) <= noise) {
     s.normal = mean;

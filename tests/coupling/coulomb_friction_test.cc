@@ -1,0 +1,172 @@
+#include "dem/laws/coulomb_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dem/laws/rotating_plane.h"
+
+namespace platen::dem {
+namespace {
+
+constexpr double k = 2e5; // N/m
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TEST(coulomb_friction, the_spring_holds_up_to_the_static_limit_and_then_slides_at_the_dynamic_one) {
+  const CoulombFriction friction{{0.5, 0.3}};
+  CoulombFriction::State state;
+  const double normal = 10, step = 1e-7;
+  double path = 0;
+  while (path * k + step * k <= 0.5 * normal) {
+    path += step;
+    const auto r = friction(state, {step, 0, 0}, normal, k);
+    ASSERT_NEAR(r.force.x, k * path, 1e-12 * normal);
+    ASSERT_EQ(r.dissipated, 0.0);
+    ASSERT_EQ(state.sliding, 0);
+  }
+  for (int n = 0; n < 100; ++n) {
+    const auto r = friction(state, {step, 0, 0}, normal, k);
+    ASSERT_NEAR(r.force.x, 0.3 * normal, 1e-15 * normal);
+    ASSERT_EQ(state.sliding, 1);
+  }
+}
+
+// Back off until the trial is below the dynamic limit: it sticks, and the static limit holds again.
+TEST(coulomb_friction, it_sticks_again_below_the_dynamic_limit_and_then_holds_to_the_static_one) {
+  const CoulombFriction friction{{0.5, 0.3}};
+  CoulombFriction::State state{{3.0, 0, 0}, 1};
+  friction(state, {-1e-6, 0, 0}, 10, k); // 2.8 N
+  EXPECT_EQ(state.sliding, 0);
+  friction(state, {9e-6, 0, 0}, 10, k); // 4.6 N < 5 N
+  EXPECT_EQ(state.sliding, 0);
+  EXPECT_NEAR(state.spring.x, 4.6, 1e-14);
+  friction(state, {9e-6, 0, 0}, 10, k);
+  EXPECT_EQ(state.sliding, 1);
+  EXPECT_NEAR(state.spring.x, 3.0, 1e-14);
+}
+
+TEST(coulomb_friction, sliding_keeps_the_direction_of_the_trial) {
+  const CoulombFriction friction{{0.4, 0.4}};
+  CoulombFriction::State state{{1, 0, 0}, 0};
+  const Vector3 trial = {1, k * 1e-4, 0};
+  const auto r = friction(state, {0, 1e-4, 0}, 10, k);
+  EXPECT_LT(norm(cross(r.force, trial)), 1e-14 * norm(trial) * 4);
+  EXPECT_NEAR(norm(r.force), 4, 4e-15);
+}
+
+TEST(coulomb_friction, loss_of_the_normal_force_releases_the_spring) {
+  const CoulombFriction friction{{0.5, 0.5}};
+  CoulombFriction::State state{{1, 2, 0}, 1};
+  const auto r = friction(state, {}, 0, k);
+  EXPECT_EQ(norm(r.force) + norm(state.spring) + state.sliding, 0);
+  EXPECT_NEAR(r.dissipated, 5.0 / (2 * k), 1e-18); // all that was stored
+}
+
+TEST(coulomb_friction, without_a_limit_it_never_slides) {
+  const CoulombFriction friction{{infinite, infinite}};
+  CoulombFriction::State state;
+  const auto r = friction(state, {1, 0, 0}, 1e-9, k);
+  EXPECT_EQ(r.force.x, k);
+  EXPECT_EQ(state.sliding, 0);
+}
+
+// A dynamic coefficient above the static one must not push: the force never exceeds the trial.
+TEST(coulomb_friction, a_larger_dynamic_coefficient_never_adds_energy) {
+  const CoulombFriction friction{{0.3, 0.5}};
+  CoulombFriction::State state;
+  for (int n = 1; n < 200; ++n) {
+    const Vector3 before = state.spring;
+    const auto r = friction(state, {1e-7, 0, 0}, 10, k);
+    ASSERT_LE(norm(r.force), norm(before + Vector3{k * 1e-7, 0, 0}));
+    ASSERT_LE(norm(r.force), 5.0 * (1 + 1e-15));
+    ASSERT_GE(r.dissipated, 0);
+  }
+}
+
+// Stored energy + loss = work of the mean force, step by step, whatever the path and the normal force do.
+// That is an identity; the tolerance is round-off of 1e5 terms.
+TEST(coulomb_friction, work_is_stored_or_lost_to_the_last_digit) {
+  const CoulombFriction friction{{0.5, 0.3}};
+  CoulombFriction::State state;
+  double work = 0, lost = 0;
+  for (int n = 0; n < 100000; ++n) {
+    const double t = 1e-3 * n;
+    const Vector3 stretch = {3e-7 * std::sin(t), 2e-7 * std::cos(1.7 * t), 0};
+    const double normal = 10 * (0.8 + std::sin(0.31 * t)); // lets go at times
+    const Vector3 before = state.spring;
+    const auto r = friction(state, stretch, normal, k);
+    work += dot(0.5 * (before + r.force), stretch);
+    lost += r.dissipated;
+  }
+  EXPECT_GT(lost, 1e-4);
+  EXPECT_NEAR(work, lost + 0.5 * norm_squared(state.spring) / k, 1e-11 * lost);
+}
+
+// Two million stick-slip steps in a turning plane: the limit is never passed, the spring stays in its plane.
+// Limits of the check are a few units in the last place.
+TEST(coulomb_friction, stick_slip_cycles_never_pass_the_limit_nor_leave_the_plane) {
+  const CoulombFriction friction{{0.4, 0.4}};
+  CoulombFriction::State state;
+  Vector3 normal = {0, 0, 1};
+  int slips = 0;
+  for (int n = 0; n < 2000000; ++n) {
+    const double t = 1e-2 * n;
+    const Vector3 tilted = {0.3 * std::sin(0.01 * t), 0.2 * std::cos(0.013 * t), 1};
+    const Vector3 next = tilted / norm(tilted);
+    state.spring = carry_with_plane(state.spring, normal, next);
+    normal = next;
+    Vector3 stretch = {4e-7 * std::sin(t), 4e-7 * std::cos(0.7 * t), 0};
+    stretch -= dot(stretch, normal) * normal;
+    const double pressing = 10 + 5 * std::sin(0.11 * t);
+    friction(state, stretch, pressing, k);
+    ASSERT_LE(norm(state.spring), 0.4 * pressing * (1 + 1e-14));
+    ASSERT_LE(std::abs(dot(state.spring, normal)), 1e-14 * pressing);
+    slips += state.sliding;
+  }
+  EXPECT_GT(slips, 100000);
+  EXPECT_LT(slips, 1900000);
+}
+
+TEST(rotating_plane, a_carried_vector_keeps_its_length_and_its_angle_to_the_way_of_the_normal) {
+  const Vector3 from = {0, 0, 1}, to = {std::sin(1.0), 0, std::cos(1.0)};
+  const Vector3 carried = carry_with_plane({3, 4, 0}, from, to);
+  EXPECT_LT(norm(carried - Vector3{3 * std::cos(1.0), 4, -3 * std::sin(1.0)}), 1e-15);
+  EXPECT_LT(std::abs(dot(carried, to)), 1e-15);
+  EXPECT_NEAR(norm(carried), 5, 1e-15);
+}
+
+TEST(rotating_plane, opposite_normals_keep_the_vector) {
+  EXPECT_NEAR(norm(carry_with_plane({3, 4, 0}, {0, 0, 1}, {0, 0, -1})), 5, 1e-15);
+}
+
+// Once around a circle on the sphere of normals the plane has turned by the solid angle (parallel transport):
+// a closed form of something that a projection would get wrong. Error of second order in the step.
+TEST(rotating_plane, a_closed_way_of_the_normal_turns_the_vector_by_its_solid_angle) {
+  const double pi = 3.14159265358979323846, polar = 0.5;
+  const auto at = [&](double angle) {
+    return Vector3{std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar)};
+  };
+  const Vector3 start = Vector3{std::cos(polar), 0, -std::sin(polar)};
+  double error[2];
+  for (int level = 0; level < 2; ++level) {
+    const int steps = 1000 << level;
+    Vector3 v = start;
+    for (int n = 0; n < steps; ++n)
+      v = carry_with_plane(v, at(2 * pi * n / steps), at(2 * pi * (n + 1) / steps));
+    const double turned = std::acos(dot(v, start)), solid = 2 * pi * (1 - std::cos(polar));
+    error[level] = std::abs(turned - solid);
+    EXPECT_NEAR(norm(v), 1, 1e-13);
+  }
+  EXPECT_LT(error[0], 1e-5);
+  EXPECT_NEAR(error[0] / error[1], 4, 0.1);
+}
+
+TEST(rotating_plane, spin_turns_about_the_normal) {
+  const Vector3 n = {0, 0, 1}, turned = spin_in_plane({1, 0, 0}, n, 0.3);
+  EXPECT_NEAR(turned.x, std::cos(0.3), 1e-16);
+  EXPECT_NEAR(turned.y, std::sin(0.3), 1e-16);
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,155 @@
+#include "coupling/servo.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace platen::coupling {
+namespace {
+
+// A column of masses on springs with a fixed foot, pressed by a platen on top: the specimen as the servo
+// feels it.
+struct Column {
+  int n = 30;
+  double k_platen = 1e6, k = 1e6, m = 1e-5, contact_damping = 0, inner_damping = 0.02, gap = 0;
+  double platen = 0, platen_speed = 0; // displacement into the column
+  std::vector<double> u = std::vector<double>(30, 0.0), v = std::vector<double>(30, 0.0);
+
+  ServoLoad load() const { return {k_platen, std::sqrt(k_platen * m)}; }
+  // Of a mass on the stiffest spring.
+  double period() const { return 2 * 3.14159265358979323846 * std::sqrt(m / std::max(k, k_platen)); }
+  double static_stiffness() const { return 1 / (1 / k_platen + n / k); }
+  double reaction() const {
+    const double overlap = platen - gap - u[0];
+    if (overlap <= 0) return 0;
+    return std::max(
+        0.0, k_platen * overlap + 2 * contact_damping * std::sqrt(k_platen * m) * (platen_speed - v[0]));
+  }
+  void step(double speed, double dt) {
+    platen_speed = speed;
+    platen += speed * dt;
+    const double c = 2 * inner_damping * std::sqrt(k * m);
+    std::vector<double> force(u.size());
+    force[0] = reaction();
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const bool last = i + 1 == u.size();
+      const double f = k * (u[i] - (last ? 0 : u[i + 1])) + c * (v[i] - (last ? 0 : v[i + 1]));
+      force[i] -= f;
+      if (!last) force[i + 1] += f;
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      v[i] += dt / m * force[i];
+      u[i] += dt * v[i];
+    }
+  }
+};
+
+struct Response {
+  double overshoot = 0;       // of the wanted force
+  double error = 0;           // largest in the last fifth, of the wanted force
+  double early = 0, late = 0; // largest error in the second and the last fifth
+};
+
+Response respond(Column column, double gain, double step_share, double seconds, double limit) {
+  Servo servo({gain, limit});
+  const double wanted = 10, dt = step_share * column.period();
+  const int steps = static_cast<int>(seconds / dt);
+  Response r;
+  for (int n = 0; n < steps; ++n) {
+    const double f = column.reaction();
+    column.step(servo.velocity(wanted, f, column.load(), dt), dt);
+    r.overshoot = std::max(r.overshoot, f / wanted - 1);
+    const double error = std::abs(f / wanted - 1);
+    if (n > steps / 5 && n <= 2 * steps / 5) r.early = std::max(r.early, error);
+    if (n > 4 * steps / 5) r.late = std::max(r.late, error);
+  }
+  r.error = r.late;
+  return r;
+}
+
+constexpr double no_limit = 1e3; // m/s
+
+// A step of the wanted force, gains over two decades, steps over two, contacts with and without dashpots,
+// specimens soft and stiff: within 1 %, overshoot below 5 %, no growing oscillation.
+TEST(servo, a_step_is_met_within_one_percent_for_gains_over_two_decades) {
+  for (const double gain : {0.1, 0.3, 1.0, 3.0, 10.0})
+    for (const double step : {0.002, 0.02, 0.1})
+      for (const double dashpot : {0.0, 0.2, 0.5})
+        for (const double soft : {0.1, 1.0, 10.0}) {
+          Column column;
+          column.contact_damping = dashpot;
+          column.k = soft * 1e6;
+          // Time constants of the slow creep of a dashpot against the whole column.
+          const double c =
+              std::max(100 * column.load().impedance, column.k_platen * step * column.period() / 0.02) / gain;
+          const double time = 12 * c / column.static_stiffness() + 100 * column.n * column.period();
+          if (time / (step * column.period()) > 2e6) continue; // too long for a unit test
+          const Response r = respond(column, gain, step, time, no_limit);
+          EXPECT_LT(r.error, 0.01) << gain << " " << step << " " << dashpot << " " << soft;
+          EXPECT_LT(r.overshoot, 0.05) << gain << " " << step << " " << dashpot << " " << soft;
+          EXPECT_LE(r.late, r.early + 0.001) << gain << " " << step << " " << dashpot << " " << soft;
+        }
+}
+
+// From a distance, at the speed limit: the impact of the platen adds what speed times impedance says, and it
+// settles.
+TEST(servo, a_platen_that_starts_away_from_the_specimen_lands_and_settles) {
+  for (const double gain : {0.1, 1.0, 10.0}) {
+    Column column;
+    column.gap = 1e-4;
+    const double limit = 0.03 * 10 / column.load().impedance; // 3 % of the wanted force
+    const Response r = respond(column, gain, 0.05, 1.5 / gain, limit);
+    EXPECT_LT(r.overshoot, 0.05) << gain;
+    EXPECT_LT(r.error, 0.01) << gain;
+  }
+}
+
+TEST(servo, velocity_never_passes_its_limit) {
+  Servo servo({10, 0.2});
+  for (const double wanted : {1e9, -1e9, 5.0, 1e300}) {
+    for (int n = 0; n < 20; ++n)
+      EXPECT_LE(std::abs(servo.velocity(wanted, 0, {1e3, 1}, 1e-6)), 0.2);
+  }
+  for (int n = 0; n < 60; ++n)
+    servo.velocity(1, 0, {0, 0}, 1e-6);
+  EXPECT_NEAR(servo.velocity(1, 0, {0, 0}, 1e-6), 0.2, 1e-15); // nothing near: closes in at the limit
+}
+
+// The specimen loses half its stiffness at once, as a failing one does: the force comes back without
+// overshoot.
+TEST(servo, it_follows_a_specimen_that_softens) {
+  Column column;
+  Servo servo({1, no_limit});
+  const double dt = 0.05 * column.period();
+  double worst = 0;
+  for (int n = 0; n < 400000; ++n) {
+    if (n == 200000) column.k *= 0.5;
+    column.step(servo.velocity(10, column.reaction(), column.load(), dt), dt);
+    if (n > 200000) worst = std::max(worst, column.reaction() / 10 - 1);
+  }
+  EXPECT_NEAR(column.reaction(), 10, 0.1);
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST(servo, state_comes_back_to_the_last_bit) {
+  Servo a({1, 1}), b({1, 1});
+  for (int n = 0; n < 10; ++n)
+    a.velocity(10, n, {1e6, 3}, 1e-6);
+  b.set_state(a.state());
+  for (int n = 0; n < 10; ++n)
+    EXPECT_EQ(a.velocity(10, n, {1e6, 3}, 1e-6), b.velocity(10, n, {1e6, 3}, 1e-6));
+  EXPECT_THROW(b.set_state({}), std::invalid_argument);
+}
+
+TEST(servo, parameters_that_are_not_positive_are_refused) {
+  EXPECT_THROW(Servo({0, 1}), std::invalid_argument);
+  EXPECT_THROW(Servo({1, -1}), std::invalid_argument);
+  EXPECT_THROW(Servo({1, std::nan("")}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace platen::coupling

@@ -1,0 +1,186 @@
+#include "fem/body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+namespace platen::fem {
+namespace {
+
+constexpr Material steel{7850, 210e9, 0.3};
+
+Body box() {
+  return Body(make_grid(BoxPlate{{-0.02, -0.03, 0.1}, {0.04, 0.03, 0.11}, {3, 4, 2}}), steel);
+}
+
+double distance(const Body &body, std::size_t a, std::size_t b) {
+  return norm(body.surface().vertices[a] - body.surface().vertices[b]);
+}
+
+TEST(body, mass_is_density_times_volume) {
+  const Body body = box();
+  const double volume = 0.06 * 0.06 * 0.01;
+  EXPECT_NEAR(body.volume(), volume, 1e-14 * volume);
+  EXPECT_NEAR(body.mass(), 7850 * volume, 1e-14 * 7850 * volume);
+  EXPECT_NEAR(body.centre()[0], 0.01, 1e-14);
+  EXPECT_NEAR(body.centre()[2], 0.105, 1e-14);
+}
+
+// A cuboid about z: I = m (a^2 + b^2) / 12.
+TEST(body, kinetic_energy_is_that_of_a_cuboid) {
+  Body body = box();
+  body.set_velocity({1, 2, 3}, {0, 0, 40});
+  const double inertia = body.mass() * (0.06 * 0.06 + 0.06 * 0.06) / 12;
+  const double expected = 0.5 * body.mass() * 14 + 0.5 * inertia * 1600;
+  EXPECT_NEAR(body.kinetic_energy(), expected, 1e-13 * expected);
+}
+
+// A cuboid's inertia turns with it: spun about z after a quarter turn about x it is that about its own y.
+TEST(body, inertia_turns_with_the_body) {
+  Body body(make_grid(BoxPlate{{0, 0, 0}, {1, 2, 3}, {1, 1, 1}}), steel);
+  body.set_velocity({}, {std::acos(0.0), 0, 0});
+  body.drift(1);
+  body.set_velocity({}, {0, 0, 1});
+  const double about_y = body.mass() * (1 + 9) / 12.0;
+  EXPECT_NEAR(body.kinetic_energy(), 0.5 * about_y, 1e-12 * about_y);
+}
+
+// 10 000 drifts about a skew axis: lengths are kept to the round-off of one rotation, because vertices are
+// placed from the reference and never from each other.
+TEST(body, rigid_rotation_keeps_the_shape) {
+  Body body = box();
+  const Body start = box();
+  body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
+  for (int step = 0; step < 10000; ++step)
+    body.drift(1e-3);
+  const std::size_t n = body.surface().vertices.size();
+  for (std::size_t v = 1; v < n; ++v)
+    EXPECT_NEAR(distance(body, 0, v), distance(start, 0, v), 1e-15);
+  EXPECT_NEAR(enclosed_volume(body.surface()), body.volume(), 1e-12 * body.volume());
+}
+
+// Angle after many exponentials against one: a full number of turns brings every vertex back. Round-off of
+// 1e4 products of quaternions.
+TEST(body, whole_turns_bring_every_vertex_back) {
+  Body body = box();
+  const std::vector<Point> start = body.surface().vertices;
+  const double pi = 3.14159265358979323846, rate = 2 * pi * 10;
+  body.set_velocity({}, {rate / 3, 2 * rate / 3, 2 * rate / 3});
+  for (int step = 0; step < 10000; ++step)
+    body.drift(1e-4);
+  for (std::size_t v = 0; v < start.size(); ++v)
+    EXPECT_LT(norm(body.surface().vertices[v] - start[v]), 1e-13);
+}
+
+TEST(body, vertex_velocities_are_those_of_the_motion) {
+  Body body = box();
+  body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
+  const std::vector<Point> velocities = body.surface().velocities, before = body.surface().vertices;
+  const double h = 1e-6;
+  body.drift(h);
+  for (std::size_t v = 0; v < before.size(); ++v) { // difference quotient: error h w^2 r / 2 = 1e-6
+    const Point quotient = (1 / h) * (body.surface().vertices[v] - before[v]);
+    EXPECT_LT(norm(quotient - velocities[v]), 2e-6);
+  }
+}
+
+TEST(body, a_translated_face_stays_flat_to_the_last_bit) {
+  Body body = box();
+  body.set_velocity({0, 0, -0.0123});
+  for (int step = 0; step < 1000; ++step)
+    body.drift(1e-7 / 3);
+  for (std::size_t f = 0; f < body.surface().faces.size(); ++f) {
+    if (body.surface().face_tags[f] != low_end_tag) continue;
+    for (const int v : body.surface().faces[f])
+      EXPECT_EQ(body.surface().vertices[static_cast<std::size_t>(v)][2], 0.1 + body.displacement()[2]);
+  }
+}
+
+// Power of the loads = force . velocity + moment . angular velocity for a rigid body.
+TEST(body, load_power_is_force_times_velocity_plus_moment_times_spin) {
+  Body body = box();
+  body.set_velocity({0.4, -0.2, 0.3}, {3, -2, 5});
+  body.add_surface_force(3, {10, 20, -30});
+  body.add_surface_force(17, {-5, 1, 2});
+  body.add_surface_force(3, {1, 1, 1});
+  EXPECT_EQ(body.contact_load(3), (Point{11, 21, -29}));
+  const double power =
+      dot(body.total_force(), body.velocity()) + dot(body.moment(body.centre()), body.angular_velocity());
+  EXPECT_NEAR(body.load_power(), power, 1e-13 * std::abs(power));
+  const Point shifted = body.moment({1, 2, 3}) - body.moment({});
+  EXPECT_LT(norm(shifted - cross(Point{-1, -2, -3}, body.total_force())), 1e-13);
+  body.clear_loads();
+  EXPECT_EQ(body.total_force(), Point{});
+  EXPECT_EQ(body.contact_load(3), Point{});
+}
+
+TEST(body, state_comes_back_to_the_last_bit) {
+  Body body = box();
+  body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
+  for (int step = 0; step < 7; ++step)
+    body.drift(1e-3 / 3);
+  for (const int v : {20, 3, 11})
+    body.add_surface_force(v, {1.0 / 3, 2.0 / 7 * v, -1e-9});
+  Body other = box();
+  other.add_surface_force(5, {1, 1, 1}); // must be gone afterwards
+  other.set_state(body.state());
+  const auto same = [](const std::vector<Point> &a, const std::vector<Point> &b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
+  };
+  EXPECT_EQ(other.state(), body.state());
+  EXPECT_TRUE(same(other.surface().vertices, body.surface().vertices));
+  EXPECT_TRUE(same(other.surface().velocities, body.surface().velocities));
+  EXPECT_EQ(other.total_force(), body.total_force());
+  EXPECT_EQ(other.contact_load(5), Point{});
+  body.drift(1e-3), other.drift(1e-3);
+  EXPECT_TRUE(same(other.surface().vertices, body.surface().vertices));
+}
+
+TEST(body, a_state_of_another_body_is_refused) {
+  Body body = box();
+  EXPECT_THROW(body.set_state({1, 2, 3}), std::invalid_argument);
+  std::vector<double> numbers = body.state();
+  numbers.insert(numbers.end(), {1e6, 0, 0, 0});
+  EXPECT_THROW(body.set_state(numbers), std::invalid_argument);
+}
+
+TEST(body, impossible_materials_are_refused) {
+  const Grid grid = make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}});
+  EXPECT_THROW(Body(grid, {0, 1e9, 0.2}), std::invalid_argument);
+  EXPECT_THROW(Body(grid, {1, -1e9, 0.2}), std::invalid_argument);
+  EXPECT_THROW(Body(grid, {1, 1e9, 0.5}), std::invalid_argument);
+  EXPECT_THROW(Body(grid, {1, std::nan(""), 0.2}), std::invalid_argument);
+}
+
+TEST(body, no_vertex_moves_farther_than_the_bound) {
+  Body body = box();
+  body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
+  const double bound = body.largest_move(0.01);
+  const std::vector<Point> before = body.surface().vertices;
+  body.drift(0.01);
+  double largest = 0;
+  for (std::size_t v = 0; v < before.size(); ++v)
+    largest = std::max(largest, norm(body.surface().vertices[v] - before[v]));
+  EXPECT_LE(largest, bound);
+  EXPECT_GT(largest, 0.5 * bound);
+}
+
+// All fields that the pictures need stand in the file, which is the same for the same state.
+TEST(body, the_picture_names_its_fields_and_repeats) {
+  Body body = box();
+  body.add_surface_force(0, {0, 0, 1});
+  std::ostringstream first, second;
+  body.write_vtu(first);
+  body.write_vtu(second, std::vector<double>(body.surface().vertices.size(), 0.0));
+  for (const char *field :
+       {"displacement", "contact_pressure", "contact_shear", "slip", "compressor=\"vtkZLib"})
+    EXPECT_NE(first.str().find(field), std::string::npos) << field;
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_THROW(body.write_vtu(first, {1.0}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace platen::fem

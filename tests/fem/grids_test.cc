@@ -1,0 +1,126 @@
+#include "fem/grids.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace platen::fem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::vector<std::pair<const char *, Grid>> plates() {
+  return {{"box", make_grid(BoxPlate{{-1, -2, 0.5}, {3, 1, 0.75}, {4, 3, 2}})},
+          {"small disc", make_grid(CylinderPlate{0.03, 0.01, -0.01, 3, 1})},
+          {"disc", make_grid(CylinderPlate{0.03, 0.01, -0.01, 14, 3})}};
+}
+
+// The sum of area vectors of a closed surface is zero; the tolerance is round-off of its area.
+TEST(grids, the_surface_of_a_plate_is_closed) {
+  for (const auto &[name, grid] : plates()) {
+    const SurfaceMesh surface = extract_surface(grid).surface;
+    double area = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+      area += norm(face_area_vector(surface, f));
+    EXPECT_LT(norm(total_area_vector(surface)), 1e-14 * area) << name;
+    std::map<std::pair<int, int>, int> edges; // every edge is walked once each way
+    for (const auto &face : surface.faces)
+      for (std::size_t k = 0; k < 4; ++k)
+        ++edges[{face[k], face[(k + 1) % 4]}];
+    for (const auto &[edge, count] : edges) {
+      EXPECT_EQ(count, 1) << name;
+      EXPECT_EQ(edges.count({edge.second, edge.first}), 1u) << name;
+    }
+  }
+}
+
+TEST(grids, faces_point_out_of_the_solid) {
+  for (const auto &[name, grid] : plates()) {
+    const SurfaceMesh surface = extract_surface(grid).surface;
+    const Point middle = volume_moments(grid).centroid;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      const Point corner = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
+      EXPECT_GT(dot(corner - middle, face_area_vector(surface, f)), 0) << name; // plates are convex
+    }
+  }
+}
+
+// Two integrals, one over cells and one over faces, agree to round-off because all faces are flat.
+TEST(grids, surface_and_cells_enclose_the_same_volume) {
+  for (const auto &[name, grid] : plates()) {
+    const double volume = volume_moments(grid).volume;
+    EXPECT_NEAR(enclosed_volume(extract_surface(grid).surface), volume, 1e-13 * volume) << name;
+  }
+}
+
+TEST(grids, ends_are_flat_to_the_last_bit_and_tagged) {
+  for (const auto &[name, grid] : plates()) {
+    const SurfaceMesh surface = extract_surface(grid).surface;
+    double low = 1e300, high = -1e300;
+    for (const Point &v : surface.vertices)
+      low = std::min(low, v[2]), high = std::max(high, v[2]);
+    int ends[2] = {0, 0};
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      if (surface.face_tags[f] < low_end_tag) continue;
+      const bool top = surface.face_tags[f] == high_end_tag;
+      ++ends[top];
+      for (const int v : surface.faces[f])
+        EXPECT_EQ(surface.vertices[static_cast<std::size_t>(v)][2], top ? high : low) << name;
+      EXPECT_EQ(face_area_vector(surface, f)[2] > 0, top) << name;
+    }
+    EXPECT_EQ(ends[0], ends[1]) << name;
+    EXPECT_GT(ends[0], 0) << name;
+  }
+}
+
+// The polygon with 4 n sides inscribed in the circle has the area R^2 2 n sin(pi / (2 n)): the grid fills
+// exactly it.
+TEST(grids, a_disc_fills_its_inscribed_polygon) {
+  const double radius = 0.03, thickness = 0.01;
+  for (const int across : {3, 8, 14, 21}) {
+    const int n = across - 2 * std::max(1, across / 4);
+    const double area = radius * radius * 2 * n * std::sin(pi / (2 * n));
+    const VolumeMoments m = volume_moments(make_grid(CylinderPlate{radius, thickness, 0, across, 2}));
+    EXPECT_NEAR(m.volume, area * thickness, 1e-13 * area * thickness) << across;
+    EXPECT_LT(std::abs(m.centroid[0]) + std::abs(m.centroid[1]), 1e-14) << across;
+    EXPECT_NEAR(m.centroid[2], 0.5 * thickness, 1e-14) << across;
+  }
+}
+
+// Length of each element against the mean: no slivers, whatever the count.
+TEST(grids, elements_of_a_disc_are_of_one_size) {
+  for (const int across : {3, 5, 8, 16, 33}) {
+    const SurfaceMesh surface = extract_surface(make_grid(CylinderPlate{1, 0.2, 0, across, 1})).surface;
+    double smallest = 1e300, largest = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      if (surface.face_tags[f] != high_end_tag) continue;
+      const double area = norm(face_area_vector(surface, f));
+      smallest = std::min(smallest, area), largest = std::max(largest, area);
+    }
+    EXPECT_GT(smallest, 0.15 * largest) << across;
+  }
+}
+
+TEST(grids, sizes_that_make_no_plate_are_refused) {
+  EXPECT_THROW(make_grid(CylinderPlate{0, 0.1, 0, 8, 2}), std::invalid_argument);
+  EXPECT_THROW(make_grid(CylinderPlate{1, -0.1, 0, 8, 2}), std::invalid_argument);
+  EXPECT_THROW(make_grid(CylinderPlate{1, 0.1, 0, 2, 2}), std::invalid_argument);
+  EXPECT_THROW(make_grid(CylinderPlate{1, 0.1, 0, 8, 0}), std::invalid_argument);
+  EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 0, 1}, {1, 1, 1}}), std::invalid_argument);
+  EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 0, 1}}), std::invalid_argument);
+}
+
+TEST(surface_mesh, a_face_without_area_is_named) {
+  SurfaceMesh surface;
+  surface.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},    {0, 1, 0},
+                      {2, 0, 0}, {3, 0, 0}, {1, 1e-9, 0}, {0, 1e-9, 0}};
+  surface.faces = {{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 1, 6, 7}, {2, 2, 2, 2}}; // square, line, needle, point
+  EXPECT_EQ(zero_area_faces(surface), (std::vector<int>{1, 3}));
+}
+
+} // namespace
+} // namespace platen::fem
