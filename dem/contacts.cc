@@ -194,9 +194,13 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, co
   if (dashpot_ > 0 && !state.sliding) {
     const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
     const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-    const Vector3 tangential_drag = 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
-    force[k] += tangential_drag;
-    drag += tangential_drag;
+    // Spring and dashpot together stay below the Coulomb limit too; a contact that is not pressed drags
+    // nothing.
+    Vector3 tangential = state.spring + 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
+    const double size = norm(tangential), limit = settings_.friction * pressing;
+    if (size > limit) tangential *= limit / size;
+    force[k] += tangential - state.spring;
+    drag += tangential - state.spring;
   }
 }
 

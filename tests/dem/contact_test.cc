@@ -183,32 +183,41 @@ TEST(contact, sliding_starts_at_the_coulomb_limit) {
   EXPECT_NEAR(onset, mu * pressing, 2e-3 * mu * pressing);
 }
 
+// Springs and dashpots together: a contact that is not pressed does not drag.
 TEST(contact, friction_never_exceeds_its_limit) {
-  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
-    ModelSettings settings = unbonded(normal, TangentialContact::coulomb, 1e6);
-    settings.contact->friction = .3;
-    Random random(2);
-    std::vector<Vector3> centres;
-    for (int k = 0; k < 125; ++k)
-      centres.push_back(2.05 * radius * Vector3{1.0 * (k % 5), 1.0 * (k / 5 % 5), 1.0 * (k / 25)});
-    Model model(spheres(centres), settings);
-    for (Vector3 &v : model.particles.velocity)
-      v = 2 * random.direction();
-    std::size_t held = 0;
-    for (int s = 0; s < 2000; ++s) {
-      step(model, 2e-7);
-      const Contacts &c = *model.contacts;
-      for (std::size_t k = 0; k < c.table.size(); ++k) {
-        if (!c.touching[k]) continue;
-        const Vector3 n = (*c.normal)[k], t = (*c.spring)[k];
-        const double pressing = -dot(c.force[k], n);
-        ASSERT_LE(norm(t), .3 * pressing * (1 + 1e-12));
-        ASSERT_LE(std::abs(dot(t, n)), 1e-12 * pressing);
-        ++held;
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
+    for (const bool damped : {false, true}) {
+      ModelSettings settings = unbonded(normal, TangentialContact::coulomb, 1e6);
+      settings.contact->friction = .3;
+      settings.contact->damping = damped ? .3 : 0;
+      settings.contact->restitution = damped ? .4 : 1;
+      Random random(2);
+      std::vector<Vector3> centres;
+      for (int k = 0; k < 125; ++k)
+        centres.push_back(2.05 * radius * Vector3{1.0 * (k % 5), 1.0 * (k / 5 % 5), 1.0 * (k / 25)});
+      Model model(spheres(centres), settings);
+      const Particles &p = model.particles;
+      for (Vector3 &v : model.particles.velocity)
+        v = 2 * random.direction();
+      std::size_t held = 0;
+      for (int s = 0; s < 2000; ++s) {
+        step(model, 2e-7);
+        const Contacts &c = *model.contacts;
+        for (std::size_t k = 0; k < c.table.size(); ++k) {
+          if (!c.touching[k]) continue;
+          const Vector3 d = p.position[static_cast<std::size_t>(c.second[k])] -
+                            p.position[static_cast<std::size_t>(c.first[k])];
+          const Vector3 n = d / norm(d);
+          const double pressing = -dot(c.force[k], n), elastic = c.coefficient[k] * c.overlap[k];
+          const Vector3 tangential = c.force[k] + pressing * n;
+          ASSERT_GE(pressing, -1e-12 * elastic); // no attraction
+          ASSERT_LE(norm(tangential), .3 * pressing * (1 + 1e-12) + 1e-12 * elastic);
+          ASSERT_LE(std::abs(dot((*c.spring)[k], n)), 1e-12 * pressing + 1e-12 * elastic);
+          ++held;
+        }
       }
+      EXPECT_GT(held, 1000u);
     }
-    EXPECT_GT(held, 1000u);
-  }
 }
 
 // Oblique impact that slides throughout: the tangential impulse is mu times the normal one, 2 m* v_n.
