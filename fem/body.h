@@ -64,10 +64,19 @@ public:
   // Throws std::invalid_argument where the numbers are not those of a body with this surface.
   void set_state(const std::vector<double> &numbers);
 
+  // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
+  // that it is pressed on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the
+  // load.
+  struct Traction {
+    double pressure = 0; // Pa, positive when pressed
+    Point shear{};       // Pa, along the side
+    Point area{};        // m^2 times outward normal
+  };
+  std::vector<Traction> contact_tractions() const;
+
   // Writes the grid where it is now as VTU (binary, zlib) with point data displacement (m), contact_pressure
-  // (Pa, positive when pressed), contact_shear (Pa, vector in the face: what the particles exert) and slip
-  // (m; one value per surface vertex, or an empty vector for zero). Pressure and shear are vertex loads over
-  // the area that belongs to the vertex on the side it is loaded on.
+  // and contact_shear (Pa, as contact_tractions) and slip (m; one value per surface vertex, or an empty
+  // vector for zero).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
 
 private:

@@ -17,11 +17,6 @@
 namespace platen::fem {
 namespace {
 
-struct Traction {
-  double pressure = 0; // Pa
-  Point shear{};       // Pa
-};
-
 // Areas that belong to each vertex (m^2 times normal), one entry per side that the vertex lies on: a vertex
 // on the rim of a plate is loaded on one side of it, and only that side's area carries the load.
 std::vector<std::map<int, Point>> tributary_areas(const SurfaceMesh &surface) {
@@ -35,23 +30,34 @@ std::vector<std::map<int, Point>> tributary_areas(const SurfaceMesh &surface) {
 }
 
 // The side that the load presses on most squarely carries it.
-Traction traction(const std::map<int, Point> &sides, const Point &load) {
-  Traction result;
+Body::Traction traction(const std::map<int, Point> &sides, const Point &load) {
+  Body::Traction result;
+  bool found = false;
   double best = 0;
   for (const auto &[tag, area] : sides) {
     const double size = norm(area);
     if (size <= 0) continue;
     const Point normal = (1.0 / size) * area;
     const double pressing = -dot(load, normal);
-    if (best != 0 && pressing <= best) continue;
+    if (found && pressing <= best) continue;
+    found = true;
     best = pressing;
     result.pressure = pressing / size;
     result.shear = (1.0 / size) * (load + pressing * normal);
+    result.area = area;
   }
   return result;
 }
 
 } // namespace
+
+std::vector<Body::Traction> Body::contact_tractions() const {
+  const auto areas = tributary_areas(surface_);
+  std::vector<Traction> tractions(areas.size());
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    tractions[v] = traction(areas[v], load_[v]);
+  return tractions;
+}
 
 void Body::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
   if (!slip.empty() && slip.size() != load_.size())
@@ -67,7 +73,7 @@ void Body::write_vtu(std::ostream &stream, const std::vector<double> &slip) cons
   std::vector<int> surface_vertex(grid_->n_vertices(), -1);
   for (std::size_t v = 0; v < grid_vertex_.size(); ++v)
     surface_vertex[static_cast<std::size_t>(grid_vertex_[v])] = static_cast<int>(v);
-  const auto areas = tributary_areas(surface_);
+  const std::vector<Traction> tractions = contact_tractions();
   auto vector_cell = vectors.begin_active();
   for (const auto &cell : scalars.active_cell_iterators()) {
     for (const unsigned int corner : cell->vertex_indices()) {
@@ -77,7 +83,7 @@ void Body::write_vtu(std::ostream &stream, const std::vector<double> &slip) cons
         displacement(vector_cell->vertex_dof_index(corner, k)) = moved[k];
       const int v = surface_vertex[cell->vertex_index(corner)];
       if (v < 0) continue;
-      const Traction t = traction(areas[static_cast<std::size_t>(v)], contact_load(v));
+      const Traction &t = tractions[static_cast<std::size_t>(v)];
       pressure(cell->vertex_dof_index(corner, 0)) = t.pressure;
       if (!slip.empty()) slipped(cell->vertex_dof_index(corner, 0)) = slip[static_cast<std::size_t>(v)];
       for (unsigned int k = 0; k < 3; ++k)

@@ -73,12 +73,12 @@ Response respond(Column column, double gain, double step_share, double seconds, 
 
 constexpr double no_limit = 1e3; // m/s
 
-// A step of the wanted force, gains over two decades, steps over two, contacts with and without dashpots,
+// A step of the wanted force, gains over two decades, two steps, contacts with and without dashpots,
 // specimens soft and stiff: within 1 %, overshoot below 5 %, no growing oscillation.
 TEST(servo, a_step_is_met_within_one_percent_for_gains_over_two_decades) {
   for (const double gain : {0.1, 0.3, 1.0, 3.0, 10.0})
-    for (const double step : {0.002, 0.02, 0.1})
-      for (const double dashpot : {0.0, 0.2, 0.5})
+    for (const double step : {0.01, 0.1})
+      for (const double dashpot : {0.0, 0.5})
         for (const double soft : {0.1, 1.0, 10.0}) {
           Column column;
           column.contact_damping = dashpot;
@@ -87,7 +87,7 @@ TEST(servo, a_step_is_met_within_one_percent_for_gains_over_two_decades) {
           const double c =
               std::max(100 * column.load().impedance, column.k_platen * step * column.period() / 0.02) / gain;
           const double time = 12 * c / column.static_stiffness() + 100 * column.n * column.period();
-          if (time / (step * column.period()) > 2e6) continue; // too long for a unit test
+          if (time / (step * column.period()) > 1e6) continue; // too long for a unit test
           const Response r = respond(column, gain, step, time, no_limit);
           EXPECT_LT(r.error, 0.01) << gain << " " << step << " " << dashpot << " " << soft;
           EXPECT_LT(r.overshoot, 0.05) << gain << " " << step << " " << dashpot << " " << soft;

@@ -168,6 +168,36 @@ TEST(body, no_vertex_moves_farther_than_the_bound) {
   EXPECT_GT(largest, 0.5 * bound);
 }
 
+// Consistent loads of an even pressure with an even shear on one face give that pressure and shear at every
+// vertex of it, at its rim and corners too, and nothing elsewhere.
+TEST(body, an_even_load_is_an_even_pressure_up_to_the_rim) {
+  for (const bool disc : {false, true}) {
+    Body body = disc ? Body(make_grid(CylinderPlate{0.03, 0.01, 0, 9, 2}), steel) : box();
+    const double pressure = 3e6;
+    const Point shear = {1e6, -5e5, 0};
+    std::vector<char> on_top(body.surface().vertices.size(), 0);
+    double area = 0;
+    for (std::size_t f = 0; f < body.surface().faces.size(); ++f) {
+      if (body.surface().face_tags[f] != high_end_tag) continue;
+      const Point a = face_area_vector(body.surface(), f);
+      area += a[2];
+      for (const int v : body.surface().faces[f]) {
+        body.add_surface_force(v, 0.25 * (a[2] * shear - pressure * a));
+        on_top[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+    const std::vector<Body::Traction> tractions = body.contact_tractions();
+    double sum = 0;
+    for (std::size_t v = 0; v < tractions.size(); ++v) {
+      EXPECT_NEAR(tractions[v].pressure, on_top[v] ? pressure : 0, 1e-9 * pressure);
+      EXPECT_LT(norm(tractions[v].shear - (on_top[v] ? 1.0 : 0.0) * shear), 1e-9 * pressure);
+      sum += tractions[v].pressure * norm(tractions[v].area);
+    }
+    EXPECT_NEAR(sum, pressure * area, 1e-12 * pressure * area);
+    EXPECT_NEAR(body.total_force()[2], -pressure * area, 1e-12 * pressure * area);
+  }
+}
+
 // All fields that the pictures need stand in the file, which is the same for the same state.
 TEST(body, the_picture_names_its_fields_and_repeats) {
   Body body = box();
