@@ -26,6 +26,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/run/summary_of_run.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 #include "dem/parallel.h"
 
@@ -147,7 +148,8 @@ Test::Test(const CommandLine &command, const Scene &scene)
   try {
     problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
   } catch (const coupling::BadSetup &e) {
-    throw InputError(scene.path + ": " + e.what());
+    if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
+    throw InputError(e.entry() + " " + e.what());
   }
   const double seconds =
       scene.platens.top_control == PlatenControl::stress
@@ -158,6 +160,7 @@ Test::Test(const CommandLine &command, const Scene &scene)
   sampler_ = std::make_unique<Sampler>(*problem_);
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
+  catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
   open_output_folder(paths_.folder, use, inputs);
   log_.open(paths_.log(), command.resume, {version_text(), command.text, costs().threads});
   if (!command.resume) {
@@ -328,14 +331,16 @@ int Test::run() {
     return status_done;
   }
   log_.info("{}", description());
-  catch_stop_signals();
   open_files();
   try {
     loop();
   } catch (const coupling::NumericsStopped &e) {
     save_summary("failed");
-    throw NumericsError(
-        fmt::format("{}\nthe last checkpoint is in {}", e.what(), paths_.checkpoints().string()));
+    std::error_code ignored;
+    const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);
+    throw NumericsError(fmt::format("{}\n{}", e.what(),
+                                    kept ? "the last checkpoint is in " + paths_.checkpoints().string()
+                                         : "no checkpoint had been written"));
   }
   results_.finish(*problem_);
   if (fields_) fields_->write(*problem_);

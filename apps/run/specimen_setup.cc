@@ -4,6 +4,7 @@
 
 #include "apps/io/specimen_csv.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/units.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/radius_distribution.h"
 
@@ -38,7 +39,7 @@ dem::RadiusDistribution radii(const SpecimenSection &specimen) {
 void check_length(const Scene &scene, const char *path, double wanted, double found) {
   if (std::isnan(wanted) || std::abs(wanted - found) <= same_length * found) return;
   refuse(scene, path,
-         "contradicts the shape that " + scene.specimen.file + " states, " + std::to_string(found) + " m.");
+         "contradicts the shape that " + scene.specimen.file + " states, " + shortest_text(found) + " m.");
 }
 
 bool same_kind(SpecimenShape wanted, dem::ShapeKind found) {
