@@ -23,6 +23,7 @@ public:
   Program(const Program &) = delete;
   Program &operator=(const Program &) = delete;
 
+  pid_t id() const { return id_; }
   void send(int signal) const;
   bool running();
   // Waits for the end; the exit status, or minus the number of the signal that ended it.

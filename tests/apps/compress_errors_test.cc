@@ -1,0 +1,241 @@
+// What platen-compress refuses, and how: the exit status, one message that names the place, and nothing
+// written.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "apps/io_folder.h"
+#include "apps/program.h"
+
+namespace platen::apps::testing {
+namespace {
+
+struct Refusal {
+  std::vector<std::string> arguments; // beside `-o results`
+  std::vector<std::string> says;      // what the message has to hold
+};
+
+class Errors : public ScratchFolder {
+protected:
+  const std::string scene_ = test_scene("crushed.prm");
+
+  // A scene of its own: the crushed cylinder and `lines` after it, from line 2 on.
+  void scene(const std::string &name, const std::string &lines) {
+    put(folder_ / name, "include " + scene_ + "\n" + lines);
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto &entry : fs::recursive_directory_iterator(folder_))
+      all.push_back(entry.path().lexically_relative(folder_).string());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  // Exit status 2, one message with all that is asked for, no output folder.
+  void refuse(const Refusal &bad, const std::string &output = "results") {
+    put(folder_ / "out.txt", "");
+    put(folder_ / "error.txt", "");
+    const std::vector<std::string> before = names();
+    std::vector<std::string> arguments = bad.arguments;
+    arguments.insert(arguments.end(), {"-o", output});
+    const Outcome outcome = run_compress(arguments, folder_);
+    EXPECT_EQ(outcome.status, 2) << outcome.error;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string &part : bad.says)
+      EXPECT_TRUE(contains(outcome.error, part)) << outcome.error << " not: " << part;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_EQ(names(), before) << bad.says.front();
+  }
+  void refuse_scene(const std::string &lines, std::vector<std::string> says) {
+    scene("bad.prm", lines);
+    refuse({{"bad.prm"}, std::move(says)});
+  }
+  std::vector<std::string> with(const std::vector<std::string> &entries) const {
+    std::vector<std::string> arguments{scene_};
+    for (const std::string &entry : entries)
+      arguments.insert(arguments.end(), {"--set", entry});
+    return arguments;
+  }
+};
+
+TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
+  refuse_scene("subsection Bond\n  set Modulos = 3 GPa\nend\n",
+               {"bad.prm:3: error: Bond/Modulos is not a parameter. Did you mean \"Bond/Modulus\""});
+  refuse_scene("subsection Bonds\nend\n", {"bad.prm:2: error: ", "Bond"});
+  refuse_scene("subsection Bond\n  set Modulus = 3 GPa\n  set Modulus = 4 GPa\nend\n",
+               {"bad.prm:4: error: Bond/Modulus = 4 GPa is set twice", "bad.prm:3"});
+  refuse_scene("subsection Effects\n  set Bond = paralel bond\nend\n",
+               {"bad.prm:3", "paralel", "parallel bond"});
+  refuse_scene("subsection Specimen\n  set Sphere radius = -1 mm\nend\n",
+               {"bad.prm:3", "Specimen/Sphere radius = -1 mm"});
+  refuse_scene("subsection Bond\n  set Modulus = 36 GPa m\nend\n",
+               {"bad.prm:3", "Bond/Modulus", "a pressure (Pa)"});
+  refuse_scene("subsection Specimen\n  set Sphere radius = 11 mm\nend\n",
+               {"bad.prm:3", "do not fit into Specimen/"});
+  refuse_scene("subsection Platens\n  set Friction dynamic = 0.4\nend\n",
+               {"bad.prm:3", "above the static friction, 0.3"});
+  refuse_scene("subsection Loading\n  set Test = tension\nend\n",
+               {"bad.prm:3", "needs Platens/Attachment = glued"});
+  refuse_scene("subsection Expect\n  set strenth_pa = 1 ... 2\nend\n",
+               {"bad.prm:3", "strenth_pa", "strength_pa"});
+}
+
+TEST_F(Errors, what_is_not_there_yet_is_refused_and_not_ignored) {
+  for (const char *entry :
+       {"Loading/Confinement = sleeve", "Loading/Confinement = particles", "Platens/Kind = deformable",
+        "Effects/Bond = cohesive beam", "Effects/Bond = elasto damage plastic", "Specimen/Shape = disc",
+        "Scene/Quality = reference"})
+    refuse({with({entry}),
+            {"command line, --set 1: error: " + std::string(entry) + " is not available in this version"}});
+  refuse({with({"Sleeve/Thickness = 2 mm"}), {"Loading/Confinement = sleeve, which is not available"}});
+}
+
+TEST_F(Errors, bad_command_lines_are_refused) {
+  refuse({{}, {"no scene is given"}});
+  refuse({{"nowhere.prm"}, {"nowhere.prm: error: cannot be read"}});
+  refuse({{scene_, "--glue"}, {"--glue is not an option"}});
+  refuse({{scene_, "another.prm"}, {"one argument too many"}});
+  refuse({{scene_, "-t", "0"}, {"--threads = 0"}});
+  refuse({{scene_, "-t", "two"}, {"--threads = two"}});
+  refuse({{scene_, "-s", "Bond/Modulus"}, {"--set 1: error: \"Bond/Modulus\" sets nothing"}});
+  refuse(
+      {{scene_, "-s", "Bond/Modulus = 4 GPa", "-s", "Bond/Gap = 4 s"}, {"--set 2: error: Bond/Gap = 4 s"}});
+  refuse({{scene_, "--resume", "--overwrite"}, {"exclude each other"}});
+}
+
+TEST_F(Errors, a_time_step_above_the_limit_is_refused_with_the_limit) {
+  scene("bad.prm", "subsection Integration\n  set Time step = 1 us\nend\n");
+  refuse({{"bad.prm"},
+          {"bad.prm:3: error: Integration/Time step = 1 us is above the stability limit of ", "e-07 s"}});
+}
+
+TEST_F(Errors, specimen_files_are_refused_by_line_or_sphere) {
+  const std::string header = "x_m,y_m,z_m,radius_m\n";
+  const auto refuse_file = [&](const std::string &text, const std::vector<std::string> &says) {
+    put(folder_ / "spheres.csv", text);
+    scene("bad.prm", "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\nend\n");
+    put(folder_ / "out.txt", "");
+    put(folder_ / "error.txt", "");
+    const std::vector<std::string> before = names();
+    const Outcome outcome = run_compress({"bad.prm", "-o", "results"}, folder_);
+    EXPECT_EQ(outcome.status, 2);
+    for (const std::string &part : says)
+      EXPECT_TRUE(contains(outcome.error, part)) << outcome.error << " not: " << part;
+    EXPECT_EQ(names(), before);
+  };
+  refuse_file("", {"holds no sphere"});
+  refuse_file("0,0,0.01,0.001\n", {"csv:1: error: ", "header"});
+  refuse_file(header + "0,0,0.01,0.001\n0,0,nan,0.001\n", {"csv:3: error: column z_m: \"nan\""});
+  refuse_file(header + "0,0,0.01,-0.001\n", {"csv:2: error: column radius_m: -0.001 is not positive"});
+  refuse_file(header + "0,0,0.01,0.001\n0,0,0.01,0.001\n",
+              {"bad.prm:4", "spheres 0 and 1 have the same centre"});
+  refuse_file(header + "0,0,0.01,0.001\n0,0.0098,0.01,0.001\n", {"bad.prm:4", "sphere 1 reaches 0.0008"});
+  refuse_file("# shape: cylinder radius_m=0.01 height_m=0.03\n" + header + "0,0,0.01,0.001\n",
+              {"crushed.prm:", "Specimen/Height = 20 mm contradicts", "0.03 m"});
+  // Neither platen would ever meet it.
+  refuse_file(header + "0,0,0.01,0.001\n",
+              {"crushed.prm:", "Specimen/End layer = 0.5 leaves a platen without a sphere"});
+  fs::remove(folder_ / "spheres.csv");
+  refuse({{"bad.prm"}, {"bad.prm:4: error: Specimen/File = spheres.csv cannot be read"}});
+}
+
+TEST_F(Errors, output_folders_are_guarded) {
+  put(folder_ / "file", "mine");
+  refuse({{scene_}, {"is not a folder"}}, "file");
+  refuse({{scene_}, {"is not a folder"}}, "file/results");
+  refuse({{scene_}, {"output folder /proc/results: "}}, "/proc/results"); // not even root may write there
+  refuse({{scene_, "--resume"}, {"holds no checkpoint to resume from"}});
+  put(folder_ / "used/history.csv", "time_s\n");
+  refuse({{scene_}, {"holds an earlier run (history.csv)", "--overwrite"}}, "used");
+  EXPECT_EQ(content_of(folder_ / "file"), "mine");
+  EXPECT_EQ(content_of(folder_ / "used/history.csv"), "time_s\n");
+  // A scene that its own run would replace.
+  fs::copy_file(scene_, folder_ / "scene.prm");
+  refuse({{"scene.prm"}, {"would replace scene.prm, which it reads"}}, ".");
+  EXPECT_EQ(content_of(folder_ / "scene.prm"), content_of(scene_));
+}
+
+TEST_F(Errors, a_dry_run_tells_what_would_run_and_writes_nothing) {
+  put(folder_ / "out.txt", "");
+  put(folder_ / "error.txt", "");
+  const std::vector<std::string> before = names();
+  const Outcome outcome = run_compress({scene_, "-o", "results", "--dry-run"}, folder_);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  for (const char *part :
+       {"particles ", "bonds ", "effects on:  parallel bond, linear contact", "effects off: hertz contact",
+        "time step ", "2/omega", "steps to the target strain"})
+    EXPECT_TRUE(contains(outcome.out, part)) << outcome.out << " not: " << part;
+  EXPECT_EQ(names(), before);
+}
+
+TEST_F(Errors, printed_parameters_are_a_scene_again) {
+  // As .prm and as JSON; what the print of either prints is the same text: nothing is lost on the way.
+  const std::vector<std::string> options{"--print-parameters", "-s", "Bond/Modulus = 12.345678901234567 GPa"};
+  for (const bool json : {false, true}) {
+    std::vector<std::string> first{scene_},
+        second{json ? "printed.json" : "printed.prm", "--print-parameters"};
+    first.insert(first.end(), options.begin(), options.end());
+    if (json) first.push_back("--json"), second.push_back("--json");
+    const Outcome once = run_compress(first, folder_);
+    ASSERT_EQ(once.status, 0) << once.error;
+    EXPECT_TRUE(contains(once.out, "12.345678901234567 GPa"));
+    put(folder_ / second.front(), once.out);
+    const Outcome again = run_compress(second, folder_);
+    EXPECT_EQ(again.status, 0) << again.error;
+    EXPECT_EQ(again.out, once.out);
+    const Outcome runs = run_compress({second.front(), "--dry-run"}, folder_);
+    EXPECT_EQ(runs.status, 0) << runs.error;
+  }
+}
+
+TEST_F(Errors, an_expected_number_that_does_not_come_out_is_status_one) {
+  scene("expect.prm",
+        "subsection Loading\n  set Target strain = 0.0005\nend\n"
+        "subsection Output\n  set Fields = off\nend\n"
+        "subsection Expect\n  set particles = 1100 ... 1200\n  set energy_residual_relative = 1 ... 2\n"
+        "  set poisson_ratio = 0.05 ... 0.3\nend\n");
+  const Outcome outcome = run_compress({"expect.prm", "-o", "results"}, folder_);
+  EXPECT_EQ(outcome.status, 1) << outcome.error;
+  const std::string told = outcome.out + outcome.error;
+  EXPECT_TRUE(contains(told, "expect.prm:10: energy_residual_relative = ")) << told;
+  EXPECT_TRUE(contains(told, "is not in 1 ... 2")) << told;
+  EXPECT_FALSE(contains(told, "expect.prm:9:")) << told;
+  EXPECT_FALSE(contains(told, "expect.prm:11:")) << told;
+  EXPECT_EQ(summary_in(folder_ / "results")["status"], "done");
+}
+
+TEST_F(Errors, numerics_that_stop_are_status_three) {
+  const Outcome outcome = run_compress(
+      {scene_, "-o", "results", "--quiet", "-s", "Loading/Axial rate = 20 km/s", "-s", "Loading/Ramp = 1 ns"},
+      folder_);
+  EXPECT_EQ(outcome.status, 3);
+  for (const char *part :
+       {"step ", "time ", "in one step", "smaller time step", "no checkpoint had been written"})
+    EXPECT_TRUE(contains(outcome.error, part)) << outcome.error << " not: " << part;
+  EXPECT_EQ(summary_in(folder_ / "results")["status"], "failed");
+}
+
+TEST_F(Errors, a_disk_that_fills_is_status_four_and_loses_nothing) {
+  const std::vector<std::string> run{scene_, "-o",      "results", "-t",
+                                     "1",    "--quiet", "-s",      "Output/Fields = off"};
+  Program program(compress_command(run), folder_);
+  const auto kept = [&] { return fs::exists(folder_ / "results/checkpoint/step_000000000500.platen"); };
+  ASSERT_TRUE(program.wait_until(kept));
+  // No file may grow beyond what it has: what a full disk does, but to this process alone.
+  rlimit limit{};
+  limit.rlim_cur = limit.rlim_max = 1024;
+  ASSERT_EQ(prlimit(program.id(), RLIMIT_FSIZE, &limit, nullptr), 0);
+  EXPECT_EQ(program.wait(), 4);
+  EXPECT_TRUE(contains(content_of(folder_ / "error.txt"), "results/")) << content_of(folder_ / "error.txt");
+  std::vector<std::string> whole = run, rest = run;
+  whole[2] = "whole";
+  rest.push_back("--resume");
+  ASSERT_EQ(run_compress(whole, folder_).status, 0);
+  const Outcome resumed = run_compress(rest, folder_);
+  ASSERT_EQ(resumed.status, 0) << resumed.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "results")), "");
+}
+
+} // namespace
+} // namespace platen::apps::testing
