@@ -83,6 +83,30 @@ TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
   EXPECT_EQ(figures("whole"), figures("killed"));
 }
 
+TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
+  // What crushed.prm leaves out: a servo, Hertz contacts with rolling, seats, gravity, scaled masses.
+  std::vector<std::string> effects;
+  for (const char *entry :
+       {"Platens/Top/Control = stress", "Platens/Top/Stress = 40 MPa", "Loading/Ramp = 0.2 ms",
+        "Loading/Hold = 0.05 ms", "Effects/Contact = hertz",
+        "Effects/Tangential = coulomb with rolling resistance", "Contact/Rolling friction = 0.1",
+        "Effects/Gravity = on", "Specimen/Seat = on", "Integration/Mass scaling = 2"})
+    effects.insert(effects.end(), {"-s", entry});
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.end(), effects.begin(), effects.end());
+    return options;
+  };
+  crush("whole", "1", effects);
+  for (const char *effect : {"hertz contact", "rolling resistance", "gravity", "seats", "mass scaling"})
+    EXPECT_TRUE(contains(summary_in(folder_ / "whole")["effects"].dump(), effect)) << effect;
+  EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 500);
+  EXPECT_EQ(stop_at("stopped", 60, SIGTERM, with({"-t", "2"})), 143);
+  const Outcome last = run_compress(with({scene_, "-o", "stopped", "--resume", "--quiet"}), folder_);
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+  EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
 TEST_F(Determinism, only_the_same_scene_is_resumed) {
   EXPECT_EQ(stop_at("stopped", 10, SIGINT, {}), 130);
   const auto before = results_in(folder_ / "stopped");
