@@ -21,14 +21,18 @@ constexpr double warped = 1e-9;
 // there.
 constexpr double no_area = 1e-28;
 
+// The sum w_i x_i, written so that a face in a coordinate plane gives that plane's coordinate without
+// rounding.
+Vector3 point_at(const Quad &q, double u, double v) {
+  return q[0] + u * (q[1] - q[0]) + v * (q[3] - q[0]) + (u * v) * ((q[0] - q[1]) + (q[2] - q[3]));
+}
+
 ClosestPoint at(const Quad &q, double u, double v) {
   ClosestPoint c;
   c.u = u;
   c.v = v;
   c.weights = bilinear_weights(u, v);
-  // The sum w_i x_i, written so that a face in a coordinate plane gives that plane's coordinate without
-  // rounding.
-  c.point = q[0] + u * (q[1] - q[0]) + v * (q[3] - q[0]) + (u * v) * ((q[0] - q[1]) + (q[2] - q[3]));
+  c.point = point_at(q, u, v);
   c.distance_squared = norm_squared(c.point);
   return c;
 }
@@ -96,10 +100,11 @@ bool project_parallelogram(const Quad &q, double &u, double &v) {
 // it is positive definite and damped Gauss-Newton steps elsewhere. False where the way leads to the rim for
 // good.
 bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
-  double f = 0.5 * at(q, u, v).distance_squared;
+  Vector3 r = point_at(q, u, v);
+  double f = 0.5 * norm_squared(r);
   int unchecked = 0;
   for (int iteration = 0; iteration < 60 && unchecked < 4; ++iteration) {
-    const Vector3 r = at(q, u, v).point, a = derivative_u(q, v), b = derivative_v(q, u);
+    const Vector3 a = derivative_u(q, v), b = derivative_v(q, u);
     const double gu = dot(r, a), gv = dot(r, b);
     const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), off = ab + dot(r, twist);
     const bool hold_u = (u <= 0 && gu > 0) || (u >= 1 && gu < 0);
@@ -128,12 +133,14 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
     for (int halving = 0; halving < 40; ++halving, step *= 0.5) {
       nu = std::clamp(u + step * du, 0.0, 1.0);
       nv = std::clamp(v + step * dv, 0.0, 1.0);
-      nf = 0.5 * at(q, nu, nv).distance_squared;
+      r = point_at(q, nu, nv);
+      nf = 0.5 * norm_squared(r);
       if (last_steps || nf <= f) break;
     }
     const double moved = std::max(std::abs(nu - u), std::abs(nv - v));
     u = nu, v = nv, f = nf;
-    if (moved < 1e-15) break;
+    // A whole Newton step leaves an error of the order of its square.
+    if (moved < (newton && step == 1 ? 1e-9 : 1e-15)) break;
   }
   return inside(u, v);
 }
@@ -173,31 +180,31 @@ Vector3 bilinear_normal(const Quad &q, double u, double v) {
 }
 
 ClosestPoint closest_point(const Quad &q) {
-  const ClosestPoint rim = on_boundary(q);
   const Vector3 twist = (q[0] - q[1]) + (q[2] - q[3]);
   const Vector3 first = q[2] - q[0], second = q[3] - q[1];
   const double size = std::max(norm(first), norm(second));
   double u = 0.5, v = 0.5;
-  if (norm(twist) <= parallel_twist * size) return project_parallelogram(q, u, v) ? at(q, u, v) : rim;
+  if (norm(twist) <= parallel_twist * size)
+    return project_parallelogram(q, u, v) ? at(q, u, v) : on_boundary(q);
 
   const Vector3 across = cross(first, second);
   const double area = norm(across);
   const bool flat = area > 0 && std::abs(dot(twist, across)) <= warped * size * area;
   const Foot foot = flat ? foot_on_flat_quad(q, across) : Foot::unknown;
-  if (foot == Foot::outside) return rim;
+  if (foot == Foot::outside) return on_boundary(q);
+  // A flat convex quad has one minimum.
+  if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
 
-  ClosestPoint best = rim;
+  ClosestPoint best = on_boundary(q);
   const auto try_from = [&](double start_u, double start_v) {
     u = start_u, v = start_v;
     if (!descend(q, twist, u, v)) return;
     const ClosestPoint c = at(q, u, v);
     if (preference(c) < preference(best)) best = c;
   };
-  try_from(0.5, 0.5);
-  if (foot == Foot::inside && best.feature == Feature::face) return best; // the only minimum
   for (const double start_u : {0.125, 0.5, 0.875})
     for (const double start_v : {0.125, 0.5, 0.875})
-      if (start_u != 0.5 || start_v != 0.5) try_from(start_u, start_v);
+      try_from(start_u, start_v);
   return best;
 }
 

@@ -27,6 +27,14 @@ const std::array<int, 4> &corners_of(const SurfaceMesh &surface, int face) {
   return surface.faces[static_cast<std::size_t>(face)];
 }
 
+// Of the origin from the box around the corners: no point of the face is nearer.
+double box_distance_squared(const Quad &q) {
+  Box box{q[0], q[0]};
+  for (std::size_t k = 1; k < 4; ++k)
+    box.include(q[k]);
+  return box.distance_squared({});
+}
+
 double largest_corner(const Quad &q) {
   return std::sqrt(
       std::max({norm_squared(q[0]), norm_squared(q[1]), norm_squared(q[2]), norm_squared(q[3])}));
@@ -120,7 +128,9 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
   for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n) {
     const NearFace &candidate = near_[n];
     if (candidate.distance - travelled_ > best_distance * (1 + margin)) break;
-    const ClosestPoint c = closest_point(face_corners(surface, candidate.face, centre));
+    const Quad corners = face_corners(surface, candidate.face, centre);
+    if (box_distance_squared(corners) > best.distance_squared * (1 + margin)) continue;
+    const ClosestPoint c = closest_point(corners);
     if (preference(c) > preference(best)) continue;
     if (preference(c) == preference(best) && candidate.face > best_face) continue;
     best = c;
