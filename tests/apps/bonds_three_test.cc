@@ -21,6 +21,10 @@ struct Variant {
   double strain_ratio[5]; // at k_s / k_n = .5, .6, .7, .8, .9, from the minimum of the energy, to 4 digits
 };
 
+void PrintTo(const Variant &v, std::ostream *out) {
+  *out << "base bond " << v.base_bond << ", rotation " << v.rotation << ", plate " << v.plate;
+}
+
 class Pyramids : public testing::TestWithParam<Variant> {};
 
 TEST_P(Pyramids, spread_as_the_least_energy_says) {

@@ -67,6 +67,10 @@ struct PathCase {
   bool in_tension;
 };
 
+void PrintTo(const PathCase &path, std::ostream *out) {
+  *out << path.word;
+}
+
 class Path : public testing::TestWithParam<PathCase> {};
 
 // Loaded and moved, every path breaks where the section says so, within the step of 2e-4 before the break.

@@ -123,6 +123,10 @@ struct QuadKind {
   Quad (*make)(Draw &);
 };
 
+void PrintTo(const QuadKind &kind, std::ostream *out) {
+  *out << kind.name;
+}
+
 Quad any_warped(Draw &d) {
   return {d.vector(1), d.vector(1), d.vector(1), d.vector(1)};
 }
