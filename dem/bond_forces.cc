@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
@@ -77,45 +76,6 @@ void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSe
           {static_cast<int>(k), t >= s ? BondState::broken_in_tension : BondState::broken_in_shear});
     }
   }
-}
-
-double add_bond_dashpots(const Particles &p, Bonds &b, double alpha, double dt) {
-  constexpr double pi = 3.14159265358979323846;
-  const bool turning = p.has_rotation();
-  return ordered_sum<double>(b.size(), [&](std::size_t first, std::size_t last) {
-    double work = 0;
-    for (std::size_t k = first; k < last; ++k) {
-      const double stiffness = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
-      if (stiffness == 0.0) continue;
-      const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-      const double ratio = b.law.parameters.stiffness_ratio,
-                   half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
-      const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-      const double cn = 2 * alpha * std::sqrt(stiffness * m),
-                   cs = 2 * alpha * std::sqrt(ratio * stiffness * m);
-      const Vector3 d = p.position[j] - p.position[i], n = d / norm(d);
-      const Vector3 ri = b.lever[k] * d, rj = ri - d;
-      Vector3 v = p.velocity[j] - p.velocity[i];
-      if (turning) v += cross((*p.angular_velocity)[j], rj) - cross((*p.angular_velocity)[i], ri);
-      const double vn = dot(v, n);
-      const Vector3 vs = v - vn * n, force = cn * vn * n + cs * vs;
-      b.force[k] += force;
-      work += 0.5 * dt * dot(force + (*b.dashpot_force)[k], v);
-      (*b.dashpot_force)[k] = force;
-      if (!turning) continue;
-      const double inertia = (*p.inertia)[i] * (*p.inertia)[j] / ((*p.inertia)[i] + (*p.inertia)[j]);
-      const double cb = 2 * alpha * std::sqrt(0.5 * half_square * stiffness * inertia);
-      const double ct = 2 * alpha * std::sqrt(half_square * ratio * stiffness * inertia);
-      const Vector3 w = (*p.angular_velocity)[j] - (*p.angular_velocity)[i];
-      const double wn = dot(w, n);
-      const Vector3 moment = cb * (w - wn * n) + ct * wn * n;
-      (*b.torque_first)[k] += cross(ri, force) + moment;
-      (*b.torque_second)[k] -= cross(rj, force) + moment;
-      work += 0.5 * dt * dot(moment + (*b.dashpot_moment)[k], w);
-      (*b.dashpot_moment)[k] = moment;
-    }
-    return work;
-  });
 }
 
 double bond_energy(const Particles &particles, const Bonds &bonds) {

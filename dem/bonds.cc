@@ -95,11 +95,6 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const Paralle
   rebuild_incidence(n);
 }
 
-void Bonds::add_dashpot_columns() {
-  dashpot_force = &table.add<Vector3>("dashpot_force", "N");
-  if (torque_first != nullptr) dashpot_moment = &table.add<Vector3>("dashpot_moment", "N m");
-}
-
 void Bonds::rebuild_incidence(std::size_t particles) {
   incidence_offset.assign(particles + 1, 0);
   for (std::size_t k = 0; k < size(); ++k) {
@@ -144,6 +139,8 @@ std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, 
     normal_stiffness[k] = 0;
     force[k] = {};
     if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};
+    if (dashpot != nullptr) (*dashpot)[k] = 0;
+    if (dashpot_bending != nullptr) (*dashpot_bending)[k] = 0;
     state[record[k]] = static_cast<int>(b.mode);
     break_time[record[k]] = time;
   }

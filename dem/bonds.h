@@ -51,7 +51,11 @@ struct Bonds {
   Column<Vector3> &force = table.add<Vector3>("force", "N");
   Column<Vector3> *torque_first = nullptr; // N m; only with rotation
   Column<Vector3> *torque_second = nullptr;
-  // Only with dashpots: what they exerted on the first particle in the last step.
+  // Only with dashpots: their coefficients (0 once broken) along the bond and in bending, times the ratios in
+  // shear and torsion; and what they exerted on the first particle in the last step.
+  Column<double> *dashpot = nullptr;         // N s/m
+  Column<double> *dashpot_bending = nullptr; // N m s; only with rotation
+  double dashpot_shear_ratio = 0, dashpot_twist_ratio = 0;
   Column<Vector3> *dashpot_force = nullptr;  // N
   Column<Vector3> *dashpot_moment = nullptr; // N m; only with rotation
 
@@ -71,7 +75,9 @@ struct Bonds {
   // Bonds all pairs within the layout's reach; pairs are sorted by (first, second).
   Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &law);
 
-  void add_dashpot_columns();
+  // Dashpots of the fraction alpha of critical in every bond: F = 2 alpha sqrt(K m*) v beside each spring of
+  // stiffness K, with the reduced mass m*, or inertia for moments. Bonds must be intact.
+  void add_dashpots(const Particles &particles, double alpha);
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
@@ -104,10 +110,10 @@ const char *name(InstructionSet set);
 void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set,
                          std::vector<BondBreak> &breaks);
 
-// Adds dashpots of fraction alpha of critical (F = 2 alpha sqrt(K m*) v, and the rotational analogue) to the
-// rows, from the velocities of the last drift, which took dt. Returns the energy that they took in it, J: by
-// the mean of their forces at its two ends, as the leapfrog sees it. Needs add_dashpot_columns().
-double add_bond_dashpots(const Particles &particles, Bonds &bonds, double alpha, double dt);
+// Adds the dashpots to the rows, from the velocities of the last drift, which took dt. Returns the energy
+// that they took in it, J: by the mean of their forces at its two ends, as the leapfrog sees it. Needs
+// Bonds::add_dashpots, and each row that broke once more before it is compacted away.
+double add_bond_dashpots(const Particles &particles, Bonds &bonds, double dt);
 
 double bond_energy(const Particles &particles, const Bonds &bonds); // J
 

@@ -14,7 +14,7 @@ constexpr double compaction_share = 0.02;
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
     : particles(specimen, settings.density * settings.mass_scaling, settings.rotation), settings_(settings) {
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
-  if (bonds && settings.bond_dashpot > 0) bonds->add_dashpot_columns();
+  if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
     contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout);
 }
@@ -37,8 +37,9 @@ void Model::compute_forces(double dt) {
     breaks_.clear();
     compute_bond_forces(particles, *bonds, settings_.instruction_set, breaks_);
     if (!breaks_.empty()) break_bonds(dt);
-    if (settings_.bond_dashpot > 0)
-      works.damping += add_bond_dashpots(particles, *bonds, settings_.bond_dashpot, dt);
+    if (settings_.bond_dashpot > 0) works.damping += add_bond_dashpots(particles, *bonds, dt);
+    if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
+      bonds->compact();
   }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);
@@ -62,8 +63,6 @@ void Model::break_bonds(double dt) {
     cracks.push_back({time, xi + lever * (xj - xi), (xj - xi) / norm(xj - xi), b.area, b.mode, b.released,
                       particles.id[b.first], particles.id[b.second]});
   }
-  if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
-    bonds->compact();
 }
 
 void Model::end_step(double dt) {

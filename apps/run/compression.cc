@@ -18,6 +18,7 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/io/summary.h"
+#include "apps/run/estimate.h"
 #include "apps/run/fields.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
@@ -327,7 +328,7 @@ void Test::save_summary(const std::string &status) {
 
 int Test::run() {
   if (command_.dry_run) {
-    fmt::print("{}", description());
+    fmt::print("{}{}", description(), cost_estimate(*problem_, expected_steps_));
     return status_done;
   }
   log_.info("{}", description());

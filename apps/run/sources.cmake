@@ -1,5 +1,6 @@
 set(PLATEN_RUN_SOURCES
   run/compression.cc
+  run/estimate.cc
   run/fields.cc
   run/history.cc
   run/model_setup.cc

@@ -1,11 +1,11 @@
 #include "apps/run/summary_of_run.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <limits>
 
+#include "apps/io/machine.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/version.h"
@@ -15,12 +15,6 @@ namespace platen::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double peak_memory() { // bytes
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 Json stage_seconds(const dem::StageClock &clock) {
   Json stages;
@@ -79,7 +73,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
       costs.step_seconds > 0 ? particles * static_cast<double>(costs.steps_here) / costs.step_seconds
                              : not_measured;
   s["stage_seconds"] = stage_seconds(model.clock);
-  s["peak_memory_bytes"] = peak_memory();
+  s["peak_memory_bytes"] = peak_memory_bytes();
   s["bytes_per_particle"] = model.particles.table.bytes_per_row();
   s["bytes_per_bond"] = bytes_per_bond(model);
   s["strength_pa"] = results.strength();

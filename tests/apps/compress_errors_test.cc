@@ -164,7 +164,7 @@ TEST_F(Errors, a_dry_run_tells_what_would_run_and_writes_nothing) {
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   for (const char *part :
        {"particles ", "bonds ", "effects on:  parallel bond, linear contact", "effects off: hertz contact",
-        "time step ", "2/omega", "steps to the target strain"})
+        "time step ", "2/omega", "steps to the target strain", "estimate: ", "ms a step", "memory "})
     EXPECT_TRUE(contains(outcome.out, part)) << outcome.out << " not: " << part;
   EXPECT_EQ(names(), before);
 }

@@ -142,6 +142,22 @@ TEST(bond_failure, a_broken_bond_never_pulls_again_and_pushes_from_where_it_was)
     }
 }
 
+// The dashpot of a bond acts until the bond breaks, the half step before it included.
+TEST(bond_failure, the_dashpot_of_a_breaking_bond_is_in_the_book) {
+  ModelSettings settings = breakable();
+  settings.bond_dashpot = .3;
+  Model model(row(1, {1, 0, 0}), settings);
+  Particles &p = model.particles;
+  const double omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]);
+  p.velocity[1].x = 10 * breaking_strain * 2 * radius * omega; // breaks on the first swing
+  const double energy = kinetic_energy(p), dt = .02 / omega;
+  for (int s = 0; s < 100; ++s)
+    step(model, dt);
+  ASSERT_EQ(model.intact_bonds(), 0u);
+  EXPECT_GT(model.energy().damping, .01 * energy);
+  EXPECT_NEAR(model.energy().stored() + model.energy().lost(), energy, 1e-4 * energy);
+}
+
 TEST(bond_failure, compression_alone_breaks_nothing) {
   Pair pair(breakable());
   for (double strain = 0; strain < .05; strain += 1e-3) // 200 times the tensile strength
