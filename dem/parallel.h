@@ -22,25 +22,33 @@ inline std::size_t number_of_blocks(std::size_t rows) {
   return (rows + block_rows - 1) / block_rows;
 }
 
-// body(first, last, block) for every block of rows [0, rows).
+// Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
+int loop_threads();
+
+// body(first, last, block) for every block of rows [0, rows). Each thread takes one run of neighbouring
+// blocks. TBB's static partitioner would do the same, but it mails tasks to threads that may not exist, and
+// such mail is never freed: with a limit of one thread a run of hours would eat the memory.
 template <class Body>
 void for_each_block(std::size_t rows, const Body &body) {
   const std::size_t blocks = number_of_blocks(rows);
-  const auto run = [&](std::size_t b) { body(b * block_rows, std::min(rows, (b + 1) * block_rows), b); };
+  const auto run = [&](std::size_t from, std::size_t to) {
+    for (std::size_t b = from; b < to; ++b)
+      body(b * block_rows, std::min(rows, (b + 1) * block_rows), b);
+  };
 #ifndef PLATEN_SERIAL
-  if (blocks > 1) {
+  const std::size_t parts = std::min(blocks, static_cast<std::size_t>(loop_threads()));
+  if (parts > 1) {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, blocks, 1),
+        tbb::blocked_range<std::size_t>(0, parts, 1),
         [&](const tbb::blocked_range<std::size_t> &range) {
-          for (std::size_t b = range.begin(); b != range.end(); ++b)
-            run(b);
+          for (std::size_t p = range.begin(); p != range.end(); ++p)
+            run(p * blocks / parts, (p + 1) * blocks / parts);
         },
-        tbb::static_partitioner());
+        tbb::simple_partitioner());
     return;
   }
 #endif
-  for (std::size_t b = 0; b < blocks; ++b)
-    run(b);
+  run(0, blocks);
 }
 
 // body(row) for every row.
@@ -64,7 +72,7 @@ T ordered_sum(std::size_t rows, const Body &body) {
   return sum;
 }
 
-// Limits the threads of all loops until it is destroyed; 0 leaves the choice to the backend.
+// Sets the threads of all loops until it is destroyed; 0: all that the process may have.
 class ThreadLimit {
 public:
   explicit ThreadLimit(int threads);
@@ -73,6 +81,7 @@ public:
   ThreadLimit &operator=(const ThreadLimit &) = delete;
 
 private:
+  int before_;
   void *control_ = nullptr;
 };
 

@@ -1,7 +1,11 @@
 // Results do not depend on the number of threads, to the last bit.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstring>
+#include <fstream>
+#include <vector>
 
 #include "dem/packing/random.h"
 #include "dem/parallel.h"
@@ -66,6 +70,30 @@ TEST(threads, one_two_and_four_give_the_same_bits) {
     EXPECT_EQ(std::memcmp(other.state.data(), one.state.data(), one.state.size()), 0) << threads;
     EXPECT_EQ(std::memcmp(&other.energy, &one.energy, sizeof one.energy), 0) << threads;
     EXPECT_EQ(other.limit, one.limit) << threads;
+  }
+}
+
+double resident_megabytes() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
+}
+
+// Runs are millions of loops long: nothing may be left behind by one, whatever the number of threads.
+TEST(threads, loops_leave_no_memory_behind) {
+  std::vector<double> rows(8 * block_rows);
+  const auto loops = [&](int count) {
+    for (int k = 0; k < count; ++k)
+      for_each(rows.size(), [&](std::size_t i) { rows[i] += 1; });
+  };
+  for (const int threads : {1, 2, 3, 4}) {
+    const ThreadLimit limit(threads);
+    loops(1000);
+    const double before = resident_megabytes();
+    ASSERT_GT(before, 0);
+    loops(50000);
+    EXPECT_LT(resident_megabytes() - before, 2) << threads; // a forgotten task each would be 6 MB and more
   }
 }
 
