@@ -24,6 +24,8 @@ void draw_damage(const Run &run, const Extent &extent, const std::filesystem::pa
 
 // Damage of several runs side by side, each at its Run::pattern_time(). Runs without frames are left out.
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
+// Outward displacement of several runs at their ends, in one scale: what the platens held is dark.
+void draw_displacement_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
 
 // The bonds broken up to Run::pattern_time() as discs of their areas in the half specimen: those that broke
 // in tension on the left, in shear on the right. `before_test` is the first frame of the specimen. The run

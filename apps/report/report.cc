@@ -24,6 +24,9 @@ void draw_comparison(const std::vector<Run> &runs, const fs::path &folder, std::
   draw_stress_strain(runs, next(drawn, folder, "comparison_stress_strain.png",
                                 "Stress and broken bonds against strain, all runs."));
   if (std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.specimen.empty(); })) return;
+  draw_displacement_comparison(
+      runs, next(drawn, folder, "comparison_displacement.png",
+                 "Half specimens at the end, coloured by outward displacement: what is dark stood still."));
   draw_damage_comparison(runs,
                          next(drawn, folder, "comparison_damage.png",
                               "Half specimens coloured by the share of each sphere's bonds that is broken."));

@@ -41,6 +41,22 @@ void draw_pattern_and_end(const Run &run, const Extent &extent, Quantity quantit
                  png);
 }
 
+// Damage where the pattern is measured, displacement at the end: that is when each shows the most.
+void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const std::string &title,
+                       const std::filesystem::path &png) {
+  std::vector<CutView> views;
+  Extent largest;
+  for (const Run &run : runs) {
+    if (run.specimen.empty()) continue;
+    views.push_back(quantity == Quantity::damage
+                        ? view_at(run, run.pattern_time(), quantity, run.name + ", at " + run.pattern_words())
+                        : view_at(run, run.moments.end_time, quantity, run.name + ", at the end"));
+    const Extent extent = extent_of(read_spheres(run.specimen.frames.front()));
+    if (extent.height() > largest.height()) largest = extent;
+  }
+  save_cut_views(title, "Half of each specimen", views, largest, colouring_of(quantity, views), png);
+}
+
 } // namespace
 
 void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png) {
@@ -52,17 +68,11 @@ void draw_damage(const Run &run, const Extent &extent, const std::filesystem::pa
 }
 
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {
-  std::vector<CutView> views;
-  Extent largest;
-  for (const Run &run : runs) {
-    if (run.specimen.empty()) continue;
-    views.push_back(
-        view_at(run, run.pattern_time(), Quantity::damage, run.name + ", at " + run.pattern_words()));
-    const Extent extent = extent_of(read_spheres(run.specimen.frames.front()));
-    if (extent.height() > largest.height()) largest = extent;
-  }
-  save_cut_views("Damage compared", "Half of each specimen", views, largest,
-                 colouring_of(Quantity::damage, views), png);
+  draw_side_by_side(runs, Quantity::damage, "Damage compared", png);
+}
+
+void draw_displacement_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {
+  draw_side_by_side(runs, Quantity::outward_displacement, "Outward displacement compared", png);
 }
 
 } // namespace platen::apps::report

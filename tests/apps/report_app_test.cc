@@ -69,6 +69,15 @@ double redness(const Image &image, double x, double y) {
   return sum / (4.0 * half * half);
 }
 
+double greenness(const Image &image, double x, double y) {
+  const int cx = static_cast<int>(x * image.width), cy = static_cast<int>(y * image.height), half = 20;
+  double sum = 0;
+  for (int j = cy - half; j < cy + half; ++j)
+    for (int i = cx - half; i < cx + half; ++i)
+      sum += image.at(i, j, 1);
+  return sum / (4.0 * half * half);
+}
+
 TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_nor_black) {
   const TestFolder folder;
   write_example(folder / "dry", {});
@@ -108,6 +117,13 @@ TEST(ReportApp, compared_side_by_side_the_hourglass_is_red_in_the_middle_and_the
   EXPECT_GT(redness(image, dry, middle), redness(image, dry, end) + clearly);
   EXPECT_GT(redness(image, other, end), redness(image, other, middle) + clearly);
   EXPECT_TRUE(std::filesystem::exists(folder / "somewhere else" / "comparison_stress_strain.png"));
+
+  // Outward displacement: from dark violet (green 1) over green to yellow (231); largest at the skin.
+  const Image moved = read_png(folder / "somewhere else" / "comparison_displacement.png");
+  constexpr double to_the_skin = 0.06, brighter = 40;
+  EXPECT_GT(greenness(moved, dry + to_the_skin, middle), greenness(moved, dry + to_the_skin, end) + brighter);
+  EXPECT_GT(greenness(moved, other + to_the_skin, end),
+            greenness(moved, other + to_the_skin, middle) + brighter);
 }
 
 TEST(ReportApp, a_run_without_frames_still_gets_its_curves) {
