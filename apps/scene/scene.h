@@ -157,10 +157,10 @@ enum class ConfinementKind { none, particles, sleeve };
 
 struct Loading {
   LoadingTest test = LoadingTest::compression;
-  double axial_rate = not_given;  // m/s, speed of the platens towards (tension: from) each other, > 0
-  double ramp = 0;                // s, smooth start; 0: the app chooses
-  double hold = 0;                // s, how long a stress is held after the ramp (Platens/Top/Control = stress)
-  double target_strain = 0.01;    // closure of the platens over the height of the specimen
+  double axial_rate = not_given; // m/s, speed of the platens towards (tension: from) each other, > 0
+  double ramp = 0;               // s, smooth start; 0: the app chooses
+  double hold = 0;               // s, how long a stress is held after the ramp (Platens/Top/Control = stress)
+  double target_strain = 0.01;   // closure of the platens over the height of the specimen
   double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
   ConfinementKind confinement = ConfinementKind::none;
   double confining_pressure = 0; // Pa
