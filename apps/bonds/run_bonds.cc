@@ -14,7 +14,7 @@
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
 #include "apps/io/summary.h"
-#include "apps/scene/expect.h"
+#include "apps/run/expectations.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 #include "dem/parallel.h"
@@ -288,17 +288,6 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
   return text.str();
 }
 
-int check_expectations(const Scene &scene, const Json &summary, RunLog &log) {
-  const std::vector<std::string> missed = failed_expectations(scene, [&](const std::string &key) {
-    const Json::json_pointer path("/" + key);
-    if (!summary.contains(path) || !summary.at(path).is_number()) return none;
-    return summary.at(path).get<double>();
-  });
-  for (const std::string &line : missed)
-    log.error("expected: {}", line);
-  return missed.empty() ? status_done : status_check_failed;
-}
-
 } // namespace
 
 double row_measured(const Scene &scene, const RigReading &row) {
@@ -347,7 +336,7 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
   write_summary(paths.summary(), summary);
   log.info("{}", report(scene, runs));
   log.info("  {:.2f} s; results are in {}", costs.seconds, paths.folder.string());
-  return check_expectations(scene, summary, log);
+  return tell_expectations(scene, summary, log);
 }
 
 } // namespace platen::apps

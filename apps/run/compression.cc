@@ -19,6 +19,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/io/summary.h"
 #include "apps/run/estimate.h"
+#include "apps/run/expectations.h"
 #include "apps/run/fields.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
@@ -353,11 +354,7 @@ int Test::run() {
     return exit_status_of_signal(signal_);
   }
   log_.info("results are in {}", paths_.folder.string());
-  const std::vector<std::string> missed =
-      missed_expectations(scene_, summary_of_run("done", scene_, *problem_, results_, costs()));
-  for (const std::string &line : missed)
-    log_.error("expected: {}", line);
-  return missed.empty() ? status_done : status_check_failed;
+  return tell_expectations(scene_, summary_of_run("done", scene_, *problem_, results_, costs()), log_);
 }
 
 } // namespace

@@ -16,9 +16,9 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/summary.h"
 #include "apps/io/vtu.h"
+#include "apps/run/expectations.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/expect.h"
 #include "apps/scene/version.h"
 #include "dem/packing/ends.h"
 #include "dem/packing/quality.h"
@@ -137,12 +137,7 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   write_summary(paths.summary(), summary);
   log.info("{}", report_of(judgement, seconds));
   log.info("results are in {}", paths.folder.string());
-  const std::vector<std::string> missed = failed_expectations(scene, [&](const std::string &key) {
-    return summary.contains(key) && summary[key].is_number() ? summary[key].get<double>() : not_given;
-  });
-  for (const std::string &line : missed)
-    log.error("expected: {}", line);
-  return missed.empty() ? status_done : status_check_failed;
+  return tell_expectations(scene, summary, log);
 }
 
 } // namespace platen::apps

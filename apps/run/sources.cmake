@@ -1,6 +1,7 @@
 set(PLATEN_RUN_SOURCES
   run/compression.cc
   run/estimate.cc
+  run/expectations.cc
   run/fields.cc
   run/history.cc
   run/model_setup.cc

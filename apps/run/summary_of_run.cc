@@ -7,7 +7,6 @@
 
 #include "apps/io/machine.h"
 #include "apps/run/problem_setup.h"
-#include "apps/scene/expect.h"
 #include "apps/scene/version.h"
 #include "dem/measure/fragments.h"
 
@@ -98,14 +97,6 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["cone_top"] = nullptr; // not measured by this app yet
   s["cone_bottom"] = nullptr;
   return s;
-}
-
-std::vector<std::string> missed_expectations(const Scene &scene, const Json &summary) {
-  return failed_expectations(scene, [&](const std::string &key) {
-    const Json::json_pointer path("/" + key);
-    if (!summary.contains(path) || !summary.at(path).is_number()) return not_measured;
-    return summary.at(path).get<double>();
-  });
 }
 
 std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,

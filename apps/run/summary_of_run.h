@@ -24,9 +24,6 @@ nlohmann::ordered_json summary_of_run(const std::string &status, const Scene &sc
                                       const coupling::Problem &problem, const Results &results,
                                       const RunCosts &costs);
 
-// The expected numbers of the scene that did not come out, one line each.
-std::vector<std::string> missed_expectations(const Scene &scene, const nlohmann::ordered_json &summary);
-
 // A few lines for the screen: strength, strains, moduli, damage, energy.
 std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
                           const RunCosts &costs);

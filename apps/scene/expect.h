@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/scene/scene.h"
 
 namespace platen::apps {
@@ -15,5 +17,12 @@ namespace platen::apps {
 // hold.
 std::vector<std::string> failed_expectations(const Scene &scene,
                                              const std::function<double(const std::string &)> &value_of);
+
+struct ExpectationCheck {
+  std::vector<std::string> failed;    // as above
+  std::vector<std::string> unchecked; // keys that this app's summary does not have: another app measures them
+};
+// Checks a whole summary. A key that the summary has and that is no number (null) was not measured: it fails.
+ExpectationCheck check_expectations(const Scene &scene, const nlohmann::ordered_json &summary);
 
 } // namespace platen::apps

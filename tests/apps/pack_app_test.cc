@@ -63,6 +63,16 @@ protected:
   fs::path folder;
 };
 
+// The scenes of crushed specimens are packed too: what only their test can measure is told and left to it.
+TEST_F(PackApp, checks_the_numbers_that_are_its_own) {
+  const Words ends{"Expect/strength_pa = 1 MPa ... 2 MPa", "Expect/cone_top/height_m = ... 1 mm"};
+  EXPECT_EQ(run(scene("small.prm", ends), "others"), status_done);
+  EXPECT_NE(text_of(folder / "others/run.log").find("not checked here: strength_pa, cone_top/height_m"),
+            std::string::npos);
+  EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.3 ... 0.6"}), "own"), status_done);
+  EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.7 ..."}), "missed"), status_check_failed);
+}
+
 TEST_F(PackApp, judges_what_it_packs) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
   for (const char *name : {"specimen.csv", "specimen.vtu", "summary.json", "scene.prm", "run.log"})
