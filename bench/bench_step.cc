@@ -45,6 +45,11 @@ coupling::ProblemSettings settings() {
   return s;
 }
 
+void run(coupling::Problem &problem, long steps) {
+  while (steps > 0)
+    steps -= problem.advance(steps);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -68,8 +73,7 @@ int main(int argc, char **argv) {
   std::printf("%zu particles, %.0f bonds, %d threads, %s kernels, step %.4g s\n",
               problem.model.particles.size(), bonds, threads, dem::name(chosen.model.instruction_set),
               problem.time_step());
-  for (int k = 0; k < steps / 5; ++k)
-    problem.step(); // warm
+  run(problem, steps / 5); // warm
   std::vector<double> rates;
   double measured = 0;
   std::vector<double> before(dem::stage_count), after(dem::stage_count);
@@ -77,8 +81,7 @@ int main(int argc, char **argv) {
     before[static_cast<std::size_t>(k)] = problem.model.clock.seconds(static_cast<dem::Stage>(k));
   for (int r = 0; r < repeats; ++r) {
     const auto start = std::chrono::steady_clock::now();
-    for (int k = 0; k < steps; ++k)
-      problem.step();
+    run(problem, steps);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     measured += seconds;
     rates.push_back(bonds * steps / seconds * 1e-6);

@@ -193,40 +193,60 @@ void Problem::announce_motion(double dt) {
   }
 }
 
-void Problem::step() {
-  if (steps_ > 0 && steps_ % steps_between_choices == 0 &&
-      static_cast<double>(springs_near()) >
-          static_cast<double>(near_at_choice_) +
-              growth_of_contacts * static_cast<double>(model.particles.size())) {
-    dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
-    choose_step(false);
+void Problem::look_at_step() {
+  if (steps_ == 0 || steps_ % steps_between_choices != 0) return;
+  const double grown = static_cast<double>(springs_near()) - static_cast<double>(near_at_choice_);
+  if (grown <= growth_of_contacts * static_cast<double>(model.particles.size())) return;
+  dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
+  choose_step(false);
+}
+
+long Problem::advance(long most) {
+  for (long made = 0; made < most; ++made) {
+    const double before = time_step_;
+    look_at_step();
+    if (made == 0)
+      model.begin_step(time_step_);
+    else
+      model.end_and_begin_step(before, time_step_);
+    if (!std::isfinite(model.last_motion().speed_squares))
+      throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_ + 1) +
+                            ", time " + text_of(time()) +
+                            " s; try a smaller Integration/Safety or Loading/Axial rate");
+    add_forces();
+    ++steps_;
+    if (made + 1 == most || !model.cracks.empty()) {
+      model.end_step(time_step_);
+      return made + 1;
+    }
   }
+  return most;
+}
+
+// All but the particles' motion.
+void Problem::add_forces() {
   const double dt = time_step_;
-  model.begin_step(dt);
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
     drift_bodies();
   }
   model.compute_forces(dt);
-  {
-    dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-    announce_motion(dt);
-    top_layer.add_forces(model.particles, top, dt);
-    bottom_layer.add_forces(model.particles, bottom, dt);
-  }
-  model.end_step(dt);
-  // The machine holds each platen against the particles: its work is minus theirs, by the trapezoid over the
-  // drift.
+  dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+  announce_motion(dt);
+  top_layer.add_forces(model.particles, top, dt);
+  bottom_layer.add_forces(model.particles, bottom, dt);
+  book_reactions();
+}
+
+// The machine holds each platen against the particles: its work is minus theirs, by the trapezoid over the
+// drift.
+void Problem::book_reactions() {
   const double force_top = top.total_force()[2], force_bottom = bottom.total_force()[2];
-  boundary_work_ -= 0.5 * dt *
+  boundary_work_ -= 0.5 * time_step_ *
                     ((reaction_top_ + force_top) * top.velocity()[2] +
                      (reaction_bottom_ + force_bottom) * bottom.velocity()[2]);
   reaction_top_ = force_top;
   reaction_bottom_ = force_bottom;
-  ++steps_;
-  if (!std::isfinite(model.last_sums().kinetic_energy))
-    throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_) + ", time " +
-                          text_of(time()) + " s; try a smaller Integration/Safety or Loading/Axial rate");
 }
 
 double Problem::coordination_number() const {
@@ -259,13 +279,7 @@ dem::EnergyLedger Problem::energy() const {
 
 double Problem::unbalanced_ratio() const {
   if (!model.bonds || model.intact_bonds() == 0) return std::numeric_limits<double>::quiet_NaN();
-  const dem::Bonds &b = *model.bonds;
-  const double sum = dem::ordered_sum<double>(b.size(), [&](std::size_t first, std::size_t last) {
-    double s = 0;
-    for (std::size_t k = first; k < last; ++k)
-      s += dem::norm(b.force[k]);
-    return s;
-  });
+  const double sum = dem::bond_totals(model.particles, *model.bonds, settings_.model.instruction_set).force;
   const double bonds = sum / static_cast<double>(model.intact_bonds());
   const double net = model.last_sums().unbalanced / static_cast<double>(model.particles.size());
   return bonds > 0 ? net / bonds : std::numeric_limits<double>::quiet_NaN();
@@ -316,7 +330,7 @@ void Problem::set_numbers(const std::vector<double> &n) {
 void Problem::restored() {
   top_layer.restored();
   bottom_layer.restored();
-  if (model.bonds) model.bonds->restored(model.particles.size());
+  if (model.bonds) model.bonds->restored();
 }
 
 } // namespace platen::coupling

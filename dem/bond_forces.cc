@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
@@ -7,22 +8,23 @@
 namespace platen::dem {
 namespace {
 
-kernels::BondKernel kernel_of(InstructionSet set) {
+const kernels::BondKernels &kernels_of(InstructionSet set) {
   switch (set) {
     case InstructionSet::avx512:
-      return kernels::bond_kernel_avx512;
+      return kernels::bond_kernels_avx512;
     case InstructionSet::avx2:
-      return kernels::bond_kernel_avx2;
+      return kernels::bond_kernels_avx2;
     case InstructionSet::baseline:
       break;
   }
-  return kernels::bond_kernel_baseline;
+  return kernels::bond_kernels_baseline;
 }
 
-kernels::BondColumns columns_of(const Particles &p, Bonds &b) {
+kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   kernels::BondColumns c{};
   c.first = b.first.data();
   c.second = b.second.data();
+  c.local = b.blocks.local.data();
   c.reference = b.reference.data();
   c.rest_length = b.rest_length.data();
   c.lever = b.lever.data();
@@ -30,10 +32,75 @@ kernels::BondColumns columns_of(const Particles &p, Bonds &b) {
   c.bond_radius = b.bond_radius.data();
   c.position = p.position.data();
   c.orientation = p.has_rotation() ? p.orientation->data() : nullptr;
-  c.force = b.force.data();
-  c.torque_first = b.torque_first != nullptr ? b.torque_first->data() : nullptr;
-  c.torque_second = b.torque_second != nullptr ? b.torque_second->data() : nullptr;
   return c;
+}
+
+// Sums of one block, in memory of this thread.
+struct BlockSums {
+  std::size_t first, last; // particle rows
+  std::size_t first_bond, last_bond, first_ghost, ghosts;
+  std::size_t stride;
+  double *row;
+
+  BlockSums(const BondBlocks &blocks, std::size_t block, std::size_t particles, bool rotation)
+      : first(block * block_rows),
+        last(std::min(particles, first + block_rows)),
+        first_bond(blocks.first_bond[block]),
+        last_bond(blocks.first_bond[block + 1]),
+        first_ghost(blocks.first_ghost[block]),
+        ghosts(blocks.first_ghost[block + 1] - first_ghost),
+        stride(static_cast<std::size_t>(kernels::sums_stride(rotation))) {
+    constexpr std::size_t cache_line = 64;
+    thread_local std::vector<double> memory;
+    const std::size_t used = (last - first + ghosts + 1) * stride;
+    if (memory.size() < used + cache_line) memory.resize(used + cache_line);
+    const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
+    row = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
+    std::fill_n(row, used, 0.0);
+  }
+  void into(kernels::BondColumns &c) const {
+    c.sums = row;
+    c.first_row = static_cast<int>(first);
+    c.spare_row = static_cast<int>(last - first + ghosts);
+  }
+  Vector3 force(std::size_t k) const { return {row[k * stride], row[k * stride + 1], row[k * stride + 2]}; }
+  Vector3 torque(std::size_t k) const {
+    return {row[k * stride + 4], row[k * stride + 5], row[k * stride + 6]};
+  }
+};
+
+// Writes (or adds) the sums to the particles and ghosts.
+template <bool add>
+void hand_over(const BlockSums &sums, Particles &p, BondBlocks &blocks, const Vector3 &gravity) {
+  const std::size_t rows = sums.last - sums.first;
+  const bool heavy = norm_squared(gravity) > 0, turning = p.has_rotation();
+  for (std::size_t k = 0; k < rows; ++k) {
+    Vector3 &force = p.force[sums.first + k];
+    force = add ? force + sums.force(k) : sums.force(k);
+    if (!turning) continue;
+    Vector3 &torque = (*p.torque)[sums.first + k];
+    torque = add ? torque + sums.torque(k) : sums.torque(k);
+  }
+  if (!add && heavy)
+    for (std::size_t i = sums.first; i < sums.last; ++i)
+      p.force[i] += p.mass[i] * gravity;
+  for (std::size_t g = 0; g < sums.ghosts; ++g) {
+    Vector3 &force = blocks.ghost_force[sums.first_ghost + g];
+    force = add ? force + sums.force(rows + g) : sums.force(rows + g);
+    if (!turning) continue;
+    Vector3 &torque = blocks.ghost_torque[sums.first_ghost + g];
+    torque = add ? torque + sums.torque(rows + g) : sums.torque(rows + g);
+  }
+}
+
+// One block; true where a bond may be at its strength.
+bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels, kernels::BondColumns columns,
+                   const Vector3 &gravity, std::size_t block) {
+  const BlockSums sums(b.blocks, block, p.size(), p.has_rotation());
+  sums.into(columns);
+  const bool reached = kernels.add_forces(columns, b.law, sums.first_bond, sums.last_bond);
+  hand_over<false>(sums, p, b.blocks, gravity);
+  return reached;
 }
 
 } // namespace
@@ -52,37 +119,86 @@ const char *name(InstructionSet set) {
   return set == InstructionSet::avx512 ? "avx512" : (set == InstructionSet::avx2 ? "avx2" : "baseline");
 }
 
-void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set,
+void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
                          std::vector<BondBreak> &breaks) {
-  const kernels::BondKernel kernel = kernel_of(set);
-  const kernels::BondColumns columns = columns_of(particles, bonds);
-  std::vector<unsigned char> at_strength(number_of_blocks(bonds.size()), 0);
-  for_each_block(bonds.size(), [&](std::size_t first, std::size_t last, std::size_t block) {
-    at_strength[block] = kernel(columns, bonds.law, first, last);
+  const kernels::BondKernels &kernels = kernels_of(set);
+  const kernels::BondColumns columns = columns_of(p, b);
+  std::vector<unsigned char> reached(b.blocks.blocks(), 0);
+  for_each_block(p.size(), [&](std::size_t, std::size_t, std::size_t block) {
+    reached[block] = compute_block(p, b, kernels, columns, gravity, block);
   });
-  // Rare: the same kernel once more over the block, so that the ratios are those that raised the flag.
-  for (std::size_t block = 0; block < at_strength.size(); ++block) {
-    if (!at_strength[block]) continue;
-    const std::size_t first = block * block_rows, last = std::min(bonds.size(), first + block_rows);
-    double tension[block_rows], shear[block_rows];
-    kernels::BondColumns with_ratios = columns;
-    with_ratios.tension_ratio = tension;
-    with_ratios.shear_ratio = shear;
-    kernel(with_ratios, bonds.law, first, last);
+  // Rare: the ratios themselves decide.
+  std::vector<double> tension, shear;
+  for (std::size_t block = 0; block < reached.size(); ++block) {
+    if (!reached[block]) continue;
+    const std::size_t first = b.blocks.first_bond[block], last = b.blocks.first_bond[block + 1];
+    tension.resize(last - first);
+    shear.resize(last - first);
+    kernels.measure(columns, b.law, {tension.data(), shear.data(), nullptr, nullptr}, first, last);
     for (std::size_t k = first; k < last; ++k) {
       const double t = tension[k - first], s = shear[k - first];
-      if (t < 1.0 && s < 1.0) continue;
+      if (!(t >= 1.0 || s >= 1.0) || b.normal_stiffness[k] == 0.0) continue;
       breaks.push_back(
           {static_cast<int>(k), t >= s ? BondState::broken_in_tension : BondState::broken_in_shear});
     }
   }
 }
 
-double bond_energy(const Particles &particles, const Bonds &bonds) {
-  return ordered_sum<double>(bonds.size(), [&](std::size_t first, std::size_t last) {
-    double sum = 0;
-    for (std::size_t k = first; k < last; ++k)
-      if (bonds.normal_stiffness[k] != 0.0) sum += bonds.response(k, particles).energy;
+void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
+                               const std::vector<BondBreak> &breaks) {
+  std::size_t done = b.blocks.blocks();
+  for (const BondBreak &broken : breaks) {
+    const std::size_t block = static_cast<std::size_t>(b.first[broken.row]) / block_rows;
+    if (block == done) continue;
+    compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
+    done = block;
+  }
+}
+
+void return_ghosts(Particles &p, const BondBlocks &blocks, std::size_t block) {
+  const bool turning = p.has_rotation();
+  for (std::size_t r = blocks.first_return[block]; r < blocks.first_return[block + 1]; ++r) {
+    const BondBlocks::Return &from = blocks.returns[r];
+    p.force[from.particle] += blocks.ghost_force[from.ghost];
+    if (turning) (*p.torque)[from.particle] += blocks.ghost_torque[from.ghost];
+  }
+}
+
+double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) {
+  const kernels::BondKernels &kernels = kernels_of(set);
+  kernels::BondColumns columns = columns_of(p, b);
+  columns.velocity = p.velocity.data();
+  columns.dashpot = b.dashpot->data();
+  columns.dashpot_force = b.dashpot_force->data();
+  columns.dashpot_shear_ratio = b.dashpot_shear_ratio;
+  columns.dashpot_twist_ratio = b.dashpot_twist_ratio;
+  if (p.has_rotation()) {
+    columns.angular_velocity = p.angular_velocity->data();
+    columns.dashpot_bending = b.dashpot_bending->data();
+    columns.dashpot_moment = b.dashpot_moment->data();
+  }
+  std::vector<double> power(b.blocks.blocks());
+  for_each_block(p.size(), [&](std::size_t, std::size_t, std::size_t block) {
+    const BlockSums sums(b.blocks, block, p.size(), p.has_rotation());
+    kernels::BondColumns own = columns;
+    sums.into(own);
+    power[block] = kernels.add_dashpots(own, sums.first_bond, sums.last_bond);
+    hand_over<true>(sums, p, b.blocks, {});
+  });
+  double sum = 0;
+  for (const double one : power)
+    sum += one;
+  return 0.5 * dt * sum;
+}
+
+BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
+  const kernels::BondColumns columns = columns_of(p, b);
+  return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
+    double energy[block_rows], force[block_rows];
+    kernels_of(set).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
+    BondTotals sum;
+    for (std::size_t k = 0; k < last - first; ++k)
+      sum += {energy[k], force[k]};
     return sum;
   });
 }

@@ -57,11 +57,7 @@ double BondLayout::reach(double ri, double rj) const {
 }
 
 Bonds::Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &parameters)
-    : law{parameters} {
-  if (particles.has_rotation()) {
-    torque_first = &table.add<Vector3>("torque_first", "N m");
-    torque_second = &table.add<Vector3>("torque_second", "N m");
-  }
+    : law{parameters}, particles_(particles.size()), rotation_(particles.has_rotation()) {
   const std::size_t n = particles.size();
   double largest = 0;
   for (const double r : particles.radius)
@@ -92,28 +88,20 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const Paralle
     state[k] = static_cast<int>(BondState::intact);
     break_time[k] = std::numeric_limits<double>::quiet_NaN();
   }
-  rebuild_incidence(n);
+  cut_blocks();
 }
 
-void Bonds::rebuild_incidence(std::size_t particles) {
-  incidence_offset.assign(particles + 1, 0);
-  for (std::size_t k = 0; k < size(); ++k) {
-    ++incidence_offset[first[k] + 1];
-    ++incidence_offset[second[k] + 1];
-  }
-  for (std::size_t i = 0; i < particles; ++i)
-    incidence_offset[i + 1] += incidence_offset[i];
-  incidence.resize(2 * size());
-  std::vector<int> next(incidence_offset.begin(), incidence_offset.end() - 1);
-  for (std::size_t k = 0; k < size(); ++k) {
-    incidence[next[first[k]]++] = static_cast<int>(2 * k);
-    incidence[next[second[k]]++] = static_cast<int>(2 * k + 1);
-  }
+void Bonds::cut_blocks() {
+  blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_);
 }
 
-void Bonds::restored(std::size_t particles) {
+std::size_t Bonds::bytes() const {
+  return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
+}
+
+void Bonds::restored() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
-  rebuild_incidence(particles);
+  cut_blocks();
 }
 
 void Bonds::compact() {
@@ -123,7 +111,7 @@ void Bonds::compact() {
     if (normal_stiffness[k] != 0.0) intact.push_back(static_cast<int>(k));
   table.permute(intact);
   broken_rows = 0;
-  rebuild_incidence(incidence_offset.size() - 1);
+  cut_blocks();
 }
 
 std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
@@ -137,8 +125,6 @@ std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, 
         {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0, 0.0});
     broken.back().power = power_taken(broken.back(), particles);
     normal_stiffness[k] = 0;
-    force[k] = {};
-    if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};
     if (dashpot != nullptr) (*dashpot)[k] = 0;
     if (dashpot_bending != nullptr) (*dashpot_bending)[k] = 0;
     state[record[k]] = static_cast<int>(b.mode);

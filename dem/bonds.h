@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "dem/bond_blocks.h"
 #include "dem/laws/parallel_bond.h"
 #include "dem/particles.h"
 #include "dem/table.h"
@@ -48,9 +49,6 @@ struct Bonds {
   Column<double> &lever = table.add<double>("lever", "1");
   Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m");
   Column<double> &bond_radius = table.add<double>("bond_radius", "m");
-  Column<Vector3> &force = table.add<Vector3>("force", "N");
-  Column<Vector3> *torque_first = nullptr; // N m; only with rotation
-  Column<Vector3> *torque_second = nullptr;
   // Only with dashpots: their coefficients (0 once broken) along the bond and in bending, times the ratios in
   // shear and torsion; and what they exerted on the first particle in the last step.
   Column<double> *dashpot = nullptr;         // N s/m
@@ -66,9 +64,7 @@ struct Bonds {
   Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
-  // Rows of `table` at each particle, in row order: entry = 2 row + (0: particle is first, 1: second).
-  std::vector<int> incidence_offset, incidence;
-
+  BondBlocks blocks; // of the rows of `table`
   ParallelBond law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 
@@ -80,15 +76,20 @@ struct Bonds {
   void add_dashpots(const Particles &particles, double alpha);
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
-  // Drops broken rows and rebuilds the incidence. Forces on particles do not change by a bit.
+  // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit.
   void compact();
-  void rebuild_incidence(std::size_t particles);
   // After the tables have been loaded from a checkpoint.
-  void restored(std::size_t particles);
+  void restored();
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
   ParallelBond::Response<double> response(std::size_t row, const Particles &particles) const;
+  std::size_t bytes() const; // of all columns and of the blocks
+
+private:
+  std::size_t particles_ = 0;
+  bool rotation_ = false;
+  void cut_blocks();
 };
 
 // A bond that has just broken: what the contact takes over, and what the crack log needs.
@@ -105,16 +106,31 @@ enum class InstructionSet { baseline, avx2, avx512 };
 InstructionSet best_instruction_set();
 const char *name(InstructionSet set);
 
-// Forces and torques of all bonds into their rows, on any number of threads. Rows at or above their strength
-// are appended to `breaks`, in row order; nothing is broken here.
-void compute_bond_forces(const Particles &particles, Bonds &bonds, InstructionSet set,
+// Sets force and torque of every particle to its weight and the bonds of its own block; what bonds bring from
+// other blocks waits in the ghosts, for return_ghosts. On any number of threads. Rows at or above their
+// strength are appended to `breaks`, in row order; nothing is broken here.
+void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                          std::vector<BondBreak> &breaks);
+// The same again for the blocks of rows that have just been broken.
+void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
+                               const std::vector<BondBreak> &breaks);
+// Adds to the particles of one block what the bonds of others exert on them.
+void return_ghosts(Particles &particles, const BondBlocks &blocks, std::size_t block);
 
-// Adds the dashpots to the rows, from the velocities of the last drift, which took dt. Returns the energy
-// that they took in it, J: by the mean of their forces at its two ends, as the leapfrog sees it. Needs
-// Bonds::add_dashpots, and each row that broke once more before it is compacted away.
-double add_bond_dashpots(const Particles &particles, Bonds &bonds, double dt);
+// Adds the dashpots to the particles and ghosts, from the velocities of the last drift, which took dt.
+// Returns the energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog
+// sees it. Needs Bonds::add_dashpots, and each row that broke once more before it is compacted away.
+double add_bond_dashpots(Particles &particles, Bonds &bonds, InstructionSet set, double dt);
 
-double bond_energy(const Particles &particles, const Bonds &bonds); // J
+struct BondTotals {
+  double energy = 0; // J
+  double force = 0;  // N, sum of the sizes of all bonds' forces
+  BondTotals &operator+=(const BondTotals &b) {
+    energy += b.energy, force += b.force;
+    return *this;
+  }
+};
+BondTotals bond_totals(const Particles &particles, const Bonds &bonds,
+                       InstructionSet set = best_instruction_set());
 
 } // namespace platen::dem

@@ -5,13 +5,19 @@
 namespace platen::dem {
 namespace {
 
-bool is_bonded(const Bonds &bonds, IndexPair pair) {
-  for (int e = bonds.incidence_offset[pair.first]; e < bonds.incidence_offset[pair.first + 1]; ++e) {
-    const int row = bonds.incidence[e] / 2;
-    if (bonds.normal_stiffness[row] == 0.0) continue;
-    if (bonds.first[row] == pair.second || bonds.second[row] == pair.second) return true;
-  }
-  return false;
+// Drops the pairs that an intact bond holds together. Both are sorted by (first, second).
+void drop_bonded(std::vector<IndexPair> &pairs, const Bonds &bonds) {
+  std::size_t row = 0;
+  const auto bonded = [&](IndexPair p) {
+    while (row < bonds.size() && IndexPair{bonds.first[row], bonds.second[row]} < p)
+      ++row;
+    return row < bonds.size() && IndexPair{bonds.first[row], bonds.second[row]} == p &&
+           bonds.normal_stiffness[row] != 0.0;
+  };
+  std::size_t kept = 0;
+  for (const IndexPair p : pairs)
+    if (!bonded(p)) pairs[kept++] = p;
+  pairs.resize(kept);
 }
 
 bool before(const ContactSearch::RestDistance &a, const IndexPair &b) {
@@ -37,10 +43,7 @@ bool ContactSearch::update(const Particles &particles, const Bonds *bonds) {
 
 void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds) {
   state_.wide = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
-  if (bonds != nullptr)
-    state_.wide.erase(std::remove_if(state_.wide.begin(), state_.wide.end(),
-                                     [&](IndexPair p) { return is_bonded(*bonds, p); }),
-                      state_.wide.end());
+  if (bonds != nullptr) drop_bonded(state_.wide, *bonds);
   state_.moved_since_wide = 0;
   state_.wide_valid = true;
 }

@@ -3,94 +3,90 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/kernels/motion_kernel.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
+
+using kernels::Halves;
+using kernels::MotionSums;
+
 namespace {
 
-struct Largest {
-  double value = 0;
-  Largest &operator+=(const Largest &b) {
-    value = std::max(value, b.value);
+kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
+  const kernels::MotionEffects effects{how.rotation, how.local_damping > 0, norm_squared(how.gravity) > 0,
+                                       how.energy_book};
+  switch (how.instruction_set) {
+    case InstructionSet::avx512:
+      return kernels::motion_kernel_avx512(halves, effects);
+    case InstructionSet::avx2:
+      return kernels::motion_kernel_avx2(halves, effects);
+    case InstructionSet::baseline:
+      break;
+  }
+  return kernels::motion_kernel_baseline(halves, effects);
+}
+
+kernels::MotionColumns columns_of(Particles &p) {
+  kernels::MotionColumns c{};
+  c.position = p.position.data();
+  c.velocity = p.velocity.data();
+  c.force = p.force.data();
+  c.mass = p.mass.data();
+  if (!p.has_rotation()) return c;
+  c.orientation = p.orientation->data();
+  c.angular_velocity = p.angular_velocity->data();
+  c.torque = p.torque->data();
+  c.inertia = p.inertia->data();
+  return c;
+}
+
+struct Sums : MotionSums {
+  Sums() = default;
+  Sums(const MotionSums &s) : MotionSums(s) {}
+  Sums &operator+=(const Sums &b) {
+    damping_work += b.damping_work, weight_work += b.weight_work;
+    unbalanced += b.unbalanced, kinetic_energy += b.kinetic_energy;
+    speed_squares += b.speed_squares;
+    fastest_square = std::max(fastest_square, b.fastest_square);
     return *this;
   }
 };
 
-// Turns by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
-Quaternion turn(const Quaternion &q, const Vector3 &w, double dt) {
-  const double h = 0.5 * dt;
-  return normalised(Quaternion{1, h * w.x, h * w.y, h * w.z} * q);
-}
-
-// Local damping of one component; adds the work it takes out over the step.
-void damp(double &force, double velocity, double alpha) {
-  force -= std::copysign(alpha * std::abs(force), velocity);
-}
-
-// Local damping of one vector, then the half kick; returns the work lost in the step, which the leapfrog
-// books at the full-step velocity.
-double damp_and_kick(Vector3 &force, Vector3 &velocity, double alpha, double kick, double dt) {
-  const Vector3 whole = force;
-  damp(force.x, velocity.x, alpha);
-  damp(force.y, velocity.y, alpha);
-  damp(force.z, velocity.z, alpha);
-  velocity += kick * force;
-  return dot(whole - force, velocity) * dt;
+Sums pass(const Integrator &how, Halves halves, Particles &p, const Bonds *bonds, double finished,
+          double next) {
+  const kernels::MotionKernel kernel = kernel_of(how, halves);
+  const kernels::MotionColumns columns = columns_of(p);
+  const kernels::MotionStep step{finished, next, how.local_damping, how.gravity};
+  return ordered_sum<Sums>(p.size(), [&](std::size_t first, std::size_t last) {
+    if (bonds != nullptr && halves != Halves::begin) return_ghosts(p, bonds->blocks, first / block_rows);
+    return Sums(kernel(columns, step, first, last));
+  });
 }
 
 } // namespace
 
-Motion kick_and_drift(Particles &p, double dt, const Vector3 &gravity) {
-  const bool turning = p.has_rotation(), heavy = norm_squared(gravity) > 0;
-  const Largest fastest = ordered_sum<Largest>(p.size(), [&](std::size_t first, std::size_t last) {
-    double square = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      Vector3 &v = p.velocity[i];
-      v += (0.5 * dt / p.mass[i]) * p.force[i];
-      p.position[i] += dt * v;
-      p.force[i] = heavy ? p.mass[i] * gravity : Vector3{};
-      square = std::max(square, norm_squared(v));
-    }
-    if (turning)
-      for (std::size_t i = first; i < last; ++i) {
-        Vector3 &w = (*p.angular_velocity)[i];
-        w += (0.5 * dt / (*p.inertia)[i]) * (*p.torque)[i];
-        (*p.orientation)[i] = turn((*p.orientation)[i], w, dt);
-        (*p.torque)[i] = {};
-      }
-    return Largest{std::sqrt(square)};
-  });
-  return {fastest.value};
+Motion Integrator::begin(Particles &p, double dt) const {
+  const Sums s = pass(*this, Halves::begin, p, nullptr, 0, dt);
+  return {std::sqrt(s.fastest_square), s.speed_squares};
 }
 
-KickSums gather_and_kick(Particles &p, const Bonds *bonds, double dt, double alpha, const Vector3 &gravity) {
-  const bool turning = p.has_rotation();
-  return ordered_sum<KickSums>(p.size(), [&](std::size_t first, std::size_t last) {
-    KickSums sums;
-    for (std::size_t i = first; i < last; ++i) {
-      Vector3 force = p.force[i], torque = turning ? (*p.torque)[i] : Vector3{};
-      if (bonds != nullptr)
-        for (int e = bonds->incidence_offset[i]; e < bonds->incidence_offset[i + 1]; ++e) {
-          const int entry = bonds->incidence[e], row = entry >> 1;
-          if (entry & 1)
-            force -= bonds->force[row];
-          else
-            force += bonds->force[row];
-          if (turning) torque += entry & 1 ? (*bonds->torque_second)[row] : (*bonds->torque_first)[row];
-        }
-      sums.unbalanced += norm(force);
-      sums.damping_work += damp_and_kick(force, p.velocity[i], alpha, 0.5 * dt / p.mass[i], dt);
-      sums.kinetic_energy += 0.5 * p.mass[i] * norm_squared(p.velocity[i]);
-      sums.weight_work += dt * p.mass[i] * dot(gravity, p.velocity[i]);
-      p.force[i] = force;
-      if (!turning) continue;
-      Vector3 &w = (*p.angular_velocity)[i];
-      const double inertia = (*p.inertia)[i];
-      sums.damping_work += damp_and_kick(torque, w, alpha, 0.5 * dt / inertia, dt);
-      sums.kinetic_energy += 0.5 * inertia * norm_squared(w);
-      (*p.torque)[i] = torque;
-    }
-    return sums;
+KickSums Integrator::end(Particles &p, const Bonds *bonds, double dt) const {
+  const Sums s = pass(*this, Halves::end, p, bonds, dt, 0);
+  return {s.damping_work, s.weight_work, s.kinetic_energy, s.unbalanced};
+}
+
+Motion Integrator::end_and_begin(Particles &p, const Bonds *bonds, double finished, double next,
+                                 KickSums &sums) const {
+  const Sums s = pass(*this, Halves::end_and_begin, p, bonds, finished, next);
+  sums = {s.damping_work, s.weight_work, 0, 0};
+  return {std::sqrt(s.fastest_square), s.speed_squares};
+}
+
+void set_weight(Particles &p, const Vector3 &gravity) {
+  for_each(p.size(), [&](std::size_t i) {
+    p.force[i] = p.mass[i] * gravity;
+    if (p.has_rotation()) (*p.torque)[i] = {};
   });
 }
 

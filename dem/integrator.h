@@ -1,4 +1,4 @@
-// Velocity Verlet with rotation, as the two passes over particles of one step.
+// Velocity Verlet with rotation, as passes over the particles.
 #pragma once
 
 #include "dem/bonds.h"
@@ -7,29 +7,38 @@
 namespace platen::dem {
 
 struct Motion {
-  double fastest = 0; // m/s, largest half-step speed
+  double fastest = 0;       // m/s, largest half-step speed
+  double speed_squares = 0; // m^2/s^2, sum of all; not finite where a velocity is not
 };
-
-// First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. Forces and torques are set to the
-// weight, ready for contacts to add to. Returns the largest speed.
-Motion kick_and_drift(Particles &particles, double dt, const Vector3 &gravity);
 
 struct KickSums {
   double damping_work = 0;   // J, lost to local damping in this step
+  double weight_work = 0;    // J, done by gravity in this step
   double kinetic_energy = 0; // J, at full-step velocities
   double unbalanced = 0;     // N, sum of |net force| before damping
-  double weight_work = 0;    // J, done by gravity in this step
-  KickSums &operator+=(const KickSums &b) {
-    damping_work += b.damping_work, kinetic_energy += b.kinetic_energy, unbalanced += b.unbalanced;
-    weight_work += b.weight_work;
-    return *this;
-  }
 };
 
-// Adds the bond rows to what contacts left in force and torque, applies local damping F -= alpha |F| sign(v)
-// (each component; Cundall), and makes the second half kick. `bonds` may be null. Sums are of all particles.
-KickSums gather_and_kick(Particles &particles, const Bonds *bonds, double dt, double local_damping,
-                         const Vector3 &gravity);
+// How the particles move, chosen once. Results do not depend on the instruction set.
+struct Integrator {
+  bool rotation = true;
+  double local_damping = 0; // alpha: F -= alpha |F| sign(v), each component (Cundall); 0: none
+  Vector3 gravity;          // m/s^2
+  bool energy_book = true;  // sums of works and energies
+  InstructionSet instruction_set = best_instruction_set();
+
+  // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. Returns the largest speed.
+  Motion begin(Particles &particles, double dt) const;
+  // Returns ghosts of bonds (null: none), damps, makes the second half kick. Forces and torques are then
+  // complete and damped. Without an energy book its sums are 0, but for those a caller may ask: see totals.
+  KickSums end(Particles &particles, const Bonds *bonds, double dt) const;
+  // end(finished), then begin(next), in one pass, to the same bits; forces are left incomplete, and kinetic
+  // energy and unbalanced force are not summed.
+  Motion end_and_begin(Particles &particles, const Bonds *bonds, double finished, double next,
+                       KickSums &sums) const;
+};
+
+// Sets force to the weight and torque to zero, where no bonds do.
+void set_weight(Particles &particles, const Vector3 &gravity);
 
 double kinetic_energy(const Particles &particles);
 

@@ -12,7 +12,10 @@ constexpr double compaction_share = 0.02;
 } // namespace
 
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
-    : particles(specimen, settings.density * settings.mass_scaling, settings.rotation), settings_(settings) {
+    : particles(specimen, settings.density * settings.mass_scaling, settings.rotation),
+      settings_(settings),
+      integrator_{settings.rotation, settings.local_damping, settings.gravity, settings.energy_book,
+                  settings.instruction_set} {
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
@@ -22,8 +25,12 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
 void Model::begin_step(double dt) {
   {
     StageClock::Lap lap(clock, Stage::motion);
-    motion_ = kick_and_drift(particles, dt, settings_.gravity);
+    motion_ = integrator_.begin(particles, dt);
   }
+  begun(dt);
+}
+
+void Model::begun(double dt) {
   time += dt;
   if (contacts) {
     StageClock::Lap lap(clock, Stage::search);
@@ -34,12 +41,19 @@ void Model::begin_step(double dt) {
 void Model::compute_forces(double dt) {
   if (bonds) {
     StageClock::Lap lap(clock, Stage::bonds);
-    breaks_.clear();
-    compute_bond_forces(particles, *bonds, settings_.instruction_set, breaks_);
-    if (!breaks_.empty()) break_bonds(dt);
-    if (settings_.bond_dashpot > 0) works.damping += add_bond_dashpots(particles, *bonds, dt);
+    // Before the forces, not after: ghosts wait for the end of the step in blocks as they are cut now.
     if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
       bonds->compact();
+    breaks_.clear();
+    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    if (!breaks_.empty()) {
+      break_bonds(dt);
+      compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    }
+    if (settings_.bond_dashpot > 0)
+      works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
+  } else {
+    set_weight(particles, settings_.gravity);
   }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);
@@ -66,16 +80,26 @@ void Model::break_bonds(double dt) {
 }
 
 void Model::end_step(double dt) {
-  StageClock::Lap lap(clock, Stage::gather);
-  sums_ = gather_and_kick(particles, bonds.get(), dt, settings_.local_damping, settings_.gravity);
+  StageClock::Lap lap(clock, Stage::motion);
+  sums_ = integrator_.end(particles, bonds.get(), dt);
   works.damping += sums_.damping_work;
   works.weight += sums_.weight_work;
+}
+
+void Model::end_and_begin_step(double finished, double next) {
+  {
+    StageClock::Lap lap(clock, Stage::motion);
+    motion_ = integrator_.end_and_begin(particles, bonds.get(), finished, next, sums_);
+    works.damping += sums_.damping_work;
+    works.weight += sums_.weight_work;
+  }
+  begun(next);
 }
 
 EnergyLedger Model::energy() const {
   EnergyLedger e;
   e.kinetic = kinetic_energy(particles);
-  if (bonds) e.bonds = bond_energy(particles, *bonds);
+  if (bonds) e.bonds = bond_totals(particles, *bonds, settings_.instruction_set).energy;
   e.damping = works.damping;
   e.fracture = works.fracture;
   e.boundary = works.weight;

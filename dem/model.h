@@ -21,6 +21,7 @@ struct ModelSettings {
   double mass_scaling = 1;                      // multiplies mass and inertia
   Vector3 gravity;                              // m/s^2
   double local_damping = 0;                     // 0 ... 1, Cundall's
+  bool energy_book = true;                      // works and energies, for the ledger
   double bond_dashpot = 0;                      // fraction of critical
   BondLayout bond_layout;                       // also gives unbonded pairs their stiffness
   std::optional<ParallelBond::Parameters> bond; // none: no bonds
@@ -38,7 +39,8 @@ struct Crack {
   int particle_a = 0, particle_b = 0; // input ids
 };
 
-// One step: begin_step, forces, then surfaces add to particles, then end_step.
+// One step: begin_step, forces, then surfaces add to particles, then end_step. Between steps whose end nobody
+// looks at, end_and_begin_step does both in one pass, to the same bits.
 class Model {
 public:
   Model(const Specimen &specimen, const ModelSettings &settings);
@@ -53,11 +55,12 @@ public:
 
   // First half kick, drift, contact search; time becomes that of the new positions.
   void begin_step(double dt);
-  // Bonds, breaks and their hand-over, grain contacts; particle force and torque hold contacts and weight
-  // after it.
+  // Bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them and the weight,
+  // but for what waits in the bonds' ghosts.
   void compute_forces(double dt);
-  // Gathers bonds, damps, second half kick.
+  // Ghosts of bonds, damping, second half kick; forces are complete then.
   void end_step(double dt);
+  void end_and_begin_step(double finished, double next);
 
   EnergyLedger energy() const; // without bodies and surfaces
   const KickSums &last_sums() const { return sums_; }
@@ -77,10 +80,12 @@ public:
 
 private:
   ModelSettings settings_;
+  Integrator integrator_;
   KickSums sums_;
   Motion motion_;
   std::vector<BondBreak> breaks_;
   void break_bonds(double dt);
+  void begun(double dt);
 };
 
 } // namespace platen::dem

@@ -42,13 +42,16 @@ public:
   T &operator[](std::size_t k) { return values_[k]; }
   const T &operator[](std::size_t k) const { return values_[k]; }
   typename std::vector<T>::iterator begin() { return values_.begin(); }
-  typename std::vector<T>::iterator end() { return values_.end(); }
+  typename std::vector<T>::iterator end() { return values_.end() - spare; }
   typename std::vector<T>::const_iterator begin() const { return values_.begin(); }
-  typename std::vector<T>::const_iterator end() const { return values_.end(); }
-  std::size_t size() const override { return values_.size(); }
-  void resize(std::size_t n) override { values_.resize(n); }
+  typename std::vector<T>::const_iterator end() const { return values_.end() - spare; }
+  std::size_t size() const override { return values_.size() - spare; }
+  void resize(std::size_t n) override {
+    values_.resize(n + spare);
+    values_[n] = T{};
+  }
   void permute(const std::vector<int> &order) override {
-    std::vector<T> moved(order.size());
+    std::vector<T> moved(order.size() + spare);
     for (std::size_t k = 0; k < order.size(); ++k)
       moved[k] = values_[static_cast<std::size_t>(order[k])];
     values_.swap(moved);
@@ -58,7 +61,9 @@ public:
   const void *bytes() const override { return values_.data(); }
 
 private:
-  std::vector<T> values_;
+  // One row beyond the end, so that kernels may read a vector of three doubles as four.
+  static constexpr std::size_t spare = 1;
+  std::vector<T> values_ = std::vector<T>(spare);
 };
 
 class Table {

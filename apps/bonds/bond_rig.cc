@@ -73,6 +73,7 @@ BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
       model_(touching_spheres(scene), rig_settings(scene, modulus, stiffness_ratio)) {
   const std::size_t spheres = model_.particles.size();
   row_.resize(spheres);
+  loads_.resize(spheres);
   for (std::size_t k = 0; k < spheres; ++k)
     row_[static_cast<std::size_t>(model_.particles.id[k])] = k;
   held_.assign(spheres, {true, true, true, true, true, true});
@@ -117,35 +118,12 @@ void BondRig::check_time_step() {
   if (dt_ > stable.limit) dt_ = safe;
 }
 
-std::vector<BondRig::Load> BondRig::spring_loads() const {
-  std::vector<Load> by_row(row_.size());
-  const auto add = [&](std::size_t i, std::size_t j, const Vector3 &force) {
-    by_row[i].force += force;
-    by_row[j].force -= force;
-  };
-  const dem::Bonds &b = *model_.bonds;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-    add(i, j, b.force[k]);
-    if (!rotation_) continue;
-    by_row[i].torque += (*b.torque_first)[k];
-    by_row[j].torque += (*b.torque_second)[k];
-  }
-  if (model_.contacts) {
-    const dem::Contacts &c = *model_.contacts;
-    for (std::size_t k = 0; k < c.table.size(); ++k) {
-      if (!c.touching[k]) continue;
-      const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-      add(i, j, c.force[k]);
-      if (!rotation_) continue;
-      by_row[i].torque += (*c.torque_first)[k];
-      by_row[j].torque += (*c.torque_second)[k];
-    }
-  }
-  std::vector<Load> loads(row_.size());
+// What bonds and contacts exert, as it stands after compute_forces: the rig has no weight, and its few
+// spheres are one block, so that nothing waits in ghosts.
+void BondRig::take_loads() {
+  const dem::Particles &p = model_.particles;
   for (std::size_t s = 0; s < row_.size(); ++s)
-    loads[s] = by_row[row_[s]];
-  return loads;
+    loads_[s] = {p.force[row_[s]], rotation_ ? (*p.torque)[row_[s]] : Vector3{}};
 }
 
 namespace {
@@ -157,8 +135,8 @@ double component(const Vector3 &linear, const Vector3 &angular, std::size_t coor
 } // namespace
 
 // What the rig has to put on the driven coordinate to hold it.
-double BondRig::driven_load(const std::vector<Load> &loads) const {
-  return 0.0 - component(loads[0].force, loads[0].torque, driven_);
+double BondRig::driven_load() const {
+  return 0.0 - component(loads_[0].force, loads_[0].torque, driven_);
 }
 
 double BondRig::driven_place() const {
@@ -170,12 +148,12 @@ double BondRig::driven_place() const {
 }
 
 // The plate's friction X at the foot of each base sphere, such that it rolls without slip: v_x = R w_y.
-void BondRig::roll(dem::Particles &p, const std::vector<Load> &loads) const {
+void BondRig::roll(dem::Particles &p) const {
   for (const std::size_t base : {1u, 2u}) {
     const std::size_t i = row_[base];
     const double r = p.radius[i], m = p.mass[i], inertia = (*p.inertia)[i];
     const double friction =
-        (r * loads[base].torque.y / inertia - loads[base].force.x / m) / (1 / m + r * r / inertia);
+        (r * loads_[base].torque.y / inertia - loads_[base].force.x / m) / (1 / m + r * r / inertia);
     p.force[i].x += friction;
     (*p.torque)[i].y -= r * friction;
   }
@@ -203,7 +181,7 @@ void BondRig::step() {
   hold_coordinates();
   model_.begin_step(dt_);
   model_.compute_forces(dt_);
-  const std::vector<Load> loads = spring_loads();
+  take_loads();
   if (by_load_) {
     dem::Particles &p = model_.particles;
     if (driven_ < 3)
@@ -211,7 +189,7 @@ void BondRig::step() {
     else
       (*p.torque)[row_[0]][static_cast<int>(driven_) - 3] += applied_;
   }
-  if (is_pyramid(scene_) && scene_.pair_test.plate == PairPlate::rolling) roll(model_.particles, loads);
+  if (is_pyramid(scene_) && scene_.pair_test.plate == PairPlate::rolling) roll(model_.particles);
   model_.end_step(dt_);
   hold_coordinates();
   ++steps_;
@@ -221,17 +199,17 @@ void BondRig::step() {
 }
 
 // Largest load on a free coordinate, N; moments over the radius.
-double BondRig::imbalance(const std::vector<Load> &loads) const {
+double BondRig::imbalance() const {
   const double r = section_.sphere_radius;
   const bool rolling = is_pyramid(scene_) && scene_.pair_test.plate == PairPlate::rolling;
   double largest = 0;
   for (std::size_t s = 0; s < held_.size(); ++s)
     for (std::size_t c = 0; c < (rotation_ ? 6u : 3u); ++c) {
       if (held_[s][c] || (s == 0 && c == driven_ && !by_load_)) continue;
-      double load = component(loads[s].force, loads[s].torque, c);
+      double load = component(loads_[s].force, loads_[s].torque, c);
       if (s == 0 && c == driven_) load += applied_;
       if (c > 2) load /= r;
-      if (rolling && s > 0) load = loads[s].force.x + loads[s].torque.y / r; // one coordinate, two parts
+      if (rolling && s > 0) load = loads_[s].force.x + loads_[s].torque.y / r; // one coordinate, two parts
       largest = std::max(largest, std::abs(load));
     }
   return largest;
@@ -252,11 +230,10 @@ RigReading BondRig::settle() {
           w = {};
       return read();
     }
-    const std::vector<Load> loads = spring_loads();
     const double arm = driven_ < 3 ? 1 : section_.sphere_radius;
-    scale_ = std::max(scale_, std::abs(by_load_ ? applied_ : driven_load(loads)) / arm);
+    scale_ = std::max(scale_, std::abs(by_load_ ? applied_ : driven_load()) / arm);
     const double allowed = std::max(at_rest * scale_, floor);
-    if (imbalance(loads) <= allowed && dem::kinetic_energy(model_.particles) <= allowed * allowed / stiffness)
+    if (imbalance() <= allowed && dem::kinetic_energy(model_.particles) <= allowed * allowed / stiffness)
       return read();
   }
   throw NumericsError(
@@ -282,9 +259,8 @@ RigReading BondRig::move_to(double displacement) {
 
 RigReading BondRig::read() const {
   const dem::Particles &p = model_.particles;
-  const std::vector<Load> loads = spring_loads();
   RigReading r;
-  const double load = by_load_ ? applied_ : driven_load(loads);
+  const double load = by_load_ ? applied_ : driven_load();
   (driven_ < 3 ? r.force : r.moment) = load;
   (driven_ < 3 ? r.displacement : r.rotation) = driven_place();
   r.intact = static_cast<int>(model_.intact_bonds());

@@ -55,11 +55,11 @@ private:
   void step();
   RigReading settle();
   RigReading read() const;
-  double imbalance(const std::vector<Load> &loads) const;
-  std::vector<Load> spring_loads() const;
-  double driven_load(const std::vector<Load> &loads) const;
+  double imbalance() const;
+  void take_loads();
+  double driven_load() const;
   double driven_place() const;
-  void roll(dem::Particles &particles, const std::vector<Load> &loads) const;
+  void roll(dem::Particles &particles) const;
   void check_time_step();
 
   const Scene &scene_;
@@ -67,6 +67,7 @@ private:
   bool rotation_;
   dem::Model model_;
   std::vector<std::size_t> row_; // of sphere 0 (driven), 1 and 2
+  std::vector<Load> loads_;      // of the same, by bonds and contacts, in the last step
   std::vector<Coordinates> held_;
   std::size_t driven_ = 0; // coordinate of sphere 0
   double applied_ = 0, drive_speed_ = 0, scale_ = 0;

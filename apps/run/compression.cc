@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -40,6 +41,9 @@ using Clock = std::chrono::steady_clock;
 // Rows of history.csv and frames for ParaView over the way to the target strain, where the scene leaves it
 // open.
 constexpr double automatic_rows = 600, automatic_frames = 24;
+
+// Steps between two looks at signals and progress.
+constexpr double most_unobserved = 16;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -97,7 +101,10 @@ public:
 
 private:
   std::string description() const;
+  double every(const Interval &interval, double automatic) const;
   bool due(const Interval &interval, double automatic) const;
+  double steps_until_due(const Interval &interval, double automatic) const;
+  long steps_unobserved() const;
   void open_files();
   void loop();
   void sample();
@@ -189,10 +196,8 @@ std::string Test::description() const {
   for (const std::string &word : effects_off(scene_))
     off += (off.empty() ? "" : ", ") + word;
   const double bonds = model.bonds ? static_cast<double>(model.bonds->initial_count()) : 0.0;
-  const double bytes = static_cast<double>(model.particles.size() * model.particles.table.bytes_per_row()) +
-                       bonds * (model.bonds ? static_cast<double>(model.bonds->table.bytes_per_row() +
-                                                                  model.bonds->records.bytes_per_row() + 8)
-                                            : 0.0);
+  const double bytes = static_cast<double>(model.particles.size() * model.particles.table.bytes_per_row() +
+                                           (model.bonds ? model.bonds->bytes() : 0));
   std::string text = fmt::format("{}\n", scene_.general.title.empty() ? scene_.name : scene_.general.title);
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, problem_->coordination_number(),
@@ -210,16 +215,43 @@ std::string Test::description() const {
   return text;
 }
 
+// Steps from one look to the next: as given, or `automatic` looks on the way to the target.
+double Test::every(const Interval &interval, double automatic) const {
+  const double every =
+      interval.kind == Interval::Kind::steps ? interval.value : std::ceil(expected_steps_ / automatic);
+  return std::max(1.0, every);
+}
+
 // Steps: every n-th. Times: the first step at or after each multiple. Neither: `automatic` of them on the
 // way.
 bool Test::due(const Interval &interval, double automatic) const {
-  const double step = static_cast<double>(problem_->steps());
   if (interval.kind == Interval::Kind::time)
     return std::floor(problem_->time() / interval.value) >
            std::floor((problem_->time() - problem_->time_step()) / interval.value);
-  const double every =
-      interval.kind == Interval::Kind::steps ? interval.value : std::ceil(expected_steps_ / automatic);
-  return std::fmod(step, std::max(1.0, every)) == 0;
+  return std::fmod(static_cast<double>(problem_->steps()), every(interval, automatic)) == 0;
+}
+
+// A lower bound; 1 at least.
+double Test::steps_until_due(const Interval &interval, double automatic) const {
+  if (interval.kind == Interval::Kind::time)
+    return (1 - std::fmod(problem_->time() / interval.value, 1.0)) * interval.value / problem_->time_step() -
+           1;
+  const double n = every(interval, automatic);
+  return n - std::fmod(static_cast<double>(problem_->steps()), n);
+}
+
+// Steps that can be made before output, checkpoint or the end of the test is looked at.
+long Test::steps_unobserved() const {
+  const coupling::Problem &p = *problem_;
+  double steps = steps_until_due(scene_.output.every, automatic_rows);
+  if (fields_) steps = std::min(steps, steps_until_due(scene_.output.fields_every, automatic_frames));
+  if (scene_.checkpoint.every.kind == Interval::Kind::steps)
+    steps = std::min(steps, steps_until_due(scene_.checkpoint.every, 1));
+  const double step_closes = scene_.loading.axial_rate * p.time_step() / p.shape().height;
+  steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.closure_strain())) / step_closes - 1);
+  if (scene_.platens.top_control == PlatenControl::stress)
+    steps = std::min(steps, (p.ramp() + scene_.loading.hold - p.time()) / p.time_step() - 1);
+  return static_cast<long>(std::clamp(steps, 1.0, most_unobserved));
 }
 
 void Test::open_files() {
@@ -305,7 +337,7 @@ void Test::loop() {
   Progress progress(log_);
   loop_start_ = Clock::now();
   while (!finished()) {
-    problem_->step();
+    problem_->advance(steps_unobserved());
     if (!problem_->model.cracks.empty()) write_cracks();
     if (due(scene_.output.every, automatic_rows)) sample();
     if (fields_ && due(scene_.output.fields_every, automatic_frames)) {

@@ -1,142 +1,216 @@
-// Body of the bond kernel; the including file sets PLATEN_LANES and PLATEN_KERNEL. Everything stays in an
-// unnamed namespace of that file, because functions compiled for one instruction set must never be linked
-// into another's.
+// Body of the bond kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "dem/kernels/bond_kernel.h"
+#include "dem/kernels/pack.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
 
-constexpr int lanes = PLATEN_LANES;
-typedef double Native __attribute__((vector_size(8 * PLATEN_LANES)));
+// Copies of the last rows of a block, when they do not fill a pack: the last one repeated, its forces added
+// to the spare row.
+struct Tail {
+  int first[lanes], second[lanes], local[lanes], sums_of_first[lanes];
+  Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
+  double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
+  double dashpot[lanes], dashpot_bending[lanes];
 
-// A struct of this file, not the bare vector type: what is instantiated on it then belongs to this file
-// alone.
-struct Pack {
-  Native v{};
-  Pack() = default;
-  Pack(Native a) : v(a) {}
-  Pack(double a) : v(a - Native{}) {}
-};
-inline Pack operator+(const Pack &a, const Pack &b) {
-  return a.v + b.v;
-}
-inline Pack operator-(const Pack &a, const Pack &b) {
-  return a.v - b.v;
-}
-inline Pack operator*(const Pack &a, const Pack &b) {
-  return a.v * b.v;
-}
-inline Pack operator/(const Pack &a, const Pack &b) {
-  return a.v / b.v;
-}
-inline Pack operator-(const Pack &a) {
-  return -a.v;
-}
-inline Pack root(const Pack &a) {
-  Pack r;
-  for (int l = 0; l < lanes; ++l)
-    r.v[l] = __builtin_sqrt(a.v[l]);
-  return r;
-}
-inline Pack magnitude(const Pack &a) {
-  return a.v < 0.0 ? -a.v : a.v;
-}
-inline Pack positive_part(const Pack &a) {
-  return a.v > 0.0 ? a.v : a.v * 0.0;
-}
-inline Pack sign_of(const Pack &a) {
-  return a.v < 0.0 ? Pack(-1.0).v : Pack(1.0).v;
-}
-
-// Rows that the lanes of one pack read. The tail of a block repeats its last row.
-struct Rows {
-  std::size_t row[lanes];
-};
-
-inline Triple<Pack> gather(const Vector3 *column, const std::size_t *row) {
-  Triple<Pack> t;
-  for (int l = 0; l < lanes; ++l) {
-    t.x.v[l] = column[row[l]].x;
-    t.y.v[l] = column[row[l]].y;
-    t.z.v[l] = column[row[l]].z;
-  }
-  return t;
-}
-
-inline Rotation<Pack> gather(const Quaternion *column, const std::size_t *row) {
-  Rotation<Pack> t;
-  for (int l = 0; l < lanes; ++l) {
-    t.w.v[l] = column[row[l]].w;
-    t.x.v[l] = column[row[l]].x;
-    t.y.v[l] = column[row[l]].y;
-    t.z.v[l] = column[row[l]].z;
-  }
-  return t;
-}
-
-inline Pack gather(const double *column, const std::size_t *row) {
-  Pack t;
-  for (int l = 0; l < lanes; ++l)
-    t.v[l] = column[row[l]];
-  return t;
-}
-
-inline void scatter(Vector3 *column, const Rows &r, int count, const Triple<Pack> &t) {
-  for (int l = 0; l < count; ++l)
-    column[r.row[l]] = {t.x.v[l], t.y.v[l], t.z.v[l]};
-}
-
-template <bool turning>
-inline ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law, const Rows &r) {
-  std::size_t i[lanes], j[lanes];
-  for (int l = 0; l < lanes; ++l) {
-    i[l] = static_cast<std::size_t>(c.first[r.row[l]]);
-    j[l] = static_cast<std::size_t>(c.second[r.row[l]]);
-  }
-  ParallelBond::Geometry<Pack> g;
-  g.reference = gather(c.reference, r.row);
-  g.rest_length = gather(c.rest_length, r.row);
-  g.lever = gather(c.lever, r.row);
-  g.normal_stiffness = gather(c.normal_stiffness, r.row);
-  g.radius = gather(c.bond_radius, r.row);
-  const Triple<Pack> d = gather(c.position, j) - gather(c.position, i);
-  if constexpr (turning) {
-    const ParallelBond::Motion<Pack> m{d, gather(c.orientation, i), gather(c.orientation, j)};
-    return law(g, m);
-  } else {
-    return law.without_rotation(g, d);
-  }
-}
-
-template <bool turning>
-bool run(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
-  int failed = 0;
-  for (std::size_t k = first; k < last; k += lanes) {
-    const int count = last - k < lanes ? static_cast<int>(last - k) : lanes;
-    Rows r;
-    for (int l = 0; l < lanes; ++l)
-      r.row[l] = l < count ? k + static_cast<std::size_t>(l) : last - 1;
-    const ParallelBond::Response<Pack> f = respond<turning>(c, law, r);
-    scatter(c.force, r, count, f.force);
-    if constexpr (turning) {
-      scatter(c.torque_first, r, count, f.torque_i);
-      scatter(c.torque_second, r, count, f.torque_j);
+  Tail(const BondColumns &c, std::size_t from, std::size_t to) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const bool real = from + l < to;
+      const std::size_t k = real ? from + l : to - 1;
+      first[l] = c.first[k], second[l] = c.second[k];
+      local[l] = real ? c.local[k] : c.spare_row;
+      sums_of_first[l] = real ? c.first[k] - c.first_row : c.spare_row;
+      reference[l] = c.reference[k];
+      rest_length[l] = c.rest_length[k], lever[l] = c.lever[k];
+      normal_stiffness[l] = c.normal_stiffness[k], bond_radius[l] = c.bond_radius[k];
+      if (c.dashpot == nullptr) continue;
+      dashpot[l] = real ? c.dashpot[k] : 0;
+      dashpot_force[l] = real ? c.dashpot_force[k] : Vector3{};
+      if (c.dashpot_bending == nullptr) continue;
+      dashpot_bending[l] = real ? c.dashpot_bending[k] : 0;
+      dashpot_moment[l] = real ? c.dashpot_moment[k] : Vector3{};
     }
-    for (int l = 0; l < lanes; ++l)
-      failed |= static_cast<int>(f.tension_ratio.v[l] >= 1.0) | static_cast<int>(f.shear_ratio.v[l] >= 1.0);
-    if (c.tension_ratio != nullptr)
-      for (int l = 0; l < count; ++l) {
-        c.tension_ratio[k - first + static_cast<std::size_t>(l)] = f.tension_ratio.v[l];
-        c.shear_ratio[k - first + static_cast<std::size_t>(l)] = f.shear_ratio.v[l];
-      }
   }
-  return failed != 0;
+  BondColumns columns(BondColumns c) {
+    c.first = first, c.second = second, c.local = local;
+    c.reference = reference, c.rest_length = rest_length, c.lever = lever;
+    c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
+    c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
+    c.dashpot_force = dashpot_force, c.dashpot_moment = dashpot_moment;
+    return c;
+  }
+};
+
+template <bool turning>
+PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law,
+                                                   std::size_t k) {
+  const int *i = c.first + k, *j = c.second + k;
+  ParallelBond::Geometry<Pack> g;
+  g.reference = load(c.reference + k);
+  g.rest_length = load(c.rest_length + k);
+  g.lever = load(c.lever + k);
+  g.normal_stiffness = load(c.normal_stiffness + k);
+  g.radius = load(c.bond_radius + k);
+  const Triple<Pack> d = gather_difference(c.position, j, i);
+  if constexpr (turning)
+    return law(g, ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
+  else
+    return law.without_rotation(g, d);
+}
+
+// Adds force and torques to the sums of both ends, bond by bond in row order.
+template <bool turning>
+PLATEN_INLINE void scatter(double *sums, const int *at_first, const int *at_second, const Triple<Pack> &force,
+                           const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
+  constexpr int stride = sums_stride(turning);
+  Four f[lanes], ti[lanes], tj[lanes];
+  to_rows(force, f);
+  if constexpr (turning) {
+    to_rows(torque_i, ti);
+    to_rows(torque_j, tj);
+  }
+  for (int l = 0; l < lanes; ++l) {
+    double *a = sums + static_cast<std::ptrdiff_t>(at_first[l]) * stride,
+           *b = sums + static_cast<std::ptrdiff_t>(at_second[l]) * stride;
+    store_four(a, load_four(a) + f[l]);
+    store_four(b, load_four(b) - f[l]);
+    if constexpr (turning) {
+      store_four(a + 4, load_four(a + 4) + ti[l]);
+      store_four(b + 4, load_four(b + 4) + tj[l]);
+    }
+  }
+}
+
+template <bool turning>
+PLATEN_INLINE Pack add_pack(const BondColumns &c, const ParallelBond &law, std::size_t k,
+                            const int *at_first) {
+  const ParallelBond::Response<Pack> r = respond<turning>(c, law, k);
+  scatter<turning>(c.sums, at_first, c.local + k, r.force, r.torque_i, r.torque_j);
+  return r.excess;
+}
+
+template <bool turning>
+[[gnu::noinline]] Pack add_tail(const BondColumns &c, const ParallelBond &law, std::size_t k,
+                                std::size_t last) {
+  Tail tail(c, k, last);
+  return add_pack<turning>(tail.columns(c), law, 0, tail.sums_of_first);
+}
+
+template <bool turning>
+bool add_forces(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
+  Pack excess = Pack(-1.0);
+  std::size_t k = first;
+  for (; k + lanes <= last; k += lanes) {
+    int at_first[lanes];
+    for (int l = 0; l < lanes; ++l)
+      at_first[l] = c.first[k + static_cast<std::size_t>(l)] - c.first_row;
+    excess = larger(excess, add_pack<turning>(c, law, k, at_first));
+  }
+  if (k < last) excess = larger(excess, add_tail<turning>(c, law, k, last));
+  bool reached = false;
+  for (int l = 0; l < lanes; ++l)
+    reached |= excess.v[l] >= 0.0;
+  return reached;
+}
+
+bool add_forces_of(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
+  return c.orientation != nullptr ? add_forces<true>(c, law, first, last)
+                                  : add_forces<false>(c, law, first, last);
+}
+
+template <bool turning>
+void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
+             std::size_t last) {
+  const auto put = [&](double *column, const Pack &value, std::size_t at, std::size_t count) {
+    if (column == nullptr) return;
+    for (std::size_t l = 0; l < count; ++l)
+      column[at + l] = value.v[l];
+  };
+  for (std::size_t k = first; k < last; k += lanes) {
+    const std::size_t count = last - k < lanes ? last - k : lanes;
+    ParallelBond::Response<Pack> r;
+    if (count == lanes) {
+      r = respond<turning>(c, law, k);
+    } else {
+      Tail tail(c, k, last);
+      r = respond<turning>(tail.columns(c), law, 0);
+    }
+    put(to.tension_ratio, r.tension_ratio, k - first, count);
+    put(to.shear_ratio, r.shear_ratio, k - first, count);
+    put(to.energy, r.energy, k - first, count);
+    put(to.force, root(dot(r.force, r.force)), k - first, count);
+  }
+}
+
+void measure_of(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
+                std::size_t last) {
+  if (c.orientation != nullptr)
+    measure<true>(c, law, to, first, last);
+  else
+    measure<false>(c, law, to, first, last);
+}
+
+// Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).
+template <bool turning>
+PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const int *at_first) {
+  const int *i = c.first + k, *j = c.second + k;
+  const Triple<Pack> d = gather_difference(c.position, j, i);
+  const Triple<Pack> ri = scale(load(c.lever + k), d), rj = ri - d;
+  Triple<Pack> v = gather_difference(c.velocity, j, i), w{}, ti{}, tj{};
+  if constexpr (turning) {
+    const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
+    v = v + (cross(wj, rj) - cross(wi, ri));
+    w = wj - wi;
+  }
+  const Pack per_square = 1.0 / dot(d, d);
+  const Triple<Pack> along = scale(dot(v, d) * per_square, d);
+  const Triple<Pack> force =
+      scale(load(c.dashpot + k), along + scale(Pack(c.dashpot_shear_ratio), v - along));
+  Pack power = dot(force + load(c.dashpot_force + k), v);
+  store(c.dashpot_force + k, force);
+  if constexpr (turning) {
+    const Triple<Pack> twisting = scale(dot(w, d) * per_square, d);
+    const Triple<Pack> moment =
+        scale(load(c.dashpot_bending + k), (w - twisting) + scale(Pack(c.dashpot_twist_ratio), twisting));
+    ti = cross(ri, force) + moment;
+    tj = cross(force, rj) - moment;
+    power = power + dot(moment + load(c.dashpot_moment + k), w);
+    store(c.dashpot_moment + k, moment);
+  }
+  scatter<turning>(c.sums, at_first, c.local + k, force, ti, tj);
+  return power;
+}
+
+template <bool turning>
+double add_dashpots(const BondColumns &c, std::size_t first, std::size_t last) {
+  Pack power = Pack(0.0);
+  std::size_t k = first;
+  for (; k + lanes <= last; k += lanes) {
+    int at_first[lanes];
+    for (int l = 0; l < lanes; ++l)
+      at_first[l] = c.first[k + static_cast<std::size_t>(l)] - c.first_row;
+    power = power + add_dashpot_pack<turning>(c, k, at_first);
+  }
+  if (k < last) {
+    Tail tail(c, k, last);
+    power = power + add_dashpot_pack<turning>(tail.columns(c), 0, tail.sums_of_first);
+    for (std::size_t l = 0; k + l < last; ++l) {
+      c.dashpot_force[k + l] = tail.dashpot_force[l];
+      if constexpr (turning) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
+    }
+  }
+  double sum = 0;
+  for (int l = 0; l < lanes; ++l)
+    sum += power.v[l];
+  return sum;
+}
+
+double add_dashpots_of(const BondColumns &c, std::size_t first, std::size_t last) {
+  return c.orientation != nullptr ? add_dashpots<true>(c, first, last) : add_dashpots<false>(c, first, last);
 }
 
 } // namespace
 
-bool PLATEN_KERNEL(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
-  return c.orientation != nullptr ? run<true>(c, law, first, last) : run<false>(c, law, first, last);
-}
+const BondKernels PLATEN_KERNELS{add_forces_of, add_dashpots_of, measure_of};
 
 } // namespace platen::dem::kernels

@@ -1,4 +1,4 @@
-// Bond kernel for the avx512 instruction set; see bond_kernel.inc.h.
+// Bond kernels for the avx512 instruction set; see bond_kernel.inc.h.
 #define PLATEN_LANES 8
-#define PLATEN_KERNEL bond_kernel_avx512
+#define PLATEN_KERNELS bond_kernels_avx512
 #include "dem/kernels/bond_kernel.inc.h"

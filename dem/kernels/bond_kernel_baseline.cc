@@ -1,4 +1,4 @@
-// Bond kernel for the baseline instruction set; see bond_kernel.inc.h.
+// Bond kernels for the baseline instruction set; see bond_kernel.inc.h.
 #define PLATEN_LANES 4
-#define PLATEN_KERNEL bond_kernel_baseline
+#define PLATEN_KERNELS bond_kernels_baseline
 #include "dem/kernels/bond_kernel.inc.h"

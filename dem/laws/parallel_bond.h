@@ -15,6 +15,13 @@
 
 namespace platen::dem {
 
+// The kernels need laws inlined into their loops, so that results that a loop does not use cost nothing.
+#if defined(__GNUC__)
+#define PLATEN_INLINE [[gnu::always_inline]] inline
+#else
+#define PLATEN_INLINE inline
+#endif
+
 // What a law asks of its real type beyond arithmetic; packs bring their own.
 inline double root(double a) {
   return std::sqrt(a);
@@ -25,8 +32,12 @@ inline double magnitude(double a) {
 inline double positive_part(double a) {
   return a > 0.0 ? a : 0.0;
 }
-inline double sign_of(double a) {
-  return a < 0.0 ? -1.0 : 1.0;
+inline double larger(double a, double b) {
+  return a > b ? a : b;
+}
+// `size` with the sign of `of`.
+inline double with_sign(double size, double of) {
+  return of < 0.0 ? -size : size;
 }
 
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
@@ -93,6 +104,7 @@ struct ParallelBond {
   struct Response {
     Triple<Real> force, torque_i, torque_j; // N, N m; force on i (on j: minus force)
     Real tension_ratio, shear_ratio;        // sigma_max / sigma_c, tau_max / tau_c; >= 1 breaks
+    Real excess;                            // below 0 only where both ratios are below 1; no unit
     Real energy;                            // J
     Real normal_force, shear_force;         // N; signed (tension positive), magnitude
     Triple<Real> shear;                     // shear force on i, N
@@ -108,26 +120,42 @@ struct ParallelBond {
   Response<Real> without_rotation(const Geometry<Real> &g, const Triple<Real> &distance) const;
 
 private:
+  // What the stresses at the bond's skin come from.
   template <class Real>
-  void add_failure(Response<Real> &r, const Real &kn, const Real &stretch, const Real &slip, const Real &bend,
-                   const Real &twist) const;
+  struct Strain {
+    Real stretch;            // m
+    Real slip_square;        // m^2
+    Real turn;               // m, R_b times the cosine of half the relative angle, twice
+    Real bend_square, twist; // of the relative rotation's vector part; twist signed
+  };
+  template <class Real>
+  void add_failure(Response<Real> &r, const Real &kn, const Strain<Real> &e) const;
 };
 
 // Stresses (physics: sigma_max = F_n/A + beta |M_s| R_b/I, tau_max = |F_s|/A + beta |M_n| R_b/J) in the form
-// that needs neither A nor I: stretch, slip in m; bend, twist = R_b times the rotation, m.
+// that needs neither A nor I. The excess compares squares, so that a loop that asks only whether any bond may
+// be at its strength takes no root and no quotient; its margin makes up for the round-off of both.
 template <class Real>
-void ParallelBond::add_failure(Response<Real> &r, const Real &kn, const Real &stretch, const Real &slip,
-                               const Real &bend, const Real &twist) const {
+PLATEN_INLINE void ParallelBond::add_failure(Response<Real> &r, const Real &kn, const Strain<Real> &e) const {
+  constexpr double margin = 1 + 1e-12;
   const Parameters &p = parameters;
-  const Real axial = kn * stretch; // F_n / A
-  const Real compression = positive_part(Real(-axial));
-  r.tension_ratio = (axial + p.moment_contribution * kn * bend) * (1.0 / p.tensile_strength);
-  r.shear_ratio = p.stiffness_ratio * kn * (slip + p.moment_contribution * twist) /
-                  (p.shear_strength + p.friction_coefficient * compression);
+  const Real axial = kn * e.stretch; // F_n / A
+  const Real capacity = p.shear_strength + p.friction_coefficient * positive_part(Real(-axial));
+  const Real shear_modulus = p.stiffness_ratio * kn;
+  const Real bending_modulus = p.moment_contribution * kn * e.turn;
+  const Real twisting = p.moment_contribution * shear_modulus * e.turn * magnitude(e.twist);
+  r.tension_ratio = (axial + bending_modulus * root(e.bend_square)) * (1.0 / p.tensile_strength);
+  r.shear_ratio = (shear_modulus * root(e.slip_square) + twisting) / capacity;
+
+  const Real left = p.tensile_strength - axial, left_in_shear = capacity - twisting;
+  const Real tension = margin * bending_modulus * bending_modulus * e.bend_square - left * left;
+  const Real shear = margin * shear_modulus * shear_modulus * e.slip_square - left_in_shear * left_in_shear;
+  r.excess = larger(larger(tension, Real(-left)), larger(shear, Real(-left_in_shear)));
 }
 
 template <class Real>
-ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, const Motion<Real> &m) const {
+PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g,
+                                                                    const Motion<Real> &m) const {
   constexpr double pi = 3.14159265358979323846;
   const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness; // k_n A
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
@@ -151,11 +179,10 @@ ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, c
   // Relative rotation q = q_j conj(q_i), the shorter way round.
   const Rotation<Real> &p = m.turn_i, &q = m.turn_j;
   const Real w0 = q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z;
-  const Real sign = sign_of(w0);
-  const Real w = sign * w0;
-  const Triple<Real> v = scale(sign, Triple<Real>{-q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y,
-                                                  -q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x,
-                                                  -q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w});
+  const Real w = magnitude(w0);
+  const Triple<Real> v{with_sign(Real(-q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y), w0),
+                       with_sign(Real(-q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x), w0),
+                       with_sign(Real(-q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w), w0)};
   const Real vn = dot(v, n);
   const Triple<Real> vs = v - scale(vn, n);
   const Real excess = twisting - bending; // of twisting over bending stiffness
@@ -167,20 +194,18 @@ ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g, c
             scale(Real(4.0 * excess * vn * inverse), vs);
   r.torque_i = cross(ri, shear) + moment - skew;
   r.torque_j = cross(rj, shear) - moment - skew;
-  const Real slip = root(dot(us, us)), vs2 = dot(vs, vs);
+  const Real us2 = dot(us, us), vs2 = dot(vs, vs);
   r.normal_force = normal;
-  r.shear_force = shear_stiffness * slip;
+  r.shear_force = shear_stiffness * root(us2);
   r.shear = shear;
-  r.energy =
-      0.5 * (normal * stretch + shear_stiffness * slip * slip) + 2.0 * (bending * vs2 + twisting * vn * vn);
-  const Real twice = 2.0 * w * g.radius;
-  add_failure(r, g.normal_stiffness, stretch, slip, Real(twice * root(vs2)), Real(twice * magnitude(vn)));
+  r.energy = 0.5 * (normal * stretch + shear_stiffness * us2) + 2.0 * (bending * vs2 + twisting * vn * vn);
+  add_failure(r, g.normal_stiffness, Strain<Real>{stretch, us2, 2.0 * w * g.radius, vs2, vn});
   return r;
 }
 
 template <class Real>
-ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real> &g,
-                                                            const Triple<Real> &d) const {
+PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real> &g,
+                                                                          const Triple<Real> &d) const {
   constexpr double pi = 3.14159265358979323846;
   const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness;
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
@@ -196,11 +221,11 @@ ParallelBond::Response<Real> ParallelBond::without_rotation(const Geometry<Real>
   r.shear = scale(shear_stiffness, us);
   r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), r.shear);
   r.torque_i = r.torque_j = {zero, zero, zero};
-  const Real slip = root(dot(us, us));
+  const Real us2 = dot(us, us);
   r.normal_force = normal;
-  r.shear_force = shear_stiffness * slip;
-  r.energy = 0.5 * (normal * stretch + shear_stiffness * slip * slip);
-  add_failure(r, g.normal_stiffness, stretch, slip, zero, zero);
+  r.shear_force = shear_stiffness * root(us2);
+  r.energy = 0.5 * (normal * stretch + shear_stiffness * us2);
+  add_failure(r, g.normal_stiffness, Strain<Real>{stretch, us2, zero, zero, zero});
   return r;
 }
 

@@ -23,9 +23,11 @@ std::vector<std::array<double, 9>> particle_stress(const Particles &p, const Bon
     add(stress[j], (lever - 1) * d, -force);
   };
   if (bonds != nullptr)
-    for (std::size_t k = 0; k < bonds->size(); ++k)
+    for (std::size_t k = 0; k < bonds->size(); ++k) {
+      const Triple<double> force = bonds->response(k, p).force;
       pair(static_cast<std::size_t>(bonds->first[k]), static_cast<std::size_t>(bonds->second[k]),
-           bonds->force[k]);
+           {force.x, force.y, force.z});
+    }
   if (contacts != nullptr)
     for (std::size_t k = 0; k < contacts->table.size(); ++k)
       if (contacts->touching[k])

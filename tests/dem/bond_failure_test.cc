@@ -66,10 +66,7 @@ public:
     model.compute_forces(1e-9);
   }
   // On the first sphere, by bond and contact.
-  Vector3 force() const {
-    return model.bonds->force.size() > 0 ? model.bonds->force[0] + contact() : contact();
-  }
-  Vector3 contact() const { return model.particles.force[0]; }
+  Vector3 force() const { return model.particles.force[0]; }
   bool intact() const { return model.intact_bonds() == 1; }
 
   Model model;
@@ -228,7 +225,7 @@ TEST(bond_failure, compression_does_not_jump_at_equal_stiffness) {
   const double angle = at(1.001);
   ASSERT_FALSE(pair.intact());
   const Vector3 n{std::cos(angle), std::sin(angle), 0};
-  EXPECT_NEAR(dot(pair.contact(), n), before, 1e-12 * std::abs(before));
+  EXPECT_NEAR(dot(pair.force(), n), before, 1e-12 * std::abs(before));
 }
 
 TEST(bond_failure, shear_force_is_kept_up_to_the_coulomb_limit) {
@@ -241,7 +238,7 @@ TEST(bond_failure, shear_force_is_kept_up_to_the_coulomb_limit) {
     ASSERT_FALSE(pair.intact());
     const double pressing = -normal_stiffness * area * 2 * radius * strain;
     const double kept = std::min(1.001 * shear_strength * area, .5 * pressing);
-    EXPECT_NEAR(pair.contact().y, kept, .02 * kept); // the plane has turned by slip / length
+    EXPECT_NEAR(pair.force().y, kept, .02 * kept); // the plane has turned by slip / length
   }
 }
 
@@ -252,7 +249,7 @@ TEST(bond_failure, a_bond_broken_in_tension_hands_over_no_shear) {
   // Compressed, bent far beyond the tensile strength, and sheared a little.
   pair.place({-2 * radius * 1e-4, 1e-3 * radius, 0}, {0, 0, .01});
   ASSERT_EQ(pair.model.broken_tension, 1);
-  EXPECT_LT(std::abs(dot(pair.contact(), Vector3{0, 1, 0})), 1e-2 * norm(pair.contact()));
+  EXPECT_LT(std::abs(dot(pair.force(), Vector3{0, 1, 0})), 1e-2 * norm(pair.force()));
 }
 
 // Whole packing beyond its strength at once: every bond's energy is in the book, to round-off.

@@ -15,13 +15,6 @@ using namespace examples;
 
 const Vector3 skew_axis = Vector3{.3, -.5, .8} / std::sqrt(.98);
 
-double largest_force(const Bonds &bonds) {
-  double largest = 0;
-  for (const Vector3 &f : bonds.force)
-    largest = std::max(largest, norm(f));
-  return largest;
-}
-
 // Imposed through 10 turns in steps of .05 rad; orientations are carried on from step to step as in a run.
 TEST(bond_invariance, ten_rigid_turns_break_nothing_and_store_nothing) {
   ModelSettings settings = breakable();
@@ -40,8 +33,8 @@ TEST(bond_invariance, ten_rigid_turns_break_nothing_and_store_nothing) {
     if (s % 16 != 0) continue;
     for (std::size_t i = 0; i < p.size(); ++i) // without the round-off of a thousand small moves
       p.position[i] = centre + rotate(whole, p.reference_position[i] - centre);
-    compute_bond_forces(model.particles, *model.bonds, model.settings().instruction_set, breaks);
-    largest = std::max(largest, largest_force(*model.bonds));
+    for (const Vector3 &f : kernel_loads(p, *model.bonds, model.settings().instruction_set, breaks).force)
+      largest = std::max(largest, norm(f));
   }
   EXPECT_TRUE(breaks.empty());
   EXPECT_LT(largest, 1e-10 * tensile_strength * area);
@@ -60,8 +53,8 @@ TEST(bond_invariance, a_preloaded_bond_keeps_its_force_in_the_turning_frame) {
   p.position[1] += 2 * radius * strain * (n + .7 * side);
   (*p.orientation)[1] = rotation_quaternion(strain * (n + side));
   std::vector<BondBreak> breaks;
-  compute_bond_forces(p, *model.bonds, InstructionSet::baseline, breaks);
-  const Vector3 force = model.bonds->force[0], torque = (*model.bonds->torque_first)[0];
+  const Loads before = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
+  const Vector3 force = before.force[0], torque = before.torque[0];
   ASSERT_NEAR(dot(force, n), .5 * tensile_strength * area, 1e-3 * tensile_strength * area);
   const Quaternion turn = rotation_quaternion(.01 * skew_axis);
   Quaternion whole;
@@ -69,10 +62,10 @@ TEST(bond_invariance, a_preloaded_bond_keeps_its_force_in_the_turning_frame) {
     turn_rigidly(p, turn, {});
     whole = normalised(turn * whole);
   }
-  compute_bond_forces(p, *model.bonds, InstructionSet::baseline, breaks);
+  const Loads after = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
   // The law is exact; the tolerance is for 6000 roundings of a strain of 1e-4.
-  EXPECT_LT(norm(model.bonds->force[0] - rotate(whole, force)), 1e-6 * norm(force));
-  EXPECT_LT(norm((*model.bonds->torque_first)[0] - rotate(whole, torque)), 1e-6 * norm(torque));
+  EXPECT_LT(norm(after.force[0] - rotate(whole, force)), 1e-6 * norm(force));
+  EXPECT_LT(norm(after.torque[0] - rotate(whole, torque)), 1e-6 * norm(torque));
 }
 
 // A free pair spinning about a skew axis, started at its own stretched equilibrium: it spins on without

@@ -56,14 +56,24 @@ std::size_t row_of(const Particles &particles, int id) {
 
 Loads bond_loads(const Particles &p, const Bonds &b) {
   Loads loads{std::vector<Vector3>(p.size()), std::vector<Vector3>(p.size())};
+  const auto vector = [](const Triple<double> &t) { return Vector3{t.x, t.y, t.z}; };
   for (std::size_t k = 0; k < b.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-    loads.force[i] += b.force[k];
-    loads.force[j] -= b.force[k];
-    if (b.torque_first == nullptr) continue;
-    loads.torque[i] += (*b.torque_first)[k];
-    loads.torque[j] += (*b.torque_second)[k];
+    const ParallelBond::Response<double> r = b.response(k, p);
+    loads.force[i] += vector(r.force);
+    loads.force[j] -= vector(r.force);
+    loads.torque[i] += vector(r.torque_i);
+    loads.torque[j] += vector(r.torque_j);
   }
+  return loads;
+}
+
+Loads kernel_loads(Particles &p, Bonds &b, InstructionSet set, std::vector<BondBreak> &breaks) {
+  compute_bond_forces(p, b, set, {}, breaks);
+  for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
+    return_ghosts(p, b.blocks, block);
+  Loads loads{{p.force.begin(), p.force.end()}, std::vector<Vector3>(p.size())};
+  if (p.has_rotation()) loads.torque.assign(p.torque->begin(), p.torque->end());
   return loads;
 }
 

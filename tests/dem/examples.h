@@ -48,11 +48,17 @@ inline void step(Model &model, double dt) {
 
 // Row of the particle that was `id` in the specimen.
 std::size_t row_of(const Particles &particles, int id);
-// Forces and torques of bonds on every particle, row by row; contacts and weight are not in it.
+// Forces and torques of bonds on every particle by the law, bond by bond; contacts and weight are not in it.
 struct Loads {
   std::vector<Vector3> force, torque;
 };
 Loads bond_loads(const Particles &particles, const Bonds &bonds);
+// The same as the step computes it; it replaces what the particles had. Rows at their strength go to
+// `breaks`.
+Loads kernel_loads(Particles &particles, Bonds &bonds, InstructionSet set, std::vector<BondBreak> &breaks);
+inline double bond_energy(const Particles &particles, const Bonds &bonds) {
+  return bond_totals(particles, bonds).energy;
+}
 
 // Rotation and translation of the whole model: positions, orientations, velocities.
 void turn_rigidly(Particles &particles, const Quaternion &turn, const Vector3 &centre);

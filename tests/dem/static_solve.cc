@@ -23,8 +23,7 @@ public:
   // Unbalanced forces, and torques over the length, N.
   Eigen::VectorXd residual() {
     std::vector<BondBreak> breaks;
-    compute_bond_forces(model_.particles, *model_.bonds, model_.settings().instruction_set, breaks);
-    Loads sum = bond_loads(model_.particles, *model_.bonds);
+    Loads sum = kernel_loads(model_.particles, *model_.bonds, model_.settings().instruction_set, breaks);
     for (const PointLoad &load : loads_) {
       sum.force[load.particle] += load.force;
       sum.torque[load.particle] += load.torque;

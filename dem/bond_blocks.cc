@@ -1,0 +1,71 @@
+#include "dem/bond_blocks.h"
+
+#include <algorithm>
+
+#include "dem/parallel.h"
+
+namespace platen::dem {
+namespace {
+
+// Rows of particles that a block's bonds reach outside it, ascending, each once.
+std::vector<int> reached_outside(const int *second, std::size_t from, std::size_t to, std::size_t end_row) {
+  std::vector<int> rows;
+  for (std::size_t k = from; k < to; ++k)
+    if (static_cast<std::size_t>(second[k]) >= end_row) rows.push_back(second[k]);
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+} // namespace
+
+void BondBlocks::rebuild(const int *first, const int *second, std::size_t bonds, std::size_t particles,
+                         bool rotation) {
+  const std::size_t count = number_of_blocks(particles);
+  first_bond.assign(1, 0);
+  first_ghost.assign(1, 0);
+  local.resize(bonds);
+  most_ghosts = 0;
+  std::vector<int> ghost_particle;
+  std::size_t k = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::size_t first_row = b * block_rows, end_row = std::min(particles, first_row + block_rows);
+    const std::size_t from = k;
+    while (k < bonds && static_cast<std::size_t>(first[k]) < end_row)
+      ++k;
+    const std::vector<int> outside = reached_outside(second, from, k, end_row);
+    for (std::size_t n = from; n < k; ++n) {
+      const std::size_t row = static_cast<std::size_t>(second[n]);
+      const auto ghost = std::lower_bound(outside.begin(), outside.end(), second[n]) - outside.begin();
+      local[n] = row < end_row ? static_cast<int>(row - first_row)
+                               : static_cast<int>(end_row - first_row) + static_cast<int>(ghost);
+    }
+    ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
+    most_ghosts = std::max(most_ghosts, outside.size());
+    first_bond.push_back(k);
+    first_ghost.push_back(ghost_particle.size());
+  }
+  ghost_force.assign(ghost_particle.size(), Vector3{});
+  ghost_torque.assign(rotation ? ghost_particle.size() : 0, Vector3{});
+  returns.resize(ghost_particle.size());
+  for (std::size_t g = 0; g < returns.size(); ++g)
+    returns[g] = {ghost_particle[g], static_cast<int>(g)};
+  std::sort(returns.begin(), returns.end(), [](const Return &a, const Return &b) {
+    return a.particle != b.particle ? a.particle < b.particle : a.ghost < b.ghost;
+  });
+  first_return.assign(1, 0);
+  std::size_t r = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    while (r < returns.size() && static_cast<std::size_t>(returns[r].particle) < (b + 1) * block_rows)
+      ++r;
+    first_return.push_back(r);
+  }
+}
+
+std::size_t BondBlocks::bytes() const {
+  return local.capacity() * sizeof(int) + returns.capacity() * sizeof(Return) +
+         (ghost_force.capacity() + ghost_torque.capacity()) * sizeof(Vector3) +
+         (first_bond.capacity() + first_ghost.capacity() + first_return.capacity()) * sizeof(std::size_t);
+}
+
+} // namespace platen::dem

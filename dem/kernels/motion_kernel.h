@@ -1,0 +1,51 @@
+// Block kernels of the motion: the two half kicks, damping, drift and their energy sums in one pass over the
+// particles. One source, compiled once per instruction set (motion_kernel.inc.h), to the same last bit.
+#pragma once
+
+#include <cstddef>
+
+#include "dem/vector3.h"
+
+namespace platen::dem::kernels {
+
+struct MotionColumns {
+  Vector3 *position, *velocity, *force;
+  const double *mass;
+  // Only with rotation.
+  Quaternion *orientation;
+  Vector3 *angular_velocity, *torque;
+  const double *inertia;
+};
+
+struct MotionStep {
+  double finished = 0; // s, of the step that the second half kick ends
+  double next = 0;     // s, of the step that the first half kick and the drift begin
+  double local_damping = 0;
+  Vector3 gravity;
+};
+
+// What a pass does.
+enum class Halves { end, begin, end_and_begin };
+
+struct MotionSums {
+  double damping_work = 0;   // J, lost to local damping in the finished step
+  double weight_work = 0;    // J, done by gravity in it
+  double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end
+  double kinetic_energy = 0; // J, at full-step velocities; only Halves::end
+  double speed_squares = 0;  // m^2/s^2, sum at the half step; not finite where a velocity is not
+  double fastest_square = 0; // m^2/s^2, the largest of them
+};
+
+// Which effects a pass has; each combination is a loop of its own.
+struct MotionEffects {
+  bool rotation = false, local_damping = false, gravity = false;
+  bool book = true; // energy sums
+};
+
+using MotionKernel = MotionSums (*)(const MotionColumns &, const MotionStep &, std::size_t first,
+                                    std::size_t last);
+MotionKernel motion_kernel_baseline(Halves, const MotionEffects &);
+MotionKernel motion_kernel_avx2(Halves, const MotionEffects &);
+MotionKernel motion_kernel_avx512(Halves, const MotionEffects &);
+
+} // namespace platen::dem::kernels

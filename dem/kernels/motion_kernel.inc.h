@@ -1,0 +1,172 @@
+// Body of the motion kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. It is compiled without
+// contraction, and sums are kept by row number modulo `slots`, so that every instruction set gives the same
+// bits.
+#include "dem/kernels/motion_kernel.h"
+#include "dem/kernels/pack.inc.h"
+
+namespace platen::dem::kernels {
+namespace {
+
+constexpr std::size_t slots = 8;
+
+// One row at a time, for those that do not fill a pack.
+inline Triple<double> load_one(const Vector3 *from) {
+  return {from->x, from->y, from->z};
+}
+inline void store(Vector3 *to, const Triple<double> &t) {
+  *to = {t.x, t.y, t.z};
+}
+inline void store(Quaternion *to, const Rotation<double> &q) {
+  *to = {q.w, q.x, q.y, q.z};
+}
+template <class Real>
+struct Rows;
+template <>
+struct Rows<Pack> {
+  static Pack scalar(const double *from) { return load(from); }
+  static Triple<Pack> vector(const Vector3 *from) { return load(from); }
+  static Rotation<Pack> rotation(const Quaternion *from) { return load(from); }
+};
+template <>
+struct Rows<double> {
+  static double scalar(const double *from) { return *from; }
+  static Triple<double> vector(const Vector3 *from) { return load_one(from); }
+  static Rotation<double> rotation(const Quaternion *from) { return {from->w, from->x, from->y, from->z}; }
+};
+
+template <class Real>
+struct Book {
+  Real damping_work{}, weight_work{}, unbalanced{}, kinetic_energy{}, speed_squares{}, fastest_square{};
+};
+
+// Cundall's local damping of one component.
+template <class Real>
+inline Real damped(const Real &force, const Real &velocity, double alpha) {
+  return force - with_sign(Real(alpha * magnitude(force)), velocity);
+}
+
+// Turns by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
+template <class Real>
+inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, double dt) {
+  const Triple<Real> h = scale(Real(0.5 * dt), w);
+  const Rotation<Real> p{q.w - h.x * q.x - h.y * q.y - h.z * q.z, q.x + h.x * q.w + h.y * q.z - h.z * q.y,
+                         q.y - h.x * q.z + h.y * q.w + h.z * q.x, q.z + h.x * q.y - h.y * q.x + h.z * q.w};
+  const Real s = 1.0 / root(p.w * p.w + p.x * p.x + p.y * p.y + p.z * p.z);
+  return {s * p.w, s * p.x, s * p.y, s * p.z};
+}
+
+// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load.
+template <class Real, bool damping, bool book, Halves halves>
+inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
+                     const MotionStep &step, Book<Real> &sums) {
+  const Triple<Real> whole = load;
+  if constexpr (damping)
+    load = {damped(load.x, v.x, step.local_damping), damped(load.y, v.y, step.local_damping),
+            damped(load.z, v.z, step.local_damping)};
+  v = v + scale(Real(0.5 * step.finished * mobility), load);
+  // The work lost in the step, which the leapfrog books at the full-step velocity.
+  if constexpr (damping && book) sums.damping_work = sums.damping_work + step.finished * dot(whole - load, v);
+  if constexpr (book && halves == Halves::end)
+    sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
+}
+
+template <class Real>
+inline void begin_kick(Triple<Real> &v, const Triple<Real> &load, const Real &mobility,
+                       const MotionStep &step) {
+  v = v + scale(Real(0.5 * step.next * mobility), load);
+}
+
+template <class Real, bool rotation, bool damping, bool gravity, bool book, Halves halves>
+inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, Book<Real> &sums) {
+  using R = Rows<Real>;
+  Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
+  const Real mass = R::scalar(c.mass + i), mobility = 1.0 / mass;
+  if constexpr (book && halves == Halves::end) sums.unbalanced = sums.unbalanced + root(dot(force, force));
+  if constexpr (halves != Halves::begin) {
+    end_kick<Real, damping, book, halves>(v, force, mass, mobility, step, sums);
+    if constexpr (gravity && book) {
+      const Triple<Real> g{Real(step.gravity.x), Real(step.gravity.y), Real(step.gravity.z)};
+      sums.weight_work = sums.weight_work + step.finished * mass * dot(g, v);
+    }
+  }
+  if constexpr (halves == Halves::end) {
+    store(c.force + i, force);
+  } else {
+    begin_kick(v, force, mobility, step);
+    store(c.position + i, R::vector(c.position + i) + scale(Real(step.next), v));
+    const Real square = dot(v, v);
+    sums.speed_squares = sums.speed_squares + square;
+    sums.fastest_square = larger(square, sums.fastest_square);
+  }
+  store(c.velocity + i, v);
+  if constexpr (rotation) {
+    Triple<Real> w = R::vector(c.angular_velocity + i), torque = R::vector(c.torque + i);
+    const Real inertia = R::scalar(c.inertia + i), turn_mobility = 1.0 / inertia;
+    if constexpr (halves != Halves::begin)
+      end_kick<Real, damping, book, halves>(w, torque, inertia, turn_mobility, step, sums);
+    if constexpr (halves == Halves::end) {
+      store(c.torque + i, torque);
+    } else {
+      begin_kick(w, torque, turn_mobility, step);
+      store(c.orientation + i, turned_by(R::rotation(c.orientation + i), w, step.next));
+    }
+    store(c.angular_velocity + i, w);
+  }
+}
+
+template <bool rotation, bool damping, bool gravity, bool book, Halves halves>
+MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_t first, std::size_t last) {
+  constexpr std::size_t packs = slots / lanes;
+  Book<Pack> wide[packs];
+  std::size_t i = first;
+  for (; i + slots <= last; i += slots)
+    for (std::size_t p = 0; p < packs; ++p)
+      move<Pack, rotation, damping, gravity, book, halves>(c, step, i + p * lanes, wide[p]);
+  Book<double> slot[slots];
+  for (std::size_t s = 0; s < slots; ++s) {
+    const Book<Pack> &w = wide[s / lanes];
+    const std::size_t l = s % lanes;
+    slot[s] = {w.damping_work.v[l],   w.weight_work.v[l],   w.unbalanced.v[l],
+               w.kinetic_energy.v[l], w.speed_squares.v[l], w.fastest_square.v[l]};
+  }
+  for (std::size_t s = 0; i < last; ++i, ++s)
+    move<double, rotation, damping, gravity, book, halves>(c, step, i, slot[s]);
+  MotionSums sums;
+  for (const Book<double> &b : slot) {
+    sums.damping_work += b.damping_work;
+    sums.weight_work += b.weight_work;
+    sums.unbalanced += b.unbalanced;
+    sums.kinetic_energy += b.kinetic_energy;
+    sums.speed_squares += b.speed_squares;
+    sums.fastest_square = larger(b.fastest_square, sums.fastest_square);
+  }
+  return sums;
+}
+
+template <bool rotation, bool damping, bool gravity, bool book>
+MotionKernel kernel_for(Halves halves) {
+  if (halves == Halves::end) return move_block<rotation, damping, gravity, book, Halves::end>;
+  if (halves == Halves::begin) return move_block<rotation, false, false, book, Halves::begin>;
+  return move_block<rotation, damping, gravity, book, Halves::end_and_begin>;
+}
+template <bool rotation, bool damping, bool gravity>
+MotionKernel choose(Halves h, bool book) {
+  return book ? kernel_for<rotation, damping, gravity, true>(h)
+              : kernel_for<rotation, damping, gravity, false>(h);
+}
+template <bool rotation, bool damping>
+MotionKernel choose(Halves h, const MotionEffects &e) {
+  return e.gravity ? choose<rotation, damping, true>(h, e.book) : choose<rotation, damping, false>(h, e.book);
+}
+template <bool rotation>
+MotionKernel choose(Halves h, const MotionEffects &e) {
+  return e.local_damping ? choose<rotation, true>(h, e) : choose<rotation, false>(h, e);
+}
+
+} // namespace
+
+MotionKernel PLATEN_KERNEL(Halves halves, const MotionEffects &e) {
+  return e.rotation ? choose<true>(halves, e) : choose<false>(halves, e);
+}
+
+} // namespace platen::dem::kernels

@@ -1,0 +1,71 @@
+// A whole problem: steps one by one and in one go are the same, to the last bit.
+#include "coupling/problem.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "dem/packing/advancing_front.h"
+
+namespace platen::coupling {
+namespace {
+
+dem::Specimen small_cylinder() {
+  dem::Shape shape;
+  shape.radius = 6e-3;
+  shape.height = 14e-3;
+  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
+}
+
+// Brittle and fast, so that bonds break and platens slide within some hundred steps.
+ProblemSettings crushing() {
+  ProblemSettings s;
+  s.model.bond_layout.modulus = 36e9;
+  s.model.bond_layout.gap = 0.05;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 1.0, 0.3};
+  s.model.contact = dem::ContactSettings{};
+  s.model.contact->friction = 0.5;
+  s.model.local_damping = 0.3;
+  s.model.gravity = {0, 0, -9.81};
+  s.ends = Ends::ground;
+  s.end_layer = 0.5;
+  s.platens.top = s.platens.bottom = {0.3, 0.2};
+  s.platens.thickness = 2e-3;
+  s.loading.rate = 1;
+  s.loading.ramp = 1e-6;
+  return s;
+}
+
+void expect_same_bits(const dem::Table &a, const dem::Table &b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t c = 0; c < a.columns().size(); ++c) {
+    const dem::ColumnBase &one = *a.columns()[c], &other = *b.columns()[c];
+    EXPECT_EQ(std::memcmp(one.bytes(), other.bytes(), one.size() * one.bytes_per_row()), 0) << one.name();
+  }
+}
+
+TEST(problem, steps_in_one_go_are_the_same_as_one_by_one) {
+  const dem::Specimen specimen = small_cylinder();
+  Problem one_by_one(specimen, crushing()), in_one_go(specimen, crushing());
+  constexpr long steps = 900; // past the first closed contacts, where the time step is chosen anew
+  for (long s = 0; s < steps; ++s)
+    one_by_one.step();
+  long stops = 0;
+  while (in_one_go.steps() < steps) {
+    in_one_go.advance(std::min(29L, steps - in_one_go.steps()));
+    in_one_go.model.take_cracks();
+    ++stops;
+  }
+  EXPECT_GT(one_by_one.model.broken_tension, 20);
+  EXPECT_GT(stops, steps / 29 + 5); // breaks end a run of steps early
+  EXPECT_LT(stops, steps);
+  EXPECT_EQ(one_by_one.numbers(), in_one_go.numbers());
+  expect_same_bits(one_by_one.model.particles.table, in_one_go.model.particles.table);
+  expect_same_bits(one_by_one.model.bonds->table, in_one_go.model.bonds->table);
+  expect_same_bits(one_by_one.model.contacts->table, in_one_go.model.contacts->table);
+  expect_same_bits(one_by_one.top_layer.history(), in_one_go.top_layer.history());
+}
+
+} // namespace
+} // namespace platen::coupling

@@ -1,0 +1,119 @@
+// The passes over particles: the same bits for every instruction set, and for two passes or one.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <ostream>
+
+#include "dem/integrator.h"
+#include "dem/kernels/motion_kernel.h"
+#include "dem/packing/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+struct Effects {
+  const char *name;
+  bool rotation;
+  double local_damping;
+  Vector3 gravity;
+  bool book;
+};
+
+void PrintTo(const Effects &effects, std::ostream *to) {
+  *to << effects.name;
+}
+
+class Passes : public testing::TestWithParam<Effects> {
+protected:
+  Integrator how(InstructionSet set) const {
+    const Effects &e = GetParam();
+    return {e.rotation, e.local_damping, e.gravity, e.book, set};
+  }
+  // A cloud in motion under random loads; 1029 rows leave a block of five.
+  void set_in_motion(Particles &p) const {
+    Random random(7);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p.velocity[i] = .3 * random.direction();
+      p.force[i] = 1e-2 * random.direction();
+      if (!p.has_rotation()) continue;
+      (*p.orientation)[i] = rotation_quaternion(2 * random.direction());
+      (*p.angular_velocity)[i] = 40 * random.direction();
+      (*p.torque)[i] = 1e-5 * random.direction();
+    }
+  }
+  Specimen cloud() const {
+    std::vector<Vector3> centres;
+    for (int k = 0; k < 1029; ++k)
+      centres.push_back(2.1 * radius * Vector3{1.0 * (k % 10), 1.0 * (k / 10 % 10), 1.0 * (k / 100)});
+    return spheres(centres);
+  }
+};
+
+void expect_same_bits(const Particles &a, const Particles &b, const std::string &what) {
+  for (std::size_t c = 0; c < a.table.columns().size(); ++c) {
+    const ColumnBase &one = *a.table.columns()[c], &other = *b.table.columns()[c];
+    EXPECT_EQ(std::memcmp(one.bytes(), other.bytes(), one.size() * one.bytes_per_row()), 0)
+        << what << " " << one.name();
+  }
+}
+
+void expect_same_bits(const KickSums &a, const KickSums &b) {
+  EXPECT_EQ(a.damping_work, b.damping_work);
+  EXPECT_EQ(a.weight_work, b.weight_work);
+  EXPECT_EQ(a.kinetic_energy, b.kinetic_energy);
+  EXPECT_EQ(a.unbalanced, b.unbalanced);
+}
+
+TEST_P(Passes, do_not_depend_on_the_instruction_set) {
+  Particles expected(cloud(), 2400, GetParam().rotation);
+  set_in_motion(expected);
+  const Motion motion = how(InstructionSet::baseline).begin(expected, 1e-7);
+  const KickSums sums = how(InstructionSet::baseline).end(expected, nullptr, 1e-7);
+  EXPECT_GT(motion.fastest, 0);
+  EXPECT_EQ(sums.kinetic_energy > 0, GetParam().book);
+  EXPECT_EQ(sums.damping_work > 0, GetParam().book && GetParam().local_damping > 0);
+  EXPECT_EQ(sums.weight_work != 0, GetParam().book && norm(GetParam().gravity) > 0);
+  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    if (set > best_instruction_set()) continue;
+    Particles p(cloud(), 2400, GetParam().rotation);
+    set_in_motion(p);
+    EXPECT_EQ(how(set).begin(p, 1e-7).fastest, motion.fastest);
+    expect_same_bits(how(set).end(p, nullptr, 1e-7), sums);
+    expect_same_bits(p, expected, name(set));
+  }
+}
+
+TEST_P(Passes, may_be_one_or_two) {
+  const Integrator integrator = how(best_instruction_set());
+  Particles two(cloud(), 2400, GetParam().rotation), one(cloud(), 2400, GetParam().rotation);
+  set_in_motion(two);
+  set_in_motion(one);
+  const KickSums ended = integrator.end(two, nullptr, 1.5e-7);
+  const Motion begun = integrator.begin(two, 1e-7);
+  KickSums sums;
+  const Motion motion = integrator.end_and_begin(one, nullptr, 1.5e-7, 1e-7, sums);
+  EXPECT_EQ(motion.fastest, begun.fastest);
+  EXPECT_EQ(sums.damping_work, ended.damping_work);
+  EXPECT_EQ(sums.weight_work, ended.weight_work);
+  // The one pass leaves forces as they were before damping: nobody reads them again.
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    one.force[i] = two.force[i];
+    if (one.has_rotation()) (*one.torque)[i] = (*two.torque)[i];
+  }
+  expect_same_bits(one, two, "in one pass");
+}
+
+INSTANTIATE_TEST_SUITE_P(motion_kernel, Passes,
+                         testing::Values(Effects{"all", true, .5, {1, -2, -9.81}, true},
+                                         Effects{"without_rotation", false, .5, {1, -2, -9.81}, true},
+                                         Effects{"without_damping", true, 0, {0, 0, -9.81}, true},
+                                         Effects{"without_gravity", true, .5, {}, true},
+                                         Effects{"without_book", true, .5, {0, 0, -9.81}, false},
+                                         Effects{"translation_alone", false, 0, {}, false}),
+                         [](const auto &effects) { return std::string(effects.param.name); });
+
+} // namespace
+} // namespace platen::dem
