@@ -1,105 +1,121 @@
-// Speed of one step: equal spheres, close packed, bonds with normal, shear, bending and twisting, failure
-// checks, local damping and energy book on, between two rigid platens that press them elastically. Prints
-// seconds per stage and the line "N M bond-steps/s" (median over repeats).
+// Speed of one step (step_scene.h says of what), in turn with the idealised loop on the same bonds. Prints
+// seconds per stage, bytes per particle and the line "N M bond-steps/s" (median over repeats).
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <vector>
+#include <memory>
 
-#include "coupling/problem.h"
-#include "dem/packing/growth.h"
-#include "dem/packing/specimen.h"
+#include "apps/io/specimen_csv.h"
 #include "dem/parallel.h"
+#include "step_scene.h"
 
 namespace {
 
 using namespace platen;
+using Clock = std::chrono::steady_clock;
 
-// A cylinder twice as high as wide that holds about `count` spheres of radius 1 mm at the packing fraction
-// that growth between walls reaches.
-dem::Shape shape_for(int count) {
-  constexpr double sphere = 4.0 / 3.0 * 3.14159265358979323846 * 1e-9, fraction = 0.615;
-  dem::Shape shape;
-  shape.radius = std::cbrt(count * sphere / fraction / (4 * 3.14159265358979323846));
-  shape.height = 4 * shape.radius;
-  return shape;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-coupling::ProblemSettings settings() {
-  coupling::ProblemSettings s;
-  s.model.bond_layout.modulus = 40e9;
-  s.model.bond_layout.gap = 0.1;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3}; // strong: the elastic stage is timed
-  s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = 0.5;
-  s.model.local_damping = 0.5;
-  s.ends = coupling::Ends::ground;
-  s.end_layer = 0.3;
-  s.platens.top = s.platens.bottom = {0.57, 0.57};
-  s.platens.damping = 0;
-  s.platens.thickness = 5e-3;
-  s.loading.rate = 0.05;
-  return s;
+struct Options {
+  int particles = 22500, threads = 1, steps = 500, repeats = 5;
+  bool baseline = false, alone = false;
+  std::string read, write;
+};
+
+dem::Specimen specimen_for(const Options &o) {
+  const auto start = Clock::now();
+  dem::Specimen specimen =
+      o.read.empty() ? bench::close_packed(o.particles) : apps::read_specimen_csv(o.read).specimen;
+  std::printf("%s in %.3g s\n", o.read.empty() ? "packed" : "read", seconds_since(start));
+  if (!o.write.empty()) apps::write_specimen_csv(o.write, specimen);
+  return specimen;
 }
 
-void run(coupling::Problem &problem, long steps) {
-  while (steps > 0)
-    steps -= problem.advance(steps);
+void print_stages(const dem::StageClock &clock, const dem::StageClock &before, double steps, double seconds) {
+  std::printf("%-12s %8s\n", "stage", "ms/step");
+  for (int k = 0; k < dem::stage_count; ++k) {
+    const dem::Stage stage = static_cast<dem::Stage>(k);
+    const double spent = clock.seconds(stage) - before.seconds(stage);
+    if (spent > 0)
+      std::printf("%-12s %8.4f\n", dem::stage_names[static_cast<std::size_t>(k)], 1e3 * spent / steps);
+  }
+  std::printf("%-12s %8.4f\n", "all", 1e3 * seconds / steps);
+}
+
+void print_memory(const coupling::Problem &problem, double before) {
+  const double particles = static_cast<double>(problem.model.particles.size());
+  std::printf(
+      "memory: %.0f bytes per particle in columns and search, bonds included; process %.0f MB, %.0f "
+      "MB before the scene\n",
+      static_cast<double>(problem.bytes()) / particles, 1e-6 * bench::peak_memory(), 1e-6 * before);
+}
+
+void measure(const Options &o, coupling::Problem &problem, double memory_before) {
+  const double bonds = static_cast<double>(problem.model.bonds->size());
+  std::unique_ptr<bench::IdealisedLoop> loop;
+  if (!o.alone) {
+    loop = std::make_unique<bench::IdealisedLoop>(bench::network_of(problem.model), o.threads);
+    loop->run(o.steps / 5 + 1);
+  }
+  bench::run(problem, o.steps / 5 + 1); // warm
+  const dem::StageClock before = problem.model.clock;
+  std::vector<double> rates, idealised, share;
+  double measured = 0;
+  for (int r = 0; r < o.repeats; ++r) {
+    const auto start = Clock::now();
+    bench::run(problem, o.steps);
+    const double seconds = seconds_since(start);
+    measured += seconds;
+    rates.push_back(bonds * o.steps / seconds * 1e-6);
+    if (!loop) continue;
+    idealised.push_back(bonds * o.steps / loop->run(o.steps) * 1e-6);
+    share.push_back(rates.back() / idealised.back());
+  }
+  print_stages(problem.model.clock, before, static_cast<double>(o.steps) * o.repeats, measured);
+  const dem::EnergyLedger energy = problem.energy();
+  std::printf("energy: work %.4g J, residual %.2g of it; broken bonds %ld\n", energy.boundary,
+              energy.residual() / energy.boundary, problem.model.broken_tension + problem.model.broken_shear);
+  print_memory(problem, memory_before);
+  const bench::Spread s = bench::spread(rates);
+  if (loop) {
+    const bench::Spread i = bench::spread(idealised), part = bench::spread(share);
+    std::printf(
+        "idealised loop in turn: %.2f M (%.2f ... %.2f); the step runs at %.3f of it (%.3f ... %.3f)\n",
+        i.median, i.smallest, i.largest, part.median, part.smallest, part.largest);
+  }
+  std::printf("smallest %.2f, largest %.2f M bond-steps/s\n", s.smallest, s.largest);
+  std::printf("%.2f M bond-steps/s\n", s.median);
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-  int particles = 22500, threads = 1, steps = 500, repeats = 5;
-  bool baseline = false;
-  CLI::App app("Bond-steps per second of a bonded cylinder between rigid platens.");
-  app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
-  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 256));
-  app.add_option("--steps", steps, "steps per repeat")->check(CLI::Range(1, 1000000));
-  app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
-  app.add_flag("--baseline", baseline, "the kernels of plain x86-64");
+  Options o;
+  CLI::App app("Bond-steps per second of a bonded specimen between rigid platens.");
+  app.add_option("--particles", o.particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
+  app.add_option("--threads", o.threads, "threads")->check(CLI::Range(1, 256));
+  app.add_option("--steps", o.steps, "steps per repeat")->check(CLI::Range(1, 1000000));
+  app.add_option("--repeats", o.repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
+  app.add_option("--specimen", o.read, "a packing from this file instead")->check(CLI::ExistingFile);
+  app.add_option("--write-specimen", o.write, "write the packing to this file");
+  app.add_flag("--baseline", o.baseline, "the kernels of plain x86-64");
+  app.add_flag("--alone", o.alone, "without the idealised loop");
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(threads);
-  const dem::Specimen specimen =
-      dem::random_close_packing_of(shape_for(particles), static_cast<std::size_t>(particles), 0.0, 1);
-  coupling::ProblemSettings chosen = settings();
-  if (baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
+  const dem::ThreadLimit limit(o.threads);
+  const dem::Specimen specimen = specimen_for(o);
+  coupling::ProblemSettings chosen = bench::elastic_press();
+  if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
+  const double before = bench::peak_memory();
+  const auto start = Clock::now();
   coupling::Problem problem(specimen, chosen);
-  const double bonds = static_cast<double>(problem.model.bonds->size());
-  std::printf("%zu particles, %.0f bonds, %d threads, %s kernels, step %.4g s\n",
-              problem.model.particles.size(), bonds, threads, dem::name(chosen.model.instruction_set),
-              problem.time_step());
-  run(problem, steps / 5); // warm
-  std::vector<double> rates;
-  double measured = 0;
-  std::vector<double> before(dem::stage_count), after(dem::stage_count);
-  for (int k = 0; k < dem::stage_count; ++k)
-    before[static_cast<std::size_t>(k)] = problem.model.clock.seconds(static_cast<dem::Stage>(k));
-  for (int r = 0; r < repeats; ++r) {
-    const auto start = std::chrono::steady_clock::now();
-    run(problem, steps);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    measured += seconds;
-    rates.push_back(bonds * steps / seconds * 1e-6);
-  }
-  const double per_step = 1e3 / (static_cast<double>(steps) * repeats);
-  std::printf("%-12s %8s\n", "stage", "ms/step");
-  for (int k = 0; k < dem::stage_count; ++k) {
-    const double stage =
-        problem.model.clock.seconds(static_cast<dem::Stage>(k)) - before[static_cast<std::size_t>(k)];
-    if (stage > 0)
-      std::printf("%-12s %8.4f\n", dem::stage_names[static_cast<std::size_t>(k)], stage * per_step);
-  }
-  std::printf("%-12s %8.4f\n", "all", measured * per_step);
-  const dem::EnergyLedger energy = problem.energy();
-  std::printf("energy: work %.4g J, residual %.2g of it; broken bonds %ld\n", energy.boundary,
-              energy.residual() / energy.boundary, problem.model.broken_tension + problem.model.broken_shear);
-  std::sort(rates.begin(), rates.end());
-  std::printf("smallest %.2f, largest %.2f M bond-steps/s\n", rates.front(), rates.back());
-  std::printf("%.2f M bond-steps/s\n", rates[rates.size() / 2]);
+  std::printf("set up in %.3g s\n", seconds_since(start));
+  std::printf("%zu particles, %zu bonds, %d threads, %s kernels, step %.4g s\n",
+              problem.model.particles.size(), problem.model.bonds->size(), o.threads,
+              dem::name(chosen.model.instruction_set), problem.time_step());
+  measure(o, problem, before);
   return 0;
 }

@@ -96,6 +96,21 @@ bool project_parallelogram(const Quad &q, double &u, double &v) {
   return inside(u, v);
 }
 
+// Coordinates of the foot on a flat convex quad, where they come out inside: in the plane,
+// (foot - q0 - v f) and (e + v t) are parallel, a quadratic equation for v. A start for the descent, which
+// finishes in a step or two.
+void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across, double &u, double &v) {
+  const Vector3 e = q[1] - q[0], f = q[3] - q[0], h = -q[0];
+  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), across); };
+  const double square = -plane(f, twist), linear = plane(h, twist) - plane(f, e), constant = plane(h, e);
+  const double discriminant = linear * linear - 4 * square * constant;
+  if (!(discriminant >= 0)) return;
+  const double found = -2 * constant / (linear + std::copysign(std::sqrt(discriminant), linear));
+  const Vector3 along = e + found * twist;
+  const double at = dot(h - found * f, along) / norm_squared(along);
+  if (inside(at, found)) u = at, v = found;
+}
+
 // Minimises 1/2 |x(u, v)|^2 inside the unit square from a start, by Newton steps on the exact Hessian where
 // it is positive definite and damped Gauss-Newton steps elsewhere. False where the way leads to the rim for
 // good.
@@ -193,6 +208,7 @@ ClosestPoint closest_point(const Quad &q) {
   const Foot foot = flat ? foot_on_flat_quad(q, across) : Foot::unknown;
   if (foot == Foot::outside) return on_boundary(q);
   // A flat convex quad has one minimum.
+  if (foot == Foot::inside) invert_flat_quad(q, twist, across, u, v);
   if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
 
   ClosestPoint best = on_boundary(q);

@@ -23,6 +23,9 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 
+constexpr double idle_margin = 1e-9;       // of a gap, for round-off
+constexpr std::size_t rows_per_block = 64; // a row costs as much as some dozen bonds
+
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("surface contact: " + what);
 }
@@ -64,6 +67,7 @@ struct ContactLayer::RowForce {
   Vector3 shear;           // N
   Vector3 moment;          // N m, of the seat
   CoulombFriction::State spring, seat;
+  double idle_until = 0;                                   // m, of travelled_
   double slip = 0;                                         // m, of this step
   double elastic = 0, friction_loss = 0, damping_loss = 0; // J
 };
@@ -152,6 +156,7 @@ void ContactLayer::moved(double distance) {
                              std::to_string(smallest_radius_) +
                              " m: it could pass through a face unseen; use a smaller time step");
   search_.moved(distance);
+  travelled_ += distance;
 }
 
 void ContactLayer::update_search(const dem::Particles &particles, const fem::Body &body) {
@@ -178,12 +183,18 @@ void ContactLayer::set_rows(const std::vector<int> &particles) {
   table_.permute(order);
   for (std::size_t k = 0; k < particles.size(); ++k)
     particle_[k] = particles[k];
+  idle_until_.assign(particles.size(), 0);
 }
 
 double ContactLayer::stiffness(int particle) const {
   const double k = particle_stiffness_ != nullptr ? (*particle_stiffness_)[index(particle)]
                                                   : parameters_.particle_stiffness;
   return 1.0 / (1.0 / k + 1.0 / parameters_.body_stiffness);
+}
+
+std::size_t ContactLayer::bytes() const {
+  return table_.size() * table_.bytes_per_row() + row_forces_.capacity() * sizeof(RowForce) +
+         active_.capacity() * sizeof(ActiveContact) + search_.bytes();
 }
 
 bool ContactLayer::tied(std::size_t row) const {
@@ -195,18 +206,30 @@ bool ContactLayer::holds_history(std::size_t row) const {
          (seat_spring_ != nullptr && norm_squared((*seat_spring_)[row]) > 0);
 }
 
+// A row is passed over while nothing can have brought its particle to the surface since it was last looked
+// at.
+void ContactLayer::find_due_rows() {
+  due_.clear();
+  for (std::size_t row = 0; row < table_.size(); ++row)
+    if (!(travelled_ < idle_until_[row])) due_.push_back(row);
+  row_forces_.resize(due_.size());
+}
+
 void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double dt) {
   update_search(particles, body);
-  row_forces_.assign(table_.size(), RowForce{});
-  dem::for_each(table_.size(),
-                [&](std::size_t row) { row_forces_[row] = row_force(particles, body, row, dt); });
+  find_due_rows();
+  dem::for_each(
+      due_.size(), [&](std::size_t k) { row_forces_[k] = row_force(particles, body, due_[k], dt); },
+      rows_per_block);
 
   active_.clear();
   active_weights_.clear();
   elastic_energy_ = 0;
   double friction_loss = 0, damping_loss = 0;
-  for (std::size_t row = 0; row < table_.size(); ++row) {
-    const RowForce &r = row_forces_[row];
+  for (std::size_t k = 0; k < due_.size(); ++k) {
+    const std::size_t row = due_[k];
+    const RowForce &r = row_forces_[k];
+    idle_until_[row] = r.idle_until;
     store(particles, row, r);
     friction_loss += r.friction_loss;
     damping_loss += r.damping_loss;
@@ -260,7 +283,10 @@ ContactLayer::RowForce ContactLayer::row_force(const dem::Particles &particles, 
   motion.radius = particles.radius[i];
   motion.gap = result.at.distance - particles.radius[i] - offset_[row];
   result.active = motion.gap < 0 || tied(row);
-  if (!result.active && !holds_history(row)) return result;
+  if (!result.active && !holds_history(row)) {
+    result.idle_until = travelled_ + (1 - idle_margin) * motion.gap;
+    return result;
+  }
 
   const Vector3 arm = result.at.local.point, &n = result.at.normal;
   const Vector3 spin = particles.has_rotation() ? (*particles.angular_velocity)[i] : Vector3{};

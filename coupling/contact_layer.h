@@ -108,6 +108,7 @@ public:
   dem::Table &history() { return table_; }
   void restored() { search_.forget(); }
 
+  std::size_t bytes() const; // of rows and search lists
   const SurfaceContact &parameters() const { return parameters_; }
   const SurfaceSearch &search() const { return search_; }
 
@@ -115,6 +116,7 @@ private:
   struct RowForce;
   struct Kinematics;
   void set_rows(const std::vector<int> &particles);
+  void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
   double stiffness(int particle) const;
@@ -143,7 +145,10 @@ private:
   dem::Column<dem::Vector3> *seat_spring_ = nullptr; // N m; with seats
   dem::Column<int> *seat_sliding_ = nullptr;
 
-  std::vector<RowForce> row_forces_;
+  double travelled_ = 0;             // m, sum of the distances told to moved()
+  std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
+  std::vector<std::size_t> due_;     // rows to look at in this step
+  std::vector<RowForce> row_forces_; // of them
   std::vector<ActiveContact> active_;
   std::vector<std::array<double, 4>> active_weights_;
   double elastic_energy_ = 0;

@@ -255,6 +255,10 @@ double Problem::coordination_number() const {
          static_cast<double>(model.particles.size());
 }
 
+std::size_t Problem::bytes() const {
+  return model.bytes() + top_layer.bytes() + bottom_layer.bytes();
+}
+
 double Problem::closure_strain() const {
   return (bottom.displacement()[2] - top.displacement()[2]) / shape_.height;
 }

@@ -54,6 +54,11 @@ public:
   // The same by looking at every face: the oracle of the tests, and right for a single question.
   SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const dem::Vector3 &centre) const;
 
+  std::size_t bytes() const {
+    return particles_.capacity() * sizeof(int) + first_near_.capacity() * sizeof(std::size_t) +
+           near_.capacity() * sizeof(NearFace);
+  }
+
 private:
   struct NearFace {
     double distance = 0; // m, when the list was made

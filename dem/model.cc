@@ -119,6 +119,13 @@ std::size_t Model::intact_bonds() const {
   return bonds ? bonds->size() - bonds->broken_rows : 0;
 }
 
+std::size_t Model::bytes() const {
+  return particles.size() * particles.table.bytes_per_row() + (bonds ? bonds->bytes() : 0) +
+         (contacts
+              ? contacts->table.size() * contacts->table.bytes_per_row() + contacts->search_state().bytes()
+              : 0);
+}
+
 std::size_t Model::broken(BondState mode) const {
   return static_cast<std::size_t>(mode == BondState::broken_in_tension ? broken_tension : broken_shear);
 }

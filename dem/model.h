@@ -68,6 +68,7 @@ public:
   const ModelSettings &settings() const { return settings_; }
   std::vector<Crack> take_cracks();
   std::size_t intact_bonds() const;
+  std::size_t bytes() const; // of all columns and search lists
   std::size_t broken(BondState mode) const;
   StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const;
 

@@ -18,22 +18,22 @@ namespace platen::dem {
 // bitwise.
 constexpr std::size_t block_rows = 1024;
 
-inline std::size_t number_of_blocks(std::size_t rows) {
-  return (rows + block_rows - 1) / block_rows;
+inline std::size_t number_of_blocks(std::size_t rows, std::size_t per_block = block_rows) {
+  return (rows + per_block - 1) / per_block;
 }
 
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// body(first, last, block) for every block of rows [0, rows). Each thread takes one run of neighbouring
-// blocks. TBB's static partitioner would do the same, but it mails tasks to threads that may not exist, and
-// such mail is never freed: with a limit of one thread a run of hours would eat the memory.
+// body(first, last, block) for every block of `per_block` rows of [0, rows). Each thread takes one run of
+// neighbouring blocks. TBB's static partitioner would do the same, but it mails tasks to threads that may not
+// exist, and such mail is never freed: with a limit of one thread a run of hours would eat the memory.
 template <class Body>
-void for_each_block(std::size_t rows, const Body &body) {
-  const std::size_t blocks = number_of_blocks(rows);
+void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
+  const std::size_t blocks = number_of_blocks(rows, per_block);
   const auto run = [&](std::size_t from, std::size_t to) {
     for (std::size_t b = from; b < to; ++b)
-      body(b * block_rows, std::min(rows, (b + 1) * block_rows), b);
+      body(b * per_block, std::min(rows, (b + 1) * per_block), b);
   };
 #ifndef PLATEN_SERIAL
   const std::size_t parts = std::min(blocks, static_cast<std::size_t>(loop_threads()));
@@ -51,13 +51,16 @@ void for_each_block(std::size_t rows, const Body &body) {
   run(0, blocks);
 }
 
-// body(row) for every row.
+// body(row) for every row. Rows that cost much are worth a thread in smaller blocks.
 template <class Body>
-void for_each(std::size_t rows, const Body &body) {
-  for_each_block(rows, [&](std::size_t first, std::size_t last, std::size_t) {
-    for (std::size_t k = first; k < last; ++k)
-      body(k);
-  });
+void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
+  for_each_block(
+      rows,
+      [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t k = first; k < last; ++k)
+          body(k);
+      },
+      per_block);
 }
 
 // Sum of body(first, last) over blocks, added in the order of the blocks. T needs T{} = 0 and +=.

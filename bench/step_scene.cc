@@ -1,0 +1,97 @@
+#include "step_scene.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "dem/packing/growth.h"
+
+namespace platen::bench {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, radius = 1e-3;
+// What growth between walls reaches.
+constexpr double fraction = 0.615;
+constexpr int largest_cylinder = 50000, block_of = 20000;
+
+double volume_for(double particles) {
+  return particles * 4.0 / 3.0 * pi * radius * radius * radius / fraction;
+}
+
+// Blocks n x n x m, face to face.
+dem::Specimen stacked(int particles) {
+  const int blocks = std::max(1, static_cast<int>(std::lround(particles / static_cast<double>(block_of))));
+  const int across = std::max(1, static_cast<int>(std::lround(std::cbrt(blocks / 2.0))));
+  const int up = std::max(1, static_cast<int>(std::lround(blocks / static_cast<double>(across * across))));
+  const int each = particles / (across * across * up);
+  const double edge = std::cbrt(volume_for(each));
+  const dem::Specimen block =
+      dem::random_close_packing_of(dem::box(edge, edge, edge), static_cast<std::size_t>(each), 0.0, 1);
+  dem::Specimen all;
+  all.shape = dem::box(across * edge, across * edge, up * edge);
+  for (int z = 0; z < up; ++z)
+    for (int y = 0; y < across; ++y)
+      for (int x = 0; x < across; ++x)
+        for (std::size_t k = 0; k < block.size(); ++k) {
+          all.centre.push_back(block.centre[k] +
+                               edge * dem::Vector3{x - 0.5 * (across - 1), y - 0.5 * (across - 1), 1.0 * z});
+          all.radius.push_back(block.radius[k]);
+        }
+  return all;
+}
+
+} // namespace
+
+dem::Specimen close_packed(int particles) {
+  if (particles > largest_cylinder) return stacked(particles);
+  const double r = std::cbrt(volume_for(particles) / (4 * pi));
+  return dem::random_close_packing_of(dem::cylinder(r, 4 * r), static_cast<std::size_t>(particles), 0.0, 1);
+}
+
+coupling::ProblemSettings elastic_press() {
+  coupling::ProblemSettings s;
+  s.model.bond_layout.modulus = 40e9;
+  s.model.bond_layout.gap = 0.1;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3};
+  s.model.contact = dem::ContactSettings{};
+  s.model.contact->friction = 0.5;
+  s.model.local_damping = 0.5;
+  s.ends = coupling::Ends::ground;
+  s.end_layer = 0.3;
+  s.platens.top = s.platens.bottom = {0.57, 0.57};
+  s.platens.damping = 0;
+  s.platens.thickness = 5e-3;
+  s.loading.rate = 0.05;
+  return s;
+}
+
+Network network_of(const dem::Model &model) {
+  Network network;
+  for (const dem::Vector3 &x : model.particles.position)
+    network.position.push_back({x.x, x.y, x.z});
+  network.first.assign(model.bonds->first.begin(), model.bonds->first.end());
+  network.second.assign(model.bonds->second.begin(), model.bonds->second.end());
+  network.radius = model.particles.radius[0];
+  return network;
+}
+
+void run(coupling::Problem &problem, long steps) {
+  while (steps > 0)
+    steps -= problem.advance(steps);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+std::string machine() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+} // namespace platen::bench

@@ -1,0 +1,39 @@
+// The workload of the step benchmarks: equal spheres of 1 mm, close packed, bonded with normal, shear,
+// bending and twisting, pressed elastically between two rigid platens.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "coupling/problem.h"
+#include "dem/packing/specimen.h"
+#include "limit/idealised_loop.h"
+
+namespace platen::bench {
+
+// About `particles` spheres: a cylinder twice as high as wide; above 50 000, a box of equal blocks of some
+// 20 000 spheres, each packed alike, because packing a million takes far longer than the benchmark.
+dem::Specimen close_packed(int particles);
+
+// Failure checks, energy book, local damping and contacts on; strengths that nothing reaches.
+coupling::ProblemSettings elastic_press();
+
+// The bonds of a problem for the idealised loop.
+Network network_of(const dem::Model &model);
+
+void run(coupling::Problem &problem, long steps);
+
+struct Spread {
+  double median = 0, smallest = 0, largest = 0;
+};
+inline Spread spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {values[values.size() / 2], values.front(), values.back()};
+}
+
+// Largest resident memory of this process so far, bytes.
+double peak_memory();
+std::string machine(); // processor's name
+
+} // namespace platen::bench
