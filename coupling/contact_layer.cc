@@ -66,6 +66,8 @@ struct ContactLayer::RowForce {
   double dashpot = 0;      // N, part of the normal force
   Vector3 shear;           // N
   Vector3 moment;          // N m, of the seat
+  Vector3 force;           // N, normal and shear
+  ActiveContact contact;   // where it touches
   CoulombFriction::State spring, seat;
   double idle_until = 0;                                   // m, of travelled_
   double slip = 0;                                         // m, of this step
@@ -218,8 +220,15 @@ void ContactLayer::find_due_rows() {
 void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double dt) {
   update_search(particles, body);
   find_due_rows();
+  // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after.
   dem::for_each(
-      due_.size(), [&](std::size_t k) { row_forces_[k] = row_force(particles, body, due_[k], dt); },
+      due_.size(),
+      [&](std::size_t k) {
+        RowForce &r = row_forces_[k];
+        r = row_force(particles, body, due_[k], dt);
+        keep_history(due_[k], r);
+        if (r.active) load_particle(particles, due_[k], r);
+      },
       rows_per_block);
 
   active_.clear();
@@ -227,27 +236,22 @@ void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double
   elastic_energy_ = 0;
   double friction_loss = 0, damping_loss = 0;
   for (std::size_t k = 0; k < due_.size(); ++k) {
-    const std::size_t row = due_[k];
     const RowForce &r = row_forces_[k];
-    idle_until_[row] = r.idle_until;
-    store(particles, row, r);
+    idle_until_[due_[k]] = r.idle_until;
     friction_loss += r.friction_loss;
     damping_loss += r.damping_loss;
     if (!r.active) continue;
     elastic_energy_ += r.elastic;
-    const std::size_t i = index(particle_[row]);
-    const Vector3 force = r.normal_force * r.at.normal + r.shear;
-    particles.force[i] += force;
-    if (particles.has_rotation()) (*particles.torque)[i] += cross(r.at.local.point, force) + r.moment;
-    apply_force(body, r.at, -force);
+    active_.push_back(r.contact);
+    active_weights_.push_back(r.at.local.weights);
+    apply_force(body, r.at, -r.force);
     if (norm_squared(r.moment) > 0) apply_moment(body, r.at.face, -r.moment);
   }
   friction_work += friction_loss;
   damping_work += damping_loss;
 }
 
-// Writes the row's history and, where it touches, its line in the list of contacts.
-void ContactLayer::store(const dem::Particles &particles, std::size_t row, const RowForce &r) {
+void ContactLayer::keep_history(std::size_t row, const RowForce &r) {
   dashpot_[row] = r.dashpot;
   if (normal_ != nullptr) (*normal_)[row] = r.active ? r.at.normal : Vector3{};
   if (spring_ != nullptr) {
@@ -259,18 +263,22 @@ void ContactLayer::store(const dem::Particles &particles, std::size_t row, const
     (*seat_spring_)[row] = r.seat.spring;
     (*seat_sliding_)[row] = r.seat.sliding;
   }
-  if (!r.active) return;
-  ActiveContact c;
+}
+
+void ContactLayer::load_particle(dem::Particles &particles, std::size_t row, RowForce &r) {
+  const std::size_t i = index(particle_[row]);
+  r.force = r.normal_force * r.at.normal + r.shear;
+  particles.force[i] += r.force;
+  if (particles.has_rotation()) (*particles.torque)[i] += cross(r.at.local.point, r.force) + r.moment;
+  ActiveContact &c = r.contact;
   c.particle = particle_[row];
   c.face = r.at.face;
-  c.point = particles.position[index(c.particle)] + r.at.local.point;
+  c.point = particles.position[i] + r.at.local.point;
   c.normal = r.at.normal;
   c.normal_force = r.normal_force;
   c.shear = r.shear;
   c.sliding = r.spring.sliding != 0;
   c.slip = slip_ != nullptr ? (*slip_)[row] : 0;
-  active_.push_back(c);
-  active_weights_.push_back(r.at.local.weights);
 }
 
 // Reads the row's history and writes nothing but its own result.

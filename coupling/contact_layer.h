@@ -126,7 +126,8 @@ private:
   void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
-  void store(const dem::Particles &particles, std::size_t row, const RowForce &result);
+  void keep_history(std::size_t row, const RowForce &result);
+  void load_particle(dem::Particles &particles, std::size_t row, RowForce &result);
 
   SurfaceContact parameters_;
   const dem::Column<double> *particle_stiffness_;

@@ -44,6 +44,7 @@ bool ContactSearch::update(const Particles &particles, const Bonds *bonds) {
 void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds) {
   state_.wide = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
   if (bonds != nullptr) drop_bonded(state_.wide, *bonds);
+  state_.wide.shrink_to_fit();
   state_.moved_since_wide = 0;
   state_.wide_valid = true;
 }

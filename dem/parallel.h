@@ -16,18 +16,21 @@ namespace platen::dem {
 
 // Rows of one block. Blocks are cut by row number alone, never by thread, so that sums over blocks repeat
 // bitwise.
-constexpr std::size_t block_rows = 1024;
+constexpr std::size_t block_rows = 512;
 
 inline std::size_t number_of_blocks(std::size_t rows, std::size_t per_block = block_rows) {
   return (rows + per_block - 1) / per_block;
 }
 
+// Runs of blocks that a loop is cut into, so that a thread that is done early takes over from another.
+constexpr std::size_t parts_per_thread = 32;
+
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// body(first, last, block) for every block of `per_block` rows of [0, rows). Each thread takes one run of
-// neighbouring blocks. TBB's static partitioner would do the same, but it mails tasks to threads that may not
-// exist, and such mail is never freed: with a limit of one thread a run of hours would eat the memory.
+// body(first, last, block) for every block of `per_block` rows of [0, rows). Threads take runs of neighbouring
+// blocks, and further runs from each other. (TBB's static partitioner mails tasks to threads that may not
+// exist, and such mail is never freed: with a limit of one thread a run of hours would eat the memory.)
 template <class Body>
 void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
   const std::size_t blocks = number_of_blocks(rows, per_block);
@@ -36,8 +39,9 @@ void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = 
       body(b * per_block, std::min(rows, (b + 1) * per_block), b);
   };
 #ifndef PLATEN_SERIAL
-  const std::size_t parts = std::min(blocks, static_cast<std::size_t>(loop_threads()));
-  if (parts > 1) {
+  const std::size_t threads = static_cast<std::size_t>(loop_threads());
+  const std::size_t parts = std::min(blocks, threads * parts_per_thread);
+  if (threads > 1 && parts > 1) {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, parts, 1),
         [&](const tbb::blocked_range<std::size_t> &range) {
