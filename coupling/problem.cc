@@ -215,7 +215,7 @@ long Problem::advance(long most) {
                             " s; try a smaller Integration/Safety or Loading/Axial rate");
     add_forces();
     ++steps_;
-    if (made + 1 == most || !model.cracks.empty()) {
+    if (made + 1 == most || (model.breaks > 0 && model.settings().crack_log)) {
       model.end_step(time_step_);
       return made + 1;
     }
@@ -335,6 +335,7 @@ void Problem::restored() {
   top_layer.restored();
   bottom_layer.restored();
   if (model.bonds) model.bonds->restored();
+  if (model.contacts) model.contacts->restored();
 }
 
 } // namespace platen::coupling

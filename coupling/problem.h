@@ -74,8 +74,8 @@ public:
   Problem(const dem::Specimen &specimen, const ProblemSettings &settings);
 
   void step() { advance(1); }
-  // Up to `most` steps, to the same bits as one by one and faster; ends early after a step in which a bond
-  // broke. Returns how many were made.
+  // Up to `most` steps, to the same bits as one by one and faster; ends early after a step that leaves
+  // cracks to be written. Returns how many were made.
   long advance(long most);
 
   dem::Model model;

@@ -19,7 +19,7 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
   dashpot_twist_ratio = std::sqrt(2 * ratio);
   dashpot = &table.add<double>("dashpot", "N s/m");
   dashpot_force = &table.add<Vector3>("dashpot_force", "N");
-  if (p.has_rotation()) {
+  if (p.has_rotation() && law.parameters.moments) {
     dashpot_bending = &table.add<double>("dashpot_bending", "N m s");
     dashpot_moment = &table.add<Vector3>("dashpot_moment", "N m");
   }

@@ -42,11 +42,11 @@ struct BlockSums {
   std::size_t stride;
   double *row;
 
-  BlockSums(const BondBlocks &blocks, std::size_t block, std::size_t particles, bool rotation)
+  BlockSums(const PairBlocks &blocks, std::size_t block, std::size_t particles, bool rotation)
       : first(block * block_rows),
         last(std::min(particles, first + block_rows)),
-        first_bond(blocks.first_bond[block]),
-        last_bond(blocks.first_bond[block + 1]),
+        first_bond(blocks.first_pair[block]),
+        last_bond(blocks.first_pair[block + 1]),
         first_ghost(blocks.first_ghost[block]),
         ghosts(blocks.first_ghost[block + 1] - first_ghost),
         stride(static_cast<std::size_t>(kernels::sums_stride(rotation))) {
@@ -71,7 +71,7 @@ struct BlockSums {
 
 // Writes (or adds) the sums to the particles and ghosts.
 template <bool add>
-void hand_over(const BlockSums &sums, Particles &p, BondBlocks &blocks, const Vector3 &gravity) {
+void hand_over(const BlockSums &sums, Particles &p, PairBlocks &blocks, const Vector3 &gravity) {
   const std::size_t rows = sums.last - sums.first;
   const bool heavy = norm_squared(gravity) > 0, turning = p.has_rotation();
   for (std::size_t k = 0; k < rows; ++k) {
@@ -131,7 +131,7 @@ void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vecto
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < reached.size(); ++block) {
     if (!reached[block]) continue;
-    const std::size_t first = b.blocks.first_bond[block], last = b.blocks.first_bond[block + 1];
+    const std::size_t first = b.blocks.first_pair[block], last = b.blocks.first_pair[block + 1];
     tension.resize(last - first);
     shear.resize(last - first);
     kernels.measure(columns, b.law, {tension.data(), shear.data(), nullptr, nullptr}, first, last);
@@ -155,15 +155,6 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
   }
 }
 
-void return_ghosts(Particles &p, const BondBlocks &blocks, std::size_t block) {
-  const bool turning = p.has_rotation();
-  for (std::size_t r = blocks.first_return[block]; r < blocks.first_return[block + 1]; ++r) {
-    const BondBlocks::Return &from = blocks.returns[r];
-    p.force[from.particle] += blocks.ghost_force[from.ghost];
-    if (turning) (*p.torque)[from.particle] += blocks.ghost_torque[from.ghost];
-  }
-}
-
 double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) {
   const kernels::BondKernels &kernels = kernels_of(set);
   kernels::BondColumns columns = columns_of(p, b);
@@ -172,8 +163,8 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
   columns.dashpot_force = b.dashpot_force->data();
   columns.dashpot_shear_ratio = b.dashpot_shear_ratio;
   columns.dashpot_twist_ratio = b.dashpot_twist_ratio;
-  if (p.has_rotation()) {
-    columns.angular_velocity = p.angular_velocity->data();
+  if (p.has_rotation()) columns.angular_velocity = p.angular_velocity->data();
+  if (b.dashpot_bending != nullptr) {
     columns.dashpot_bending = b.dashpot_bending->data();
     columns.dashpot_moment = b.dashpot_moment->data();
   }

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/bond_blocks.h"
 #include "dem/laws/parallel_bond.h"
+#include "dem/pair_blocks.h"
 #include "dem/particles.h"
 #include "dem/table.h"
 
@@ -64,7 +64,7 @@ struct Bonds {
   Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
-  BondBlocks blocks; // of the rows of `table`
+  PairBlocks blocks; // of the rows of `table`
   ParallelBond law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 
@@ -114,8 +114,6 @@ void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set,
 // The same again for the blocks of rows that have just been broken.
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                                const std::vector<BondBreak> &breaks);
-// Adds to the particles of one block what the bonds of others exert on them.
-void return_ghosts(Particles &particles, const BondBlocks &blocks, std::size_t block);
 
 // Adds the dashpots to the particles and ghosts, from the velocities of the last drift, which took dt.
 // Returns the energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog

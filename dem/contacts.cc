@@ -52,7 +52,8 @@ double ContactSettings::coefficient(double ri, double rj, const BondLayout &layo
   return stiffness * kappa * ri * rj / (ri + rj);
 }
 
-Contacts::Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout)
+Contacts::Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
+                   bool energy_ledger)
     : settings_(settings),
       layout_(layout),
       search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)) {
@@ -62,10 +63,6 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
     tangential_stiffness = &table.add<double>("tangential_stiffness", "N/m");
     sliding = &table.add<int>("sliding", "1");
   }
-  if (particles.has_rotation()) {
-    torque_first = &table.add<Vector3>("torque_first", "N m");
-    torque_second = &table.add<Vector3>("torque_second", "N m");
-  }
   if (settings.tangential == TangentialContact::coulomb_with_rolling) {
     rolling = &table.add<Vector3>("rolling", "N m");
     rolling_stiffness = &table.add<double>("rolling_stiffness", "N m");
@@ -73,6 +70,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
   dashpot_ = settings.normal == NormalContact::hertz ? HertzContact::damping_fraction(settings.restitution)
                                                      : settings.damping;
   if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
+  loop_ = loop_for({settings.tangential, dashpot_ > 0, particles.has_rotation(), energy_ledger});
   // Spheres that overlap from the start touch from their initial distance, bonded or not.
   for (const IndexPair &p :
        near_pairs(particles.position.data(), particles.radius.data(), particles.size(), 0.0))
@@ -85,6 +83,7 @@ void Contacts::search(const Particles &particles, const Bonds *bonds, double dis
 }
 
 void Contacts::carry_rows(const Particles &particles) {
+  blocks_current_ = false;
   const std::vector<IndexPair> &pairs = search_.close_pairs();
   std::vector<int> order(pairs.size(), 0);
   std::vector<unsigned char> fresh(pairs.size(), 0);
@@ -109,146 +108,6 @@ void Contacts::carry_rows(const Particles &particles) {
         settings_.coefficient(particles.radius[pairs[n].first], particles.radius[pairs[n].second], layout_);
     if (tangential_stiffness != nullptr)
       (*tangential_stiffness)[n] = settings_.tangential_ratio * coefficient[n];
-  }
-}
-
-void Contacts::compute(const Particles &particles, double dt) {
-  const auto rows = [&](std::size_t begin, std::size_t end) {
-    return settings_.normal == NormalContact::linear ? compute_rows<LinearContact>(particles, dt, begin, end)
-                                                     : compute_rows<HertzContact>(particles, dt, begin, end);
-  };
-  const Dissipation lost = ordered_sum<Dissipation>(table.size(), rows);
-  friction_work += lost.friction;
-  damping_work += lost.damping;
-}
-
-template <class Law>
-Contacts::Dissipation Contacts::compute_rows(const Particles &p, double dt, std::size_t begin,
-                                             std::size_t end) {
-  Dissipation lost;
-  for (std::size_t k = begin; k < end; ++k) {
-    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
-    const Vector3 d = p.position[j] - p.position[i];
-    const double square = norm_squared(d);
-    if (square >= rest_distance[k] * rest_distance[k]) {
-      if (touching[k]) release(k, lost);
-      continue;
-    }
-    const double length = std::sqrt(square), lever = p.radius[i] / (p.radius[i] + p.radius[j]);
-    const Vector3 n = d / length, ri = lever * d, rj = ri - d;
-    Vector3 v = p.velocity[j] - p.velocity[i];
-    if (p.has_rotation()) v += cross((*p.angular_velocity)[j], rj) - cross((*p.angular_velocity)[i], ri);
-    const double vn = dot(v, n);
-    touching[k] = 1;
-    overlap[k] = rest_distance[k] - length;
-    const double elastic = Law::force(coefficient[k], overlap[k]),
-                 kn = Law::stiffness(coefficient[k], overlap[k]);
-    double pressing = elastic;
-    if (dashpot_ > 0) {
-      const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-      pressing = std::max(0.0, elastic - 2 * dashpot_ * std::sqrt(kn * m) * vn); // no attraction
-    }
-    force[k] = -pressing * n;
-    Vector3 drag = (elastic - pressing) * n; // the dashpots' part, on first
-    if (rolling != nullptr) rolling_moment(p, dt, k, n, pressing, lost);
-    if (spring != nullptr) tangential_force<Law>(p, dt, k, n, pressing, kn, v - vn * n, drag, lost);
-    if (dashpot != nullptr) {
-      // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
-      lost.damping += 0.5 * dt * dot(drag + (*dashpot)[k], v);
-      (*dashpot)[k] = drag;
-    }
-    if (torque_first == nullptr) continue;
-    (*torque_first)[k] = cross(ri, force[k]);
-    (*torque_second)[k] = -cross(rj, force[k]);
-    if (rolling != nullptr) {
-      (*torque_first)[k] += (*rolling)[k];
-      (*torque_second)[k] -= (*rolling)[k];
-    }
-  }
-  return lost;
-}
-
-// Coulomb's spring in the turned contact plane.
-template <class Law>
-void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, const Vector3 &n,
-                                double pressing, double kn, const Vector3 &slip_velocity, Vector3 &drag,
-                                Dissipation &lost) {
-  double &kt = (*tangential_stiffness)[k];
-  CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], n), (*sliding)[k]};
-  if constexpr (!Law::constant_stiffness) {
-    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
-    const double now = HertzContact::tangential_ratio(settings_.poisson_ratio) * kn;
-    const double before = 0.5 * norm_squared(state.spring) / kt;
-    if (now < kt) state.spring *= now / kt;
-    if (kt > 0 && norm_squared(state.spring) > 0)
-      lost.friction += before - 0.5 * norm_squared(state.spring) / now;
-    kt = now;
-  }
-  const CoulombFriction friction{{settings_.friction, settings_.friction}};
-  const CoulombFriction::Result result = friction(state, dt * slip_velocity, pressing, kt);
-  lost.friction += result.dissipated;
-  (*sliding)[k] = state.sliding;
-  (*spring)[k] = state.spring;
-  (*normal)[k] = n;
-  force[k] += result.force;
-  if (dashpot_ > 0 && !state.sliding) {
-    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
-    const double m = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-    // Spring and dashpot together stay below the Coulomb limit too; a contact that is not pressed drags
-    // nothing.
-    Vector3 tangential = state.spring + 2 * dashpot_ * std::sqrt(kt * m) * slip_velocity;
-    const double size = norm(tangential), limit = settings_.friction * pressing;
-    if (size > limit) tangential *= limit / size;
-    force[k] += tangential - state.spring;
-    drag += tangential - state.spring;
-  }
-}
-
-// The same law turns a rolling spring k_t R*^2 with the limit rolling_friction R* N. Called before the
-// tangential force, which renews the normal.
-void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, const Vector3 &n, double pressing,
-                              Dissipation &lost) {
-  const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
-  const double effective = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
-  const double stiffness = (*rolling_stiffness)[k] = (*tangential_stiffness)[k] * effective * effective;
-  if (!(stiffness > 0)) return; // Hertz' contact at its first step
-  const Vector3 w = (*p.angular_velocity)[j] - (*p.angular_velocity)[i];
-  const double limit = settings_.rolling_friction * effective;
-  CoulombFriction::State state{carry_with_plane((*rolling)[k], (*normal)[k], n), 0};
-  const CoulombFriction::Result result =
-      CoulombFriction{{limit, limit}}(state, dt * (w - dot(w, n) * n), pressing, stiffness);
-  lost.friction += result.dissipated;
-  (*rolling)[k] = state.spring;
-}
-
-void Contacts::release(std::size_t k, Dissipation &lost) {
-  touching[k] = 0;
-  overlap[k] = 0;
-  force[k] = {};
-  if (spring != nullptr) {
-    const double kt = (*tangential_stiffness)[k];
-    if (kt > 0) lost.friction += 0.5 * norm_squared((*spring)[k]) / kt;
-    (*spring)[k] = {};
-    (*sliding)[k] = 0;
-  }
-  if (dashpot != nullptr) (*dashpot)[k] = {};
-  if (rolling != nullptr) {
-    if ((*rolling_stiffness)[k] > 0)
-      lost.friction += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
-    (*rolling)[k] = {};
-  }
-  if (torque_first != nullptr) (*torque_first)[k] = (*torque_second)[k] = {};
-}
-
-void Contacts::add_to(Particles &p) const {
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    if (!touching[k]) continue;
-    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
-    p.force[i] += force[k];
-    p.force[j] -= force[k];
-    if (torque_first == nullptr) continue;
-    (*p.torque)[i] += (*torque_first)[k];
-    (*p.torque)[j] += (*torque_second)[k];
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "dem/bonds.h"
 #include "dem/contact_search.h"
+#include "dem/pair_blocks.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
@@ -43,7 +44,9 @@ struct ContactStiffness {
 
 class Contacts {
 public:
-  Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout);
+  // energy_ledger: sums of what friction and dashpots take.
+  Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
+           bool energy_ledger = true);
 
   // One row per pair that may touch, sorted by (first, second).
   Table table;
@@ -59,7 +62,6 @@ public:
   Column<Vector3> *spring = nullptr;              // tangential force on first, N
   Column<double> *tangential_stiffness = nullptr; // N/m
   Column<int> *sliding = nullptr;
-  Column<Vector3> *torque_first = nullptr, *torque_second = nullptr; // N m; only with rotation
   Column<Vector3> *dashpot = nullptr; // N, on first, in the last step; only with dashpots
   // Only with rolling resistance.
   Column<Vector3> *rolling = nullptr;          // moment on first, N m
@@ -69,10 +71,10 @@ public:
 
   // Brings the rows up to date after a motion of at most `distance` (m) per particle.
   void search(const Particles &particles, const Bonds *bonds, double distance);
-  // Forces of all rows from positions and half-step velocities; history advances by dt.
-  void compute(const Particles &particles, double dt);
-  // Adds the rows' forces and torques to the particles, in row order.
-  void add_to(Particles &particles) const;
+  // Forces of all rows from positions and half-step velocities, added to the particles; what leaves a block
+  // of particles waits in the ghosts of blocks(). History advances by dt.
+  void compute(Particles &particles, double dt);
+  const PairBlocks &blocks() const { return blocks_; }
   // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
   // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
   // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
@@ -84,6 +86,8 @@ public:
   // touching, is taken at 0.2 % of the smaller radius at least.
   ContactStiffness stiffness_bound(double ri, double rj, double approach) const;
 
+  // After the table has been loaded from a checkpoint.
+  void restored() { blocks_current_ = false; }
   ContactSearch &search_state() { return search_; }
   const ContactSearch &search_state() const { return search_; }
   const ContactSettings &settings() const { return settings_; }
@@ -96,15 +100,33 @@ private:
       return *this;
     }
   };
-  template <class Law>
-  Dissipation compute_rows(const Particles &particles, double dt, std::size_t begin, std::size_t end);
-  template <class Law>
-  void tangential_force(const Particles &particles, double dt, std::size_t k, const Vector3 &n,
-                        double pressing, double kn, const Vector3 &slip_velocity, Vector3 &drag,
-                        Dissipation &lost);
-  void rolling_moment(const Particles &particles, double dt, std::size_t k, const Vector3 &n, double pressing,
+  struct Touch;
+  template <class Law, TangentialContact tangential, bool dashpots, bool rotation, bool book>
+  struct With;
+  template <class Effects>
+  Dissipation compute_block(Particles &particles, double dt, std::size_t block);
+  template <class Effects>
+  void tangential_force(const Particles &particles, double dt, std::size_t k, Touch &t, Dissipation &lost);
+  template <class Effects>
+  void rolling_moment(const Particles &particles, double dt, std::size_t k, const Touch &t,
                       Dissipation &lost);
+  template <class Effects>
   void release(std::size_t k, Dissipation &lost);
+
+  using Loop = Dissipation (Contacts::*)(Particles &, double, std::size_t);
+  struct LoopChoice {
+    TangentialContact tangential;
+    bool dashpots, rotation, book;
+  };
+  Loop loop_for(const LoopChoice &choice);
+  template <class Law>
+  Loop choose(const LoopChoice &choice);
+  template <class Law, TangentialContact tangential>
+  Loop choose(const LoopChoice &choice);
+  template <class Law, TangentialContact tangential, bool dashpots>
+  Loop choose(const LoopChoice &choice);
+  template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
+  Loop choose(const LoopChoice &choice);
   void carry_rows(const Particles &particles);
   double stored_energy(std::size_t k) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
@@ -115,6 +137,9 @@ private:
   BondLayout layout_;
   ContactSearch search_;
   double dashpot_ = 0; // fraction of critical
+  Loop loop_ = nullptr;
+  PairBlocks blocks_; // of the rows, as far as current
+  bool blocks_current_ = false;
 };
 
 } // namespace platen::dem

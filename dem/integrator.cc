@@ -15,7 +15,7 @@ namespace {
 
 kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
   const kernels::MotionEffects effects{how.rotation, how.local_damping > 0, norm_squared(how.gravity) > 0,
-                                       how.energy_book};
+                                       how.energy_ledger};
   switch (how.instruction_set) {
     case InstructionSet::avx512:
       return kernels::motion_kernel_avx512(halves, effects);
@@ -53,13 +53,16 @@ struct Sums : MotionSums {
   }
 };
 
-Sums pass(const Integrator &how, Halves halves, Particles &p, const Bonds *bonds, double finished,
+Sums pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghosts, double finished,
           double next) {
   const kernels::MotionKernel kernel = kernel_of(how, halves);
   const kernels::MotionColumns columns = columns_of(p);
   const kernels::MotionStep step{finished, next, how.local_damping, how.gravity};
   return ordered_sum<Sums>(p.size(), [&](std::size_t first, std::size_t last) {
-    if (bonds != nullptr && halves != Halves::begin) return_ghosts(p, bonds->blocks, first / block_rows);
+    if (halves != Halves::begin) {
+      if (ghosts.bonds != nullptr) return_ghosts(p, *ghosts.bonds, first / block_rows);
+      if (ghosts.contacts != nullptr) return_ghosts(p, *ghosts.contacts, first / block_rows);
+    }
     return Sums(kernel(columns, step, first, last));
   });
 }
@@ -67,18 +70,18 @@ Sums pass(const Integrator &how, Halves halves, Particles &p, const Bonds *bonds
 } // namespace
 
 Motion Integrator::begin(Particles &p, double dt) const {
-  const Sums s = pass(*this, Halves::begin, p, nullptr, 0, dt);
+  const Sums s = pass(*this, Halves::begin, p, {}, 0, dt);
   return {std::sqrt(s.fastest_square), s.speed_squares};
 }
 
-KickSums Integrator::end(Particles &p, const Bonds *bonds, double dt) const {
-  const Sums s = pass(*this, Halves::end, p, bonds, dt, 0);
+KickSums Integrator::end(Particles &p, const Ghosts &ghosts, double dt) const {
+  const Sums s = pass(*this, Halves::end, p, ghosts, dt, 0);
   return {s.damping_work, s.weight_work, s.kinetic_energy, s.unbalanced};
 }
 
-Motion Integrator::end_and_begin(Particles &p, const Bonds *bonds, double finished, double next,
+Motion Integrator::end_and_begin(Particles &p, const Ghosts &ghosts, double finished, double next,
                                  KickSums &sums) const {
-  const Sums s = pass(*this, Halves::end_and_begin, p, bonds, finished, next);
+  const Sums s = pass(*this, Halves::end_and_begin, p, ghosts, finished, next);
   sums = {s.damping_work, s.weight_work, 0, 0};
   return {std::sqrt(s.fastest_square), s.speed_squares};
 }

@@ -18,22 +18,27 @@ struct KickSums {
   double unbalanced = 0;     // N, sum of |net force| before damping
 };
 
+// Whose ghosts the end of a step returns; null: none.
+struct Ghosts {
+  const PairBlocks *bonds = nullptr, *contacts = nullptr;
+};
+
 // How the particles move, chosen once. Results do not depend on the instruction set.
 struct Integrator {
   bool rotation = true;
-  double local_damping = 0; // alpha: F -= alpha |F| sign(v), each component (Cundall); 0: none
-  Vector3 gravity;          // m/s^2
-  bool energy_book = true;  // sums of works and energies
+  double local_damping = 0;  // alpha: F -= alpha |F| sign(v), each component (Cundall); 0: none
+  Vector3 gravity;           // m/s^2
+  bool energy_ledger = true; // sums of works and energies
   InstructionSet instruction_set = best_instruction_set();
 
   // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. Returns the largest speed.
   Motion begin(Particles &particles, double dt) const;
-  // Returns ghosts of bonds (null: none), damps, makes the second half kick. Forces and torques are then
-  // complete and damped. Without an energy book its sums are 0, but for those a caller may ask: see totals.
-  KickSums end(Particles &particles, const Bonds *bonds, double dt) const;
+  // Returns ghosts, damps, makes the second half kick. Forces and torques are then
+  // complete and damped. Without a ledger all sums but that of unbalanced forces are 0.
+  KickSums end(Particles &particles, const Ghosts &ghosts, double dt) const;
   // end(finished), then begin(next), in one pass, to the same bits; forces are left incomplete, and kinetic
   // energy and unbalanced force are not summed.
-  Motion end_and_begin(Particles &particles, const Bonds *bonds, double finished, double next,
+  Motion end_and_begin(Particles &particles, const Ghosts &ghosts, double finished, double next,
                        KickSums &sums) const;
 };
 

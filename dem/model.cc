@@ -1,7 +1,12 @@
 #include "dem/model.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
+
+#include "dem/effects.h"
 
 namespace platen::dem {
 namespace {
@@ -9,17 +14,42 @@ namespace {
 // Broken rows are dropped once they are this share of all rows.
 constexpr double compaction_share = 0.02;
 
+void require_compiled(bool wanted, bool compiled, const char *effect) {
+  if (wanted && !compiled)
+    throw std::invalid_argument(std::string(effect) + ": left out of this build (PLATEN_EFFECTS)");
+}
+
+// Refuses what this build leaves out, before a column is made.
+const ModelSettings &checked(const ModelSettings &s) {
+  require_compiled(s.rotation, compiled::rotation, "rotation");
+  require_compiled(s.rotation && s.bond && s.bond->moments, compiled::bond_moments, "bond moments");
+  require_compiled(s.bond_dashpot > 0, compiled::bond_dashpots, "bond dashpots");
+  require_compiled(s.local_damping > 0, compiled::local_damping, "local damping");
+  require_compiled(norm_squared(s.gravity) > 0, compiled::gravity, "gravity");
+  require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
+  require_compiled(s.crack_log, compiled::crack_log, "crack log");
+  if (!s.contact) return s;
+  const ContactSettings &c = *s.contact;
+  require_compiled(c.normal == NormalContact::hertz, compiled::hertz, "hertz contact");
+  require_compiled(c.tangential != TangentialContact::none, compiled::friction, "friction");
+  require_compiled(c.tangential == TangentialContact::coulomb_with_rolling, compiled::rolling, "rolling");
+  require_compiled(c.normal == NormalContact::hertz ? c.restitution < 1 : c.damping > 0,
+                   compiled::contact_dashpots, "contact dashpots");
+  return s;
+}
+
 } // namespace
 
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
-    : particles(specimen, settings.density * settings.mass_scaling, settings.rotation),
+    : particles(specimen, checked(settings).density * settings.mass_scaling, settings.rotation),
       settings_(settings),
-      integrator_{settings.rotation, settings.local_damping, settings.gravity, settings.energy_book,
+      integrator_{settings.rotation, settings.local_damping, settings.gravity, settings.energy_ledger,
                   settings.instruction_set} {
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
-    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout);
+    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout,
+                                          settings.energy_ledger);
 }
 
 void Model::begin_step(double dt) {
@@ -46,6 +76,7 @@ void Model::compute_forces(double dt) {
       bonds->compact();
     breaks_.clear();
     compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    breaks = static_cast<long>(breaks_.size());
     if (!breaks_.empty()) {
       break_bonds(dt);
       compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
@@ -58,7 +89,6 @@ void Model::compute_forces(double dt) {
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);
     contacts->compute(particles, dt);
-    contacts->add_to(particles);
   }
 }
 
@@ -72,6 +102,8 @@ void Model::break_bonds(double dt) {
   for (const BrokenBond &b : broken) {
     works.fracture += b.released;
     (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
+    if constexpr (!compiled::crack_log) continue;
+    if (!settings_.crack_log) continue;
     const Vector3 xi = particles.position[b.first], xj = particles.position[b.second];
     const double ri = particles.radius[b.first], lever = ri / (ri + particles.radius[b.second]);
     cracks.push_back({time, xi + lever * (xj - xi), (xj - xi) / norm(xj - xi), b.area, b.mode, b.released,
@@ -79,9 +111,13 @@ void Model::break_bonds(double dt) {
   }
 }
 
+Ghosts Model::ghosts() const {
+  return {bonds ? &bonds->blocks : nullptr, contacts ? &contacts->blocks() : nullptr};
+}
+
 void Model::end_step(double dt) {
   StageClock::Lap lap(clock, Stage::motion);
-  sums_ = integrator_.end(particles, bonds.get(), dt);
+  sums_ = integrator_.end(particles, ghosts(), dt);
   works.damping += sums_.damping_work;
   works.weight += sums_.weight_work;
 }
@@ -89,7 +125,7 @@ void Model::end_step(double dt) {
 void Model::end_and_begin_step(double finished, double next) {
   {
     StageClock::Lap lap(clock, Stage::motion);
-    motion_ = integrator_.end_and_begin(particles, bonds.get(), finished, next, sums_);
+    motion_ = integrator_.end_and_begin(particles, ghosts(), finished, next, sums_);
     works.damping += sums_.damping_work;
     works.weight += sums_.weight_work;
   }
@@ -98,6 +134,10 @@ void Model::end_and_begin_step(double finished, double next) {
 
 EnergyLedger Model::energy() const {
   EnergyLedger e;
+  if (!settings_.energy_ledger) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none, none, none, none, none, none, none};
+  }
   e.kinetic = kinetic_energy(particles);
   if (bonds) e.bonds = bond_totals(particles, *bonds, settings_.instruction_set).energy;
   e.damping = works.damping;

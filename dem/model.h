@@ -21,7 +21,8 @@ struct ModelSettings {
   double mass_scaling = 1;                      // multiplies mass and inertia
   Vector3 gravity;                              // m/s^2
   double local_damping = 0;                     // 0 ... 1, Cundall's
-  bool energy_book = true;                      // works and energies, for the ledger
+  bool energy_ledger = true;                    // sums of energies and works
+  bool crack_log = true;                        // a record of each bond that breaks
   double bond_dashpot = 0;                      // fraction of critical
   BondLayout bond_layout;                       // also gives unbonded pairs their stiffness
   std::optional<ParallelBond::Parameters> bond; // none: no bonds
@@ -43,6 +44,7 @@ struct Crack {
 // looks at, end_and_begin_step does both in one pass, to the same bits.
 class Model {
 public:
+  // Throws std::invalid_argument where the settings ask for an effect that this build leaves out.
   Model(const Specimen &specimen, const ModelSettings &settings);
 
   Particles particles;
@@ -51,6 +53,7 @@ public:
   StageClock clock;
 
   double time = 0;           // s
+  long breaks = 0;           // in the last step
   std::vector<Crack> cracks; // since the last call of take_cracks
 
   // First half kick, drift, contact search; time becomes that of the new positions.
@@ -62,7 +65,7 @@ public:
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
 
-  EnergyLedger energy() const; // without bodies and surfaces
+  EnergyLedger energy() const; // without bodies and surfaces; not numbers without a ledger
   const KickSums &last_sums() const { return sums_; }
   const Motion &last_motion() const { return motion_; }
   const ModelSettings &settings() const { return settings_; }
@@ -87,6 +90,7 @@ private:
   std::vector<BondBreak> breaks_;
   void break_bonds(double dt);
   void begun(double dt);
+  Ghosts ghosts() const;
 };
 
 } // namespace platen::dem

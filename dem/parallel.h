@@ -28,9 +28,10 @@ constexpr std::size_t parts_per_thread = 32;
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// body(first, last, block) for every block of `per_block` rows of [0, rows). Threads take runs of neighbouring
-// blocks, and further runs from each other. (TBB's static partitioner mails tasks to threads that may not
-// exist, and such mail is never freed: with a limit of one thread a run of hours would eat the memory.)
+// body(first, last, block) for every block of `per_block` rows of [0, rows). Threads take runs of
+// neighbouring blocks, and further runs from each other. (TBB's static partitioner mails tasks to threads
+// that may not exist, and such mail is never freed: with a limit of one thread a run of hours would eat the
+// memory.)
 template <class Body>
 void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
   const std::size_t blocks = number_of_blocks(rows, per_block);

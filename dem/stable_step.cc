@@ -114,8 +114,9 @@ private:
       const ContactStiffness after = contacts != nullptr
                                          ? contacts->stiffness_bound(p_.radius[i], p_.radius[j], 0.0)
                                          : ContactStiffness{};
+      const bool moments = b.law.parameters.moments;
       springs_.push_back({i, j, b.lever[k], std::max(axial, after.normal), std::max(shear, after.tangential),
-                          0.5 * half_square * axial, half_square * shear});
+                          moments ? 0.5 * half_square * axial : 0.0, moments ? half_square * shear : 0.0});
     }
   }
   // Pairs that touch, and those that are near enough to touch soon.

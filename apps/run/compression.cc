@@ -257,7 +257,7 @@ long Test::steps_unobserved() const {
 void Test::open_files() {
   if (!command_.resume) {
     history_.emplace(paths_.history(), history_columns());
-    cracks_.emplace(paths_.cracks(), crack_columns);
+    if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     sample();
     if (fields_) fields_->write(*problem_);
@@ -268,7 +268,7 @@ void Test::open_files() {
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *problem_, results_);
   history_.emplace(paths_.history(), history_columns(), marks.history_bytes);
-  cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
+  if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
     fields_->resume(marks.last_frame, static_cast<int>(marks.frames));
@@ -293,10 +293,10 @@ void Test::write_cracks() {
 
 void Test::checkpoint() {
   history_->sync();
-  cracks_->sync();
+  if (cracks_) cracks_->sync();
   FileMarks marks;
   marks.history_bytes = history_->bytes();
-  marks.cracks_bytes = cracks_->bytes();
+  marks.cracks_bytes = cracks_ ? cracks_->bytes() : 0;
   marks.last_frame = fields_ ? fields_->last_time() : -1.0;
   marks.frames = fields_ ? fields_->count() : 0;
   marks.wall_seconds = costs().wall_seconds;

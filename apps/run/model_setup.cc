@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/scene/parameters.h"
+#include "dem/effects.h"
+
 namespace platen::apps {
 namespace {
 
@@ -72,6 +75,33 @@ dem::ContactSettings contact_settings(const Scene &scene) {
   return to;
 }
 
+// A build may leave effects out; a scene that calls for one is refused at its entry.
+void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
+  const auto check = [&](bool wanted, bool compiled, const char *entry, const char *allowed) {
+    if (wanted && !compiled && scene.parameters)
+      scene.parameters->refuse(entry, std::string("calls for an effect that this build leaves out "
+                                                  "(PLATEN_EFFECTS). Allowed: ") +
+                                          allowed + ".");
+  };
+  using namespace dem::compiled;
+  check(to.rotation, rotation, "Effects/Rotation", "off");
+  check(to.rotation && to.bond && to.bond->moments, bond_moments, "Effects/Bond moments", "off");
+  check(norm_squared(to.gravity) > 0, gravity, "Effects/Gravity", "off");
+  check(to.energy_ledger, energy_ledger, "Effects/Energy ledger", "off");
+  check(to.crack_log, crack_log, "Effects/Crack log", "off");
+  check(to.bond_dashpot > 0, bond_dashpots, "Bond/Damping", "0");
+  check(to.local_damping > 0, local_damping, "Integration/Damping", "0");
+  if (!to.contact) return;
+  const dem::ContactSettings &c = *to.contact;
+  const bool hertzian = c.normal == dem::NormalContact::hertz;
+  check(hertzian, hertz, "Effects/Contact", "none, linear");
+  check(c.tangential != dem::TangentialContact::none, friction, "Effects/Tangential", "none");
+  check(c.tangential == dem::TangentialContact::coulomb_with_rolling, rolling, "Effects/Tangential",
+        "none, coulomb");
+  check(hertzian ? c.restitution < 1 : c.damping > 0, contact_dashpots,
+        hertzian ? "Contact/Restitution" : "Contact/Damping", hertzian ? "1" : "0");
+}
+
 } // namespace
 
 dem::ModelSettings model_settings(const Scene &scene) {
@@ -83,11 +113,17 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.local_damping = scene.integration.damping;
   to.bond_dashpot = scene.bond.damping;
   to.bond_layout = bond_layout(scene.bond);
-  if (scene.effects.bond == BondKind::parallel_bond) to.bond = bond_parameters(scene.bond);
+  to.energy_ledger = scene.effects.energy_ledger;
+  to.crack_log = scene.effects.crack_log;
+  if (scene.effects.bond == BondKind::parallel_bond) {
+    to.bond = bond_parameters(scene.bond);
+    to.bond->moments = scene.effects.bond_moments;
+  }
   if (scene.effects.contact != ContactKind::none) to.contact = contact_settings(scene);
   to.instruction_set = scene.integration.instruction_set == InstructionSet::baseline
                            ? dem::InstructionSet::baseline
                            : dem::best_instruction_set();
+  refuse_left_out(scene, to);
   return to;
 }
 

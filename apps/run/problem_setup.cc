@@ -19,7 +19,7 @@ std::vector<Effect> effects(const Scene &s) {
           {touching && e.tangential != TangentialKind::none, "coulomb friction"},
           {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
           {e.rotation, "rotation"},
-          {bonded && e.rotation, "bond moments"},
+          {bonded && e.rotation && e.bond_moments, "bond moments"},
           {e.gravity, "gravity"},
           {s.integration.damping > 0, "local damping"},
           {bonded && s.bond.damping > 0, "bond dashpots"},
@@ -29,7 +29,10 @@ std::vector<Effect> effects(const Scene &s) {
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
           {s.specimen.seat, "seats"},
-          {s.integration.mass_scaling > 1, "mass scaling"}};
+          {s.integration.mass_scaling > 1, "mass scaling"},
+          {e.energy_ledger, "energy ledger"},
+          {bonded && e.crack_log, "crack log"},
+          {s.output.fields, "fields"}};
 }
 
 std::vector<std::string> chosen(const Scene &scene, bool on) {

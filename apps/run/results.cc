@@ -106,7 +106,7 @@ double Results::poisson_ratio_extremal() const {
 
 double Results::energy_residual_relative() const {
   const Crossing c = ascending(0.1);
-  if (!c.found) return not_measured;
+  if (!c.found || std::isnan(samples_[c.after].residual)) return not_measured; // no ledger
   double largest = 0;
   for (std::size_t k = c.after; k < samples_.size(); ++k)
     largest = std::max(largest, std::abs(samples_[k].residual));
@@ -115,7 +115,7 @@ double Results::energy_residual_relative() const {
 
 double Results::kinetic_to_internal_max() const {
   const Crossing c = ascending(0.1);
-  if (!c.found) return not_measured;
+  if (!c.found || std::isnan(samples_[c.after].kinetic)) return not_measured; // no ledger
   double largest = 0;
   for (std::size_t k = c.after; k <= peak_row(); ++k)
     largest = std::max(largest, samples_[k].kinetic / samples_[k].internal());

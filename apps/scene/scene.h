@@ -91,7 +91,10 @@ struct Effects {
   ContactKind contact = ContactKind::linear;
   TangentialKind tangential = TangentialKind::coulomb;
   bool rotation = true;
+  bool bond_moments = true;
   bool gravity = false;
+  bool energy_ledger = true;
+  bool crack_log = true;
 };
 
 enum class RadiusRule { minimum, mean, harmonic, given };

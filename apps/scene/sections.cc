@@ -86,7 +86,12 @@ void declare_effects(Parameters &parameters, Effects &effects) {
        {"coulomb with rolling resistance", TangentialKind::coulomb_with_rolling_resistance}},
       {}, "Friction between grains that touch without a bond.");
   section.flag("Rotation", effects.rotation, "Grains turn; without it bonds and contacts carry no moments.");
+  section.flag("Bond moments", effects.bond_moments,
+               "Bonds resist bending and twisting; without it they carry forces alone (needs Rotation).");
   section.flag("Gravity", effects.gravity, "9.80665 m/s2 along -z.");
+  section.flag("Energy ledger", effects.energy_ledger,
+               "Energies and works in history.csv; without it their columns are nan.");
+  section.flag("Crack log", effects.crack_log, "cracks.csv; without it broken bonds are counted alone.");
 }
 
 void declare_bond(Parameters &parameters, Bond &bond) {

@@ -1,9 +1,13 @@
 // Body of the bond kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS.
+#include "dem/effects.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
+
+// What moves and what bonds resist.
+enum class Turning { none, forces, moments };
 
 // Copies of the last rows of a block, when they do not fill a pack: the last one repeated, its forces added
 // to the spare row.
@@ -41,7 +45,7 @@ struct Tail {
   }
 };
 
-template <bool turning>
+template <Turning turning>
 PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law,
                                                    std::size_t k) {
   const int *i = c.first + k, *j = c.second + k;
@@ -52,10 +56,11 @@ PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const P
   g.normal_stiffness = load(c.normal_stiffness + k);
   g.radius = load(c.bond_radius + k);
   const Triple<Pack> d = gather_difference(c.position, j, i);
-  if constexpr (turning)
-    return law(g, ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
-  else
+  if constexpr (turning == Turning::none)
     return law.without_rotation(g, d);
+  else
+    return law.turning<turning == Turning::moments>(
+        g, ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
 }
 
 // Adds force and torques to the sums of both ends, bond by bond in row order.
@@ -81,22 +86,22 @@ PLATEN_INLINE void scatter(double *sums, const int *at_first, const int *at_seco
   }
 }
 
-template <bool turning>
+template <Turning turning>
 PLATEN_INLINE Pack add_pack(const BondColumns &c, const ParallelBond &law, std::size_t k,
                             const int *at_first) {
   const ParallelBond::Response<Pack> r = respond<turning>(c, law, k);
-  scatter<turning>(c.sums, at_first, c.local + k, r.force, r.torque_i, r.torque_j);
+  scatter<turning != Turning::none>(c.sums, at_first, c.local + k, r.force, r.torque_i, r.torque_j);
   return r.excess;
 }
 
-template <bool turning>
+template <Turning turning>
 [[gnu::noinline]] Pack add_tail(const BondColumns &c, const ParallelBond &law, std::size_t k,
                                 std::size_t last) {
   Tail tail(c, k, last);
   return add_pack<turning>(tail.columns(c), law, 0, tail.sums_of_first);
 }
 
-template <bool turning>
+template <Turning turning>
 bool add_forces(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
   Pack excess = Pack(-1.0);
   std::size_t k = first;
@@ -114,11 +119,17 @@ bool add_forces(const BondColumns &c, const ParallelBond &law, std::size_t first
 }
 
 bool add_forces_of(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
-  return c.orientation != nullptr ? add_forces<true>(c, law, first, last)
-                                  : add_forces<false>(c, law, first, last);
+  if constexpr (compiled::rotation) {
+    if (c.orientation != nullptr) {
+      if constexpr (compiled::bond_moments)
+        if (law.parameters.moments) return add_forces<Turning::moments>(c, law, first, last);
+      return add_forces<Turning::forces>(c, law, first, last);
+    }
+  }
+  return add_forces<Turning::none>(c, law, first, last);
 }
 
-template <bool turning>
+template <Turning turning>
 void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
              std::size_t last) {
   const auto put = [&](double *column, const Pack &value, std::size_t at, std::size_t count) {
@@ -144,20 +155,22 @@ void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues 
 
 void measure_of(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
                 std::size_t last) {
-  if (c.orientation != nullptr)
-    measure<true>(c, law, to, first, last);
+  if (c.orientation == nullptr)
+    measure<Turning::none>(c, law, to, first, last);
+  else if (law.parameters.moments)
+    measure<Turning::moments>(c, law, to, first, last);
   else
-    measure<false>(c, law, to, first, last);
+    measure<Turning::forces>(c, law, to, first, last);
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).
-template <bool turning>
+template <Turning turning>
 PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const int *at_first) {
   const int *i = c.first + k, *j = c.second + k;
   const Triple<Pack> d = gather_difference(c.position, j, i);
   const Triple<Pack> ri = scale(load(c.lever + k), d), rj = ri - d;
   Triple<Pack> v = gather_difference(c.velocity, j, i), w{}, ti{}, tj{};
-  if constexpr (turning) {
+  if constexpr (turning != Turning::none) {
     const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
     v = v + (cross(wj, rj) - cross(wi, ri));
     w = wj - wi;
@@ -168,20 +181,24 @@ PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const i
       scale(load(c.dashpot + k), along + scale(Pack(c.dashpot_shear_ratio), v - along));
   Pack power = dot(force + load(c.dashpot_force + k), v);
   store(c.dashpot_force + k, force);
-  if constexpr (turning) {
+  if constexpr (turning != Turning::none) {
+    ti = cross(ri, force);
+    tj = cross(force, rj);
+  }
+  if constexpr (turning == Turning::moments) {
     const Triple<Pack> twisting = scale(dot(w, d) * per_square, d);
     const Triple<Pack> moment =
         scale(load(c.dashpot_bending + k), (w - twisting) + scale(Pack(c.dashpot_twist_ratio), twisting));
-    ti = cross(ri, force) + moment;
-    tj = cross(force, rj) - moment;
+    ti = ti + moment;
+    tj = tj - moment;
     power = power + dot(moment + load(c.dashpot_moment + k), w);
     store(c.dashpot_moment + k, moment);
   }
-  scatter<turning>(c.sums, at_first, c.local + k, force, ti, tj);
+  scatter<turning != Turning::none>(c.sums, at_first, c.local + k, force, ti, tj);
   return power;
 }
 
-template <bool turning>
+template <Turning turning>
 double add_dashpots(const BondColumns &c, std::size_t first, std::size_t last) {
   Pack power = Pack(0.0);
   std::size_t k = first;
@@ -196,7 +213,7 @@ double add_dashpots(const BondColumns &c, std::size_t first, std::size_t last) {
     power = power + add_dashpot_pack<turning>(tail.columns(c), 0, tail.sums_of_first);
     for (std::size_t l = 0; k + l < last; ++l) {
       c.dashpot_force[k + l] = tail.dashpot_force[l];
-      if constexpr (turning) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
+      if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
     }
   }
   double sum = 0;
@@ -206,7 +223,12 @@ double add_dashpots(const BondColumns &c, std::size_t first, std::size_t last) {
 }
 
 double add_dashpots_of(const BondColumns &c, std::size_t first, std::size_t last) {
-  return c.orientation != nullptr ? add_dashpots<true>(c, first, last) : add_dashpots<false>(c, first, last);
+  if constexpr (compiled::bond_dashpots) {
+    if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, first, last);
+    return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, first, last)
+                                       : add_dashpots<Turning::forces>(c, first, last);
+  }
+  return 0;
 }
 
 } // namespace

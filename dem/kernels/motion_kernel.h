@@ -30,7 +30,7 @@ enum class Halves { end, begin, end_and_begin };
 struct MotionSums {
   double damping_work = 0;   // J, lost to local damping in the finished step
   double weight_work = 0;    // J, done by gravity in it
-  double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end
+  double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end, also without a book
   double kinetic_energy = 0; // J, at full-step velocities; only Halves::end
   double speed_squares = 0;  // m^2/s^2, sum at the half step; not finite where a velocity is not
   double fastest_square = 0; // m^2/s^2, the largest of them

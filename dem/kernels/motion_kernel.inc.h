@@ -1,6 +1,7 @@
 // Body of the motion kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. It is compiled without
 // contraction, and sums are kept by row number modulo `slots`, so that every instruction set gives the same
 // bits.
+#include "dem/effects.h"
 #include "dem/kernels/motion_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -81,7 +82,7 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   using R = Rows<Real>;
   Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
   const Real mass = R::scalar(c.mass + i), mobility = 1.0 / mass;
-  if constexpr (book && halves == Halves::end) sums.unbalanced = sums.unbalanced + root(dot(force, force));
+  if constexpr (halves == Halves::end) sums.unbalanced = sums.unbalanced + root(dot(force, force));
   if constexpr (halves != Halves::begin) {
     end_kick<Real, damping, book, halves>(v, force, mass, mobility, step, sums);
     if constexpr (gravity && book) {
@@ -149,24 +150,32 @@ MotionKernel kernel_for(Halves halves) {
   if (halves == Halves::begin) return move_block<rotation, false, false, book, Halves::begin>;
   return move_block<rotation, damping, gravity, book, Halves::end_and_begin>;
 }
+// What a build leaves out is not instantiated.
 template <bool rotation, bool damping, bool gravity>
 MotionKernel choose(Halves h, bool book) {
-  return book ? kernel_for<rotation, damping, gravity, true>(h)
-              : kernel_for<rotation, damping, gravity, false>(h);
+  if constexpr (compiled::energy_ledger)
+    if (book) return kernel_for<rotation, damping, gravity, true>(h);
+  return kernel_for<rotation, damping, gravity, false>(h);
 }
 template <bool rotation, bool damping>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  return e.gravity ? choose<rotation, damping, true>(h, e.book) : choose<rotation, damping, false>(h, e.book);
+  if constexpr (compiled::gravity)
+    if (e.gravity) return choose<rotation, damping, true>(h, e.book);
+  return choose<rotation, damping, false>(h, e.book);
 }
 template <bool rotation>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  return e.local_damping ? choose<rotation, true>(h, e) : choose<rotation, false>(h, e);
+  if constexpr (compiled::local_damping)
+    if (e.local_damping) return choose<rotation, true>(h, e);
+  return choose<rotation, false>(h, e);
 }
 
 } // namespace
 
 MotionKernel PLATEN_KERNEL(Halves halves, const MotionEffects &e) {
-  return e.rotation ? choose<true>(halves, e) : choose<false>(halves, e);
+  if constexpr (compiled::rotation)
+    if (e.rotation) return choose<true>(halves, e);
+  return choose<false>(halves, e);
 }
 
 } // namespace platen::dem::kernels

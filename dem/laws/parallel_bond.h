@@ -85,6 +85,7 @@ struct ParallelBond {
     double shear_strength = std::numeric_limits<double>::infinity();   // Pa
     double friction_coefficient = 0;                                   // tan(phi_b)
     double moment_contribution = 1;                                    // beta, 0 ... 1
+    bool moments = true; // bending and twisting; false: spheres turn, but bonds resist neither
   };
 
   template <class Real>
@@ -112,9 +113,12 @@ struct ParallelBond {
 
   Parameters parameters;
 
-  // With rotation.
-  template <class Real>
-  Response<Real> operator()(const Geometry<Real> &g, const Motion<Real> &m) const;
+  // With rotation; the parameters say whether with moments.
+  Response<double> operator()(const Geometry<double> &g, const Motion<double> &m) const {
+    return parameters.moments ? turning<true>(g, m) : turning<false>(g, m);
+  }
+  template <bool moments, class Real>
+  Response<Real> turning(const Geometry<Real> &g, const Motion<Real> &m) const;
   // Spheres that do not turn: axial and shear springs only.
   template <class Real>
   Response<Real> without_rotation(const Geometry<Real> &g, const Triple<Real> &distance) const;
@@ -128,6 +132,9 @@ private:
     Real turn;               // m, R_b times the cosine of half the relative angle, twice
     Real bend_square, twist; // of the relative rotation's vector part; twist signed
   };
+  template <class Real>
+  void add_moments(Response<Real> &r, Strain<Real> &strain, const Geometry<Real> &g, const Motion<Real> &m,
+                   const Triple<Real> &n, const Real &inverse) const;
   template <class Real>
   void add_failure(Response<Real> &r, const Real &kn, const Strain<Real> &e) const;
 };
@@ -153,15 +160,12 @@ PLATEN_INLINE void ParallelBond::add_failure(Response<Real> &r, const Real &kn, 
   r.excess = larger(larger(tension, Real(-left)), larger(shear, Real(-left_in_shear)));
 }
 
-template <class Real>
-PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::operator()(const Geometry<Real> &g,
-                                                                    const Motion<Real> &m) const {
+template <bool moments, class Real>
+PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::turning(const Geometry<Real> &g,
+                                                                 const Motion<Real> &m) const {
   constexpr double pi = 3.14159265358979323846;
   const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness; // k_n A
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
-  const Real half_square = 0.5 * g.radius * g.radius;
-  const Real bending = 0.5 * half_square * area_stiffness; // k_n I, I = A R_b^2 / 4
-  const Real twisting = half_square * shear_stiffness;     // k_s J, J = A R_b^2 / 2
 
   const Triple<Real> &d = m.distance;
   const Real length = root(dot(d, d));
@@ -174,9 +178,32 @@ PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::operator()(const Geomet
   const Triple<Real> us = u - scale(un, n);
   const Triple<Real> shear = scale(shear_stiffness, us);
   const Real stretch = length - g.rest_length;
-  const Real normal = area_stiffness * stretch;
+  const Real normal = area_stiffness * stretch, us2 = dot(us, us);
 
-  // Relative rotation q = q_j conj(q_i), the shorter way round.
+  Response<Real> r;
+  r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), shear);
+  r.torque_i = cross(ri, shear);
+  r.torque_j = cross(rj, shear);
+  r.normal_force = normal;
+  r.shear_force = shear_stiffness * root(us2);
+  r.shear = shear;
+  r.energy = 0.5 * (normal * stretch + shear_stiffness * us2);
+  const Real zero = length * 0.0;
+  Strain<Real> strain{stretch, us2, zero, zero, zero};
+  if constexpr (moments) add_moments(r, strain, g, m, n, inverse);
+  add_failure(r, g.normal_stiffness, strain);
+  return r;
+}
+
+// Bending and twisting, from the relative rotation q = q_j conj(q_i), the shorter way round.
+template <class Real>
+PLATEN_INLINE void ParallelBond::add_moments(Response<Real> &r, Strain<Real> &strain, const Geometry<Real> &g,
+                                             const Motion<Real> &m, const Triple<Real> &n,
+                                             const Real &inverse) const {
+  constexpr double pi = 3.14159265358979323846;
+  const Real square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
+  const Real bending = 0.25 * square * axial;                              // k_n I, I = A R_b^2 / 4
+  const Real twisting = 0.5 * parameters.stiffness_ratio * square * axial; // k_s J, J = A R_b^2 / 2
   const Rotation<Real> &p = m.turn_i, &q = m.turn_j;
   const Real w0 = q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z;
   const Real w = magnitude(w0);
@@ -185,22 +212,17 @@ PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::operator()(const Geomet
                        with_sign(Real(-q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w), w0)};
   const Real vn = dot(v, n);
   const Triple<Real> vs = v - scale(vn, n);
+  const Real vs2 = dot(vs, vs);
   const Real excess = twisting - bending; // of twisting over bending stiffness
   const Triple<Real> skew = scale(Real(2.0 * excess * vn), cross(v, n));
   const Triple<Real> moment = scale(Real(2.0 * w), scale(bending, v) + scale(Real(excess * vn), n));
-
-  Response<Real> r;
-  r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), shear) +
-            scale(Real(4.0 * excess * vn * inverse), vs);
-  r.torque_i = cross(ri, shear) + moment - skew;
-  r.torque_j = cross(rj, shear) - moment - skew;
-  const Real us2 = dot(us, us), vs2 = dot(vs, vs);
-  r.normal_force = normal;
-  r.shear_force = shear_stiffness * root(us2);
-  r.shear = shear;
-  r.energy = 0.5 * (normal * stretch + shear_stiffness * us2) + 2.0 * (bending * vs2 + twisting * vn * vn);
-  add_failure(r, g.normal_stiffness, Strain<Real>{stretch, us2, 2.0 * w * g.radius, vs2, vn});
-  return r;
+  r.force = r.force + scale(Real(4.0 * excess * vn * inverse), vs);
+  r.torque_i = r.torque_i + moment - skew;
+  r.torque_j = r.torque_j - moment - skew;
+  r.energy = r.energy + 2.0 * (bending * vs2 + twisting * vn * vn);
+  strain.turn = 2.0 * w * g.radius;
+  strain.bend_square = vs2;
+  strain.twist = vn;
 }
 
 template <class Real>

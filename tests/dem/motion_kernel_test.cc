@@ -71,7 +71,7 @@ TEST_P(Passes, do_not_depend_on_the_instruction_set) {
   Particles expected(cloud(), 2400, GetParam().rotation);
   set_in_motion(expected);
   const Motion motion = how(InstructionSet::baseline).begin(expected, 1e-7);
-  const KickSums sums = how(InstructionSet::baseline).end(expected, nullptr, 1e-7);
+  const KickSums sums = how(InstructionSet::baseline).end(expected, {}, 1e-7);
   EXPECT_GT(motion.fastest, 0);
   EXPECT_EQ(sums.kinetic_energy > 0, GetParam().book);
   EXPECT_EQ(sums.damping_work > 0, GetParam().book && GetParam().local_damping > 0);
@@ -81,7 +81,7 @@ TEST_P(Passes, do_not_depend_on_the_instruction_set) {
     Particles p(cloud(), 2400, GetParam().rotation);
     set_in_motion(p);
     EXPECT_EQ(how(set).begin(p, 1e-7).fastest, motion.fastest);
-    expect_same_bits(how(set).end(p, nullptr, 1e-7), sums);
+    expect_same_bits(how(set).end(p, {}, 1e-7), sums);
     expect_same_bits(p, expected, name(set));
   }
 }
@@ -91,10 +91,10 @@ TEST_P(Passes, may_be_one_or_two) {
   Particles two(cloud(), 2400, GetParam().rotation), one(cloud(), 2400, GetParam().rotation);
   set_in_motion(two);
   set_in_motion(one);
-  const KickSums ended = integrator.end(two, nullptr, 1.5e-7);
+  const KickSums ended = integrator.end(two, {}, 1.5e-7);
   const Motion begun = integrator.begin(two, 1e-7);
   KickSums sums;
-  const Motion motion = integrator.end_and_begin(one, nullptr, 1.5e-7, 1e-7, sums);
+  const Motion motion = integrator.end_and_begin(one, {}, 1.5e-7, 1e-7, sums);
   EXPECT_EQ(motion.fastest, begun.fastest);
   EXPECT_EQ(sums.damping_work, ended.damping_work);
   EXPECT_EQ(sums.weight_work, ended.weight_work);

@@ -1,13 +1,14 @@
-#include "dem/bond_blocks.h"
+#include "dem/pair_blocks.h"
 
 #include <algorithm>
 
 #include "dem/parallel.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {
 
-// Rows of particles that a block's bonds reach outside it, ascending, each once.
+// Rows of particles that a block's pairs reach outside it, ascending, each once.
 std::vector<int> reached_outside(const int *second, std::size_t from, std::size_t to, std::size_t end_row) {
   std::vector<int> rows;
   for (std::size_t k = from; k < to; ++k)
@@ -19,19 +20,19 @@ std::vector<int> reached_outside(const int *second, std::size_t from, std::size_
 
 } // namespace
 
-void BondBlocks::rebuild(const int *first, const int *second, std::size_t bonds, std::size_t particles,
+void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles,
                          bool rotation) {
   const std::size_t count = number_of_blocks(particles);
-  first_bond.assign(1, 0);
+  first_pair.assign(1, 0);
   first_ghost.assign(1, 0);
-  local.resize(bonds);
+  local.resize(pairs);
   most_ghosts = 0;
   std::vector<int> ghost_particle;
   std::size_t k = 0;
   for (std::size_t b = 0; b < count; ++b) {
     const std::size_t first_row = b * block_rows, end_row = std::min(particles, first_row + block_rows);
     const std::size_t from = k;
-    while (k < bonds && static_cast<std::size_t>(first[k]) < end_row)
+    while (k < pairs && static_cast<std::size_t>(first[k]) < end_row)
       ++k;
     const std::vector<int> outside = reached_outside(second, from, k, end_row);
     for (std::size_t n = from; n < k; ++n) {
@@ -42,7 +43,7 @@ void BondBlocks::rebuild(const int *first, const int *second, std::size_t bonds,
     }
     ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
     most_ghosts = std::max(most_ghosts, outside.size());
-    first_bond.push_back(k);
+    first_pair.push_back(k);
     first_ghost.push_back(ghost_particle.size());
   }
   ghost_force.assign(ghost_particle.size(), Vector3{});
@@ -62,10 +63,20 @@ void BondBlocks::rebuild(const int *first, const int *second, std::size_t bonds,
   }
 }
 
-std::size_t BondBlocks::bytes() const {
+void return_ghosts(Particles &p, const PairBlocks &blocks, std::size_t block) {
+  if (blocks.returns.empty()) return;
+  const bool turning = p.has_rotation();
+  for (std::size_t r = blocks.first_return[block]; r < blocks.first_return[block + 1]; ++r) {
+    const PairBlocks::Return &from = blocks.returns[r];
+    p.force[from.particle] += blocks.ghost_force[from.ghost];
+    if (turning) (*p.torque)[from.particle] += blocks.ghost_torque[from.ghost];
+  }
+}
+
+std::size_t PairBlocks::bytes() const {
   return local.capacity() * sizeof(int) + returns.capacity() * sizeof(Return) +
          (ghost_force.capacity() + ghost_torque.capacity()) * sizeof(Vector3) +
-         (first_bond.capacity() + first_ghost.capacity() + first_return.capacity()) * sizeof(std::size_t);
+         (first_pair.capacity() + first_ghost.capacity() + first_return.capacity()) * sizeof(std::size_t);
 }
 
 } // namespace platen::dem

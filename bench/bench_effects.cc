@@ -1,0 +1,183 @@
+// What each effect costs: one specimen without any, then with one more effect at a time, then with all, in
+// turn. Prints ns per particle and step and bytes per particle, each with what it adds to the bare scene.
+// Bonded: the specimen of bench_step, pressed; grains: the same spheres without bonds, overlapping a little.
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dem/effects.h"
+#include "dem/model.h"
+#include "dem/parallel.h"
+#include "step_scene.h"
+
+namespace {
+
+using namespace platen;
+using Clock = std::chrono::steady_clock;
+namespace compiled = dem::compiled;
+
+// A scene: the model alone, without platens, so that nothing but the effect differs.
+struct Scene {
+  std::string name;
+  dem::ModelSettings settings;
+};
+
+dem::ModelSettings bare() {
+  dem::ModelSettings s;
+  s.rotation = s.energy_ledger = s.crack_log = false;
+  s.bond_layout.modulus = 40e9;
+  s.bond_layout.gap = 0.1;
+  return s;
+}
+
+dem::ModelSettings bonded() {
+  dem::ModelSettings s = bare();
+  s.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3, false};
+  return s;
+}
+
+dem::ModelSettings grains() {
+  dem::ModelSettings s = bare();
+  s.contact = dem::ContactSettings{};
+  s.contact->tangential = dem::TangentialContact::none;
+  s.contact->friction = 0.5;
+  s.contact->rolling_friction = 0.2;
+  s.contact->young_modulus = 40e9;
+  s.contact->poisson_ratio = 0.2;
+  return s;
+}
+
+using Change = std::function<void(dem::ModelSettings &)>;
+struct Effect {
+  bool compiled;
+  const char *name;
+  Change add;
+};
+
+void turn(dem::ModelSettings &s) {
+  s.rotation = true;
+}
+void rub(dem::ModelSettings &s) {
+  s.contact->tangential = dem::TangentialContact::coulomb;
+}
+
+std::vector<Effect> effects_of_bonds() {
+  return {{compiled::local_damping, "local damping", [](auto &s) { s.local_damping = 0.5; }},
+          {compiled::gravity, "gravity",
+           [](auto &s) {
+             s.gravity = {0, 0, -9.80665};
+           }},
+          {compiled::energy_ledger, "energy ledger", [](auto &s) { s.energy_ledger = true; }},
+          {compiled::crack_log, "crack log", [](auto &s) { s.crack_log = true; }},
+          {compiled::bond_dashpots, "bond dashpots", [](auto &s) { s.bond_dashpot = 0.1; }},
+          {compiled::rotation, "rotation", turn},
+          {compiled::rotation && compiled::bond_moments, "rotation, bond moments", [](auto &s) {
+             turn(s);
+             s.bond->moments = true;
+           }}};
+}
+
+std::vector<Effect> effects_of_contacts() {
+  return {
+      {compiled::contact_dashpots, "contact dashpots", [](auto &s) { s.contact->damping = 0.1; }},
+      {compiled::hertz, "hertz for linear", [](auto &s) { s.contact->normal = dem::NormalContact::hertz; }},
+      {compiled::friction, "friction", rub},
+      {compiled::rotation, "rotation", turn},
+      {compiled::rotation && compiled::rolling, "rotation, friction, rolling", [](auto &s) {
+         turn(s);
+         s.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
+       }}};
+}
+
+std::vector<Scene> scenes_of(const dem::ModelSettings &base, const std::vector<Effect> &effects) {
+  std::vector<Scene> scenes{{"bare", base}};
+  Scene all{"all together", base};
+  for (const Effect &e : effects) {
+    if (!e.compiled) continue;
+    scenes.push_back({e.name, base});
+    e.add(scenes.back().settings);
+    e.add(all.settings);
+  }
+  scenes.push_back(all);
+  return scenes;
+}
+
+// In motion, so that damping and dashpots have something to do.
+void shake(dem::Particles &p) {
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.velocity[i] = {1e-3 * static_cast<double>(i % 7) - 3e-3, 1e-3 * static_cast<double>(i % 5) - 2e-3,
+                     1e-3 * static_cast<double>(i % 3) - 1e-3};
+}
+
+void steps(dem::Model &m, double dt, int count) {
+  m.begin_step(dt);
+  for (int k = 1; k < count; ++k) {
+    m.compute_forces(dt);
+    m.end_and_begin_step(dt, dt);
+  }
+  m.compute_forces(dt);
+  m.end_step(dt);
+}
+
+void compare(const char *title, const dem::Specimen &specimen, const std::vector<Scene> &scenes, int count,
+             int repeats) {
+  std::vector<std::unique_ptr<dem::Model>> models;
+  std::vector<std::vector<double>> ns(scenes.size()), added(scenes.size());
+  for (const Scene &s : scenes) {
+    models.push_back(std::make_unique<dem::Model>(specimen, s.settings));
+    shake(models.back()->particles);
+  }
+  const double dt = 0.2 * models.back()->stable_step({}, 0).limit;
+  for (auto &m : models)
+    steps(*m, dt, count / 5 + 1);
+  const double per = 1e9 / (static_cast<double>(specimen.size()) * count);
+  for (int r = 0; r < repeats; ++r)
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      const auto start = Clock::now();
+      steps(*models[k], dt, count);
+      ns[k].push_back(per * std::chrono::duration<double>(Clock::now() - start).count());
+      added[k].push_back(ns[k].back() - ns[0].back());
+    }
+  std::printf("\n%s: %zu particles, %zu bonds, %zu contacts\n", title, models[0]->particles.size(),
+              models[0]->bonds ? models[0]->bonds->size() : 0,
+              models[0]->contacts ? models[0]->contacts->touching_count() : 0);
+  std::printf(
+      "| effects | ns per particle-step | adds (smallest ... largest) | bytes per particle | adds |\n"
+      "| --- | --- | --- | --- | --- |\n");
+  const double particles = static_cast<double>(specimen.size());
+  const double bare_bytes = static_cast<double>(models[0]->bytes()) / particles;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const bench::Spread all = bench::spread(ns[k]), more = bench::spread(added[k]);
+    const double bytes = static_cast<double>(models[k]->bytes()) / particles;
+    std::printf("| %s | %.1f | %+.1f (%+.1f ... %+.1f) | %.0f | %+.0f |\n", scenes[k].name.c_str(),
+                all.median, more.median, more.smallest, more.largest, bytes, bytes - bare_bytes);
+  }
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  int particles = 22500, threads = 1, count = 100, repeats = 7;
+  CLI::App app("Cost of each effect of a scene, alone and together.");
+  app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
+  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 256));
+  app.add_option("--steps", count, "steps per repeat")->check(CLI::Range(1, 1000000));
+  app.add_option("--repeats", repeats, "rounds over all scenes; medians are printed")
+      ->check(CLI::Range(1, 1000));
+  CLI11_PARSE(app, argc, argv);
+
+  const dem::ThreadLimit limit(threads);
+  std::printf("%s, %d threads, %s kernels\n", bench::machine().c_str(), threads,
+              dem::name(dem::best_instruction_set()));
+  const dem::Specimen specimen = bench::close_packed(particles);
+  compare("bonded", specimen, scenes_of(bonded(), effects_of_bonds()), count, repeats);
+  dem::Specimen pressed = specimen; // every grain of the packing touches its neighbours
+  for (double &r : pressed.radius)
+    r *= 1.001;
+  compare("grains", pressed, scenes_of(grains(), effects_of_contacts()), count, repeats);
+  return 0;
+}

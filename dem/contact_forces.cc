@@ -1,0 +1,229 @@
+// The loop over contacts, once for every choice of effects.
+#include <cmath>
+#include <stdexcept>
+
+#include "dem/contacts.h"
+#include "dem/effects.h"
+#include "dem/laws/coulomb_friction.h"
+#include "dem/laws/hertz_contact.h"
+#include "dem/laws/linear_contact.h"
+#include "dem/laws/rotating_plane.h"
+#include "dem/parallel.h"
+
+namespace platen::dem {
+namespace {
+
+double reduced(double a, double b) {
+  return a * b / (a + b);
+}
+
+} // namespace
+
+// What a loop has. `book`: sums of what is lost.
+template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
+          bool with_book>
+struct Contacts::With {
+  using Law = NormalLaw;
+  static constexpr bool friction = tangential != TangentialContact::none,
+                        rolling = tangential == TangentialContact::coulomb_with_rolling,
+                        dashpots = with_dashpots, rotation = with_rotation, book = with_book;
+};
+
+struct Contacts::Touch {
+  std::size_t i, j;
+  Vector3 n, slip_velocity; // m/s
+  double pressing, kn;      // N, N/m
+  Vector3 force, drag;      // N, on the first; drag: the dashpots' part
+};
+
+void Contacts::compute(Particles &particles, double dt) {
+  if (!blocks_current_)
+    blocks_.rebuild(first.data(), second.data(), table.size(), particles.size(), particles.has_rotation());
+  blocks_current_ = true;
+  if (table.size() == 0) return;
+  std::vector<Dissipation> lost(blocks_.blocks());
+  for_each_block(particles.size(), [&](std::size_t, std::size_t, std::size_t block) {
+    if (blocks_.first_pair[block] < blocks_.first_pair[block + 1])
+      lost[block] = (this->*loop_)(particles, dt, block);
+  });
+  for (const Dissipation &l : lost) {
+    friction_work += l.friction;
+    damping_work += l.damping;
+  }
+}
+
+// The rows of one block of particles; their forces go to the particles and the ghosts of the block.
+template <class Effects>
+Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size_t block) {
+  using Law = typename Effects::Law;
+  Dissipation lost;
+  std::fill(blocks_.ghost_force.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block]),
+            blocks_.ghost_force.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block + 1]),
+            Vector3{});
+  if constexpr (Effects::rotation)
+    std::fill(blocks_.ghost_torque.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block]),
+              blocks_.ghost_torque.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block + 1]),
+              Vector3{});
+  const std::size_t first_row = block * block_rows, rows = std::min(block_rows, p.size() - first_row);
+  for (std::size_t k = blocks_.first_pair[block]; k < blocks_.first_pair[block + 1]; ++k) {
+    Touch t{};
+    t.i = static_cast<std::size_t>(first[k]), t.j = static_cast<std::size_t>(second[k]);
+    const Vector3 d = p.position[t.j] - p.position[t.i];
+    const double square = norm_squared(d);
+    if (square >= rest_distance[k] * rest_distance[k]) {
+      if (touching[k]) release<Effects>(k, lost);
+      continue;
+    }
+    const double length = std::sqrt(square), lever = p.radius[t.i] / (p.radius[t.i] + p.radius[t.j]);
+    t.n = d / length;
+    const Vector3 ri = lever * d, rj = ri - d;
+    Vector3 v = p.velocity[t.j] - p.velocity[t.i];
+    if constexpr (Effects::rotation)
+      v += cross((*p.angular_velocity)[t.j], rj) - cross((*p.angular_velocity)[t.i], ri);
+    const double vn = dot(v, t.n);
+    touching[k] = 1;
+    overlap[k] = rest_distance[k] - length;
+    const double elastic = Law::force(coefficient[k], overlap[k]);
+    t.kn = Law::stiffness(coefficient[k], overlap[k]);
+    t.pressing = elastic;
+    if constexpr (Effects::dashpots) // no attraction
+      t.pressing =
+          std::max(0.0, elastic - 2 * dashpot_ * std::sqrt(t.kn * reduced(p.mass[t.i], p.mass[t.j])) * vn);
+    t.force = -t.pressing * t.n;
+    t.drag = (elastic - t.pressing) * t.n;
+    t.slip_velocity = v - vn * t.n;
+    if constexpr (Effects::rolling) rolling_moment<Effects>(p, dt, k, t, lost);
+    if constexpr (Effects::friction) tangential_force<Effects>(p, dt, k, t, lost);
+    if constexpr (Effects::dashpots) {
+      // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
+      if constexpr (Effects::book) lost.damping += 0.5 * dt * dot(t.drag + (*dashpot)[k], v);
+      (*dashpot)[k] = t.drag;
+    }
+    force[k] = t.force;
+    const std::size_t local = static_cast<std::size_t>(blocks_.local[k]);
+    const bool inside = local < rows;
+    const std::size_t ghost = blocks_.first_ghost[block] + local - rows;
+    p.force[t.i] += t.force;
+    (inside ? p.force[t.j] : blocks_.ghost_force[ghost]) -= t.force;
+    if constexpr (Effects::rotation) {
+      Vector3 on_first = cross(ri, t.force), on_second = -cross(rj, t.force);
+      if constexpr (Effects::rolling) {
+        on_first += (*rolling)[k];
+        on_second -= (*rolling)[k];
+      }
+      (*p.torque)[t.i] += on_first;
+      (inside ? (*p.torque)[t.j] : blocks_.ghost_torque[ghost]) += on_second;
+    }
+  }
+  return lost;
+}
+
+// Coulomb's spring in the turned contact plane.
+template <class Effects>
+void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, Touch &t, Dissipation &lost) {
+  double &kt = (*tangential_stiffness)[k];
+  CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], t.n), (*sliding)[k]};
+  if constexpr (!Effects::Law::constant_stiffness) {
+    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
+    const double now = HertzContact::tangential_ratio(settings_.poisson_ratio) * t.kn;
+    const double before = 0.5 * norm_squared(state.spring) / kt;
+    if (now < kt) state.spring *= now / kt;
+    if (Effects::book && kt > 0 && norm_squared(state.spring) > 0)
+      lost.friction += before - 0.5 * norm_squared(state.spring) / now;
+    kt = now;
+  }
+  const CoulombFriction friction{{settings_.friction, settings_.friction}};
+  const CoulombFriction::Result result = friction(state, dt * t.slip_velocity, t.pressing, kt);
+  if constexpr (Effects::book) lost.friction += result.dissipated;
+  (*sliding)[k] = state.sliding;
+  (*spring)[k] = state.spring;
+  (*normal)[k] = t.n;
+  t.force += result.force;
+  if constexpr (Effects::dashpots) {
+    if (state.sliding) return;
+    // Spring and dashpot together stay below the Coulomb limit too; a contact that is not pressed drags
+    // nothing.
+    const double c = 2 * dashpot_ * std::sqrt(kt * reduced(p.mass[t.i], p.mass[t.j]));
+    Vector3 tangential = state.spring + c * t.slip_velocity;
+    const double size = norm(tangential), limit = settings_.friction * t.pressing;
+    if (size > limit) tangential *= limit / size;
+    t.force += tangential - state.spring;
+    t.drag += tangential - state.spring;
+  }
+}
+
+// The same law turns a rolling spring k_t R*^2 with the limit rolling_friction R* N. Called before the
+// tangential force, which renews the normal.
+template <class Effects>
+void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, const Touch &t,
+                              Dissipation &lost) {
+  const double effective = reduced(p.radius[t.i], p.radius[t.j]);
+  const double stiffness = (*rolling_stiffness)[k] = (*tangential_stiffness)[k] * effective * effective;
+  if (!(stiffness > 0)) return; // Hertz' contact at its first step
+  const Vector3 w = (*p.angular_velocity)[t.j] - (*p.angular_velocity)[t.i];
+  const double limit = settings_.rolling_friction * effective;
+  CoulombFriction::State state{carry_with_plane((*rolling)[k], (*normal)[k], t.n), 0};
+  const CoulombFriction::Result result =
+      CoulombFriction{{limit, limit}}(state, dt * (w - dot(w, t.n) * t.n), t.pressing, stiffness);
+  if constexpr (Effects::book) lost.friction += result.dissipated;
+  (*rolling)[k] = state.spring;
+}
+
+template <class Effects>
+void Contacts::release(std::size_t k, Dissipation &lost) {
+  touching[k] = 0;
+  overlap[k] = 0;
+  force[k] = {};
+  if constexpr (Effects::friction) {
+    const double kt = (*tangential_stiffness)[k];
+    if (Effects::book && kt > 0) lost.friction += 0.5 * norm_squared((*spring)[k]) / kt;
+    (*spring)[k] = {};
+    (*sliding)[k] = 0;
+  }
+  if constexpr (Effects::dashpots) (*dashpot)[k] = {};
+  if constexpr (Effects::rolling) {
+    if (Effects::book && (*rolling_stiffness)[k] > 0)
+      lost.friction += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
+    (*rolling)[k] = {};
+  }
+}
+
+// Choices are made one after the other; what a build leaves out is not instantiated.
+template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
+Contacts::Loop Contacts::choose(const LoopChoice &c) {
+  if constexpr (compiled::energy_ledger)
+    if (c.book) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
+  return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, false>>;
+}
+template <class Law, TangentialContact tangential, bool dashpots>
+Contacts::Loop Contacts::choose(const LoopChoice &c) {
+  if constexpr (compiled::rotation)
+    if (c.rotation) return choose<Law, tangential, dashpots, true>(c);
+  if constexpr (tangential == TangentialContact::coulomb_with_rolling)
+    throw std::invalid_argument("rolling resistance needs particles that rotate");
+  else
+    return choose<Law, tangential, dashpots, false>(c);
+}
+template <class Law, TangentialContact tangential>
+Contacts::Loop Contacts::choose(const LoopChoice &c) {
+  if constexpr (compiled::contact_dashpots)
+    if (c.dashpots) return choose<Law, tangential, true>(c);
+  return choose<Law, tangential, false>(c);
+}
+template <class Law>
+Contacts::Loop Contacts::choose(const LoopChoice &c) {
+  if constexpr (compiled::rolling)
+    if (c.tangential == TangentialContact::coulomb_with_rolling)
+      return choose<Law, TangentialContact::coulomb_with_rolling>(c);
+  if constexpr (compiled::friction)
+    if (c.tangential == TangentialContact::coulomb) return choose<Law, TangentialContact::coulomb>(c);
+  return choose<Law, TangentialContact::none>(c);
+}
+
+Contacts::Loop Contacts::loop_for(const LoopChoice &c) {
+  if constexpr (compiled::hertz)
+    if (settings_.normal == NormalContact::hertz) return choose<HertzContact>(c);
+  return choose<LinearContact>(c);
+}
+
+} // namespace platen::dem
