@@ -115,6 +115,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
+  top_layer.update_search(model.particles, top);
+  bottom_layer.update_search(model.particles, bottom);
   choose_step(true);
 }
 
@@ -126,8 +128,8 @@ std::vector<dem::GroundSpring> Problem::ground_springs() const {
 }
 
 std::size_t Problem::springs_near() const {
-  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.contacts().size() +
-         bottom_layer.contacts().size();
+  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.search().particles().size() +
+         bottom_layer.search().particles().size();
 }
 
 // The step never grows: bonds that break only soften, contacts that close may stiffen.

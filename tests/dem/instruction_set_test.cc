@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "dem/packing/random.h"
 #include "tests/dem/examples.h"
@@ -27,13 +28,26 @@ void disturb(Particles &p, double strain) {
   }
 }
 
-class Kernels : public testing::TestWithParam<bool> {}; // with rotation
+struct Turning {
+  const char *name;
+  bool rotation, moments;
+};
+void PrintTo(const Turning &turning, std::ostream *to) {
+  *to << turning.name;
+}
+
+class Kernels : public testing::TestWithParam<Turning> {
+protected:
+  static ModelSettings with(ModelSettings settings) {
+    settings.rotation = GetParam().rotation;
+    settings.bond->moments = GetParam().moments;
+    return settings;
+  }
+};
 
 TEST_P(Kernels, agree_with_the_baseline) {
   if (sets_here().empty()) GTEST_SKIP() << "this processor has the baseline only";
-  ModelSettings settings = breakable();
-  settings.rotation = GetParam();
-  Model model(packed_box(14, 14, 14), settings);
+  Model model(packed_box(14, 14, 14), with(breakable()));
   disturb(model.particles, .01);
   Bonds &bonds = *model.bonds;
   Particles &particles = model.particles;
@@ -62,9 +76,7 @@ TEST_P(Kernels, agree_with_the_baseline) {
 // and what leaves a block must arrive.
 TEST_P(Kernels, compute_every_row_of_any_count) {
   for (const int bonds : {1, 2, 3, 7, 8, 9, 1022, 1023, 1024, 1025, 2047, 2050}) {
-    ModelSettings settings = bonded();
-    settings.rotation = GetParam();
-    Model model(row(bonds, {1, 1, 0}), settings);
+    Model model(row(bonds, {1, 1, 0}), with(bonded()));
     disturb(model.particles, 1e-3);
     const Loads expected = bond_loads(model.particles, *model.bonds);
     std::vector<InstructionSet> sets = sets_here();
@@ -84,7 +96,10 @@ TEST_P(Kernels, compute_every_row_of_any_count) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(instruction_set, Kernels, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(instruction_set, Kernels,
+                         testing::Values(Turning{"without_rotation", false, false},
+                                         Turning{"without_moments", true, false},
+                                         Turning{"with_moments", true, true}));
 
 } // namespace
 } // namespace platen::dem

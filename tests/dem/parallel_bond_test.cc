@@ -203,6 +203,66 @@ TEST(parallel_bond, forces_and_moments_balance_for_any_finite_motion) {
   }
 }
 
+// The loops ask for the excess alone; the ratios then decide.
+TEST(parallel_bond, no_ratio_reaches_one_where_the_excess_is_below_zero) {
+  Random random(23);
+  long reached = 0, held = 0, in_doubt = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const RandomBond b = random_bond(random);
+    ParallelBond law = breakable_bond(.7, trial % 3 * .5);
+    const Response at_hand = law(b.geometry, b.motion);
+    // Strengths about what this motion asks for, so that both outcomes are seen, the very limit among them.
+    const double share = trial % 5 == 0 ? 1 : .5 + random.uniform();
+    if (at_hand.tension_ratio > 0) law.parameters.tensile_strength *= share * at_hand.tension_ratio;
+    law.parameters.shear_strength *= 10 * random.uniform() * at_hand.shear_ratio;
+    const Response r = law(b.geometry, b.motion);
+    const double ratio = std::max(r.tension_ratio, r.shear_ratio);
+    if (r.excess < 0) {
+      EXPECT_LT(ratio, 1);
+    }
+    if (ratio < 1 - 1e-9) {
+      EXPECT_LT(r.excess, 0);
+    }
+    (ratio >= 1 ? reached : held) += 1;
+    in_doubt += std::abs(ratio - 1) < 1e-9;
+  }
+  EXPECT_GT(reached, 500);
+  EXPECT_GT(held, 500);
+  EXPECT_GT(in_doubt, 100);
+}
+
+// Bonds that resist no bending or twisting: forces act at the contact point, and come from an energy too.
+TEST(parallel_bond, without_moments_turning_about_the_contact_point_costs_nothing) {
+  Random random(29);
+  ParallelBond law = breakable_bond();
+  law.parameters.moments = false;
+  const double h = 1e-5;
+  for (int trial = 0; trial < 200; ++trial) {
+    const RandomBond b = random_bond(random);
+    const Response r = law(b.geometry, b.motion);
+    const Vector3 lever = cross(vec(b.motion.distance), vec(r.force));
+    EXPECT_LE(norm(vec(r.torque_i) + vec(r.torque_j) - lever), 1e-13 * norm(lever));
+    const double scale = r.energy / bond_length * 10 + norm(vec(r.force));
+    for (int c = 0; c < 3; ++c) {
+      Vector3 e;
+      e[c] = h;
+      BondMotion plus = b.motion, minus = b.motion;
+      plus.turn_i = rotation(rotation_quaternion(e) * quaternion(b.motion.turn_i));
+      minus.turn_i = rotation(rotation_quaternion(-e) * quaternion(b.motion.turn_i));
+      const double slope = (law(b.geometry, plus).energy - law(b.geometry, minus).energy) / (2 * h);
+      EXPECT_NEAR(vec(r.torque_i)[c], -slope, 1e-7 * scale * bond_length);
+    }
+  }
+  // A twist about the axis, and a bend that leaves both contact points where they are, store nothing.
+  BondMotion m = at_rest();
+  m.turn_j = rotation(rotation_quaternion({.3, 0, 0}));
+  const Response twisted = law(along_x(), m);
+  EXPECT_NEAR(twisted.energy, 0, 1e-20);
+  EXPECT_EQ(twisted.shear_ratio < 1e-10, true);
+  law.parameters.moments = true;
+  EXPECT_GT(law(along_x(), m).energy, 0);
+}
+
 // Central differences: h^2 of truncation against 1e-16 / h of round-off leaves about 1e-9 of the scale.
 TEST(parallel_bond, forces_are_derivatives_of_the_stored_energy) {
   Random random(11);

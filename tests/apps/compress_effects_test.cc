@@ -1,0 +1,79 @@
+// Effects that are off leave no trace: in the files, in the columns, in what the others find.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "apps/io_folder.h"
+#include "apps/program.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class EffectsOff : public ScratchFolder {
+protected:
+  nlohmann::json crush(const std::string &name, const std::vector<std::string> &entries) {
+    std::vector<std::string> arguments{test_scene("crushed.prm"), "-o", name, "--quiet", "-s",
+                                       "Output/Fields = off"};
+    for (const std::string &entry : entries)
+      arguments.insert(arguments.end(), {"-s", entry});
+    const Outcome outcome = run_compress(arguments, folder_);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    return summary_in(folder_ / name);
+  }
+  static bool has(const nlohmann::json &words, const std::string &word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  }
+  std::vector<std::vector<std::string>> history(const std::string &name) const {
+    std::istringstream file(content_of(folder_ / name / "history.csv"));
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream cells(line);
+      rows.emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');)
+        rows.back().push_back(cell);
+    }
+    return rows;
+  }
+};
+
+TEST_F(EffectsOff, ledger_and_log_only_watch) {
+  const nlohmann::json with = crush("with", {});
+  const nlohmann::json without = crush("without", {"Effects/Energy ledger = off", "Effects/Crack log = off"});
+  EXPECT_TRUE(has(with["effects"], "energy ledger"));
+  EXPECT_TRUE(has(without["effects_off"], "energy ledger"));
+  EXPECT_TRUE(has(without["effects_off"], "crack log"));
+  EXPECT_TRUE(fs::exists(folder_ / "with/cracks.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "without/cracks.csv"));
+  EXPECT_TRUE(without["energy_residual_relative"].is_null());
+  EXPECT_TRUE(without["kinetic_to_internal_max"].is_null());
+  EXPECT_EQ(with["strength_pa"], without["strength_pa"]);
+  EXPECT_EQ(with["broken_shear"], without["broken_shear"]);
+  EXPECT_LT(without["bytes_per_bond"], 200);
+  // Every other cell is the same to the byte.
+  const auto a = history("with"), b = history("without");
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t energies = 0;
+  for (std::size_t c = 0; c < a[0].size(); ++c) {
+    const std::string &column = a[0][c];
+    const bool energy = column.size() > 2 && column.compare(column.size() - 2, 2, "_j") == 0;
+    energies += energy;
+    for (std::size_t row = 1; row < a.size(); ++row)
+      ASSERT_EQ(b[row][c], energy ? "nan" : a[row][c]) << column << " in row " << row;
+  }
+  EXPECT_EQ(energies, 9u);
+}
+
+TEST_F(EffectsOff, moments_cost_columns_of_no_bond_but_strength_of_all) {
+  const nlohmann::json with = crush("with", {"Bond/Damping = 0.02"});
+  const nlohmann::json without = crush("without", {"Bond/Damping = 0.02", "Effects/Bond moments = off"});
+  EXPECT_TRUE(has(with["effects"], "bond moments"));
+  EXPECT_TRUE(has(without["effects_off"], "bond moments"));
+  EXPECT_LT(without["bytes_per_bond"], with["bytes_per_bond"]); // no moment of a dashpot
+  EXPECT_LT(without["youngs_modulus_gauge_pa"], with["youngs_modulus_gauge_pa"]);
+  EXPECT_GT(without["youngs_modulus_gauge_pa"], 0);
+  EXPECT_LT(without["energy_residual_relative"], 0.01);
+}
+
+} // namespace
+} // namespace platen::apps::testing
