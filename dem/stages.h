@@ -6,11 +6,10 @@
 
 namespace platen::dem {
 
-enum class Stage { motion, search, bonds, contacts, surfaces, gather, bodies, stable_step, measures, output };
-constexpr int stage_count = 10;
-constexpr std::array<const char *, stage_count> stage_names{"motion",   "search", "bonds",  "contacts",
-                                                            "surfaces", "gather", "bodies", "stable_step",
-                                                            "measures", "output"};
+enum class Stage { motion, search, bonds, contacts, surfaces, bodies, stable_step, measures, output };
+constexpr int stage_count = 9;
+constexpr std::array<const char *, stage_count> stage_names{
+    "motion", "search", "bonds", "contacts", "surfaces", "bodies", "stable_step", "measures", "output"};
 
 class StageClock {
 public:

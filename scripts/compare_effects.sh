@@ -37,24 +37,33 @@ off() {
 on="Effects/Tangential = coulomb with rolling resistance;Contact/Rolling friction = 0.1;Bond/Damping = 0.05"
 on+=";Effects/Gravity = on;Output/Fields = off;Loading/Target strain = 0.002"
 
-run() { # BINARY FOLDER ENTRIES
-  local arguments=()
+run() { # BINARY FOLDER ENTRIES; of two entries with one key the last holds
+  local arguments=() entries entry
+  local -A last=()
   IFS=';' read -ra entries <<<"$3"
-  for entry in "${entries[@]}"; do arguments+=(-s "$entry"); done
+  for entry in "${entries[@]}"; do last[${entry%% = *}]=$entry; done
+  for entry in "${last[@]}"; do arguments+=(-s "$entry"); done
   "$1" "$source_folder/tests/apps/scenes/crushed.prm" -o "$2" --overwrite --quiet "${arguments[@]}"
 }
 
 failed=0
 for effect in "${chosen[@]}"; do
-  entries="$on;$(off "$effect")"
-  left=$(printf '%s\n' "${all[@]}" | { [[ $effect == all ]] && true || grep -vx "$effect"; } | paste -sd ';')
+  without="$on;$(off "$effect")"
+  left=
+  [[ $effect == all ]] || left=$(printf '%s\n' "${all[@]}" | grep -vx "$effect" | paste -sd ';')
   # Rolling needs rotation and friction, moments need rotation.
   [[ $effect == rotation ]] && left=$(tr ';' '\n' <<<"$left" | grep -vx -e rolling -e bond_moments | paste -sd ';')
   cmake -S "$source_folder" -B "$work/build_$effect" -G Ninja -DPLATEN_TESTS=OFF -DPLATEN_BENCH=OFF \
     "-DPLATEN_EFFECTS=$left" >"$work/configure_$effect.log"
   ninja -C "$work/build_$effect" platen-compress >"$work/build_$effect.log"
-  run "$build/apps/platen-compress" "$work/off_$effect" "$entries"
-  run "$work/build_$effect/apps/platen-compress" "$work/without_$effect" "$entries"
+  run "$build/apps/platen-compress" "$work/off_$effect" "$without"
+  run "$work/build_$effect/apps/platen-compress" "$work/without_$effect" "$without"
+  # A scene that calls for what is left out is refused.
+  if [[ $effect != hertz ]] && run "$work/build_$effect/apps/platen-compress" "$work/refused" "$on" 2>"$work/refused.txt"
+  then echo "$effect: the build without it ran a scene that calls for it"; failed=1
+  elif [[ $effect != hertz ]] && ! grep -q PLATEN_EFFECTS "$work/refused.txt"
+  then echo "$effect: refused for another reason: $(head -1 "$work/refused.txt")"; failed=1
+  fi
   if cmp -s "$work/off_$effect/history.csv" "$work/without_$effect/history.csv"; then
     echo "$effect: the same $(wc -l <"$work/off_$effect/history.csv") lines"
   else

@@ -196,8 +196,6 @@ std::string Test::description() const {
   for (const std::string &word : effects_off(scene_))
     off += (off.empty() ? "" : ", ") + word;
   const double bonds = model.bonds ? static_cast<double>(model.bonds->initial_count()) : 0.0;
-  const double bytes = static_cast<double>(model.particles.size() * model.particles.table.bytes_per_row() +
-                                           (model.bonds ? model.bonds->bytes() : 0));
   std::string text = fmt::format("{}\n", scene_.general.title.empty() ? scene_.name : scene_.general.title);
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, problem_->coordination_number(),
@@ -209,9 +207,10 @@ std::string Test::description() const {
                       problem_->time_step_reason(), expected_steps_);
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", problem_->ramp(), problem_->wave_crossing());
-  text += fmt::format("  columns {:.1f} MB ({} bytes a particle), instruction set {}, threads {}\n",
-                      1e-6 * bytes, model.particles.table.bytes_per_row(),
-                      dem::name(model.settings().instruction_set), costs().threads);
+  text += fmt::format(
+      "  columns and search {:.1f} MB ({} bytes a particle, {} a bond), instruction set {}, threads {}\n",
+      1e-6 * static_cast<double>(problem_->bytes()), model.particles.table.bytes_per_row(),
+      bytes_per_bond(model), dem::name(model.settings().instruction_set), costs().threads);
   return text;
 }
 

@@ -22,12 +22,6 @@ Json stage_seconds(const dem::StageClock &clock) {
   return stages;
 }
 
-std::size_t bytes_per_bond(const dem::Model &model) {
-  return model.bonds
-             ? model.bonds->table.bytes_per_row() + model.bonds->records.bytes_per_row() + 2 * sizeof(int)
-             : 0;
-}
-
 void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   const std::string start = prefix;
   to[start + "end_damage_top"] = p.end_top;
@@ -42,6 +36,12 @@ double crossings_to_peak(const coupling::Problem &problem, const Results &result
 }
 
 } // namespace
+
+std::size_t bytes_per_bond(const dem::Model &model) {
+  if (!model.bonds) return 0;
+  const dem::Bonds &b = *model.bonds;
+  return b.table.bytes_per_row() + b.records.bytes_per_row() + sizeof(b.blocks.local[0]);
+}
 
 Json summary_of_run(const std::string &status, const Scene &scene, const coupling::Problem &problem,
                     const Results &results, const RunCosts &costs) {
@@ -75,6 +75,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["peak_memory_bytes"] = peak_memory_bytes();
   s["bytes_per_particle"] = model.particles.table.bytes_per_row();
   s["bytes_per_bond"] = bytes_per_bond(model);
+  s["bytes_in_columns_and_search"] = problem.bytes();
   s["strength_pa"] = results.strength();
   s["strain_at_peak_platen"] = results.strain_at_peak_platen();
   s["strain_at_peak_gauge"] = results.strain_at_peak_gauge();

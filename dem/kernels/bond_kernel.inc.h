@@ -68,7 +68,7 @@ template <bool turning>
 PLATEN_INLINE void scatter(double *sums, const int *at_first, const int *at_second, const Triple<Pack> &force,
                            const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
   constexpr int stride = sums_stride(turning);
-  Four f[lanes], ti[lanes], tj[lanes];
+  Row f[lanes], ti[lanes], tj[lanes];
   to_rows(force, f);
   if constexpr (turning) {
     to_rows(torque_i, ti);
@@ -77,11 +77,11 @@ PLATEN_INLINE void scatter(double *sums, const int *at_first, const int *at_seco
   for (int l = 0; l < lanes; ++l) {
     double *a = sums + static_cast<std::ptrdiff_t>(at_first[l]) * stride,
            *b = sums + static_cast<std::ptrdiff_t>(at_second[l]) * stride;
-    store_four(a, load_four(a) + f[l]);
-    store_four(b, load_four(b) - f[l]);
+    store_row(a, load_row(a) + f[l]);
+    store_row(b, load_row(b) - f[l]);
     if constexpr (turning) {
-      store_four(a + 4, load_four(a + 4) + ti[l]);
-      store_four(b + 4, load_four(b + 4) + tj[l]);
+      store_row(a + 4, load_row(a + 4) + ti[l]);
+      store_row(b + 4, load_row(b + 4) + tj[l]);
     }
   }
 }

@@ -49,7 +49,7 @@ TEST_F(EffectsOff, ledger_and_log_only_watch) {
   EXPECT_TRUE(without["kinetic_to_internal_max"].is_null());
   EXPECT_EQ(with["strength_pa"], without["strength_pa"]);
   EXPECT_EQ(with["broken_shear"], without["broken_shear"]);
-  EXPECT_LT(without["bytes_per_bond"], 200);
+  EXPECT_LT(without["bytes_per_bond"], 100);
   // Every other cell is the same to the byte.
   const auto a = history("with"), b = history("without");
   ASSERT_EQ(a.size(), b.size());
