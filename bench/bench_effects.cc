@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -131,7 +133,9 @@ void compare(const char *title, const dem::Specimen &specimen, const std::vector
     models.push_back(std::make_unique<dem::Model>(specimen, s.settings));
     shake(models.back()->particles);
   }
-  const double dt = 0.2 * models.back()->stable_step({}, 0).limit;
+  double dt = std::numeric_limits<double>::infinity();
+  for (const auto &m : models)
+    dt = std::min(dt, 0.2 * m->stable_step({}, 0).limit);
   for (auto &m : models)
     steps(*m, dt, count / 5 + 1);
   const double per = 1e9 / (static_cast<double>(specimen.size()) * count);

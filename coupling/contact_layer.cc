@@ -170,6 +170,11 @@ void ContactLayer::update_search(const dem::Particles &particles, const fem::Bod
   set_rows(search_.particles());
 }
 
+void ContactLayer::make_list(const dem::Particles &particles, const fem::Body &body) {
+  search_.forget();
+  update_search(particles, body);
+}
+
 // Rows for exactly these particles; those that stay keep their history, new ones start without.
 void ContactLayer::set_rows(const std::vector<int> &particles) {
   const std::size_t old_rows = table_.size();

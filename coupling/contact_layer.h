@@ -80,6 +80,8 @@ public:
   // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it
   // before asking for springs or stiffness ahead of the first step.
   void update_search(const dem::Particles &particles, const fem::Body &body);
+  // The same in any case.
+  void make_list(const dem::Particles &particles, const fem::Body &body);
 
   // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
   // by the step dt (s) that the drift made. Reads position, velocity, radius, mass (angular_velocity); writes

@@ -115,8 +115,6 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
-  top_layer.update_search(model.particles, top);
-  bottom_layer.update_search(model.particles, bottom);
   choose_step(true);
 }
 
@@ -128,14 +126,18 @@ std::vector<dem::GroundSpring> Problem::ground_springs() const {
 }
 
 std::size_t Problem::springs_near() const {
-  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.search().particles().size() +
-         bottom_layer.search().particles().size();
+  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.contacts().size() +
+         bottom_layer.contacts().size();
 }
 
 // The step never grows: bonds that break only soften, contacts that close may stiffen.
 void Problem::choose_step(bool first) {
-  const dem::StableStep limit = model.stable_step(ground_springs(), settings_.platens.damping);
-  near_at_choice_ = springs_near();
+  // Lists made now, so that the choice is the same whether the run was stopped and resumed on its way or not.
+  top_layer.make_list(model.particles, top);
+  bottom_layer.make_list(model.particles, bottom);
+  const std::vector<dem::GroundSpring> springs = ground_springs();
+  const dem::StableStep limit = model.stable_step(springs, settings_.platens.damping);
+  near_at_choice_ = (model.contacts ? model.contacts->table.size() : 0) + springs.size();
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string above =

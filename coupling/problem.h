@@ -118,7 +118,7 @@ private:
   void drift_bodies();
   void announce_motion(double dt);
   std::vector<dem::GroundSpring> ground_springs() const;
-  std::size_t springs_near() const; // grain contacts and particles at platens that are near
+  std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
 
   ProblemSettings settings_;
   dem::Shape shape_;

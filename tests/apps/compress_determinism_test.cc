@@ -34,7 +34,7 @@ protected:
   nlohmann::json figures(const std::string &name) const {
     nlohmann::json summary = summary_in(folder_ / name);
     for (const char *cost : {"threads", "wall_seconds", "setup_seconds", "particle_steps_per_second",
-                             "stage_seconds", "peak_memory_bytes"})
+                             "stage_seconds", "peak_memory_bytes", "bytes_in_columns_and_search"})
       summary.erase(cost);
     return summary;
   }
