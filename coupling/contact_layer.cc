@@ -309,7 +309,8 @@ ContactLayer::RowForce ContactLayer::row_force(const dem::Particles &particles, 
   motion.slide = v - motion.opening_speed * n;
   motion.spin = surface.spin;
   motion.k_n = stiffness(particle_[row]);
-  motion.c_n = 2 * parameters_.damping * std::sqrt(motion.k_n * particles.mass[i]);
+  if (parameters_.damping > 0)
+    motion.c_n = 2 * parameters_.damping * std::sqrt(motion.k_n * particles.mass[i]);
   normal_force(row, motion, dt, result);
   if (spring_ != nullptr) tangential_force(row, motion, dt, result);
   if (seat_spring_ != nullptr && seated_[row]) {

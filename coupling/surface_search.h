@@ -8,6 +8,7 @@
 
 #include "coupling/box_tree.h"
 #include "coupling/closest_point.h"
+#include "coupling/flat_faces.h"
 #include "dem/particles.h"
 #include "fem/surface_mesh.h"
 
@@ -66,6 +67,10 @@ private:
   };
   std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
   void collect(const fem::SurfaceMesh &surface, const dem::Vector3 &centre, double limit);
+  bool foot(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
+            SurfacePoint &result) const;
+  bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const dem::Vector3 &centre,
+                       SurfacePoint &result) const;
   SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
                            const dem::Vector3 &centre) const;
   dem::Vector3 edge_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
@@ -76,6 +81,7 @@ private:
   double skin_;
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;
+  FlatFaces flat_;
   std::vector<int> first_face_of_vertex_, faces_of_vertex_; // faces around each vertex, ascending
   std::vector<int> particles_;
   std::vector<std::size_t> first_near_; // entry k has near_[first_near_[k] ... first_near_[k + 1])

@@ -55,6 +55,7 @@ Vector3 turn_by_arms(const Quad &r, const Vector3 &b) {
 } // namespace
 
 SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint &point) {
+  if (surface.only_shifted) return {vector(surface.velocities[0])};
   const Quad v = corner_velocities(surface, point.face);
   SurfaceMotion motion;
   // The sum w_i v_i, written so that equal velocities give that velocity without rounding.

@@ -24,7 +24,7 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   kernels::BondColumns c{};
   c.first = b.first.data();
   c.second = b.second.data();
-  c.local = b.blocks.local.data();
+  c.ends = b.blocks.ends.data();
   c.reference = b.reference.data();
   c.rest_length = b.rest_length.data();
   c.lever = b.lever.data();
@@ -35,71 +35,39 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   return c;
 }
 
-// Sums of one block, in memory of this thread.
-struct BlockSums {
-  std::size_t first, last; // particle rows
-  std::size_t first_bond, last_bond, first_ghost, ghosts;
-  std::size_t stride;
-  double *row;
-
-  BlockSums(const PairBlocks &blocks, std::size_t block, std::size_t particles, bool rotation)
-      : first(block * block_rows),
-        last(std::min(particles, first + block_rows)),
-        first_bond(blocks.first_pair[block]),
-        last_bond(blocks.first_pair[block + 1]),
-        first_ghost(blocks.first_ghost[block]),
-        ghosts(blocks.first_ghost[block + 1] - first_ghost),
-        stride(static_cast<std::size_t>(kernels::sums_stride(rotation))) {
-    constexpr std::size_t cache_line = 64;
-    thread_local std::vector<double> memory;
-    const std::size_t used = (last - first + ghosts + 1) * stride;
-    if (memory.size() < used + cache_line) memory.resize(used + cache_line);
-    const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
-    row = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
-    std::fill_n(row, used, 0.0);
+// One block of particles, with memory of this thread for its rows.
+kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t block) {
+  kernels::BlockColumns c{};
+  const std::size_t first = block * block_rows, first_ghost = blocks.first_ghost[block];
+  c.first_row = static_cast<int>(first);
+  c.own = static_cast<int>(std::min(p.size(), first + block_rows) - first);
+  c.ghosts = static_cast<int>(blocks.first_ghost[block + 1] - first_ghost);
+  c.ghost_particle = blocks.ghost_particle.data() + first_ghost;
+  c.force = p.force.data() + first;
+  c.ghost_force = blocks.ghost_force.data() + first_ghost;
+  if (p.has_rotation()) {
+    c.torque = p.torque->data() + first;
+    c.ghost_torque = blocks.ghost_torque.data() + first_ghost;
   }
-  void into(kernels::BondColumns &c) const {
-    c.sums = row;
-    c.first_row = static_cast<int>(first);
-    c.spare_row = static_cast<int>(last - first + ghosts);
-  }
-  Vector3 force(std::size_t k) const { return {row[k * stride], row[k * stride + 1], row[k * stride + 2]}; }
-  Vector3 torque(std::size_t k) const {
-    return {row[k * stride + 4], row[k * stride + 5], row[k * stride + 6]};
-  }
-};
-
-// Writes (or adds) the sums to the particles and ghosts.
-template <bool add>
-void hand_over(const BlockSums &sums, Particles &p, PairBlocks &blocks, const Vector3 &gravity) {
-  const std::size_t rows = sums.last - sums.first;
-  const bool heavy = norm_squared(gravity) > 0, turning = p.has_rotation();
-  for (std::size_t k = 0; k < rows; ++k) {
-    Vector3 &force = p.force[sums.first + k];
-    force = add ? force + sums.force(k) : sums.force(k);
-    if (!turning) continue;
-    Vector3 &torque = (*p.torque)[sums.first + k];
-    torque = add ? torque + sums.torque(k) : sums.torque(k);
-  }
-  if (!add && heavy)
-    for (std::size_t i = sums.first; i < sums.last; ++i)
-      p.force[i] += p.mass[i] * gravity;
-  for (std::size_t g = 0; g < sums.ghosts; ++g) {
-    Vector3 &force = blocks.ghost_force[sums.first_ghost + g];
-    force = add ? force + sums.force(rows + g) : sums.force(rows + g);
-    if (!turning) continue;
-    Vector3 &torque = blocks.ghost_torque[sums.first_ghost + g];
-    torque = add ? torque + sums.torque(rows + g) : sums.torque(rows + g);
-  }
+  constexpr std::size_t cache_line = 64;
+  thread_local std::vector<double> memory;
+  const std::size_t rows = static_cast<std::size_t>(c.own + c.ghosts + kernels::spare_rows);
+  const std::size_t used = rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation()));
+  if (memory.size() < used + cache_line) memory.resize(used + cache_line);
+  const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
+  c.rows = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
+  return c;
 }
 
 // One block; true where a bond may be at its strength.
-bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels, kernels::BondColumns columns,
-                   const Vector3 &gravity, std::size_t block) {
-  const BlockSums sums(b.blocks, block, p.size(), p.has_rotation());
-  sums.into(columns);
-  const bool reached = kernels.add_forces(columns, b.law, sums.first_bond, sums.last_bond);
-  hand_over<false>(sums, p, b.blocks, gravity);
+bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
+                   const kernels::BondColumns &columns, const Vector3 &gravity, std::size_t block) {
+  const kernels::BlockColumns rows = block_of(p, b.blocks, block);
+  const bool reached = kernels.compute_forces(columns, rows, b.law, b.blocks.first_pair[block],
+                                              b.blocks.first_pair[block + 1]);
+  if (norm_squared(gravity) > 0)
+    for (int k = 0; k < rows.own; ++k)
+      rows.force[k] += p.mass[static_cast<std::size_t>(rows.first_row + k)] * gravity;
   return reached;
 }
 
@@ -170,11 +138,8 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
   }
   std::vector<double> power(b.blocks.blocks());
   for_each_block(p.size(), [&](std::size_t, std::size_t, std::size_t block) {
-    const BlockSums sums(b.blocks, block, p.size(), p.has_rotation());
-    kernels::BondColumns own = columns;
-    sums.into(own);
-    power[block] = kernels.add_dashpots(own, sums.first_bond, sums.last_bond);
-    hand_over<true>(sums, p, b.blocks, {});
+    power[block] = kernels.add_dashpots(columns, block_of(p, b.blocks, block), b.blocks.first_pair[block],
+                                        b.blocks.first_pair[block + 1]);
   });
   double sum = 0;
   for (const double one : power)

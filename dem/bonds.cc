@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dem/cell_grid.h"
+#include "dem/kernels/bond_kernel.h"
 
 namespace platen::dem {
 namespace {
@@ -92,7 +93,7 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const Paralle
 }
 
 void Bonds::cut_blocks() {
-  blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_);
+  blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_, kernels::row_stride(rotation_));
 }
 
 std::size_t Bonds::bytes() const {

@@ -64,7 +64,7 @@ struct Bonds {
   Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
-  PairBlocks blocks; // of the rows of `table`
+  PairBlocks blocks; // of the rows of `table`, ends times kernels::row_stride
   ParallelBond law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 

@@ -100,7 +100,7 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
       (*dashpot)[k] = t.drag;
     }
     force[k] = t.force;
-    const std::size_t local = static_cast<std::size_t>(blocks_.local[k]);
+    const std::size_t local = static_cast<std::size_t>(blocks_.ends[k].second);
     const bool inside = local < rows;
     const std::size_t ghost = blocks_.first_ghost[block] + local - rows;
     p.force[t.i] += t.force;

@@ -21,13 +21,13 @@ std::vector<int> reached_outside(const int *second, std::size_t from, std::size_
 } // namespace
 
 void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles,
-                         bool rotation) {
+                         bool rotation, int row_size) {
   const std::size_t count = number_of_blocks(particles);
   first_pair.assign(1, 0);
   first_ghost.assign(1, 0);
-  local.resize(pairs);
+  ends.resize(pairs);
   most_ghosts = 0;
-  std::vector<int> ghost_particle;
+  ghost_particle.clear();
   std::size_t k = 0;
   for (std::size_t b = 0; b < count; ++b) {
     const std::size_t first_row = b * block_rows, end_row = std::min(particles, first_row + block_rows);
@@ -38,8 +38,9 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
     for (std::size_t n = from; n < k; ++n) {
       const std::size_t row = static_cast<std::size_t>(second[n]);
       const auto ghost = std::lower_bound(outside.begin(), outside.end(), second[n]) - outside.begin();
-      local[n] = row < end_row ? static_cast<int>(row - first_row)
-                               : static_cast<int>(end_row - first_row) + static_cast<int>(ghost);
+      const std::size_t inside =
+          row < end_row ? row - first_row : end_row - first_row + static_cast<std::size_t>(ghost);
+      ends[n] = {row_size * (first[n] - static_cast<int>(first_row)), row_size * static_cast<int>(inside)};
     }
     ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
     most_ghosts = std::max(most_ghosts, outside.size());
@@ -74,7 +75,8 @@ void return_ghosts(Particles &p, const PairBlocks &blocks, std::size_t block) {
 }
 
 std::size_t PairBlocks::bytes() const {
-  return local.capacity() * sizeof(int) + returns.capacity() * sizeof(Return) +
+  return ends.capacity() * sizeof(Ends) + ghost_particle.capacity() * sizeof(int) +
+         returns.capacity() * sizeof(Return) +
          (ghost_force.capacity() + ghost_torque.capacity()) * sizeof(Vector3) +
          (first_pair.capacity() + first_ghost.capacity() + first_return.capacity()) * sizeof(std::size_t);
 }

@@ -17,16 +17,22 @@ struct PairBlocks {
     int particle = 0; // row
     int ghost = 0;    // index into the ghosts
   };
-  std::vector<std::size_t> first_pair;  // of each block, and the end
-  std::vector<int> local;               // of each pair: row of its second particle among its block's sums
-  std::vector<std::size_t> first_ghost; // of each block, and the end
+  // Rows of a pair's particles in its block, its ghosts counted after its own, times `row_size` of rebuild.
+  struct Ends {
+    int first = 0, second = 0;
+  };
+  std::vector<std::size_t> first_pair;            // of each block, and the end
+  std::vector<Ends> ends;                         // of each pair
+  std::vector<std::size_t> first_ghost;           // of each block, and the end
+  std::vector<int> ghost_particle;                // row of each ghost's particle
   std::vector<Vector3> ghost_force, ghost_torque; // N, N m; torque only with rotation
   std::vector<std::size_t> first_return;          // of each block, and the end
   std::vector<Return> returns;                    // to the particles of each block, ascending
   std::size_t most_ghosts = 0;                    // of one block
 
   // From columns of `pairs` rows, sorted by first.
-  void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation);
+  void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation,
+               int row_size = 1);
   std::size_t blocks() const { return first_pair.empty() ? 0 : first_pair.size() - 1; }
   std::size_t bytes() const;
 };

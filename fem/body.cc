@@ -60,6 +60,7 @@ Body::Body(Grid grid, const Material &material, BodyKind kind)
   const std::vector<int> empty = zero_area_faces(surface_);
   require(empty.empty(), "surface face " + (empty.empty() ? "" : std::to_string(empty[0])) + " has no area");
   reference_vertices_ = surface_.vertices;
+  surface_.only_shifted = true;
   load_.assign(surface_.vertices.size(), Point{});
   is_loaded_.assign(surface_.vertices.size(), 0);
 
@@ -81,6 +82,7 @@ Point Body::current_position(const Point &reference) const {
 void Body::place_vertices() {
   const Point middle = centre();
   const bool turns = angular_velocity_ != Point{};
+  surface_.only_shifted = !turns && is_identity(rotation_);
   for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
     surface_.vertices[v] = current_position(reference_vertices_[v]);
     surface_.velocities[v] =

@@ -17,6 +17,8 @@ struct SurfaceMesh {
   std::vector<Point> velocities;         // m/s, one per vertex
   std::vector<std::array<int, 4>> faces; // vertex indices
   std::vector<int> face_tags;            // boundary id of each face (0 unless the body gives another)
+  // The vertices are those of the start plus one displacement and have one velocity.
+  bool only_shifted = false;
 };
 
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.

@@ -40,7 +40,7 @@ double crossings_to_peak(const coupling::Problem &problem, const Results &result
 std::size_t bytes_per_bond(const dem::Model &model) {
   if (!model.bonds) return 0;
   const dem::Bonds &b = *model.bonds;
-  return b.table.bytes_per_row() + b.records.bytes_per_row() + sizeof(b.blocks.local[0]);
+  return b.table.bytes_per_row() + b.records.bytes_per_row() + sizeof(b.blocks.ends[0]);
 }
 
 Json summary_of_run(const std::string &status, const Scene &scene, const coupling::Problem &problem,

@@ -4,19 +4,36 @@
 #include <cstddef>
 
 #include "dem/laws/parallel_bond.h"
+#include "dem/pair_blocks.h"
 #include "dem/vector3.h"
 
 namespace platen::dem::kernels {
 
-// Doubles of one row of a block's sums: force and, with rotation, torque, each padded to four.
-constexpr int sums_stride(bool rotation) {
+// Doubles of one row of a block: position and, with rotation, orientation, then the sums of force and, with
+// rotation, torque, each padded to four.
+constexpr int row_stride(bool rotation) {
+  return rotation ? 16 : 8;
+}
+constexpr int sums_at(bool rotation) {
   return rotation ? 8 : 4;
 }
+// After the rows of a block's own particles and of its ghosts, for bonds that fill up a pack.
+constexpr int spare_rows = 2;
+
+// One block of particles and the ghosts that its bonds reach, and where their sums go.
+struct BlockColumns {
+  double *rows;              // own + ghosts + spare_rows rows, aligned to 64 bytes
+  int first_row;             // particle row of the first
+  int own, ghosts;           // rows
+  const int *ghost_particle; // particle row of each ghost
+  Vector3 *force, *torque;   // of the block's first particle; torque null without rotation
+  Vector3 *ghost_force, *ghost_torque;
+};
 
 // Plain pointers to the columns that the kernels read and write.
 struct BondColumns {
   const int *first, *second;
-  const int *local; // row of `second` in the block's sums
+  const PairBlocks::Ends *ends; // of the bond in its block, times row_stride
   const Vector3 *reference;
   const double *rest_length, *lever, *normal_stiffness, *bond_radius;
   const Vector3 *position;       // columns of particles can be read one row beyond their end
@@ -26,11 +43,6 @@ struct BondColumns {
   const double *dashpot, *dashpot_bending;
   double dashpot_shear_ratio, dashpot_twist_ratio;
   Vector3 *dashpot_force, *dashpot_moment;
-  // Sums of forces and torques on the block's particles, on those outside that its bonds reach, and one row
-  // more that nobody reads.
-  double *sums;
-  int first_row; // particle row of the first of the sums
-  int spare_row; // the one that nobody reads
 };
 
 // What a bond holds, row by row, from index 0. Any pointer may be null.
@@ -40,11 +52,14 @@ struct BondRowValues {
   double *force;                       // N, size of the force between the two
 };
 
+// Bonds [first, last) are those of one block.
 struct BondKernels {
-  // Adds the forces of bonds [first, last) to the sums; true where a bond may be at or above its strength.
-  bool (*add_forces)(const BondColumns &, const ParallelBond &, std::size_t first, std::size_t last);
+  // Forces of the bonds on the block's particles and ghosts; true where a bond may be at or above its
+  // strength.
+  bool (*compute_forces)(const BondColumns &, const BlockColumns &, const ParallelBond &, std::size_t first,
+                         std::size_t last);
   // Adds the dashpots' forces; returns the sum of (force now + force before) times opening velocity, W.
-  double (*add_dashpots)(const BondColumns &, std::size_t first, std::size_t last);
+  double (*add_dashpots)(const BondColumns &, const BlockColumns &, std::size_t first, std::size_t last);
   void (*measure)(const BondColumns &, const ParallelBond &, const BondRowValues &, std::size_t first,
                   std::size_t last);
 };

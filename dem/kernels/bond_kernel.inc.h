@@ -1,5 +1,6 @@
 // Body of the bond kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "dem/effects.h"
+#include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -9,10 +10,10 @@ namespace {
 // What moves and what bonds resist.
 enum class Turning { none, forces, moments };
 
-// Copies of the last rows of a block, when they do not fill a pack: the last one repeated, its forces added
-// to the spare row.
+// Copies of the last rows of a block, when they do not fill a pack: the last one repeated, between the spare
+// rows.
 struct Tail {
-  int first[lanes], second[lanes], local[lanes], sums_of_first[lanes];
+  int first[lanes], second[lanes];
   Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
   double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
   double dashpot[lanes], dashpot_bending[lanes];
@@ -22,8 +23,6 @@ struct Tail {
       const bool real = from + l < to;
       const std::size_t k = real ? from + l : to - 1;
       first[l] = c.first[k], second[l] = c.second[k];
-      local[l] = real ? c.local[k] : c.spare_row;
-      sums_of_first[l] = real ? c.first[k] - c.first_row : c.spare_row;
       reference[l] = c.reference[k];
       rest_length[l] = c.rest_length[k], lever[l] = c.lever[k];
       normal_stiffness[l] = c.normal_stiffness[k], bond_radius[l] = c.bond_radius[k];
@@ -36,7 +35,7 @@ struct Tail {
     }
   }
   BondColumns columns(BondColumns c) {
-    c.first = first, c.second = second, c.local = local;
+    c.first = first, c.second = second;
     c.reference = reference, c.rest_length = rest_length, c.lever = lever;
     c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
     c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
@@ -45,88 +44,77 @@ struct Tail {
   }
 };
 
-template <Turning turning>
-PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law,
-                                                   std::size_t k) {
-  const int *i = c.first + k, *j = c.second + k;
+PLATEN_INLINE ParallelBond::Geometry<Pack> geometry(const BondColumns &c, std::size_t k) {
   ParallelBond::Geometry<Pack> g;
   g.reference = load(c.reference + k);
   g.rest_length = load(c.rest_length + k);
   g.lever = load(c.lever + k);
   g.normal_stiffness = load(c.normal_stiffness + k);
   g.radius = load(c.bond_radius + k);
-  const Triple<Pack> d = gather_difference(c.position, j, i);
-  if constexpr (turning == Turning::none)
-    return law.without_rotation(g, d);
-  else
-    return law.turning<turning == Turning::moments>(
-        g, ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
-}
-
-// Adds force and torques to the sums of both ends, bond by bond in row order.
-template <bool turning>
-PLATEN_INLINE void scatter(double *sums, const int *at_first, const int *at_second, const Triple<Pack> &force,
-                           const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
-  constexpr int stride = sums_stride(turning);
-  Row f[lanes], ti[lanes], tj[lanes];
-  to_rows(force, f);
-  if constexpr (turning) {
-    to_rows(torque_i, ti);
-    to_rows(torque_j, tj);
-  }
-  for (int l = 0; l < lanes; ++l) {
-    double *a = sums + static_cast<std::ptrdiff_t>(at_first[l]) * stride,
-           *b = sums + static_cast<std::ptrdiff_t>(at_second[l]) * stride;
-    store_row(a, load_row(a) + f[l]);
-    store_row(b, load_row(b) - f[l]);
-    if constexpr (turning) {
-      store_row(a + 4, load_row(a + 4) + ti[l]);
-      store_row(b + 4, load_row(b + 4) + tj[l]);
-    }
-  }
+  return g;
 }
 
 template <Turning turning>
-PLATEN_INLINE Pack add_pack(const BondColumns &c, const ParallelBond &law, std::size_t k,
-                            const int *at_first) {
-  const ParallelBond::Response<Pack> r = respond<turning>(c, law, k);
-  scatter<turning != Turning::none>(c.sums, at_first, c.local + k, r.force, r.torque_i, r.torque_j);
+PLATEN_INLINE Pack add_pack(const BondColumns &c, const ParallelBond &law, std::size_t k, const Ends &ends) {
+  constexpr bool rotation = turning != Turning::none;
+  const Triple<Pack> d = distances(ends);
+  ParallelBond::Response<Pack> r;
+  if constexpr (rotation)
+    r = law.turning<turning == Turning::moments>(
+        geometry(c, k), ParallelBond::Motion<Pack>{d, orientations(ends.first), orientations(ends.second)});
+  else
+    r = law.without_rotation(geometry(c, k), d);
+  scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
   return r.excess;
 }
 
 template <Turning turning>
-[[gnu::noinline]] Pack add_tail(const BondColumns &c, const ParallelBond &law, std::size_t k,
-                                std::size_t last) {
+[[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
+                                std::size_t k, std::size_t last) {
   Tail tail(c, k, last);
-  return add_pack<turning>(tail.columns(c), law, 0, tail.sums_of_first);
+  return add_pack<turning>(tail.columns(c), law, 0, tail_ends<turning != Turning::none>(c, block, k, last));
 }
 
 template <Turning turning>
-bool add_forces(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
+bool compute_forces(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
+                    std::size_t first, std::size_t last) {
+  constexpr bool rotation = turning != Turning::none;
+  take_up<rotation>(c, block);
   Pack excess = Pack(-1.0);
   std::size_t k = first;
-  for (; k + lanes <= last; k += lanes) {
-    int at_first[lanes];
-    for (int l = 0; l < lanes; ++l)
-      at_first[l] = c.first[k + static_cast<std::size_t>(l)] - c.first_row;
-    excess = larger(excess, add_pack<turning>(c, law, k, at_first));
-  }
-  if (k < last) excess = larger(excess, add_tail<turning>(c, law, k, last));
+  for (; k + lanes <= last; k += lanes)
+    excess = larger(excess, add_pack<turning>(c, law, k, ends_of(c, block, k)));
+  if (k < last) excess = larger(excess, add_tail<turning>(c, block, law, k, last));
+  hand_over<rotation, false>(block);
   bool reached = false;
   for (int l = 0; l < lanes; ++l)
     reached |= excess.v[l] >= 0.0;
   return reached;
 }
 
-bool add_forces_of(const BondColumns &c, const ParallelBond &law, std::size_t first, std::size_t last) {
+bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
+                       std::size_t first, std::size_t last) {
   if constexpr (compiled::rotation) {
     if (c.orientation != nullptr) {
       if constexpr (compiled::bond_moments)
-        if (law.parameters.moments) return add_forces<Turning::moments>(c, law, first, last);
-      return add_forces<Turning::forces>(c, law, first, last);
+        if (law.parameters.moments) return compute_forces<Turning::moments>(c, block, law, first, last);
+      return compute_forces<Turning::forces>(c, block, law, first, last);
     }
   }
-  return add_forces<Turning::none>(c, law, first, last);
+  return compute_forces<Turning::none>(c, block, law, first, last);
+}
+
+// From the particles' columns, for bonds of any block.
+template <Turning turning>
+PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law,
+                                                   std::size_t k) {
+  const int *i = c.first + k, *j = c.second + k;
+  const Triple<Pack> d = gather_difference(c.position, j, i);
+  if constexpr (turning == Turning::none)
+    return law.without_rotation(geometry(c, k), d);
+  else
+    return law.turning<turning == Turning::moments>(
+        geometry(c, k), ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
 }
 
 template <Turning turning>
@@ -165,7 +153,7 @@ void measure_of(const BondColumns &c, const ParallelBond &law, const BondRowValu
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).
 template <Turning turning>
-PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const int *at_first) {
+PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const Ends &ends) {
   const int *i = c.first + k, *j = c.second + k;
   const Triple<Pack> d = gather_difference(c.position, j, i);
   const Triple<Pack> ri = scale(load(c.lever + k), d), rj = ri - d;
@@ -194,45 +182,44 @@ PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const i
     power = power + dot(moment + load(c.dashpot_moment + k), w);
     store(c.dashpot_moment + k, moment);
   }
-  scatter<turning != Turning::none>(c.sums, at_first, c.local + k, force, ti, tj);
+  scatter<turning != Turning::none>(ends, force, ti, tj);
   return power;
 }
 
 template <Turning turning>
-double add_dashpots(const BondColumns &c, std::size_t first, std::size_t last) {
+double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
+  constexpr bool rotation = turning != Turning::none;
+  take_up<rotation>(c, block);
   Pack power = Pack(0.0);
   std::size_t k = first;
-  for (; k + lanes <= last; k += lanes) {
-    int at_first[lanes];
-    for (int l = 0; l < lanes; ++l)
-      at_first[l] = c.first[k + static_cast<std::size_t>(l)] - c.first_row;
-    power = power + add_dashpot_pack<turning>(c, k, at_first);
-  }
+  for (; k + lanes <= last; k += lanes)
+    power = power + add_dashpot_pack<turning>(c, k, ends_of(c, block, k));
   if (k < last) {
     Tail tail(c, k, last);
-    power = power + add_dashpot_pack<turning>(tail.columns(c), 0, tail.sums_of_first);
+    power = power + add_dashpot_pack<turning>(tail.columns(c), 0, tail_ends<rotation>(c, block, k, last));
     for (std::size_t l = 0; k + l < last; ++l) {
       c.dashpot_force[k + l] = tail.dashpot_force[l];
       if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
     }
   }
+  hand_over<rotation, true>(block);
   double sum = 0;
   for (int l = 0; l < lanes; ++l)
     sum += power.v[l];
   return sum;
 }
 
-double add_dashpots_of(const BondColumns &c, std::size_t first, std::size_t last) {
+double add_dashpots_of(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
   if constexpr (compiled::bond_dashpots) {
-    if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, first, last);
-    return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, first, last)
-                                       : add_dashpots<Turning::forces>(c, first, last);
+    if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, block, first, last);
+    return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, block, first, last)
+                                       : add_dashpots<Turning::forces>(c, block, first, last);
   }
   return 0;
 }
 
 } // namespace
 
-const BondKernels PLATEN_KERNELS{add_forces_of, add_dashpots_of, measure_of};
+const BondKernels PLATEN_KERNELS{compute_forces_of, add_dashpots_of, measure_of};
 
 } // namespace platen::dem::kernels

@@ -79,18 +79,6 @@ inline void store(Vector3 *to, const Triple<Pack> &t) {
     store_row(at + 8, __builtin_shufflevector(q, r, 2, 3, 6, 7));
   }
 }
-inline Rotation<Pack> load(const Quaternion *from) {
-  Row c[4][lanes / 4];
-  for (int h = 0; h < lanes / 4; ++h) {
-    Row rows[4], columns[4];
-    for (int l = 0; l < 4; ++l)
-      rows[l] = load_row(&from[4 * h + l].w);
-    transpose(rows, columns);
-    for (int k = 0; k < 4; ++k)
-      c[k][h] = columns[k];
-  }
-  return {join(c[0]), join(c[1]), join(c[2]), join(c[3])};
-}
 inline void store(Quaternion *to, const Rotation<Pack> &q) {
   for (int h = 0; h < lanes / 4; ++h) {
     const Row columns[4] = {part(q.w, h), part(q.x, h), part(q.y, h), part(q.z, h)};
@@ -101,44 +89,46 @@ inline void store(Quaternion *to, const Rotation<Pack> &q) {
   }
 }
 
-// Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
-// four doubles.
-inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
+inline Rotation<Pack> to_columns(const Row *rows) {
   Row c[4][lanes / 4];
   for (int h = 0; h < lanes / 4; ++h) {
-    Row rows[4], columns[4];
-    for (int l = 0; l < 4; ++l)
-      rows[l] = load_row(&column[at[4 * h + l]].w);
-    transpose(rows, columns);
+    Row columns[4];
+    transpose(rows + 4 * h, columns);
     for (int k = 0; k < 4; ++k)
       c[k][h] = columns[k];
   }
   return {join(c[0]), join(c[1]), join(c[2]), join(c[3])};
 }
+
+inline Rotation<Pack> load(const Quaternion *from) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&from[l].w);
+  return to_columns(rows);
+}
+
+// Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
+// four doubles.
+inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[at[l]].w);
+  return to_columns(rows);
+}
 // column[b[l]] - column[a[l]].
 inline Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
-  Row c[3][lanes / 4];
-  for (int h = 0; h < lanes / 4; ++h) {
-    Row rows[4], columns[4];
-    for (int l = 0; l < 4; ++l)
-      rows[l] = load_row(&column[b[4 * h + l]].x) - load_row(&column[a[4 * h + l]].x);
-    transpose(rows, columns);
-    for (int k = 0; k < 3; ++k)
-      c[k][h] = columns[k];
-  }
-  return {join(c[0]), join(c[1]), join(c[2])};
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[b[l]].x) - load_row(&column[a[l]].x);
+  const Rotation<Pack> columns = to_columns(rows);
+  return {columns.w, columns.x, columns.y};
 }
 inline Triple<Pack> gather(const Vector3 *column, const int *at) {
-  Row c[3][lanes / 4];
-  for (int h = 0; h < lanes / 4; ++h) {
-    Row rows[4], columns[4];
-    for (int l = 0; l < 4; ++l)
-      rows[l] = load_row(&column[at[4 * h + l]].x);
-    transpose(rows, columns);
-    for (int k = 0; k < 3; ++k)
-      c[k][h] = columns[k];
-  }
-  return {join(c[0]), join(c[1]), join(c[2])};
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[at[l]].x);
+  const Rotation<Pack> columns = to_columns(rows);
+  return {columns.w, columns.x, columns.y};
 }
 
 // Lanes as rows {x, y, z, any}.

@@ -65,6 +65,9 @@ inline Rotation<Pack> columns_of(const Row &a, const Row &b) {
   return {first_of(a.low, b.low), second_of(a.low, b.low), first_of(a.high, b.high),
           second_of(a.high, b.high)};
 }
+inline Rotation<Pack> to_columns(const Row *rows) {
+  return columns_of(rows[0], rows[1]);
+}
 inline Rotation<Pack> load(const Quaternion *from) {
   return columns_of(load_row(&from[0].w), load_row(&from[1].w));
 }

@@ -75,7 +75,15 @@ inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
   const Triple<Real> u{q.x, q.y, q.z};
   Triple<Real> t = cross(u, v);
   t = t + t;
-  return v + scale(q.w, t) + cross(u, t);
+  return {v.x + q.w * t.x + u.y * t.z - u.z * t.y, v.y + q.w * t.y + u.z * t.x - u.x * t.z,
+          v.z + q.w * t.z + u.x * t.y - u.y * t.x};
+}
+
+// q conj(p): from p to q.
+template <class Real>
+inline Rotation<Real> between(const Rotation<Real> &p, const Rotation<Real> &q) {
+  return {q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z, q.x * p.w - q.w * p.x - q.y * p.z + q.z * p.y,
+          q.y * p.w - q.w * p.y + q.x * p.z - q.z * p.x, q.z * p.w - q.w * p.z - q.x * p.y + q.y * p.x};
 }
 
 struct ParallelBond {
@@ -129,12 +137,12 @@ private:
   struct Strain {
     Real stretch;            // m
     Real slip_square;        // m^2
-    Real turn;               // m, R_b times the cosine of half the relative angle, twice
+    Real turn;               // m, R_b times the cosine of half the relative angle, twice; >= 0
     Real bend_square, twist; // of the relative rotation's vector part; twist signed
   };
   template <class Real>
-  void add_moments(Response<Real> &r, Strain<Real> &strain, const Geometry<Real> &g, const Motion<Real> &m,
-                   const Triple<Real> &n, const Real &inverse) const;
+  void add_moments(Response<Real> &r, Strain<Real> &strain, const Real &radius, const Real &bending,
+                   const Motion<Real> &m, const Real &length, const Real &per_square) const;
   template <class Real>
   void add_failure(Response<Real> &r, const Real &kn, const Strain<Real> &e) const;
 };
@@ -147,41 +155,44 @@ PLATEN_INLINE void ParallelBond::add_failure(Response<Real> &r, const Real &kn, 
   constexpr double margin = 1 + 1e-12;
   const Parameters &p = parameters;
   const Real axial = kn * e.stretch; // F_n / A
-  const Real capacity = p.shear_strength + p.friction_coefficient * positive_part(Real(-axial));
-  const Real shear_modulus = p.stiffness_ratio * kn;
-  const Real bending_modulus = p.moment_contribution * kn * e.turn;
-  const Real twisting = p.moment_contribution * shear_modulus * e.turn * magnitude(e.twist);
+  const Real capacity =
+      larger(Real(p.shear_strength - p.friction_coefficient * axial), Real(p.shear_strength));
+  const Real shear_modulus = p.stiffness_ratio * kn, turning = p.moment_contribution * e.turn;
+  const Real bending_modulus = turning * kn;
+  const Real twisting = turning * shear_modulus * magnitude(e.twist);
   r.tension_ratio = (axial + bending_modulus * root(e.bend_square)) * (1.0 / p.tensile_strength);
   r.shear_ratio = (shear_modulus * root(e.slip_square) + twisting) / capacity;
 
   const Real left = p.tensile_strength - axial, left_in_shear = capacity - twisting;
-  const Real tension = margin * bending_modulus * bending_modulus * e.bend_square - left * left;
-  const Real shear = margin * shear_modulus * shear_modulus * e.slip_square - left_in_shear * left_in_shear;
-  r.excess = larger(larger(tension, Real(-left)), larger(shear, Real(-left_in_shear)));
+  const Real tension = margin * bending_modulus * bending_modulus * e.bend_square - left * magnitude(left);
+  const Real shear =
+      margin * shear_modulus * shear_modulus * e.slip_square - left_in_shear * magnitude(left_in_shear);
+  r.excess = larger(tension, shear);
 }
 
 template <bool moments, class Real>
 PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::turning(const Geometry<Real> &g,
                                                                  const Motion<Real> &m) const {
   constexpr double pi = 3.14159265358979323846;
-  const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness; // k_n A
+  const Real bond_square = g.radius * g.radius;
+  const Real area_stiffness = pi * bond_square * g.normal_stiffness; // k_n A
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
 
+  // The direction enters by d / d^2, so that only the stretch waits for the root.
   const Triple<Real> &d = m.distance;
-  const Real length = root(dot(d, d));
-  const Real inverse = 1.0 / length;
-  const Triple<Real> n = scale(inverse, d);
-  const Triple<Real> ri = turned(m.turn_i, scale(g.lever, g.reference));
-  const Triple<Real> rj = turned(m.turn_j, scale(Real(1.0 - g.lever), g.reference));
+  const Real square = dot(d, d);
+  const Real per_square = 1.0 / square, length = root(square);
+  const Triple<Real> half = scale(g.lever, g.reference);
+  const Triple<Real> ri = turned(m.turn_i, half), rj = turned(m.turn_j, g.reference - half);
   const Triple<Real> u = d - ri - rj;
-  const Real un = dot(u, n);
-  const Triple<Real> us = u - scale(un, n);
+  const Real along = dot(u, d) * per_square; // u.n / |d|
+  const Triple<Real> us = u - scale(along, d);
   const Triple<Real> shear = scale(shear_stiffness, us);
   const Real stretch = length - g.rest_length;
   const Real normal = area_stiffness * stretch, us2 = dot(us, us);
 
   Response<Real> r;
-  r.force = scale(normal, n) + scale(Real(1.0 - un * inverse), shear);
+  r.force = scale(Real(normal * (length * per_square)), d) + scale(Real(1.0 - along), shear);
   r.torque_i = cross(ri, shear);
   r.torque_j = cross(rj, shear);
   r.normal_force = normal;
@@ -190,37 +201,33 @@ PLATEN_INLINE ParallelBond::Response<Real> ParallelBond::turning(const Geometry<
   r.energy = 0.5 * (normal * stretch + shear_stiffness * us2);
   const Real zero = length * 0.0;
   Strain<Real> strain{stretch, us2, zero, zero, zero};
-  if constexpr (moments) add_moments(r, strain, g, m, n, inverse);
+  if constexpr (moments)
+    add_moments(r, strain, g.radius, 0.25 * bond_square * area_stiffness, m, length, per_square);
   add_failure(r, g.normal_stiffness, strain);
   return r;
 }
 
-// Bending and twisting, from the relative rotation q = q_j conj(q_i), the shorter way round.
+// Bending and twisting, from the relative rotation (w, v) = q_j conj(q_i). Its sign, the way round, falls out
+// of all that is even in it. `bending` is k_n I = k_n A R_b^2 / 4; twisting k_s J = 2 k_s / k_n times that.
 template <class Real>
-PLATEN_INLINE void ParallelBond::add_moments(Response<Real> &r, Strain<Real> &strain, const Geometry<Real> &g,
-                                             const Motion<Real> &m, const Triple<Real> &n,
-                                             const Real &inverse) const {
-  constexpr double pi = 3.14159265358979323846;
-  const Real square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
-  const Real bending = 0.25 * square * axial;                              // k_n I, I = A R_b^2 / 4
-  const Real twisting = 0.5 * parameters.stiffness_ratio * square * axial; // k_s J, J = A R_b^2 / 2
-  const Rotation<Real> &p = m.turn_i, &q = m.turn_j;
-  const Real w0 = q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z;
-  const Real w = magnitude(w0);
-  const Triple<Real> v{with_sign(Real(-q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y), w0),
-                       with_sign(Real(-q.w * p.y + q.x * p.z + q.y * p.w - q.z * p.x), w0),
-                       with_sign(Real(-q.w * p.z - q.x * p.y + q.y * p.x + q.z * p.w), w0)};
-  const Real vn = dot(v, n);
-  const Triple<Real> vs = v - scale(vn, n);
+PLATEN_INLINE void ParallelBond::add_moments(Response<Real> &r, Strain<Real> &strain, const Real &radius,
+                                             const Real &bending, const Motion<Real> &m, const Real &length,
+                                             const Real &per_square) const {
+  const Rotation<Real> turn = between(m.turn_i, m.turn_j);
+  const Triple<Real> v{turn.x, turn.y, turn.z};
+  const double more = 2.0 * parameters.stiffness_ratio - 1.0; // of twisting over bending stiffness
+  const Triple<Real> &d = m.distance;
+  const Real along = dot(v, d) * per_square, vn = along * length; // v.n / |d|, v.n
+  const Triple<Real> vs = v - scale(along, d);
   const Real vs2 = dot(vs, vs);
-  const Real excess = twisting - bending; // of twisting over bending stiffness
-  const Triple<Real> skew = scale(Real(2.0 * excess * vn), cross(v, n));
-  const Triple<Real> moment = scale(Real(2.0 * w), scale(bending, v) + scale(Real(excess * vn), n));
-  r.force = r.force + scale(Real(4.0 * excess * vn * inverse), vs);
+  const Real excess = more * bending * along;
+  const Triple<Real> skew = scale(Real(2.0 * excess), cross(v, d));
+  const Triple<Real> moment = scale(Real(2.0 * turn.w), scale(bending, v) + scale(excess, d));
+  r.force = r.force + scale(Real(4.0 * excess), vs);
   r.torque_i = r.torque_i + moment - skew;
   r.torque_j = r.torque_j - moment - skew;
-  r.energy = r.energy + 2.0 * (bending * vs2 + twisting * vn * vn);
-  strain.turn = 2.0 * w * g.radius;
+  r.energy = r.energy + 2.0 * bending * (vs2 + (more + 1.0) * vn * vn);
+  strain.turn = 2.0 * magnitude(turn.w) * radius;
   strain.bend_square = vs2;
   strain.twist = vn;
 }

@@ -1,12 +1,13 @@
 // Kernels of eight lanes against those of four.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/motion_kernel.h"
 #include "dem/packing/random.h"
+#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -33,7 +34,7 @@ protected:
       (*p.angular_velocity)[i] = (1 / radius) * random.direction();
     }
   }
-  static Specimen specimen() { return packed_box(11, 11, 11); }
+  static Specimen specimen() { return packed_box(19, 19, 19); }
   static ModelSettings settings() {
     ModelSettings s = breakable();
     s.rotation = GetParam();
@@ -44,7 +45,7 @@ protected:
     Particles &p = model.particles;
     Bonds &b = *model.bonds;
     kernels::BondColumns c{};
-    c.first = b.first.data(), c.second = b.second.data(), c.local = b.blocks.local.data();
+    c.first = b.first.data(), c.second = b.second.data(), c.ends = b.blocks.ends.data();
     c.reference = b.reference.data();
     c.rest_length = b.rest_length.data(), c.lever = b.lever.data();
     c.normal_stiffness = b.normal_stiffness.data(), c.bond_radius = b.bond_radius.data();
@@ -57,20 +58,43 @@ protected:
       c.angular_velocity = p.angular_velocity->data();
       c.dashpot_bending = b.dashpot_bending->data(), c.dashpot_moment = b.dashpot_moment->data();
     }
-    c.spare_row = static_cast<int>(p.size());
     return c;
   }
-  // Sums of the one block, without the spare row; padding at fourth places is nobody's.
-  std::vector<double> sums_of(const std::function<void(const kernels::BondColumns &)> &add) {
-    const std::size_t stride = static_cast<std::size_t>(kernels::sums_stride(GetParam()));
-    std::vector<double> sums((model.particles.size() + 1) * stride, 0.0);
-    kernels::BondColumns c = columns();
-    c.sums = sums.data();
-    add(c);
-    sums.resize(model.particles.size() * stride);
-    for (std::size_t k = 3; k < sums.size(); k += 4)
-      sums[k] = 0;
-    return sums;
+  // Forces on the particles of each block and on its ghosts after run(columns, block, first, last).
+  template <class Run>
+  std::vector<double> loads_of(const Run &run) {
+    Particles &p = model.particles;
+    PairBlocks &blocks = model.bonds->blocks;
+    const std::size_t stride = static_cast<std::size_t>(kernels::row_stride(GetParam()));
+    std::vector<double> memory((p.size() + blocks.ghost_particle.size() + kernels::spare_rows + 1) * stride);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p.force[i] = {};
+      if (GetParam()) (*p.torque)[i] = {};
+    }
+    for (std::size_t k = 0; k < blocks.blocks(); ++k) {
+      const std::size_t first = k * block_rows, ghost = blocks.first_ghost[k];
+      kernels::BlockColumns c{};
+      c.rows = memory.data();
+      c.first_row = static_cast<int>(first);
+      c.own = static_cast<int>(std::min(p.size(), first + block_rows) - first);
+      c.ghosts = static_cast<int>(blocks.first_ghost[k + 1] - ghost);
+      c.ghost_particle = blocks.ghost_particle.data() + ghost;
+      c.force = p.force.data() + first, c.ghost_force = blocks.ghost_force.data() + ghost;
+      if (GetParam()) {
+        c.torque = p.torque->data() + first, c.ghost_torque = blocks.ghost_torque.data() + ghost;
+        std::fill_n(c.ghost_torque, c.ghosts, Vector3{});
+      }
+      std::fill_n(c.ghost_force, c.ghosts, Vector3{});
+      run(columns(), c, blocks.first_pair[k], blocks.first_pair[k + 1]);
+    }
+    std::vector<double> all;
+    const auto append = [&](const auto &column) {
+      for (const Vector3 &v : column)
+        all.insert(all.end(), {v.x, v.y, v.z});
+    };
+    append(p.force), append(blocks.ghost_force);
+    if (GetParam()) append(*p.torque), append(blocks.ghost_torque);
+    return all;
   }
   static void expect_near(const std::vector<double> &a, const std::vector<double> &b) {
     ASSERT_EQ(a.size(), b.size());
@@ -84,25 +108,36 @@ protected:
   Model model;
 };
 
-TEST_P(EightLanes, add_the_same_forces_and_dashpots) {
-  ASSERT_LE(model.particles.size(), 1024u);
-  const std::size_t bonds = model.bonds->size();
-  ASSERT_NE(bonds % 8, 0u);
-  const auto &four = kernels::bond_kernels_baseline, &eight = kernels::bond_kernels_of_eight_lanes;
+TEST_P(EightLanes, give_the_same_forces_and_dashpots) {
+  ASSERT_GT(model.bonds->blocks.blocks(), 1u);
+  ASSERT_GT(model.bonds->blocks.ghost_particle.size(), 0u);
+  const auto &few = kernels::bond_kernels_baseline, &eight = kernels::bond_kernels_of_eight_lanes;
   const ParallelBond &law = model.bonds->law;
+  std::size_t tails = 0;
   bool reached = false, reached_too = false;
-  expect_near(sums_of([&](const auto &c) { reached = four.add_forces(c, law, 0, bonds); }),
-              sums_of([&](const auto &c) { reached_too = eight.add_forces(c, law, 0, bonds); }));
+  expect_near(loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {
+                tails += (last - first) % 8;
+                reached |= few.compute_forces(c, block, law, first, last);
+              }),
+              loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {
+                reached_too |= eight.compute_forces(c, block, law, first, last);
+              }));
+  EXPECT_GT(tails, 0u);
   EXPECT_TRUE(reached);
   EXPECT_TRUE(reached_too);
   double power = 0, power_too = 0;
-  const std::vector<double> by_four = sums_of([&](const auto &c) { power = four.add_dashpots(c, 0, bonds); });
+  const std::vector<double> by_few =
+      loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {
+        power += few.add_dashpots(c, block, first, last);
+      });
   for (Vector3 &f : *model.bonds->dashpot_force)
     f = {};
   if (GetParam())
     for (Vector3 &m : *model.bonds->dashpot_moment)
       m = {};
-  expect_near(by_four, sums_of([&](const auto &c) { power_too = eight.add_dashpots(c, 0, bonds); }));
+  expect_near(by_few, loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {
+                power_too += eight.add_dashpots(c, block, first, last);
+              }));
   EXPECT_NEAR(power, power_too, 1e-12 * power);
 }
 

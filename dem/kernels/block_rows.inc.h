@@ -1,0 +1,131 @@
+// What a block of bonds works on: copies of the particles that it reaches, side by side in memory of the
+// thread, with the sums of what acts on them; one cache line to read and one to add to for each end of a
+// bond.
+#pragma once
+
+#include "dem/kernels/bond_kernel.h"
+#include "dem/kernels/pack.inc.h"
+
+namespace platen::dem::kernels {
+namespace {
+
+// Rows of both ends of a pack of bonds.
+struct Ends {
+  double *first[lanes], *second[lanes];
+};
+
+template <bool rotation>
+PLATEN_INLINE double *row_of(const BlockColumns &block, int row) {
+  return block.rows + static_cast<std::ptrdiff_t>(row) * row_stride(rotation);
+}
+
+PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std::size_t k) {
+  Ends ends;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    ends.first[l] = block.rows + static_cast<unsigned>(c.ends[k + l].first);
+    ends.second[l] = block.rows + static_cast<unsigned>(c.ends[k + l].second);
+  }
+  return ends;
+}
+
+// Ends of bonds [k, last), fewer than a pack. The lanes left over stand between the spare rows, which become
+// copies of the ends of the last bond.
+template <bool rotation>
+Ends tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t k, std::size_t last) {
+  constexpr int stride = row_stride(rotation);
+  double *spare = row_of<rotation>(block, block.own + block.ghosts);
+  const double *first = block.rows + c.ends[last - 1].first, *second = block.rows + c.ends[last - 1].second;
+  for (int n = 0; n < sums_at(rotation); ++n)
+    spare[n] = first[n], spare[n + stride] = second[n];
+  Ends ends;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const bool real = k + l < last;
+    ends.first[l] = real ? block.rows + c.ends[k + l].first : spare;
+    ends.second[l] = real ? block.rows + c.ends[k + l].second : spare + stride;
+  }
+  return ends;
+}
+
+// From the first to the second ends.
+PLATEN_INLINE Triple<Pack> distances(const Ends &ends) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(ends.second[l]) - load_row(ends.first[l]);
+  const Rotation<Pack> columns = to_columns(rows);
+  return {columns.w, columns.x, columns.y};
+}
+PLATEN_INLINE Rotation<Pack> orientations(double *const *ends) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(ends[l] + 4);
+  return to_columns(rows);
+}
+
+// Adds force and torques to the sums of both ends, bond by bond in row order.
+template <bool rotation>
+PLATEN_INLINE void scatter(const Ends &ends, const Triple<Pack> &force, const Triple<Pack> &torque_i,
+                           const Triple<Pack> &torque_j) {
+  constexpr int at = sums_at(rotation);
+  Row f[lanes], ti[lanes], tj[lanes];
+  to_rows(force, f);
+  if constexpr (rotation) {
+    to_rows(torque_i, ti);
+    to_rows(torque_j, tj);
+  }
+  for (int l = 0; l < lanes; ++l) {
+    double *a = ends.first[l] + at, *b = ends.second[l] + at;
+    store_row(a, load_row(a) + f[l]);
+    store_row(b, load_row(b) - f[l]);
+    if constexpr (rotation) {
+      store_row(a + 4, load_row(a + 4) + ti[l]);
+      store_row(b + 4, load_row(b + 4) + tj[l]);
+    }
+  }
+}
+
+// Copies the particles and clears the sums.
+template <bool rotation>
+void take_up(const BondColumns &c, const BlockColumns &block) {
+  const auto take = [&](int row, int particle) {
+    double *to = row_of<rotation>(block, row);
+    store_row(to, load_row(&c.position[particle].x));
+    store_row(to + sums_at(rotation), Row{});
+    if constexpr (rotation) {
+      store_row(to + 4, load_row(&c.orientation[particle].w));
+      store_row(to + 12, Row{});
+    }
+  };
+  for (int k = 0; k < block.own; ++k)
+    take(k, block.first_row + k);
+  for (int g = 0; g < block.ghosts; ++g)
+    take(block.own + g, block.ghost_particle[g]);
+}
+
+// Writes the sums from row `first` on to `count` vectors, or adds them. Four doubles at once run into the
+// next vector, which comes next; the last vector has a neighbour that may be another thread's.
+template <bool rotation, bool add>
+void hand_over(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
+  const double *from = row_of<rotation>(block, first) + at;
+  int k = 0;
+  if constexpr (!add)
+    for (; k + 1 < count; ++k, from += row_stride(rotation))
+      store_row(&to[k].x, load_row(from));
+  for (; k < count; ++k, from += row_stride(rotation)) {
+    const Vector3 sum{from[0], from[1], from[2]};
+    to[k] = add ? to[k] + sum : sum;
+  }
+}
+
+template <bool rotation, bool add>
+void hand_over(const BlockColumns &block) {
+  constexpr int at = sums_at(rotation);
+  hand_over<rotation, add>(block, 0, block.own, at, block.force);
+  hand_over<rotation, add>(block, block.own, block.ghosts, at, block.ghost_force);
+  if constexpr (rotation) {
+    hand_over<rotation, add>(block, 0, block.own, at + 4, block.torque);
+    hand_over<rotation, add>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
+  }
+}
+
+} // namespace
+} // namespace platen::dem::kernels
