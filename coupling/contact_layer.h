@@ -89,7 +89,7 @@ public:
   void add_forces(dem::Particles &particles, fem::Body &body, double dt);
 
   // Of the last add_forces.
-  const std::vector<ActiveContact> &contacts() const { return active_; } // ascending particle rows
+  std::vector<ActiveContact> contacts() const;              // ascending particle rows
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
   // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
   // elsewhere.
@@ -98,14 +98,15 @@ public:
   // Since the start (J).
   double friction_work = 0; // lost to sliding, including rocking seats
   double damping_work = 0;  // lost to dashpots
+  std::size_t closed = 0;   // contacts in the last add_forces; a checkpoint saves it with the works
 
   // Springs of all particles near the surface, for the stable step.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles, const fem::Body &body) const;
   // What a servo pushes against: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
 
-  // One row per particle near the surface, ascending. A checkpoint saves the table and both works; after
-  // loading them it calls restored().
+  // One row per particle near the surface, ascending. A checkpoint saves the table, both works and the number
+  // of closed contacts; after loading them it calls restored().
   const dem::Table &history() const { return table_; }
   dem::Table &history() { return table_; }
   void restored() { search_.forget(); }
@@ -115,8 +116,23 @@ public:
   const SurfaceSearch &search() const { return search_; }
 
 private:
-  struct RowForce;
   struct Kinematics;
+  // Of one row in one step.
+  struct RowForce {
+    bool active = false;
+    int particle = 0;
+    SurfacePoint at;
+    double normal_force = 0; // N, >= 0 unless tied
+    double dashpot = 0;      // N, part of the normal force
+    dem::Vector3 shear;      // N
+    dem::Vector3 moment;     // N m, of the seat
+    dem::Vector3 force;      // N, normal and shear
+    dem::Vector3 point;      // m, where it acts
+    dem::CoulombFriction::State spring, seat;
+    double idle_until = 0;                                   // m, of travelled_
+    double slip = 0;                                         // m
+    double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+  };
   void set_rows(const std::vector<int> &particles);
   void find_due_rows();
   std::vector<int> seated_particles() const;
@@ -124,15 +140,17 @@ private:
   double stiffness(int particle) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
-  RowForce row_force(const dem::Particles &particles, const fem::Body &body, std::size_t row, double dt);
+  void row_force(const dem::Particles &particles, const fem::Body &body, std::size_t row, double dt,
+                 RowForce &result);
   void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
-  void keep_history(std::size_t row, const RowForce &result);
-  void load_particle(dem::Particles &particles, std::size_t row, RowForce &result);
+  void keep_history(std::size_t row, RowForce &result);
+  void load_particle(dem::Particles &particles, RowForce &result);
 
   SurfaceContact parameters_;
   const dem::Column<double> *particle_stiffness_;
+  double stiffness_ = 0; // N/m, without a column
   double smallest_radius_;
   SurfaceSearch search_;
 
@@ -152,8 +170,6 @@ private:
   std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
   std::vector<std::size_t> due_;     // rows to look at in this step
   std::vector<RowForce> row_forces_; // of them
-  std::vector<ActiveContact> active_;
-  std::vector<std::array<double, 4>> active_weights_;
   double elastic_energy_ = 0;
 };
 

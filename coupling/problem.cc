@@ -126,8 +126,7 @@ std::vector<dem::GroundSpring> Problem::ground_springs() const {
 }
 
 std::size_t Problem::springs_near() const {
-  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.contacts().size() +
-         bottom_layer.contacts().size();
+  return (model.contacts ? model.contacts->table.size() : 0) + top_layer.closed + bottom_layer.closed;
 }
 
 // The step never grows: bonds that break only soften, contacts that close may stiffen.
@@ -312,7 +311,9 @@ std::vector<double> Problem::numbers() const {
           top_layer.friction_work,
           top_layer.damping_work,
           bottom_layer.friction_work,
-          bottom_layer.damping_work};
+          bottom_layer.damping_work,
+          static_cast<double>(top_layer.closed),
+          static_cast<double>(bottom_layer.closed)};
 }
 
 void Problem::set_numbers(const std::vector<double> &n) {
@@ -333,6 +334,8 @@ void Problem::set_numbers(const std::vector<double> &n) {
   top_layer.damping_work = n[16];
   bottom_layer.friction_work = n[17];
   bottom_layer.damping_work = n[18];
+  top_layer.closed = static_cast<std::size_t>(n[19]);
+  bottom_layer.closed = static_cast<std::size_t>(n[20]);
 }
 
 void Problem::restored() {

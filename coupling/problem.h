@@ -93,6 +93,7 @@ public:
   double packing_fraction() const { return packing_fraction_; }
   double voigt_modulus() const { return voigt_modulus_; } // Pa, intact; 0 without bonds
   double coordination_number() const;                     // bonds per particle times two
+  std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
   std::size_t bytes() const; // of all columns of particles, bonds and contacts, and of the search lists
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
@@ -118,7 +119,6 @@ private:
   void drift_bodies();
   void announce_motion(double dt);
   std::vector<dem::GroundSpring> ground_springs() const;
-  std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
 
   ProblemSettings settings_;
   dem::Shape shape_;

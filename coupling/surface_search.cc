@@ -150,8 +150,8 @@ bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, c
 }
 
 SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const {
-  SurfacePoint easy;
-  if (foot_of_nearest(surface, k, centre, easy)) return easy;
+  SurfacePoint point;
+  if (foot_of_nearest(surface, k, centre, point)) return point;
   ClosestPoint best;
   best.distance_squared = std::numeric_limits<double>::infinity();
   double best_distance = best.distance_squared;
@@ -168,7 +168,8 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
     best_distance = std::sqrt(c.distance_squared);
     best_face = candidate.face;
   }
-  return with_normal(surface, best_face, best, centre);
+  point = with_normal(surface, best_face, best, centre);
+  return point;
 }
 
 SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vector3 &centre) const {

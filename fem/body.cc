@@ -121,13 +121,6 @@ void Body::clear_loads() {
   loaded_.clear();
 }
 
-void Body::add_surface_force(int vertex, const Point &force) {
-  const std::size_t v = static_cast<std::size_t>(vertex);
-  if (!is_loaded_[v]) loaded_.push_back(vertex);
-  is_loaded_[v] = 1;
-  load_[v] = load_[v] + force;
-}
-
 Point Body::total_force() const {
   Point sum{};
   for (const int v : loaded_)

@@ -49,7 +49,12 @@ public:
 
   // Loads on the surface (N), accumulated in the order of the calls.
   void clear_loads();
-  void add_surface_force(int vertex, const Point &force);
+  void add_surface_force(int vertex, const Point &force) {
+    const std::size_t v = static_cast<std::size_t>(vertex);
+    if (!is_loaded_[v]) loaded_.push_back(vertex);
+    is_loaded_[v] = 1;
+    load_[v] = load_[v] + force;
+  }
   const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
   Point total_force() const;              // N
   Point moment(const Point &about) const; // N m

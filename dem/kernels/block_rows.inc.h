@@ -86,19 +86,22 @@ PLATEN_INLINE void scatter(const Ends &ends, const Triple<Pack> &force, const Tr
 // Copies the particles and clears the sums.
 template <bool rotation>
 void take_up(const BondColumns &c, const BlockColumns &block) {
-  const auto take = [&](int row, int particle) {
-    double *to = row_of<rotation>(block, row);
-    store_row(to, load_row(&c.position[particle].x));
+  double *to = block.rows;
+  const auto take = [&](const Vector3 *position, const Quaternion *orientation) {
+    store_row(to, load_row(&position->x));
     store_row(to + sums_at(rotation), Row{});
     if constexpr (rotation) {
-      store_row(to + 4, load_row(&c.orientation[particle].w));
+      store_row(to + 4, load_row(&orientation->w));
       store_row(to + 12, Row{});
     }
+    to += row_stride(rotation);
   };
+  const Vector3 *position = c.position + block.first_row;
+  const Quaternion *orientation = rotation ? c.orientation + block.first_row : nullptr;
   for (int k = 0; k < block.own; ++k)
-    take(k, block.first_row + k);
+    take(position + k, rotation ? orientation + k : nullptr);
   for (int g = 0; g < block.ghosts; ++g)
-    take(block.own + g, block.ghost_particle[g]);
+    take(c.position + block.ghost_particle[g], rotation ? c.orientation + block.ghost_particle[g] : nullptr);
 }
 
 // Writes the sums from row `first` on to `count` vectors, or adds them. Four doubles at once run into the

@@ -27,7 +27,6 @@ using dem::larger;
 using dem::magnitude;
 using dem::positive_part;
 using dem::root;
-using dem::with_sign;
 
 inline Pack operator+(const Pack &a, const Pack &b) {
   return a.v + b.v;
@@ -59,8 +58,14 @@ inline Pack positive_part(const Pack &a) {
 inline Pack larger(const Pack &a, const Pack &b) {
   return a.v > b.v ? a.v : b.v;
 }
+// `size`, which is not negative, with the sign of `of`.
+inline double with_sign(double size, double of) {
+  return __builtin_copysign(size, of);
+}
 inline Pack with_sign(const Pack &size, const Pack &of) {
-  return of.v < 0.0 ? -size.v : size.v;
+  typedef long long Bits __attribute__((vector_size(8 * PLATEN_LANES)));
+  const Bits sign = (Bits)(-0.0 - Native{});
+  return (Native)((Bits)size.v | ((Bits)of.v & sign));
 }
 
 } // namespace

@@ -35,11 +35,6 @@ inline double positive_part(double a) {
 inline double larger(double a, double b) {
   return a > b ? a : b;
 }
-// `size` with the sign of `of`.
-inline double with_sign(double size, double of) {
-  return of < 0.0 ? -size : size;
-}
-
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
 template <class Real>
 struct Triple {

@@ -67,5 +67,54 @@ TEST(problem, steps_in_one_go_are_the_same_as_one_by_one) {
   expect_same_bits(one_by_one.top_layer.history(), in_one_go.top_layer.history());
 }
 
+void copy(const dem::Table &from, dem::Table &to) {
+  to.resize(from.size());
+  for (std::size_t c = 0; c < from.columns().size(); ++c) {
+    const dem::ColumnBase &column = *from.columns()[c];
+    std::memcpy(to.columns()[c]->bytes(), column.bytes(), column.size() * column.bytes_per_row());
+  }
+}
+
+// What a checkpoint keeps.
+void restore(const Problem &from, Problem &to) {
+  copy(from.model.particles.table, to.model.particles.table);
+  copy(from.model.bonds->table, to.model.bonds->table);
+  copy(from.model.bonds->records, to.model.bonds->records);
+  copy(from.model.contacts->table, to.model.contacts->table);
+  to.model.contacts->search_state().set_state(from.model.contacts->search_state().state());
+  to.top.set_state(from.top.state());
+  to.bottom.set_state(from.bottom.state());
+  copy(from.top_layer.history(), to.top_layer.history());
+  copy(from.bottom_layer.history(), to.bottom_layer.history());
+  to.set_numbers(from.numbers());
+  to.restored();
+}
+
+// The time step is chosen anew every 400 steps where contacts have closed; a run that is resumed just there
+// has not touched anything yet.
+TEST(problem, a_run_resumed_where_the_step_is_chosen_goes_on_the_same) {
+  const dem::Specimen specimen = small_cylinder();
+  ProblemSettings slow = crushing();
+  slow.loading.rate = 0.3; // few contacts close between two choices
+  Problem run(specimen, slow);
+  constexpr std::size_t springs_at_choice = 4; // place in numbers()
+  int choices = 0;
+  for (int part = 0; part < 8; ++part) {
+    run.advance(400 - run.steps() % 400);
+    while (run.steps() % 400 != 0)
+      run.advance(400 - run.steps() % 400);
+    Problem resumed(specimen, slow);
+    restore(run, resumed);
+    EXPECT_EQ(run.springs_near(), resumed.springs_near());
+    EXPECT_GT(resumed.springs_near(), 0u);
+    const double before = run.numbers()[springs_at_choice];
+    run.step();
+    resumed.step();
+    choices += run.numbers()[springs_at_choice] != before;
+    EXPECT_EQ(run.numbers(), resumed.numbers()) << run.steps();
+  }
+  EXPECT_GT(choices, 0);
+}
+
 } // namespace
 } // namespace platen::coupling
