@@ -3,8 +3,10 @@
 # a scene in which that effect is off with that of the full build: they must agree to the byte.
 #   scripts/compare_effects.sh BUILD WORK [EFFECT...]
 # BUILD: folder of the full build; WORK: folder for builds and results. About two minutes an effect on two cores.
+# COUNT=1 also counts, with valgrind, the instructions of all steps in both, on one thread: an effect that is off may
+# cost one per cent. (Times on a shared machine scatter by more than that.)
 set -euo pipefail
-[[ $# -ge 2 ]] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+[[ $# -ge 2 ]] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
 source_folder=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
@@ -37,13 +39,23 @@ off() {
 on="Effects/Tangential = coulomb with rolling resistance;Contact/Rolling friction = 0.1;Bond/Damping = 0.05"
 on+=";Effects/Gravity = on;Output/Fields = off;Loading/Target strain = 0.002"
 
-run() { # BINARY FOLDER ENTRIES; of two entries with one key the last holds
+run() { # BINARY FOLDER ENTRIES [COMMAND BEFORE]; of two entries with one key the last holds
   local arguments=() entries entry
   local -A last=()
   IFS=';' read -ra entries <<<"$3"
   for entry in "${entries[@]}"; do last[${entry%% = *}]=$entry; done
   for entry in "${last[@]}"; do arguments+=(-s "$entry"); done
-  "$1" "$source_folder/tests/apps/scenes/crushed.prm" -o "$2" --overwrite --quiet "${arguments[@]}"
+  "${@:4}" "$1" "$source_folder/tests/apps/scenes/crushed.prm" -t 1 -o "$2" --overwrite --quiet "${arguments[@]}"
+}
+
+# Long enough for grain contacts only where they matter.
+instructions() { # BINARY FOLDER ENTRIES EFFECT
+  local strain=0.0003
+  [[ $4 =~ ^(friction|rolling|hertz|contact_dashpots|all)$ ]] && strain=0.0012
+  local counter=(valgrind --tool=callgrind --callgrind-out-file=/dev/null
+    '--toggle-collect=platen::coupling::Problem::advance*')
+  run "$1" "$2" "$3;Loading/Target strain = $strain" "${counter[@]}" 2>&1 |
+    sed -n 's/.*Collected : //p'
 }
 
 failed=0
@@ -69,6 +81,14 @@ for effect in "${chosen[@]}"; do
   else
     echo "$effect: history.csv differs"
     failed=1
+  fi
+  if [[ ${COUNT:-0} = 1 ]]; then
+    with=$(instructions "$build/apps/platen-compress" "$work/counted_$effect" "$without" "$effect")
+    least=$(instructions "$work/build_$effect/apps/platen-compress" "$work/counted_$effect" "$without" "$effect")
+    awk -v name="$effect" -v with="$with" -v least="$least" 'BEGIN {
+      printf "%s: off, it costs %+.2f %% of the instructions of a step\n", name, 100 * (with / least - 1)
+      exit with > 1.01 * least
+    }' || failed=1
   fi
 done
 exit $failed
