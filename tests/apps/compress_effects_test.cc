@@ -4,23 +4,13 @@
 #include <cmath>
 #include <sstream>
 
-#include "apps/io_folder.h"
-#include "apps/program.h"
+#include "apps/crushed.h"
 
 namespace platen::apps::testing {
 namespace {
 
-class EffectsOff : public ScratchFolder {
+class EffectsOff : public Crushed {
 protected:
-  nlohmann::json crush(const std::string &name, const std::vector<std::string> &entries) {
-    std::vector<std::string> arguments{test_scene("crushed.prm"), "-o", name, "--quiet", "-s",
-                                       "Output/Fields = off"};
-    for (const std::string &entry : entries)
-      arguments.insert(arguments.end(), {"-s", entry});
-    const Outcome outcome = run_compress(arguments, folder_);
-    EXPECT_EQ(outcome.status, 0) << outcome.error;
-    return summary_in(folder_ / name);
-  }
   static bool has(const nlohmann::json &words, const std::string &word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   }

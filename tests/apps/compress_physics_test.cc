@@ -5,24 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io_folder.h"
-#include "apps/program.h"
+#include "apps/crushed.h"
 
 namespace platen::apps::testing {
 namespace {
 
-class Physics : public ScratchFolder {
+class Physics : public Crushed {
 protected:
-  // Runs crushed.prm with entries of its own into the folder `name`; gives the summary.
-  nlohmann::json crush(const std::string &name, const std::vector<std::string> &entries) {
-    std::vector<std::string> arguments{test_scene("crushed.prm"), "-o", name, "--quiet", "-s",
-                                       "Output/Fields = off"};
-    for (const std::string &entry : entries)
-      arguments.insert(arguments.end(), {"-s", entry});
-    const Outcome outcome = run_compress(arguments, folder_);
-    EXPECT_EQ(outcome.status, 0) << outcome.error;
-    return summary_in(folder_ / name);
-  }
   std::vector<double> column(const std::string &run, const std::string &name) const {
     return column_of(folder_ / run / "history.csv", name);
   }
