@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -236,9 +237,30 @@ void Problem::add_forces() {
   model.compute_forces(dt);
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   announce_motion(dt);
-  top_layer.add_forces(model.particles, top, dt);
-  bottom_layer.add_forces(model.particles, bottom, dt);
+  add_platen_forces();
   book_reactions();
+}
+
+bool Problem::platens_apart() {
+  const SurfaceSearch &above = top_layer.search(), &below = bottom_layer.search();
+  const long made = above.lists_made() + below.lists_made();
+  if (made == lists_compared_) return apart_;
+  lists_compared_ = made;
+  std::vector<int> shared;
+  std::set_intersection(above.particles().begin(), above.particles().end(), below.particles().begin(),
+                        below.particles().end(), std::back_inserter(shared));
+  return apart_ = shared.empty();
+}
+
+// At once where no particle feels both platens: then no sum depends on which comes first.
+void Problem::add_platen_forces() {
+  top_layer.update_search(model.particles, top);
+  bottom_layer.update_search(model.particles, bottom);
+  const auto above = [&] { top_layer.add_forces(model.particles, top, time_step_); };
+  const auto below = [&] { bottom_layer.add_forces(model.particles, bottom, time_step_); };
+  if (platens_apart()) return dem::both(above, below);
+  above();
+  below();
 }
 
 // The machine holds each platen against the particles: its work is minus theirs, by the trapezoid over the

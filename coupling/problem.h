@@ -114,6 +114,8 @@ private:
   void choose_step(bool first);
   void look_at_step();
   void add_forces();
+  void add_platen_forces();
+  bool platens_apart();
   void book_reactions();
   void set_platen_speeds();
   void drift_bodies();
@@ -129,6 +131,8 @@ private:
   std::size_t near_at_choice_ = 0;
   double boundary_work_ = 0;                      // J, of both platens
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
+  long lists_compared_ = -1;                      // search lists made by both layers when apart_ was found
+  bool apart_ = false;                            // no particle is near both platens
   std::unique_ptr<Servo> servo_;                  // null where both platens are driven
 };
 

@@ -77,6 +77,7 @@ std::vector<Box> SurfaceSearch::face_boxes(const SurfaceMesh &surface) const {
 
 void SurfaceSearch::rebuild(const SurfaceMesh &surface, const dem::Column<Vector3> &position,
                             const std::vector<double> &reach, const std::vector<int> &always) {
+  ++lists_made_;
   tree_.refit(face_boxes(surface));
   particles_.clear();
   near_.clear();

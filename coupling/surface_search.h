@@ -44,6 +44,7 @@ public:
   void rebuild(const fem::SurfaceMesh &surface, const dem::Column<dem::Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
 
+  long lists_made() const { return lists_made_; }
   // Rows of the particles listed, ascending.
   const std::vector<int> &particles() const { return particles_; }
 
@@ -83,6 +84,7 @@ private:
   BoxTree tree_;
   FlatFaces flat_;
   std::vector<int> first_face_of_vertex_, faces_of_vertex_; // faces around each vertex, ascending
+  long lists_made_ = 0;
   std::vector<int> particles_;
   std::vector<std::size_t> first_near_; // entry k has near_[first_near_[k] ... first_near_[k + 1])
   std::vector<NearFace> near_;          // ascending distance

@@ -10,6 +10,7 @@
 #ifndef PLATEN_SERIAL
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #endif
 
 namespace platen::dem {
@@ -66,6 +67,16 @@ void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_
           body(k);
       },
       per_block);
+}
+
+// Two pieces of work that touch nothing in common; each may hold loops of its own.
+template <class One, class Other>
+void both(const One &one, const Other &other) {
+#ifndef PLATEN_SERIAL
+  if (loop_threads() > 1) return tbb::parallel_invoke(one, other);
+#endif
+  one();
+  other();
 }
 
 // Sum of body(first, last) over blocks, added in the order of the blocks. T needs T{} = 0 and +=.
