@@ -20,10 +20,6 @@ constexpr double flatness = 1e-14;
 // Share of the rim, in u and v, that is left to the general search.
 constexpr double rim = 1e-9;
 
-Vector3 point(const fem::Point &p) {
-  return {p[0], p[1], p[2]};
-}
-
 double size_of(const Quad &q) {
   return std::max(norm(q[2] - q[0]), norm(q[3] - q[1]));
 }
@@ -32,9 +28,8 @@ double size_of(const Quad &q) {
 
 FlatFaces::FlatFaces(const fem::SurfaceMesh &surface) {
   for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
-    const int corner = surface.faces[static_cast<std::size_t>(face)][0];
-    faces_.push_back(
-        face_of(face_corners(surface, face, point(surface.vertices[static_cast<std::size_t>(corner)]))));
+    const Vector3 first = vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]);
+    faces_.push_back(face_of(face_corners(surface, face, first)));
   }
   join_pieces(surface);
 }
@@ -97,8 +92,7 @@ void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
     piece_[static_cast<std::size_t>(first)] = first;
     const Face &seed = faces_[static_cast<std::size_t>(first)];
     if (!seed.flat) continue;
-    const Vector3 origin =
-        point(surface.vertices[static_cast<std::size_t>(surface.faces[static_cast<std::size_t>(first)][0])]);
+    const Vector3 origin = vertex_at(surface, surface.faces[static_cast<std::size_t>(first)][0]);
     const auto in_plane = [&](int face) {
       const Quad q = face_corners(surface, face, origin);
       return faces_[static_cast<std::size_t>(face)].flat &&

@@ -18,11 +18,6 @@ namespace {
 // Distances are compared with this relative margin, so that round-off never drops the face that is closest.
 constexpr double margin = 1e-9;
 
-Vector3 vertex_at(const SurfaceMesh &surface, int v) {
-  const fem::Point &p = surface.vertices[static_cast<std::size_t>(v)];
-  return {p[0], p[1], p[2]};
-}
-
 const std::array<int, 4> &corners_of(const SurfaceMesh &surface, int face) {
   return surface.faces[static_cast<std::size_t>(face)];
 }
@@ -41,6 +36,11 @@ double largest_corner(const Quad &q) {
 }
 
 } // namespace
+
+Vector3 vertex_at(const SurfaceMesh &surface, int v) {
+  const fem::Point &p = surface.vertices[static_cast<std::size_t>(v)];
+  return {p[0], p[1], p[2]};
+}
 
 Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
   const std::array<int, 4> &v = corners_of(surface, face);

@@ -22,6 +22,8 @@ struct SurfacePoint {
   double distance = 0; // m, of the centre; negative inside the body
 };
 
+dem::Vector3 vertex_at(const fem::SurfaceMesh &surface, int vertex); // m
+
 // Corners of a face relative to a point.
 Quad face_corners(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &origin);
 
