@@ -7,13 +7,13 @@
 
 namespace platen::coupling {
 
-using dem::norm_squared;
 using dem::Vector3;
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
+
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("surface contact: " + what);
 }
