@@ -2,9 +2,7 @@
 
 #include <thread>
 
-#ifndef PLATEN_SERIAL
-#include <tbb/global_control.h>
-#endif
+#include "dem/crew.h"
 
 namespace platen::dem {
 
@@ -15,26 +13,27 @@ int &threads_of_loops() {
   return threads;
 }
 
+Crew &crew() {
+  static Crew threads;
+  return threads;
+}
+
 } // namespace
 
 int loop_threads() {
   return threads_of_loops();
 }
 
+void run_loops(const Loop &one, const Loop &other) {
+  crew().run(one, other, loop_threads());
+}
+
 ThreadLimit::ThreadLimit(int threads) : before_(loop_threads()) {
-  if (threads <= 0) threads = hardware_threads();
-  threads_of_loops() = threads;
-#ifndef PLATEN_SERIAL
-  control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                     static_cast<std::size_t>(threads));
-#endif
+  threads_of_loops() = threads > 0 ? threads : hardware_threads();
 }
 
 ThreadLimit::~ThreadLimit() {
   threads_of_loops() = before_;
-#ifndef PLATEN_SERIAL
-  delete static_cast<tbb::global_control *>(control_);
-#endif
 }
 
 int hardware_threads() {

@@ -1,17 +1,12 @@
-// Loops over rows on several threads, and sums whose order does not depend on the number of threads: the only
-// header that names a threading backend (TBB; PLATEN_SERIAL leaves it out, for ThreadSanitizer and tiny
-// builds).
+// Loops over rows on several threads, and sums whose order does not depend on the number of threads. How
+// threads share a loop out is told in crew.h alone.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-#ifndef PLATEN_SERIAL
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#endif
+#include "dem/loop.h"
 
 namespace platen::dem {
 
@@ -23,38 +18,19 @@ inline std::size_t number_of_blocks(std::size_t rows, std::size_t per_block = bl
   return (rows + per_block - 1) / per_block;
 }
 
-// Runs of blocks that a loop is cut into, so that a thread that is done early takes over from another.
-constexpr std::size_t parts_per_thread = 32;
-
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// body(first, last, block) for every block of `per_block` rows of [0, rows). Threads take runs of
-// neighbouring blocks, and further runs from each other. (TBB's static partitioner mails tasks to threads
-// that may not exist, and such mail is never freed: with a limit of one thread a run of hours would eat the
-// memory.)
+// Every part of both loops, shared out to the threads that loops use (crew.h says how).
+void run_loops(const Loop &one, const Loop &other = {});
+
+// body(first, last, block) for every block of `per_block` rows of [0, rows), and another loop at the same
+// time.
 template <class Body>
-void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
-  const std::size_t blocks = number_of_blocks(rows, per_block);
-  const auto run = [&](std::size_t from, std::size_t to) {
-    for (std::size_t b = from; b < to; ++b)
-      body(b * per_block, std::min(rows, (b + 1) * per_block), b);
-  };
-#ifndef PLATEN_SERIAL
-  const std::size_t threads = static_cast<std::size_t>(loop_threads());
-  const std::size_t parts = std::min(blocks, threads * parts_per_thread);
-  if (threads > 1 && parts > 1) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, parts, 1),
-        [&](const tbb::blocked_range<std::size_t> &range) {
-          for (std::size_t p = range.begin(); p != range.end(); ++p)
-            run(p * blocks / parts, (p + 1) * blocks / parts);
-        },
-        tbb::simple_partitioner());
-    return;
-  }
-#endif
-  run(0, blocks);
+void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows,
+                    const Loop &beside = {}) {
+  const auto part = [&](std::size_t b) { body(b * per_block, std::min(rows, (b + 1) * per_block), b); };
+  run_loops(loop_of(number_of_blocks(rows, per_block), part), beside);
 }
 
 // body(row) for every row. Rows that cost much are worth a thread in smaller blocks.
@@ -69,12 +45,12 @@ void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_
       per_block);
 }
 
-// Two pieces of work that touch nothing in common; each may hold loops of its own.
+// Two pieces of work that touch nothing in common; each may hold loops of its own. Two threads take a piece
+// each; more threads are worth more in the loops inside.
 template <class One, class Other>
 void both(const One &one, const Other &other) {
-#ifndef PLATEN_SERIAL
-  if (loop_threads() > 1) return tbb::parallel_invoke(one, other);
-#endif
+  const auto piece = [&](std::size_t p) { p == 0 ? one() : other(); };
+  if (loop_threads() == 2) return run_loops(loop_of(2, piece));
   one();
   other();
 }
@@ -101,7 +77,6 @@ public:
 
 private:
   int before_;
-  void *control_ = nullptr;
 };
 
 int hardware_threads();
