@@ -88,6 +88,15 @@ public:
   // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
   void add_forces(dem::Particles &particles, fem::Body &body, double dt);
 
+  // The stage in three pieces, for who has other work for threads that wait. What has to be looked at, in how
+  // many parts:
+  std::size_t prepare(const dem::Particles &particles, const fem::Body &body);
+  // the forces of one part, in any order and on any thread, from particles and body as they are then; writes
+  // nothing but the layer's own rows;
+  void compute_part(const dem::Particles &particles, const fem::Body &body, double dt, std::size_t part);
+  // and then, once, what particles and body get of them.
+  void give_forces(dem::Particles &particles, fem::Body &body);
+
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const;              // ascending particle rows
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
@@ -146,7 +155,7 @@ private:
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
-  void load_particle(dem::Particles &particles, RowForce &result);
+  void load_particle(dem::Particles &particles, const RowForce &row) const;
 
   SurfaceContact parameters_;
   const dem::Column<double> *particle_stiffness_;

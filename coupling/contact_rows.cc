@@ -21,7 +21,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 constexpr double idle_margin = 1e-9;  // of a gap, for round-off
-constexpr std::size_t rows_per_block = 64; // a row costs as much as some dozen bonds
+constexpr std::size_t rows_per_part = 32; // a row costs as much as some dozen bonds
 
 } // namespace
 
@@ -55,19 +55,29 @@ void ContactLayer::find_due_rows() {
 }
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double dt) {
+  const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
+  dem::run_loops(dem::loop_of(prepare(particles, body), part));
+  give_forces(particles, body);
+}
+
+std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::Body &body) {
   update_search(particles, body);
   find_due_rows();
-  // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after.
-  dem::for_each(
-      due_.size(),
-      [&](std::size_t k) {
-        RowForce &r = row_forces_[k];
-        row_force(particles, body, due_[k], dt, r);
-        keep_history(due_[k], r);
-        if (r.active) load_particle(particles, r);
-      },
-      rows_per_block);
+  return dem::number_of_blocks(due_.size(), rows_per_part);
+}
 
+void ContactLayer::compute_part(const dem::Particles &particles, const fem::Body &body, double dt,
+                                std::size_t part) {
+  const std::size_t last = std::min(due_.size(), (part + 1) * rows_per_part);
+  for (std::size_t k = part * rows_per_part; k < last; ++k) {
+    row_force(particles, body, due_[k], dt, row_forces_[k]);
+    keep_history(due_[k], row_forces_[k]);
+  }
+}
+
+// Rows have a particle each, so that threads never meet; what they share, sums and body, is served after.
+void ContactLayer::give_forces(dem::Particles &particles, fem::Body &body) {
+  dem::for_each(due_.size(), [&](std::size_t k) { load_particle(particles, row_forces_[k]); });
   closed = 0;
   elastic_energy_ = 0;
   double friction_loss = 0, damping_loss = 0;
@@ -100,10 +110,9 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
   }
 }
 
-void ContactLayer::load_particle(dem::Particles &particles, RowForce &r) {
+void ContactLayer::load_particle(dem::Particles &particles, const RowForce &r) const {
+  if (!r.active) return;
   const std::size_t i = static_cast<std::size_t>(r.particle);
-  r.force = r.normal_force * r.at.normal + r.shear;
-  r.point = particles.position[i] + r.at.local.point;
   particles.force[i] += r.force;
   if (particles.has_rotation()) (*particles.torque)[i] += cross(r.at.local.point, r.force) + r.moment;
 }
@@ -141,6 +150,8 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::Body &b
     motion.rocking = w - dot(w, n) * n;
     seat_moment(row, motion, dt, result);
   }
+  result.force = result.normal_force * n + result.shear;
+  result.point = particles.position[i] + arm;
 }
 
 // The work of the dashpot by the trapezoid rule, as the leapfrog does it. Where the sum is held at zero the

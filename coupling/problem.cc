@@ -227,17 +227,30 @@ long Problem::advance(long most) {
   return most;
 }
 
-// All but the particles' motion.
+// All but the particles' motion. What platens do to particles is found while bonds are: its parts are small,
+// for threads that are done with theirs.
 void Problem::add_forces() {
   const double dt = time_step_;
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
     drift_bodies();
   }
-  model.compute_forces(dt);
+  std::size_t below = 0, above = 0;
+  {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+    announce_motion(dt);
+    below = bottom_layer.prepare(model.particles, bottom);
+    above = top_layer.prepare(model.particles, top);
+  }
+  const auto part = [&](std::size_t p) {
+    if (p < below)
+      bottom_layer.compute_part(model.particles, bottom, dt, p);
+    else
+      top_layer.compute_part(model.particles, top, dt, p - below);
+  };
+  model.compute_forces(dt, dem::loop_of(below + above, part));
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-  announce_motion(dt);
-  add_platen_forces();
+  give_platen_forces();
   book_reactions();
 }
 
@@ -252,13 +265,13 @@ bool Problem::platens_apart() {
   return apart_ = shared.empty();
 }
 
-// At once where no particle feels both platens: then no sum depends on which comes first.
-void Problem::add_platen_forces() {
-  top_layer.update_search(model.particles, top);
-  bottom_layer.update_search(model.particles, bottom);
-  const auto above = [&] { top_layer.add_forces(model.particles, top, time_step_); };
-  const auto below = [&] { bottom_layer.add_forces(model.particles, bottom, time_step_); };
-  if (platens_apart()) return dem::both(above, below);
+// At once where no particle feels both platens: then no sum depends on which comes first. Particles are
+// sorted by height before all else, so that two threads share them out as here: each platen meets what its
+// thread has at hand.
+void Problem::give_platen_forces() {
+  const auto above = [&] { top_layer.give_forces(model.particles, top); };
+  const auto below = [&] { bottom_layer.give_forces(model.particles, bottom); };
+  if (platens_apart()) return dem::both(below, above);
   above();
   below();
 }

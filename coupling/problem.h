@@ -114,7 +114,7 @@ private:
   void choose_step(bool first);
   void look_at_step();
   void add_forces();
-  void add_platen_forces();
+  void give_platen_forces();
   bool platens_apart();
   void book_reactions();
   void set_platen_speeds();

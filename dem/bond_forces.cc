@@ -88,13 +88,16 @@ const char *name(InstructionSet set) {
 }
 
 void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks) {
+                         std::vector<BondBreak> &breaks, const Loop &beside) {
   const kernels::BondKernels &kernels = kernels_of(set);
   const kernels::BondColumns columns = columns_of(p, b);
   std::vector<unsigned char> reached(b.blocks.blocks(), 0);
-  for_each_block(p.size(), [&](std::size_t, std::size_t, std::size_t block) {
-    reached[block] = compute_block(p, b, kernels, columns, gravity, block);
-  });
+  for_each_block(
+      p.size(),
+      [&](std::size_t, std::size_t, std::size_t block) {
+        reached[block] = compute_block(p, b, kernels, columns, gravity, block);
+      },
+      block_rows, beside);
   // Rare: the ratios themselves decide.
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < reached.size(); ++block) {

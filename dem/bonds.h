@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/laws/parallel_bond.h"
+#include "dem/loop.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
 #include "dem/table.h"
@@ -108,9 +109,9 @@ const char *name(InstructionSet set);
 
 // Sets force and torque of every particle to its weight and the bonds of its own block; what bonds bring from
 // other blocks waits in the ghosts, for return_ghosts. On any number of threads. Rows at or above their
-// strength are appended to `breaks`, in row order; nothing is broken here.
+// strength are appended to `breaks`, in row order; nothing is broken here. `beside` is done at the same time.
 void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks);
+                         std::vector<BondBreak> &breaks, const Loop &beside = {});
 // The same again for the blocks of rows that have just been broken.
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                                const std::vector<BondBreak> &breaks);

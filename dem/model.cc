@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dem/effects.h"
+#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {
@@ -68,14 +69,14 @@ void Model::begun(double dt) {
   }
 }
 
-void Model::compute_forces(double dt) {
+void Model::compute_forces(double dt, const Loop &beside) {
   if (bonds) {
     StageClock::Lap lap(clock, Stage::bonds);
     // Before the forces, not after: ghosts wait for the end of the step in blocks as they are cut now.
     if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
       bonds->compact();
     breaks_.clear();
-    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside);
     breaks = static_cast<long>(breaks_.size());
     if (!breaks_.empty()) {
       break_bonds(dt);
@@ -85,6 +86,7 @@ void Model::compute_forces(double dt) {
       works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
   } else {
     set_weight(particles, settings_.gravity);
+    run_loops(beside);
   }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);

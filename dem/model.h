@@ -9,6 +9,7 @@
 #include "dem/contacts.h"
 #include "dem/energy.h"
 #include "dem/integrator.h"
+#include "dem/loop.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "dem/stages.h"
@@ -59,8 +60,9 @@ public:
   // First half kick, drift, contact search; time becomes that of the new positions.
   void begin_step(double dt);
   // Bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them and the weight,
-  // but for what waits in the bonds' ghosts.
-  void compute_forces(double dt);
+  // but for what waits in the bonds' ghosts. `beside` is done too, while threads have hands free: it may read
+  // particles but write nothing of theirs.
+  void compute_forces(double dt, const Loop &beside = {});
   // Ghosts of bonds, damping, second half kick; forces are complete then.
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
