@@ -32,6 +32,7 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 #include "dem/parallel.h"
+#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -144,6 +145,7 @@ Test::Test(const CommandLine &command, const Scene &scene)
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension) {
+  fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
   std::vector<std::filesystem::path> inputs{command.scene};
