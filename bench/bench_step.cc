@@ -2,9 +2,12 @@
 // seconds per stage, bytes per particle and the line "N M bond-steps/s" (median over repeats).
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/io/specimen_csv.h"
 #include "dem/parallel.h"
@@ -21,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 
 struct Options {
   int particles = 22500, threads = 1, steps = 500, repeats = 5;
-  bool baseline = false, alone = false;
+  bool baseline = false, alone = false, gain = false;
   std::string read, write;
 };
 
@@ -34,17 +37,6 @@ dem::Specimen specimen_for(const Options &o) {
   return specimen;
 }
 
-void print_stages(const dem::StageClock &clock, const dem::StageClock &before, double steps, double step) {
-  std::printf("%-12s %8s\n", "stage", "ms/step");
-  for (int k = 0; k < dem::stage_count; ++k) {
-    const dem::Stage stage = static_cast<dem::Stage>(k);
-    const double spent = clock.seconds(stage) - before.seconds(stage);
-    if (spent > 0)
-      std::printf("%-12s %8.4f\n", dem::stage_names[static_cast<std::size_t>(k)], 1e3 * spent / steps);
-  }
-  std::printf("%-12s %8.4f\n", "all", 1e3 * step);
-}
-
 void print_memory(const coupling::Problem &problem, double before) {
   const double particles = static_cast<double>(problem.model.particles.size());
   std::printf(
@@ -53,44 +45,100 @@ void print_memory(const coupling::Problem &problem, double before) {
       static_cast<double>(problem.bytes()) / particles, 1e-6 * bench::peak_memory(), 1e-6 * before);
 }
 
-void measure(const Options &o, coupling::Problem &problem, double memory_before) {
-  const double bonds = static_cast<double>(problem.model.bonds->size());
-  std::unique_ptr<bench::IdealisedLoop> loop;
-  if (!o.alone) {
-    loop = std::make_unique<bench::IdealisedLoop>(bench::network_of(problem.model), o.threads);
-    loop->run(o.steps / 5 + 1);
-  }
-  bench::run(problem, o.steps / 5 + 1); // warm
-  const dem::StageClock before = problem.model.clock;
-  std::vector<double> rates, idealised, share;
-  double measured = 0;
-  // Who comes after the other needs a moment until its threads have found their processors.
+// The step and the idealised loop on one number of threads.
+struct Series {
+  int threads = 1;
+  std::unique_ptr<bench::IdealisedLoop> loop; // null: alone
+  std::vector<double> rates, idealised,
+      share; // M bond-steps/s, and the first over the second, repeat by repeat
+  std::array<double, dem::stage_count> stages{}; // s
+  double seconds = 0;
+  long steps = 0;
+};
+
+Series series_on(int threads, const Options &o, const coupling::Problem &problem) {
+  Series s;
+  s.threads = threads;
+  if (o.alone) return s;
+  s.loop = std::make_unique<bench::IdealisedLoop>(bench::network_of(problem.model), threads);
+  s.loop->run(o.steps / 5 + 1);
+  return s;
+}
+
+// Who comes after another needs a moment until its threads have found their processors.
+void repeat(Series &s, const Options &o, coupling::Problem &problem) {
+  const dem::ThreadLimit limit(s.threads);
   const int settling = o.steps / 10 + 1;
-  for (int r = 0; r < o.repeats; ++r) {
-    bench::run(problem, settling);
-    const auto start = Clock::now();
-    bench::run(problem, o.steps);
-    const double seconds = seconds_since(start);
-    measured += seconds;
-    rates.push_back(bonds * o.steps / seconds * 1e-6);
-    if (!loop) continue;
-    loop->run(settling);
-    idealised.push_back(bonds * o.steps / loop->run(o.steps) * 1e-6);
-    share.push_back(rates.back() / idealised.back());
+  const double bonds = static_cast<double>(problem.model.bonds->size());
+  bench::run(problem, settling);
+  const dem::StageClock before = problem.model.clock;
+  const auto start = Clock::now();
+  bench::run(problem, o.steps);
+  const double seconds = seconds_since(start);
+  for (int k = 0; k < dem::stage_count; ++k) {
+    const dem::Stage stage = static_cast<dem::Stage>(k);
+    s.stages[static_cast<std::size_t>(k)] += problem.model.clock.seconds(stage) - before.seconds(stage);
   }
-  print_stages(problem.model.clock, before, static_cast<double>(o.steps + settling) * o.repeats,
-               measured / (static_cast<double>(o.steps) * o.repeats));
+  s.seconds += seconds;
+  s.steps += o.steps;
+  s.rates.push_back(bonds * o.steps / seconds * 1e-6);
+  if (!s.loop) return;
+  s.loop->run(settling);
+  s.idealised.push_back(bonds * o.steps / s.loop->run(o.steps) * 1e-6);
+  s.share.push_back(s.rates.back() / s.idealised.back());
+}
+
+void print_stages(const Series &s) {
+  const double per_step = 1e3 / static_cast<double>(s.steps);
+  std::printf("%-12s %8s\n", "stage", "ms/step");
+  for (std::size_t k = 0; k < s.stages.size(); ++k)
+    if (s.stages[k] > 0) std::printf("%-12s %8.4f\n", dem::stage_names[k], s.stages[k] * per_step);
+  std::printf("%-12s %8.4f\n", "all", s.seconds * per_step);
+}
+
+void print_idealised(const Series &s) {
+  const bench::Spread i = bench::spread(s.idealised), part = bench::spread(s.share);
+  std::printf("idealised loop in turn: %.2f M (%.2f ... %.2f); the step runs at %.3f of it (%.3f ... %.3f)\n",
+              i.median, i.smallest, i.largest, part.median, part.smallest, part.largest);
+}
+
+// How much faster on several threads than on one, from the repeats' pairs.
+void print_gain(const Series &one, const Series &several) {
+  std::vector<double> step, idealised, share;
+  for (std::size_t k = 0; k < one.rates.size(); ++k) {
+    step.push_back(several.rates[k] / one.rates[k]);
+    if (!one.loop) continue;
+    idealised.push_back(several.idealised[k] / one.idealised[k]);
+    share.push_back(step.back() / idealised.back());
+  }
+  const bench::Spread s = bench::spread(step);
+  std::printf("one thread in turn: %.2f M; gain on %d threads %.3f (%.3f ... %.3f)\n",
+              bench::spread(one.rates).median, several.threads, s.median, s.smallest, s.largest);
+  if (!one.loop) return;
+  const bench::Spread i = bench::spread(idealised), part = bench::spread(share);
+  std::printf(
+      "the idealised loop on one thread: %.2f M; gain %.3f (%.3f ... %.3f), of which the step reaches "
+      "%.3f (%.3f ... %.3f)\n",
+      bench::spread(one.idealised).median, i.median, i.smallest, i.largest, part.median, part.smallest,
+      part.largest);
+}
+
+void measure(const Options &o, coupling::Problem &problem, double memory_before) {
+  Series several = series_on(o.threads, o, problem), one;
+  if (o.gain) one = series_on(1, o, problem);
+  bench::run(problem, o.steps / 5 + 1); // warm
+  for (int r = 0; r < o.repeats; ++r) {
+    if (o.gain) repeat(one, o, problem);
+    repeat(several, o, problem);
+  }
+  print_stages(several);
   const dem::EnergyLedger energy = problem.energy();
   std::printf("energy: work %.4g J, residual %.2g of it; broken bonds %ld\n", energy.boundary,
               energy.residual() / energy.boundary, problem.model.broken_tension + problem.model.broken_shear);
   print_memory(problem, memory_before);
-  const bench::Spread s = bench::spread(rates);
-  if (loop) {
-    const bench::Spread i = bench::spread(idealised), part = bench::spread(share);
-    std::printf(
-        "idealised loop in turn: %.2f M (%.2f ... %.2f); the step runs at %.3f of it (%.3f ... %.3f)\n",
-        i.median, i.smallest, i.largest, part.median, part.smallest, part.largest);
-  }
+  if (several.loop) print_idealised(several);
+  if (o.gain) print_gain(one, several);
+  const bench::Spread s = bench::spread(several.rates);
   std::printf("smallest %.2f, largest %.2f M bond-steps/s\n", s.smallest, s.largest);
   std::printf("%.2f M bond-steps/s\n", s.median);
 }
@@ -107,6 +155,7 @@ int main(int argc, char **argv) {
   app.add_option("--specimen", o.read, "a packing from this file instead")->check(CLI::ExistingFile);
   app.add_option("--write-specimen", o.write, "write the packing to this file");
   app.add_flag("--baseline", o.baseline, "the kernels of plain x86-64");
+  app.add_flag("--gain", o.gain, "one thread in turn with --threads, and what the others gain");
   app.add_flag("--alone", o.alone, "without the idealised loop");
   CLI11_PARSE(app, argc, argv);
 
