@@ -167,7 +167,8 @@ double ContactLayer::stiffness(int particle) const {
 }
 
 std::size_t ContactLayer::bytes() const {
-  return table_.size() * table_.bytes_per_row() + row_forces_.capacity() * sizeof(RowForce) + search_.bytes();
+  return table_.size() * table_.bytes_per_row() + loads_.capacity() * sizeof(RowLoad) +
+         contacts_.capacity() * sizeof(RowContact) + search_.bytes();
 }
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,

@@ -10,6 +10,7 @@
 // velocity Verlet sees).
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -135,12 +136,24 @@ private:
     double dashpot = 0;      // N, part of the normal force
     dem::Vector3 shear;      // N
     dem::Vector3 moment;     // N m, of the seat
-    dem::Vector3 force;      // N, normal and shear
-    dem::Vector3 point;      // m, where it acts
     dem::CoulombFriction::State spring, seat;
     double idle_until = 0;                                   // m, of travelled_
     double slip = 0;                                         // m
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+  };
+  // What it gives to particle, body and sums, kept small because all of it is read once more in the step.
+  struct alignas(64) RowLoad {
+    int particle = -1; // -1: no contact
+    int face = -1;
+    std::array<double, 4> weights{};
+    dem::Vector3 force, torque;                              // N, N m about the centre
+    double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+  };
+  // What else is told of it when somebody asks.
+  struct RowContact {
+    dem::Vector3 point, normal, shear, moment; // m, 1, N, N m
+    double normal_force = 0, slip = 0;         // N, m
+    bool sliding = false;
   };
   void set_rows(const std::vector<int> &particles);
   void find_due_rows();
@@ -155,7 +168,7 @@ private:
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
-  void load_particle(dem::Particles &particles, const RowForce &row) const;
+  void keep_result(std::size_t k, const RowForce &row, const dem::Vector3 &centre);
 
   SurfaceContact parameters_;
   const dem::Column<double> *particle_stiffness_;
@@ -178,7 +191,8 @@ private:
   double travelled_ = 0;             // m, sum of the distances told to moved()
   std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
   std::vector<std::size_t> due_;     // rows to look at in this step
-  std::vector<RowForce> row_forces_; // of them
+  std::vector<RowLoad> loads_;       // of them
+  std::vector<RowContact> contacts_; // of them
   double elastic_energy_ = 0;
 };
 

@@ -51,7 +51,8 @@ void ContactLayer::find_due_rows() {
   due_.clear();
   for (std::size_t row = 0; row < table_.size(); ++row)
     if (!(travelled_ < idle_until_[row])) due_.push_back(row);
-  row_forces_.resize(due_.size());
+  loads_.resize(due_.size());
+  contacts_.resize(due_.size());
 }
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double dt) {
@@ -70,28 +71,56 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Body
                                 std::size_t part) {
   const std::size_t last = std::min(due_.size(), (part + 1) * rows_per_part);
   for (std::size_t k = part * rows_per_part; k < last; ++k) {
-    row_force(particles, body, due_[k], dt, row_forces_[k]);
-    keep_history(due_[k], row_forces_[k]);
+    const std::size_t row = due_[k];
+    RowForce r;
+    row_force(particles, body, row, dt, r);
+    keep_history(row, r);
+    idle_until_[row] = r.idle_until;
+    keep_result(k, r, particles.position[static_cast<std::size_t>(r.particle)]);
   }
 }
 
-// Rows have a particle each, so that threads never meet; what they share, sums and body, is served after.
+void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &centre) {
+  RowLoad &load = loads_[k];
+  load.particle = r.active ? r.particle : -1;
+  load.friction_loss = r.friction_loss;
+  load.damping_loss = r.damping_loss;
+  if (!r.active) return;
+  const Vector3 &arm = r.at.local.point;
+  load.face = r.at.face;
+  load.weights = r.at.local.weights;
+  load.force = r.normal_force * r.at.normal + r.shear;
+  load.torque = cross(arm, load.force) + r.moment;
+  load.elastic = r.elastic;
+  contacts_[k] = {centre + arm, r.at.normal,          r.shear, r.moment, r.normal_force,
+                  r.slip,       r.spring.sliding != 0};
+}
+
+// Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
+// by row: rows that are passed over may differ from run to run, sums may not.
 void ContactLayer::give_forces(dem::Particles &particles, fem::Body &body) {
-  dem::for_each(due_.size(), [&](std::size_t k) { load_particle(particles, row_forces_[k]); });
-  closed = 0;
-  elastic_energy_ = 0;
-  double friction_loss = 0, damping_loss = 0;
-  for (std::size_t k = 0; k < due_.size(); ++k) {
-    const RowForce &r = row_forces_[k];
-    idle_until_[due_[k]] = r.idle_until;
-    friction_loss += r.friction_loss;
-    damping_loss += r.damping_loss;
-    if (!r.active) continue;
-    ++closed;
-    elastic_energy_ += r.elastic;
-    apply_force(body, r.at, -r.force);
-    if (norm_squared(r.moment) > 0) apply_moment(body, r.at.face, -r.moment);
+  dem::for_each(loads_.size(), [&](std::size_t k) {
+    const RowLoad &load = loads_[k];
+    if (load.particle < 0) return;
+    const std::size_t i = static_cast<std::size_t>(load.particle);
+    particles.force[i] += load.force;
+    if (particles.has_rotation()) (*particles.torque)[i] += load.torque;
+  });
+  std::size_t active = 0;
+  double elastic = 0, friction_loss = 0, damping_loss = 0;
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const RowLoad &load = loads_[k];
+    friction_loss += load.friction_loss;
+    damping_loss += load.damping_loss;
+    if (load.particle < 0) continue;
+    ++active;
+    elastic += load.elastic;
+    apply_force(body, load.face, load.weights, -load.force);
+    if (seat_spring_ != nullptr && norm_squared(contacts_[k].moment) > 0)
+      apply_moment(body, load.face, -contacts_[k].moment);
   }
+  closed = active;
+  elastic_energy_ = elastic;
   friction_work += friction_loss;
   damping_work += damping_loss;
 }
@@ -108,13 +137,6 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
     (*seat_spring_)[row] = r.seat.spring;
     (*seat_sliding_)[row] = r.seat.sliding;
   }
-}
-
-void ContactLayer::load_particle(dem::Particles &particles, const RowForce &r) const {
-  if (!r.active) return;
-  const std::size_t i = static_cast<std::size_t>(r.particle);
-  particles.force[i] += r.force;
-  if (particles.has_rotation()) (*particles.torque)[i] += cross(r.at.local.point, r.force) + r.moment;
 }
 
 // Reads the row's history and writes nothing but its own result.
@@ -150,8 +172,6 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::Body &b
     motion.rocking = w - dot(w, n) * n;
     seat_moment(row, motion, dt, result);
   }
-  result.force = result.normal_force * n + result.shear;
-  result.point = particles.position[i] + arm;
 }
 
 // The work of the dashpot by the trapezoid rule, as the leapfrog does it. Where the sum is held at zero the
@@ -212,22 +232,24 @@ void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double
 
 std::vector<ActiveContact> ContactLayer::contacts() const {
   std::vector<ActiveContact> active;
-  for (const RowForce &r : row_forces_)
-    if (r.active)
-      active.push_back({r.particle, r.at.face, r.point, r.at.normal, r.normal_force, r.shear,
-                        r.spring.sliding != 0, r.slip});
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const RowContact &c = contacts_[k];
+    if (loads_[k].particle >= 0)
+      active.push_back({loads_[k].particle, loads_[k].face, c.point, c.normal, c.normal_force, c.shear,
+                        c.sliding, c.slip});
+  }
   return active;
 }
 
 std::vector<double> ContactLayer::vertex_slip(const fem::Body &body) const {
   std::vector<double> sum(body.surface().vertices.size()), weight(sum.size());
-  for (const RowForce &r : row_forces_) {
-    if (!r.active) continue;
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    if (loads_[k].particle < 0) continue;
+    const auto &corners = body.surface().faces[static_cast<std::size_t>(loads_[k].face)];
     for (std::size_t corner = 0; corner < 4; ++corner) {
-      const std::size_t v =
-          static_cast<std::size_t>(body.surface().faces[static_cast<std::size_t>(r.at.face)][corner]);
-      sum[v] += r.at.local.weights[corner] * r.slip;
-      weight[v] += r.at.local.weights[corner];
+      const std::size_t v = static_cast<std::size_t>(corners[corner]);
+      sum[v] += loads_[k].weights[corner] * contacts_[k].slip;
+      weight[v] += loads_[k].weights[corner];
     }
   }
   // Weights below this are round-off of a contact on the far edge of the face.

@@ -84,10 +84,10 @@ Vector3 face_rotation(const fem::SurfaceMesh &surface, int face) {
   return turn_by_arms(r, circulation);
 }
 
-void apply_force(fem::Body &body, const SurfacePoint &point, const Vector3 &force) {
-  const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(point.face)];
+void apply_force(fem::Body &body, int face, const std::array<double, 4> &weights, const Vector3 &force) {
+  const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(face)];
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 share = point.local.weights[k] * force;
+    const Vector3 share = weights[k] * force;
     body.add_surface_force(corners[k], {share.x, share.y, share.z});
   }
 }

@@ -4,6 +4,8 @@
 // follows from the other, because one map is the transpose of the other.
 #pragma once
 
+#include <array>
+
 #include "coupling/surface_search.h"
 #include "fem/body.h"
 
@@ -20,8 +22,8 @@ SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint
 // they move rigidly; zero for corners on a line.
 dem::Vector3 face_rotation(const fem::SurfaceMesh &surface, int face);
 
-// Puts a force (N), acting on the body at the point, on the corners by the point's weights.
-void apply_force(fem::Body &body, const SurfacePoint &point, const dem::Vector3 &force);
+// Puts a force (N), acting on the body at a point of the face, on the corners by the point's weights.
+void apply_force(fem::Body &body, int face, const std::array<double, 4> &weights, const dem::Vector3 &force);
 
 // Puts a moment (N m) on the corners as forces without a sum: the transpose of face_rotation.
 void apply_moment(fem::Body &body, int face, const dem::Vector3 &moment);
