@@ -79,7 +79,7 @@ std::vector<Effect> effects_of_bonds() {
           {compiled::rotation, "rotation", turn},
           {compiled::rotation && compiled::bond_moments, "rotation, bond moments", [](auto &s) {
              turn(s);
-             s.bond->moments = true;
+             std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
            }}};
 }
 

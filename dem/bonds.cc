@@ -57,8 +57,9 @@ double BondLayout::reach(double ri, double rj) const {
   return gap_is_relative ? gap * std::min(ri, rj) : gap;
 }
 
-Bonds::Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &parameters)
-    : law{parameters}, particles_(particles.size()), rotation_(particles.has_rotation()) {
+Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
+    : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
+  if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
   const std::size_t n = particles.size();
   double largest = 0;
   for (const double r : particles.radius)
@@ -83,8 +84,9 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const Paralle
     reference[k] = particles.position[j] - particles.position[i];
     rest_length[k] = norm(reference[k]);
     if (!(rest_length[k] > 0)) throw std::invalid_argument("bonded spheres share one centre");
-    lever[k] = ri / (ri + rj);
-    normal_stiffness[k] = layout.normal_stiffness(ri, rj);
+    const bool centres = centre_to_centre(law);
+    lever[k] = centres ? 0.5 : ri / (ri + rj);
+    normal_stiffness[k] = centres ? layout.modulus / rest_length[k] : layout.normal_stiffness(ri, rj);
     bond_radius[k] = layout.bond_radius(ri, rj);
     state[k] = static_cast<int>(BondState::intact);
     break_time[k] = std::numeric_limits<double>::quiet_NaN();
@@ -135,13 +137,20 @@ std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, 
   return broken;
 }
 
-ParallelBond::Response<double> Bonds::response(std::size_t k, const Particles &p) const {
+BondGeometry<double> Bonds::geometry(std::size_t k) const {
+  return {triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k], bond_radius[k]};
+}
+
+BondStiffness Bonds::stiffness(std::size_t k) const {
+  return std::visit([&](const auto &l) { return l.stiffness(geometry(k)); }, law);
+}
+
+BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
-  const ParallelBond::Geometry<double> g{triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k],
-                                         bond_radius[k]};
   const Triple<double> d = triple(p.position[j] - p.position[i]);
-  if (!p.has_rotation()) return law.without_rotation(g, d);
-  return law(g, {d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
+  if (!p.has_rotation()) return std::get<ParallelBond>(law).without_rotation(geometry(k), d);
+  const BondMotion<double> motion{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])};
+  return std::visit([&](const auto &l) { return l(geometry(k), motion); }, law);
 }
 
 } // namespace platen::dem

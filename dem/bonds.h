@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/laws/parallel_bond.h"
+#include "dem/laws/bond_law.h"
 #include "dem/loop.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
@@ -66,11 +66,13 @@ struct Bonds {
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
   PairBlocks blocks; // of the rows of `table`, ends times kernels::row_stride
-  ParallelBond law;
+  BondLaw law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 
-  // Bonds all pairs within the layout's reach; pairs are sorted by (first, second).
-  Bonds(const Particles &particles, const BondLayout &layout, const ParallelBond::Parameters &law);
+  // Bonds all pairs within the layout's reach; pairs are sorted by (first, second). Throws
+  // std::invalid_argument where spheres share a centre, or where the law needs spheres that turn and these do
+  // not.
+  Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters);
 
   // Dashpots of the fraction alpha of critical in every bond: F = 2 alpha sqrt(K m*) v beside each spring of
   // stiffness K, with the reduced mass m*, or inertia for moments. Bonds must be intact.
@@ -84,10 +86,12 @@ struct Bonds {
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
-  ParallelBond::Response<double> response(std::size_t row, const Particles &particles) const;
-  std::size_t bytes() const; // of all columns and of the blocks
+  BondResponse<double> response(std::size_t row, const Particles &particles) const;
+  BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
+  std::size_t bytes() const;                      // of all columns and of the blocks
 
 private:
+  BondGeometry<double> geometry(std::size_t row) const;
   std::size_t particles_ = 0;
   bool rotation_ = false;
   void cut_blocks();
@@ -97,10 +101,10 @@ private:
 struct BrokenBond {
   int first = 0, second = 0, record = 0;
   BondState mode = BondState::broken_in_tension;
-  double rest_length = 0, area = 0;    // m, m^2
-  ParallelBond::Response<double> last; // at the break
-  double power = 0;                    // W, rate at which the bond was taking up energy
-  double released = 0;                 // J
+  double rest_length = 0, area = 0; // m, m^2
+  BondResponse<double> last;        // at the break
+  double power = 0;                 // W, rate at which the bond was taking up energy
+  double released = 0;              // J
 };
 
 enum class InstructionSet { baseline, avx2, avx512 };

@@ -23,7 +23,7 @@ void require_compiled(bool wanted, bool compiled, const char *effect) {
 // Refuses what this build leaves out, before a column is made.
 const ModelSettings &checked(const ModelSettings &s) {
   require_compiled(s.rotation, compiled::rotation, "rotation");
-  require_compiled(s.rotation && s.bond && s.bond->moments, compiled::bond_moments, "bond moments");
+  require_compiled(s.rotation && s.bond && bends(bond_law(*s.bond)), compiled::bond_moments, "bond moments");
   require_compiled(s.bond_dashpot > 0, compiled::bond_dashpots, "bond dashpots");
   require_compiled(s.local_damping > 0, compiled::local_damping, "local damping");
   require_compiled(norm_squared(s.gravity) > 0, compiled::gravity, "gravity");

@@ -18,16 +18,16 @@ namespace platen::dem {
 
 struct ModelSettings {
   bool rotation = true;
-  double density = 2400;                        // kg/m^3
-  double mass_scaling = 1;                      // multiplies mass and inertia
-  Vector3 gravity;                              // m/s^2
-  double local_damping = 0;                     // 0 ... 1, Cundall's
-  bool energy_ledger = true;                    // sums of energies and works
-  bool crack_log = true;                        // a record of each bond that breaks
-  double bond_dashpot = 0;                      // fraction of critical
-  BondLayout bond_layout;                       // also gives unbonded pairs their stiffness
-  std::optional<ParallelBond::Parameters> bond; // none: no bonds
-  std::optional<ContactSettings> contact;       // none: spheres pass through each other
+  double density = 2400;                  // kg/m^3
+  double mass_scaling = 1;                // multiplies mass and inertia
+  Vector3 gravity;                        // m/s^2
+  double local_damping = 0;               // 0 ... 1, Cundall's
+  bool energy_ledger = true;              // sums of energies and works
+  bool crack_log = true;                  // a record of each bond that breaks
+  double bond_dashpot = 0;                // fraction of critical
+  BondLayout bond_layout;                 // also gives unbonded pairs their stiffness
+  std::optional<BondParameters> bond;            // none: no bonds
+  std::optional<ContactSettings> contact; // none: spheres pass through each other
   InstructionSet instruction_set = best_instruction_set();
 };
 

@@ -106,17 +106,14 @@ private:
   // A bond that breaks leaves a contact, which may be the stiffer of the two.
   void add_bonds(const Bonds &b, const Contacts *contacts) {
     for (std::size_t k = 0; k < b.size(); ++k) {
-      const double half_square = 0.5 * b.bond_radius[k] * b.bond_radius[k];
-      const double axial = b.normal_stiffness[k] * pi * b.bond_radius[k] * b.bond_radius[k];
-      if (axial == 0.0) continue;
-      const double shear = b.law.parameters.stiffness_ratio * axial;
+      const BondStiffness s = b.stiffness(k);
+      if (s.axial == 0.0) continue;
       const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
       const ContactStiffness after = contacts != nullptr
                                          ? contacts->stiffness_bound(p_.radius[i], p_.radius[j], 0.0)
                                          : ContactStiffness{};
-      const bool moments = b.law.parameters.moments;
-      springs_.push_back({i, j, b.lever[k], std::max(axial, after.normal), std::max(shear, after.tangential),
-                          moments ? 0.5 * half_square * axial : 0.0, moments ? half_square * shear : 0.0});
+      springs_.push_back({i, j, b.lever[k], std::max(s.axial, after.normal),
+                          std::max(s.shear, after.tangential), s.bending, s.twisting});
     }
   }
   // Pairs that touch, and those that are near enough to touch soon.

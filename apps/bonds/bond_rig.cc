@@ -48,7 +48,8 @@ dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiff
   settings.bond_layout.modulus = modulus;
   settings.bond_layout.gap = bonded_gap;
   settings.bond_layout.gap_is_relative = true;
-  settings.bond->stiffness_ratio = stiffness_ratio;
+  if (auto *bond = std::get_if<dem::ParallelBond::Parameters>(&*settings.bond))
+    bond->stiffness_ratio = stiffness_ratio;
   return settings;
 }
 
@@ -57,10 +58,19 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
   b.sphere_radius = radius;
   b.bond_radius = settings.bond_layout.bond_radius(radius, radius);
   b.modulus = settings.bond_layout.modulus;
-  b.stiffness_ratio = settings.bond->stiffness_ratio;
-  b.tensile_strength = settings.bond->tensile_strength;
-  b.shear_strength = settings.bond->shear_strength;
-  b.moment_contribution = settings.bond->moment_contribution;
+  if (const auto *beam = std::get_if<dem::CohesiveBeam::Parameters>(&*settings.bond)) {
+    b.beam = true;
+    b.poisson_ratio = beam->poisson_ratio;
+  } else {
+    b.stiffness_ratio = std::get<dem::ParallelBond::Parameters>(*settings.bond).stiffness_ratio;
+  }
+  std::visit(
+      [&](const auto &law) {
+        b.tensile_strength = law.tensile_strength;
+        b.shear_strength = law.shear_strength;
+        b.moment_contribution = law.moment_contribution;
+      },
+      *settings.bond);
   return b;
 }
 
@@ -267,7 +277,7 @@ RigReading BondRig::read() const {
   const dem::Bonds &b = *model_.bonds;
   for (std::size_t k = 0; k < b.size(); ++k) {
     if (b.normal_stiffness[k] == 0) continue;
-    const dem::ParallelBond::Response<double> response = b.response(k, p);
+    const dem::BondResponse<double> response = b.response(k, p);
     r.tension_ratio = std::max(r.tension_ratio, response.tension_ratio);
     r.shear_ratio = std::max(r.shear_ratio, response.shear_ratio);
     const auto ends =

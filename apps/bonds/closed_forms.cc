@@ -1,5 +1,6 @@
 #include "apps/bonds/closed_forms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +20,12 @@ double BondSection::bending_stiffness() const {
   return modulus / length() * area() * bond_radius * bond_radius / 4; // I = A R_b^2 / 4
 }
 
+double BondSection::shear_ratio() const {
+  return beam ? 3 * bond_radius * bond_radius / (length() * length()) : stiffness_ratio; // 12 I / (A l^2)
+}
+
 double BondSection::twisting_stiffness() const {
+  if (beam) return bending_stiffness() / (1 + poisson_ratio);                           // G I_o / l
   return stiffness_ratio * modulus / length() * area() * bond_radius * bond_radius / 2; // J = A R_b^2 / 2
 }
 
@@ -41,7 +47,11 @@ double pair_stiffness(const BondSection &bond, PairPath path) {
 
 double pair_strength(const BondSection &bond, PairPath path) {
   switch (path) {
-    case PairPath::shear:
+    case PairPath::shear: // spheres held upright bend a beam: at each end P l / 2
+      if (bond.beam)
+        return std::min(bond.shear_strength * bond.area(),
+                        bond.tensile_strength * bond.area() * bond.bond_radius /
+                            (2 * bond.moment_contribution * bond.length()));
       return bond.shear_strength * bond.area();
     case PairPath::bending: // sigma_c I / (beta R_b)
       return bond.tensile_strength * bond.area() * bond.bond_radius / (4 * bond.moment_contribution);
@@ -62,7 +72,7 @@ double pair_strength(const BondSection &bond, PairPath path) {
 // + t, relative rotation theta; the base bond stretches by 2u and bends by 2 theta, half of it for each half.
 PyramidResponse pyramid_response(const Pyramid &pyramid) {
   const BondSection &b = pyramid.bond;
-  const double k = b.stiffness_ratio;
+  const double k = b.shear_ratio();
   const double bending = b.bending_stiffness() / (b.axial_stiffness() * b.sphere_radius * b.sphere_radius);
   // Energy / (k_n A) = 1/2 (u a11 u + 2 u a12 t + t a22 t) + f1 u + f2 t + 1/2 c.
   double a11 = .25 + .75 * k, a12 = root3 / 2 * k, a22 = k + bending;

@@ -7,19 +7,22 @@ namespace platen::apps {
 
 // A bond between two touching spheres. SI units.
 struct BondSection {
-  double sphere_radius = 0; // R, m
-  double bond_radius = 0;   // R_b, m
-  double modulus = 0;       // G_b, Pa
-  double stiffness_ratio = 0;
+  double sphere_radius = 0;                        // R, m
+  double bond_radius = 0;                          // R_b, m
+  double modulus = 0;                              // G_b, Pa
+  double stiffness_ratio = 0;                      // of a parallel bond
+  bool beam = false;                               // from centre to centre; with
+  double poisson_ratio = 0;                        // its own
   double tensile_strength = 0, shear_strength = 0; // Pa; infinite where the bond never breaks
   double moment_contribution = 1;
 
   double length() const { return 2 * sphere_radius; }                    // m
   double area() const;                                                   // m^2
   double axial_stiffness() const { return modulus * area() / length(); } // k_n A, N/m
-  double shear_stiffness() const { return stiffness_ratio * axial_stiffness(); }
+  double shear_ratio() const;                                            // K_s / (k_n A)
+  double shear_stiffness() const { return shear_ratio() * axial_stiffness(); }
   double bending_stiffness() const;  // k_n I, N m
-  double twisting_stiffness() const; // k_s J, N m
+  double twisting_stiffness() const; // k_s J, or G I_o / l of a beam; N m
 };
 
 // Two spheres, the first held. Stiffness of the path (N/m; N m for bending and twisting).

@@ -27,6 +27,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 bool is_pyramid(const Scene &scene) {
   return scene.pair_test.particles == 3;
 }
+bool is_beam(const Scene &scene) {
+  return scene.effects.bond == BondKind::cohesive_beam;
+}
 bool turns(const Scene &scene) {
   return scene.pair_test.path == PairPath::bending || scene.pair_test.path == PairPath::twisting;
 }
@@ -45,8 +48,9 @@ void refuse(const Scene &scene, const std::string &path, const std::string &reas
 // What this test cannot do, or what its closed forms know nothing of.
 void check(const Scene &scene) {
   const PairTest &test = scene.pair_test;
-  if (scene.effects.bond != BondKind::parallel_bond)
-    refuse(scene, "Effects/Bond", "is not available here. Allowed: parallel bond.");
+  if (is_beam(scene) && test.stiffness_ratios.size() > 1)
+    refuse(scene, "Pair test/Stiffness ratio list",
+           "is for parallel bonds: a beam has the ratio of its section.");
   if (scene.effects.gravity)
     refuse(scene, "Effects/Gravity", "would load the bonds before the test does. Allowed: off.");
   if (scene.integration.damping < .05)
@@ -101,7 +105,7 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
   BondRig rig(scene, modulus, ratio);
   BondRun run;
   run.modulus = modulus;
-  run.stiffness_ratio = ratio;
+  run.stiffness_ratio = rig.section().shear_ratio();
   run.bonds = rig.bonds_at_start();
   run.bond_area = rig.section().area();
   run.time_step = rig.time_step();
@@ -231,7 +235,7 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, const Cost
   s["app"] = "platen-bonds";
   s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
   s["version"] = version_line();
-  std::vector<std::string> effects{"parallel bond"};
+  std::vector<std::string> effects{is_beam(scene) ? "cohesive beam" : "parallel bond"};
   if (scene.effects.rotation) effects.insert(effects.end(), {"rotation", "bond moments"});
   if (scene.effects.contact != ContactKind::none)
     effects.emplace_back(scene.effects.contact == ContactKind::hertz ? "hertz contact" : "linear contact");

@@ -41,14 +41,25 @@ dem::BondLayout bond_layout(const Bond &from) {
   return to;
 }
 
-dem::ParallelBond::Parameters bond_parameters(const Bond &from) {
-  dem::ParallelBond::Parameters to;
-  to.stiffness_ratio = from.stiffness_ratio;
+template <class Parameters>
+Parameters with_strengths(Parameters to, const Bond &from) {
   to.tensile_strength = strength(from.tensile_strength);
   to.shear_strength = strength(from.shear_strength);
   to.friction_coefficient = std::tan(from.friction_angle);
   to.moment_contribution = from.moment_contribution;
   return to;
+}
+
+dem::BondParameters bond_parameters(const Bond &from, const Effects &effects) {
+  if (effects.bond == BondKind::cohesive_beam) {
+    dem::CohesiveBeam::Parameters beam;
+    beam.poisson_ratio = from.poisson_ratio;
+    return with_strengths(beam, from);
+  }
+  dem::ParallelBond::Parameters bond;
+  bond.stiffness_ratio = from.stiffness_ratio;
+  bond.moments = effects.bond_moments;
+  return with_strengths(bond, from);
 }
 
 dem::ContactSettings contact_settings(const Scene &scene) {
@@ -85,7 +96,7 @@ void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
   };
   using namespace dem::compiled;
   check(to.rotation, rotation, "Effects/Rotation", "off");
-  check(to.rotation && to.bond && to.bond->moments, bond_moments, "Effects/Bond moments", "off");
+  check(to.rotation && to.bond && bends(bond_law(*to.bond)), bond_moments, "Effects/Bond moments", "off");
   check(norm_squared(to.gravity) > 0, gravity, "Effects/Gravity", "off");
   check(to.energy_ledger, energy_ledger, "Effects/Energy ledger", "off");
   check(to.crack_log, crack_log, "Effects/Crack log", "off");
@@ -115,10 +126,7 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.bond_layout = bond_layout(scene.bond);
   to.energy_ledger = scene.effects.energy_ledger;
   to.crack_log = scene.effects.crack_log;
-  if (scene.effects.bond == BondKind::parallel_bond) {
-    to.bond = bond_parameters(scene.bond);
-    to.bond->moments = scene.effects.bond_moments;
-  }
+  if (scene.effects.bond != BondKind::none) to.bond = bond_parameters(scene.bond, scene.effects);
   if (scene.effects.contact != ContactKind::none) to.contact = contact_settings(scene);
   to.instruction_set = scene.integration.instruction_set == InstructionSet::baseline
                            ? dem::InstructionSet::baseline

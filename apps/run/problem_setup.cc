@@ -13,7 +13,7 @@ struct Effect {
 std::vector<Effect> effects(const Scene &s) {
   const Effects &e = s.effects;
   const bool bonded = e.bond != BondKind::none, touching = e.contact != ContactKind::none;
-  return {{bonded, "parallel bond"},
+  return {{bonded, e.bond == BondKind::cohesive_beam ? "cohesive beam" : "parallel bond"},
           {touching && e.contact == ContactKind::linear, "linear contact"},
           {touching && e.contact == ContactKind::hertz, "hertz contact"},
           {touching && e.tangential != TangentialKind::none, "coulomb friction"},

@@ -128,6 +128,13 @@ void SceneCheck::effects() const {
   if (rolling && !effects.rotation) refuse("Effects/Tangential", "needs Effects/Rotation = on.");
   if (rolling && effects.contact == ContactKind::none)
     refuse("Effects/Tangential", "needs a contact to roll on. Allowed: Effects/Contact = linear, hertz.");
+  if (effects.bond == BondKind::cohesive_beam) {
+    const std::string instead = "beams bend and twist. Allowed: on, or Effects/Bond = parallel bond.";
+    if (!effects.rotation)
+      refuse("Effects/Rotation", "does not go with Effects/Bond = cohesive beam: " + instead);
+    if (!effects.bond_moments)
+      refuse("Effects/Bond moments", "does not go with Effects/Bond = cohesive beam: " + instead);
+  }
   if (effects.bond == BondKind::none && effects.contact == ContactKind::none && app_ != AppKind::pack)
     refuse("Effects/Contact", "leaves nothing that acts between grains, because Effects/Bond = none too.");
 }
@@ -220,6 +227,10 @@ void SceneCheck::notes() {
       note(key, "Specimen/Radius distribution is not two sizes");
   if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
   if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
+  if (effects.bond == BondKind::cohesive_beam)
+    note("Bond/Stiffness ratio", "a cohesive beam has that of its section");
+  else
+    note("Bond/Poisson ratio", "Effects/Bond is not cohesive beam");
   if (scene_.bond.shear_strength == 0) note("Bond/Friction angle", "Bond/Shear strength is infinite");
   if (effects.contact != ContactKind::linear)
     for (const char *key : {"Contact/Stiffness", "Contact/Tangential ratio", "Contact/Damping"})

@@ -100,8 +100,9 @@ struct Effects {
 enum class RadiusRule { minimum, mean, harmonic, given };
 
 struct Bond {
-  double modulus = not_given; // Pa
-  double stiffness_ratio = 0.4;
+  double modulus = not_given;     // Pa
+  double stiffness_ratio = 0.4;   // parallel bond
+  double poisson_ratio = 0.3;     // cohesive beam
   double tensile_strength = 0;    // Pa; 0: never breaks in tension
   double shear_strength = 0;      // Pa; 0: never breaks in shear
   double friction_angle = 0;      // rad

@@ -74,7 +74,7 @@ void declare_effects(Parameters &parameters, Effects &effects) {
                           {"parallel bond", BondKind::parallel_bond},
                           {"cohesive beam", BondKind::cohesive_beam},
                           {"elasto damage plastic", BondKind::elasto_damage_plastic}},
-                         {"cohesive beam", "elasto damage plastic"}, "What holds the grains together.");
+                         {"elasto damage plastic"}, "What holds the grains together.");
   section.word<ContactKind>(
       "Contact", effects.contact,
       {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}}, {},
@@ -98,7 +98,9 @@ void declare_bond(Parameters &parameters, Bond &bond) {
   Section section(parameters, "Bond");
   section.quantity("Modulus", bond.modulus, "Pa", above(0), "Young modulus of the bond.");
   section.number("Stiffness ratio", bond.stiffness_ratio, between(0, 5),
-                 "Shear over normal stiffness, k_s / k_n.");
+                 "Shear over normal stiffness, k_s / k_n (parallel bond).");
+  section.number("Poisson ratio", bond.poisson_ratio, between_open(-1, 0.5),
+                 "Of the beam: its shear modulus is Modulus / (2 (1 + nu)) (cohesive beam).");
   section.quantity("Tensile strength", bond.tensile_strength, "Pa", at_least(0),
                    "0: never breaks in tension.");
   section.quantity("Shear strength", bond.shear_strength, "Pa", at_least(0),

@@ -1,9 +1,9 @@
-// Block kernels of the parallel bond. One source, compiled once per instruction set (bond_kernel.inc.h).
+// Block kernels of the bond laws. One source, compiled once per instruction set (bond_kernel.inc.h).
 #pragma once
 
 #include <cstddef>
 
-#include "dem/laws/parallel_bond.h"
+#include "dem/laws/bond_law.h"
 #include "dem/pair_blocks.h"
 #include "dem/vector3.h"
 
@@ -56,11 +56,11 @@ struct BondRowValues {
 struct BondKernels {
   // Forces of the bonds on the block's particles and ghosts; true where a bond may be at or above its
   // strength.
-  bool (*compute_forces)(const BondColumns &, const BlockColumns &, const ParallelBond &, std::size_t first,
+  bool (*compute_forces)(const BondColumns &, const BlockColumns &, const BondLaw &, std::size_t first,
                          std::size_t last);
   // Adds the dashpots' forces; returns the sum of (force now + force before) times opening velocity, W.
   double (*add_dashpots)(const BondColumns &, const BlockColumns &, std::size_t first, std::size_t last);
-  void (*measure)(const BondColumns &, const ParallelBond &, const BondRowValues &, std::size_t first,
+  void (*measure)(const BondColumns &, const BondLaw &, const BondRowValues &, std::size_t first,
                   std::size_t last);
 };
 

@@ -44,8 +44,8 @@ struct Tail {
   }
 };
 
-PLATEN_INLINE ParallelBond::Geometry<Pack> geometry(const BondColumns &c, std::size_t k) {
-  ParallelBond::Geometry<Pack> g;
+PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
+  BondGeometry<Pack> g;
   g.reference = load(c.reference + k);
   g.rest_length = load(c.rest_length + k);
   g.lever = load(c.lever + k);
@@ -54,30 +54,30 @@ PLATEN_INLINE ParallelBond::Geometry<Pack> geometry(const BondColumns &c, std::s
   return g;
 }
 
-template <Turning turning>
-PLATEN_INLINE Pack add_pack(const BondColumns &c, const ParallelBond &law, std::size_t k, const Ends &ends) {
+template <Turning turning, class Law>
+PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends) {
   constexpr bool rotation = turning != Turning::none;
   const Triple<Pack> d = distances(ends);
-  ParallelBond::Response<Pack> r;
+  BondResponse<Pack> r;
   if constexpr (rotation)
-    r = law.turning<turning == Turning::moments>(
-        geometry(c, k), ParallelBond::Motion<Pack>{d, orientations(ends.first), orientations(ends.second)});
+    r = law.template turning<turning == Turning::moments>(
+        geometry(c, k), BondMotion<Pack>{d, orientations(ends.first), orientations(ends.second)});
   else
     r = law.without_rotation(geometry(c, k), d);
   scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
   return r.excess;
 }
 
-template <Turning turning>
-[[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
+template <Turning turning, class Law>
+[[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
                                 std::size_t k, std::size_t last) {
   Tail tail(c, k, last);
   return add_pack<turning>(tail.columns(c), law, 0, tail_ends<turning != Turning::none>(c, block, k, last));
 }
 
-template <Turning turning>
-bool compute_forces(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
-                    std::size_t first, std::size_t last) {
+template <Turning turning, class Law>
+bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
+                    std::size_t last) {
   constexpr bool rotation = turning != Turning::none;
   take_up<rotation>(c, block);
   Pack excess = Pack(-1.0);
@@ -92,33 +92,39 @@ bool compute_forces(const BondColumns &c, const BlockColumns &block, const Paral
   return reached;
 }
 
-bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const ParallelBond &law,
-                       std::size_t first, std::size_t last) {
-  if constexpr (compiled::rotation) {
-    if (c.orientation != nullptr) {
-      if constexpr (compiled::bond_moments)
-        if (law.parameters.moments) return compute_forces<Turning::moments>(c, block, law, first, last);
-      return compute_forces<Turning::forces>(c, block, law, first, last);
-    }
+template <class Law>
+bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
+                         std::size_t last) {
+  if constexpr (compiled::rotation && (compiled::bond_moments || Law::needs_rotation))
+    if (c.orientation != nullptr && law.bends())
+      return compute_forces<Turning::moments>(c, block, law, first, last);
+  if constexpr (!Law::needs_rotation) {
+    if constexpr (compiled::rotation)
+      if (c.orientation != nullptr) return compute_forces<Turning::forces>(c, block, law, first, last);
+    return compute_forces<Turning::none>(c, block, law, first, last);
   }
-  return compute_forces<Turning::none>(c, block, law, first, last);
+  return false;
+}
+
+bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law, std::size_t first,
+                       std::size_t last) {
+  return std::visit([&](const auto &one) { return compute_forces_with(c, block, one, first, last); }, law);
 }
 
 // From the particles' columns, for bonds of any block.
-template <Turning turning>
-PLATEN_INLINE ParallelBond::Response<Pack> respond(const BondColumns &c, const ParallelBond &law,
-                                                   std::size_t k) {
+template <Turning turning, class Law>
+PLATEN_INLINE BondResponse<Pack> respond(const BondColumns &c, const Law &law, std::size_t k) {
   const int *i = c.first + k, *j = c.second + k;
   const Triple<Pack> d = gather_difference(c.position, j, i);
   if constexpr (turning == Turning::none)
     return law.without_rotation(geometry(c, k), d);
   else
-    return law.turning<turning == Turning::moments>(
-        geometry(c, k), ParallelBond::Motion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
+    return law.template turning<turning == Turning::moments>(
+        geometry(c, k), BondMotion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
 }
 
-template <Turning turning>
-void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
+template <Turning turning, class Law>
+void measure(const BondColumns &c, const Law &law, const BondRowValues &to, std::size_t first,
              std::size_t last) {
   const auto put = [&](double *column, const Pack &value, std::size_t at, std::size_t count) {
     if (column == nullptr) return;
@@ -127,7 +133,7 @@ void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues 
   };
   for (std::size_t k = first; k < last; k += lanes) {
     const std::size_t count = last - k < lanes ? last - k : lanes;
-    ParallelBond::Response<Pack> r;
+    BondResponse<Pack> r;
     if (count == lanes) {
       r = respond<turning>(c, law, k);
     } else {
@@ -141,14 +147,19 @@ void measure(const BondColumns &c, const ParallelBond &law, const BondRowValues 
   }
 }
 
-void measure_of(const BondColumns &c, const ParallelBond &law, const BondRowValues &to, std::size_t first,
-                std::size_t last) {
-  if (c.orientation == nullptr)
+template <class Law>
+void measure_with(const BondColumns &c, const Law &law, const BondRowValues &to, std::size_t first,
+                  std::size_t last) {
+  if (c.orientation != nullptr && law.bends()) return measure<Turning::moments>(c, law, to, first, last);
+  if constexpr (!Law::needs_rotation) {
+    if (c.orientation != nullptr) return measure<Turning::forces>(c, law, to, first, last);
     measure<Turning::none>(c, law, to, first, last);
-  else if (law.parameters.moments)
-    measure<Turning::moments>(c, law, to, first, last);
-  else
-    measure<Turning::forces>(c, law, to, first, last);
+  }
+}
+
+void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &to, std::size_t first,
+                std::size_t last) {
+  std::visit([&](const auto &one) { measure_with(c, one, to, first, last); }, law);
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).

@@ -105,6 +105,50 @@ INSTANTIATE_TEST_SUITE_P(bonds_two, Path,
                                          PathCase{"twisting", .25e9 * section * 1e-3 / 2, false}),
                          [](const testing::TestParamInfo<PathCase> &path) { return path.param.word; });
 
+struct BeamCase {
+  const char *word;
+  double stiffness, strength; // N/m and N, or N m and N m
+};
+void PrintTo(const BeamCase &path, std::ostream *out) {
+  *out << path.word;
+}
+class BeamPath : public testing::TestWithParam<BeamCase> {};
+
+// A beam of the radius .71 mm between centres 2 mm apart, E = 150 GPa, nu = .25, sigma_c .5 GPa, tau_c .25
+// GPa.
+TEST_P(BeamPath, is_that_of_strength_of_materials) {
+  const BeamCase c = GetParam();
+  const BondRun run =
+      run_bond_tests(pair_scene({"Effects/Bond = cohesive beam", "Bond/Radius multiplier = 0.71",
+                                 "Bond/Poisson ratio = 0.25", "Bond/Tensile strength = 0.5 GPa",
+                                 "Bond/Shear strength = 0.25 GPa", "Pair test/Modulus list = 150 GPa",
+                                 std::string("Pair test/Path = ") + c.word, "Pair test/Force = 2 kN"}))
+          .at(0);
+  EXPECT_NEAR(run.stiffness_by_hand, c.stiffness, 1e-9 * c.stiffness);
+  EXPECT_NEAR(run.strength_by_hand, c.strength, 1e-9 * c.strength);
+  EXPECT_NEAR(run.path.break_load, c.strength, 1.5e-3 * c.strength); // where the step before the break ends
+  int rows = 0;
+  for (const RigReading &row : run.path.rows) {
+    if (row.intact != 1) continue;
+    const bool turned = c.strength < 1;
+    const double way = turned ? row.rotation : row.displacement, load = turned ? row.moment : row.force;
+    EXPECT_NEAR(way, load / c.stiffness, 2e-4 * std::abs(way)) << c.word; // finite rotation
+    ++rows;
+  }
+  EXPECT_GT(rows, 0);
+}
+
+constexpr double beam_section = 3.14159265358979 * .71e-3 * .71e-3,
+                 beam_inertia = beam_section * .71e-3 * .71e-3 / 4;
+INSTANTIATE_TEST_SUITE_P(
+    bonds_two, BeamPath,
+    testing::Values(BeamCase{"tension", 150e9 * beam_section / 2e-3, .5e9 * beam_section},
+                    BeamCase{"shear", 12 * 150e9 * beam_inertia / 8e-9,
+                             2 * .5e9 * beam_inertia / (.71e-3 * 2e-3)},
+                    BeamCase{"bending", 150e9 * beam_inertia / 2e-3, .5e9 * beam_inertia / .71e-3},
+                    BeamCase{"twisting", 60e9 * 2 * beam_inertia / 2e-3, .25e9 * 2 * beam_inertia / .71e-3}),
+    [](const testing::TestParamInfo<BeamCase> &path) { return path.param.word; });
+
 TEST(bonds_two, compression_breaks_nothing) {
   const BondRun run =
       run_bond_tests(pair_scene({"Bond/Tensile strength = 1 MPa", "Bond/Shear strength = 1 MPa",

@@ -22,8 +22,9 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
   settings.local_damping = 0.7;
   settings.bond_layout.modulus = modulus;
   settings.bond_layout.gap = 1e-6;
-  settings.bond.emplace();
-  settings.bond->stiffness_ratio = stiffness_ratio;
+  dem::ParallelBond::Parameters bond;
+  bond.stiffness_ratio = stiffness_ratio;
+  settings.bond = bond;
   dem::Model model(spheres({{-r, 0, 0}, {r, 0, 0}, {0, 0, height}}), settings);
   EXPECT_EQ(model.bonds->initial_count(), 3u);
 

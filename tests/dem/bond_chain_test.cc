@@ -64,13 +64,13 @@ INSTANTIATE_TEST_SUITE_P(bond_chain, ChainOf, testing::Values(1, 2, 3, 7));
 // it.
 TEST(bond_chain, a_transverse_load_bends_the_only_bond) {
   ModelSettings settings = bonded();
-  settings.bond->tensile_strength = tensile_strength;
-  settings.bond->shear_strength = shear_strength;
+  parallel_bond(settings).tensile_strength = tensile_strength;
+  parallel_bond(settings).shear_strength = shear_strength;
   Model model(row(1, {1, 0, 0}), settings);
   const double load = .25 * tensile_strength * area;
   solve_statics(model, {row_of(model.particles, 0)}, {{row_of(model.particles, 1), {0, load, 0}, {}}},
                 radius);
-  const ParallelBond::Response<double> r = model.bonds->response(0, model.particles);
+  const BondResponse<double> r = model.bonds->response(0, model.particles);
   // Finite rotation: the deflection is 1e-3 of the length here.
   EXPECT_NEAR(r.tension_ratio, 1, 2e-3);
   EXPECT_NEAR(r.shear_ratio, load / area / shear_strength, 2e-3);

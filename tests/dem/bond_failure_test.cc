@@ -244,7 +244,7 @@ TEST(bond_failure, shear_force_is_kept_up_to_the_coulomb_limit) {
 
 TEST(bond_failure, a_bond_broken_in_tension_hands_over_no_shear) {
   ModelSettings settings = breakable();
-  settings.bond->moment_contribution = 1;
+  parallel_bond(settings).moment_contribution = 1;
   Pair pair(settings);
   // Compressed, bent far beyond the tensile strength, and sheared a little.
   pair.place({-2 * radius * 1e-4, 1e-3 * radius, 0}, {0, 0, .01});

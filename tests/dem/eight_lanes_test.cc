@@ -112,7 +112,7 @@ TEST_P(EightLanes, give_the_same_forces_and_dashpots) {
   ASSERT_GT(model.bonds->blocks.blocks(), 1u);
   ASSERT_GT(model.bonds->blocks.ghost_particle.size(), 0u);
   const auto &few = kernels::bond_kernels_baseline, &eight = kernels::bond_kernels_of_eight_lanes;
-  const ParallelBond &law = model.bonds->law;
+  const BondLaw &law = model.bonds->law;
   std::size_t tails = 0;
   bool reached = false, reached_too = false;
   expect_near(loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {

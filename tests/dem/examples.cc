@@ -34,15 +34,20 @@ ModelSettings bonded() {
   s.density = 2400;
   s.bond_layout.modulus = modulus;
   s.bond_layout.gap = 1e-6;
-  s.bond = ParallelBond::Parameters{};
-  s.bond->stiffness_ratio = stiffness_ratio;
+  ParallelBond::Parameters bond;
+  bond.stiffness_ratio = stiffness_ratio;
+  s.bond = bond;
   return s;
+}
+
+ParallelBond::Parameters &parallel_bond(ModelSettings &settings) {
+  return std::get<ParallelBond::Parameters>(settings.bond.value());
 }
 
 ModelSettings breakable() {
   ModelSettings s = bonded();
-  s.bond->tensile_strength = tensile_strength;
-  s.bond->shear_strength = shear_strength;
+  parallel_bond(s).tensile_strength = tensile_strength;
+  parallel_bond(s).shear_strength = shear_strength;
   s.contact = ContactSettings{};
   s.contact->friction = .5;
   return s;
@@ -59,7 +64,7 @@ Loads bond_loads(const Particles &p, const Bonds &b) {
   const auto vector = [](const Triple<double> &t) { return Vector3{t.x, t.y, t.z}; };
   for (std::size_t k = 0; k < b.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-    const ParallelBond::Response<double> r = b.response(k, p);
+    const BondResponse<double> r = b.response(k, p);
     loads.force[i] += vector(r.force);
     loads.force[j] -= vector(r.force);
     loads.torque[i] += vector(r.torque_i);

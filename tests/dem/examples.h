@@ -33,6 +33,8 @@ ModelSettings bonded();
 // The same with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();
+// Parameters of settings whose bonds are parallel ones.
+ParallelBond::Parameters &parallel_bond(ModelSettings &settings);
 
 // One whole step. `load` is called where surfaces would act: between forces and second half kick.
 template <class Load>

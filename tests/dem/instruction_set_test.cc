@@ -40,7 +40,7 @@ class Kernels : public testing::TestWithParam<Turning> {
 protected:
   static ModelSettings with(ModelSettings settings) {
     settings.rotation = GetParam().rotation;
-    settings.bond->moments = GetParam().moments;
+    parallel_bond(settings).moments = GetParam().moments;
     return settings;
   }
 };

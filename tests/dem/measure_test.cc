@@ -111,7 +111,7 @@ TEST(measure, network_moduli_meet_at_equal_stiffness) {
   const Specimen specimen = packed_box(14, 14, 14);
   for (const double k : {.3, .7, 1.0}) {
     ModelSettings settings = bonded();
-    settings.bond->stiffness_ratio = k;
+    parallel_bond(settings).stiffness_ratio = k;
     Model model(specimen, settings);
     const NetworkModuli m = network_moduli(*model.bonds, specimen.shape.volume());
     const double sum =

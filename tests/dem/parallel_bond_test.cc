@@ -14,9 +14,8 @@ namespace {
 
 using namespace examples;
 using Vec = Triple<double>;
-using Geometry = ParallelBond::Geometry<double>;
-using BondMotion = ParallelBond::Motion<double>;
-using Response = ParallelBond::Response<double>;
+using Geometry = BondGeometry<double>;
+using Response = BondResponse<double>;
 
 constexpr double bond_length = 2 * radius;
 
@@ -44,13 +43,13 @@ ParallelBond breakable_bond(double friction = 0, double beta = 1) {
 Geometry along_x() {
   return {{bond_length, 0, 0}, bond_length, .5, normal_stiffness, radius};
 }
-BondMotion at_rest() {
+BondMotion<double> at_rest() {
   return {{bond_length, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
 }
 
 struct RandomBond {
   Geometry geometry;
-  BondMotion motion;
+  BondMotion<double> motion;
 };
 // Unequal spheres in any direction, turned and strained finitely.
 RandomBond random_bond(Random &random) {
@@ -69,7 +68,7 @@ RandomBond random_bond(Random &random) {
 // Linear: only round-off of the length, 1e-16 over the strain of 1e-5, is left.
 TEST(parallel_bond, axial_force_follows_youngs_modulus) {
   const double force = 100; // N
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.distance.x += force * bond_length / (modulus * area);
   const Response r = breakable_bond()(along_x(), m);
   EXPECT_NEAR(r.force.x, force, 1e-10 * force);
@@ -79,7 +78,7 @@ TEST(parallel_bond, axial_force_follows_youngs_modulus) {
 }
 
 TEST(parallel_bond, tension_breaks_at_strength_times_area) {
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.distance.x += tensile_strength * bond_length / modulus;
   const Response r = breakable_bond()(along_x(), m);
   EXPECT_NEAR(r.tension_ratio, 1, 1e-10);
@@ -91,7 +90,7 @@ TEST(parallel_bond, tension_breaks_at_strength_times_area) {
 TEST(parallel_bond, bending_breaks_at_the_section_modulus) {
   const double strength = tensile_strength * second_moment / radius;
   const double angle = strength / (normal_stiffness * second_moment);
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.turn_i = rotation(rotation_quaternion({0, -.5 * angle, 0}));
   m.turn_j = rotation(rotation_quaternion({0, .5 * angle, 0}));
   const Response r = breakable_bond()(along_x(), m);
@@ -105,7 +104,7 @@ TEST(parallel_bond, bending_breaks_at_the_section_modulus) {
 
 TEST(parallel_bond, bending_stiffness_is_that_of_the_section) {
   const double angle = 1e-6; // relative error angle^2 / 6
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.turn_j = rotation(rotation_quaternion({0, 0, angle}));
   m.distance = vec(.5 * bond_length * (Vector3{1, 0, 0} + Vector3{std::cos(angle), std::sin(angle), 0}));
   const Response r = breakable_bond()(along_x(), m); // the contact points stay together: no shear
@@ -117,7 +116,7 @@ TEST(parallel_bond, bending_stiffness_is_that_of_the_section) {
 TEST(parallel_bond, torsion_breaks_at_the_polar_section_modulus) {
   const double strength = shear_strength * polar_moment / radius;
   const double angle = strength / (shear_stiffness * polar_moment);
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.turn_j = rotation(rotation_quaternion({angle, 0, 0}));
   const Response r = breakable_bond()(along_x(), m);
   const double softening = angle * angle / 6; // sin(angle) for angle
@@ -130,7 +129,7 @@ TEST(parallel_bond, torsion_breaks_at_the_polar_section_modulus) {
 // Spheres shifted against each other without turning: no moment at the contact point.
 TEST(parallel_bond, shear_follows_its_stiffness) {
   const double slip = 1e-6 * bond_length;
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.distance.y = slip;
   const Response r = breakable_bond()(along_x(), m);
   const double force = shear_stiffness * area * slip;
@@ -140,7 +139,7 @@ TEST(parallel_bond, shear_follows_its_stiffness) {
 
 TEST(parallel_bond, shear_breaks_at_strength_times_area) {
   const double slip = shear_strength / shear_stiffness;
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   // On the sphere around i, so that shear is all there is: the slip is the component along the tangent.
   const double angle = std::asin(slip / bond_length);
   m.distance = {bond_length * std::cos(angle), bond_length * std::sin(angle), 0};
@@ -152,7 +151,7 @@ TEST(parallel_bond, shear_breaks_at_strength_times_area) {
 
 TEST(parallel_bond, compression_alone_never_breaks) {
   for (const double strain : {1e-6, 1e-3, .1, .5}) {
-    BondMotion m = at_rest();
+    BondMotion<double> m = at_rest();
     m.distance.x *= 1 - strain;
     const Response r = breakable_bond()(along_x(), m);
     EXPECT_LT(r.tension_ratio, 0);
@@ -162,7 +161,7 @@ TEST(parallel_bond, compression_alone_never_breaks) {
 
 TEST(parallel_bond, friction_angle_raises_the_shear_strength_by_the_compression) {
   const double tangent = std::tan(42 * pi / 180), pressure = 20e6; // Pa
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   const double length = bond_length * (1 - pressure / modulus);
   const double strength = shear_strength + tangent * pressure;
   // The slip is |u_s| of u = d - D.
@@ -177,7 +176,7 @@ TEST(parallel_bond, friction_angle_raises_the_shear_strength_by_the_compression)
 }
 
 TEST(parallel_bond, moment_contribution_scales_only_the_moments) {
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.distance.x *= 1 + 1e-5;
   const double axial = breakable_bond()(along_x(), m).tension_ratio;
   m.turn_i = rotation(rotation_quaternion({-1e-5, -1e-4, 0}));
@@ -246,7 +245,7 @@ TEST(parallel_bond, without_moments_turning_about_the_contact_point_costs_nothin
     for (int c = 0; c < 3; ++c) {
       Vector3 e;
       e[c] = h;
-      BondMotion plus = b.motion, minus = b.motion;
+      BondMotion<double> plus = b.motion, minus = b.motion;
       plus.turn_i = rotation(rotation_quaternion(e) * quaternion(b.motion.turn_i));
       minus.turn_i = rotation(rotation_quaternion(-e) * quaternion(b.motion.turn_i));
       const double slope = (law(b.geometry, plus).energy - law(b.geometry, minus).energy) / (2 * h);
@@ -254,7 +253,7 @@ TEST(parallel_bond, without_moments_turning_about_the_contact_point_costs_nothin
     }
   }
   // A twist about the axis, and a bend that leaves both contact points where they are, store nothing.
-  BondMotion m = at_rest();
+  BondMotion<double> m = at_rest();
   m.turn_j = rotation(rotation_quaternion({.3, 0, 0}));
   const Response twisted = law(along_x(), m);
   EXPECT_NEAR(twisted.energy, 0, 1e-20);
@@ -276,18 +275,19 @@ TEST(parallel_bond, forces_are_derivatives_of_the_stored_energy) {
       Vector3 e;
       e[c] = h;
       const auto slope = [&](auto change) {
-        BondMotion plus = b.motion, minus = b.motion;
+        BondMotion<double> plus = b.motion, minus = b.motion;
         change(plus, e);
         change(minus, -e);
         return (law(b.geometry, plus).energy - law(b.geometry, minus).energy) / (2 * h);
       };
-      const double by_distance =
-          slope([](BondMotion &m, const Vector3 &s) { m.distance = m.distance + vec(bond_length * s); }) /
-          bond_length;
-      const double by_turn_i = slope([](BondMotion &m, const Vector3 &s) {
+      const double by_distance = slope([](BondMotion<double> &m, const Vector3 &s) {
+                                   m.distance = m.distance + vec(bond_length * s);
+                                 }) /
+                                 bond_length;
+      const double by_turn_i = slope([](BondMotion<double> &m, const Vector3 &s) {
         m.turn_i = rotation(rotation_quaternion(s) * quaternion(m.turn_i));
       });
-      const double by_turn_j = slope([](BondMotion &m, const Vector3 &s) {
+      const double by_turn_j = slope([](BondMotion<double> &m, const Vector3 &s) {
         m.turn_j = rotation(rotation_quaternion(s) * quaternion(m.turn_j));
       });
       EXPECT_NEAR(vec(r.force)[c], by_distance, 1e-7 * scale); // on i, which moves against d
@@ -305,7 +305,7 @@ TEST(parallel_bond, naming_the_other_end_first_changes_nothing) {
     Geometry g = b.geometry;
     g.reference = {-g.reference.x, -g.reference.y, -g.reference.z};
     g.lever = 1 - g.lever;
-    const BondMotion m{scale(-1.0, b.motion.distance), b.motion.turn_j, b.motion.turn_i};
+    const BondMotion<double> m{scale(-1.0, b.motion.distance), b.motion.turn_j, b.motion.turn_i};
     const Response one = law(b.geometry, b.motion), other = law(g, m);
     const double force = norm(vec(one.force)), torque = norm(vec(one.torque_i)) + norm(vec(one.torque_j));
     EXPECT_LE(norm(vec(one.force) + vec(other.force)), 1e-12 * force);
@@ -323,7 +323,7 @@ TEST(parallel_bond, the_frame_of_reference_does_not_matter) {
   for (int trial = 0; trial < 500; ++trial) {
     const RandomBond b = random_bond(random);
     const Quaternion q = random_turn(random, 6);
-    BondMotion turned_motion;
+    BondMotion<double> turned_motion;
     turned_motion.distance = vec(rotate(q, vec(b.motion.distance)));
     turned_motion.turn_i = rotation(q * quaternion(b.motion.turn_i));
     turned_motion.turn_j = rotation(q * quaternion(b.motion.turn_j));
