@@ -1,0 +1,51 @@
+// Static equilibrium of a bonded network under loads and moving supports, by the tangent stiffness of its
+// bonds and conjugate gradients: for what needs no inertia. Linear: bonds do not break, and rotations are
+// small.
+#pragma once
+
+#include <stdexcept>
+#include <vector>
+
+#include "dem/bonds.h"
+#include "dem/particles.h"
+#include "dem/stable_step.h"
+
+namespace platen::dem {
+
+// A spring to a body that has moved and holds the particle from there.
+struct Support {
+  GroundSpring spring;
+  Vector3 moved; // m, of the body where it holds the particle
+};
+// A particle that is led.
+struct Led {
+  int particle = 0;
+  Vector3 displacement, turn; // m, rad
+};
+struct StaticCase {
+  std::vector<Support> supports;
+  std::vector<Led> led;               // each particle at most once
+  std::vector<Vector3> force, torque; // N, N m, on every particle; empty: none
+};
+struct StaticSettings {
+  double tolerance = 1e-9; // of the residual over the loads, in forces, with torques over the radius
+  int most_iterations = 20000;
+};
+struct StaticState {
+  std::vector<Vector3> displacement, turn; // m, rad; of every particle
+  int iterations = 0;
+  double residual = 0; // over the loads
+};
+
+struct NoEquilibrium : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What bonds in their present directions, with no forces in them, answer to the case. Particles that nothing
+// holds stay where they are. A network that its supports leave free to move as a whole comes to rest at one
+// of its equilibria, if the loads have any. Throws NoEquilibrium where the residual does not fall to the
+// tolerance, and std::invalid_argument where columns of loads do not fit the particles.
+StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
+                         const StaticSettings &settings = {});
+
+} // namespace platen::dem

@@ -1,0 +1,158 @@
+// Static equilibrium against strength of materials, symmetry, and the explicit scheme.
+#include "dem/equilibrium.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/measure/moduli.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double young = 40e9, poisson = .2, slender = .7;
+
+ModelSettings beams() {
+  ModelSettings s = bonded();
+  CohesiveBeam::Parameters law;
+  law.poisson_ratio = poisson;
+  s.bond = law;
+  s.bond_layout.modulus = young;
+  s.bond_layout.radius_multiplier = slender;
+  return s;
+}
+StaticSettings exact() {
+  StaticSettings s;
+  s.tolerance = 1e-14;
+  return s;
+}
+StaticCase clamped_at(std::size_t row) {
+  StaticCase load;
+  load.led.push_back({static_cast<int>(row), {}, {}});
+  return load;
+}
+
+class Cantilever : public testing::TestWithParam<Vector3> {};
+
+// Whatever way it points: Euler and Bernoulli at the node at its tip.
+TEST_P(Cantilever, of_beams_is_a_beam) {
+  const Vector3 axis = GetParam() / norm(GetParam());
+  const Vector3 side = cross(axis, Vector3{.3, -.5, .81}) / norm(cross(axis, Vector3{.3, -.5, .81}));
+  const int n = 6;
+  const double l = 2 * radius * n, r = slender * radius, section = pi * r * r,
+               ei = young * section * r * r / 4;
+  Model model(row(n, axis), beams());
+  const std::size_t tip = row_of(model.particles, n);
+  StaticCase load = clamped_at(row_of(model.particles, 0));
+  load.force.resize(model.particles.size());
+  load.torque.resize(model.particles.size());
+  const double p = 3, t = 2e-3, f = 5;
+  load.force[tip] = p * side + f * axis;
+  load.torque[tip] = t * axis;
+  const StaticState s = solve_static(model.particles, *model.bonds, load, exact());
+  const Vector3 moved = p * l * l * l / (3 * ei) * side + f * l / (young * section) * axis;
+  const Vector3 turned = p * l * l / (2 * ei) * cross(axis, side) + t * l * (1 + poisson) / ei * axis;
+  EXPECT_LT(norm(s.displacement[tip] - moved), 1e-9 * norm(moved));
+  EXPECT_LT(norm(s.turn[tip] - turned), 1e-9 * norm(turned));
+  EXPECT_LT(s.residual, 1e-14);
+}
+
+INSTANTIATE_TEST_SUITE_P(equilibrium, Cantilever,
+                         testing::Values(Vector3{1, 0, 0}, Vector3{0, 0, -1}, Vector3{1, -2, .7}));
+
+// Loads and led particles ask for the same: what a load does, that displacement gives the load back.
+TEST(equilibrium, led_particles_feel_what_loads_would_do) {
+  Model model(packed_box(9, 9, 9), bonded());
+  const Particles &p = model.particles;
+  const std::size_t low = 0, high = p.size() - 1;
+  StaticCase load = clamped_at(low);
+  load.force.resize(p.size());
+  load.force[high] = {3, -2, 5};
+  const StaticState free = solve_static(p, *model.bonds, load, exact());
+  StaticCase led = clamped_at(low);
+  led.led.push_back({static_cast<int>(high), free.displacement[high], free.turn[high]});
+  const StaticState same = solve_static(p, *model.bonds, led, exact());
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    largest = std::max(largest, norm(free.displacement[i]));
+    difference = std::max(difference, norm(free.displacement[i] - same.displacement[i]));
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_LT(difference, 1e-9 * largest);
+}
+
+// A rigid motion of the supports carries the network along and strains nothing.
+TEST(equilibrium, a_moved_support_carries_the_network) {
+  for (const bool rotation : {true, false}) {
+    ModelSettings settings = bonded();
+    settings.rotation = rotation;
+    Model model(packed_box(7, 7, 7), settings);
+    const Particles &p = model.particles;
+    const Vector3 moved{1e-6, -2e-6, 3e-6};
+    StaticCase load;
+    for (std::size_t i = 0; i < p.size(); i += 5)
+      load.supports.push_back({{static_cast<int>(i), {0, 0, 1}, {0, 0, -radius}, 1e7, 4e6, 2.}, moved});
+    const StaticState s = solve_static(p, *model.bonds, load, exact());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      ASSERT_LT(norm(s.displacement[i] - moved), 1e-9 * norm(moved)) << i << rotation;
+      ASSERT_LT(norm(s.turn[i]) * radius, 1e-9 * norm(moved)) << i << rotation;
+    }
+  }
+}
+
+// What the bonds' own law says of the displaced state balances the loads, to the square of the strain.
+TEST(equilibrium, bonds_of_the_displaced_state_balance_the_loads) {
+  for (ModelSettings settings : {bonded(), beams()}) {
+    Model model(packed_box(9, 9, 9), settings);
+    Particles &p = model.particles;
+    StaticCase load = clamped_at(0);
+    load.force.assign(p.size(), {});
+    load.force[p.size() - 1] = {2e-3, 3e-3, -4e-3};
+    load.torque.assign(p.size(), {});
+    load.torque[p.size() / 2] = {1e-6, 0, 2e-6};
+    const StaticState s = solve_static(p, *model.bonds, load, exact());
+    double largest = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      largest = std::max(largest, norm(s.displacement[i]) / radius);
+      p.position[i] += s.displacement[i];
+      (*p.orientation)[i] = rotation_quaternion(s.turn[i]);
+    }
+    EXPECT_LT(largest, 1e-4);
+    const Loads answer = bond_loads(p, *model.bonds);
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      ASSERT_LT(norm(answer.force[i] + load.force[i]), 1e-4 * 5e-3) << i;
+      ASSERT_LT(norm(answer.torque[i] + load.torque[i]), 1e-4 * 5e-3 * radius) << i;
+    }
+  }
+}
+
+TEST(equilibrium, loads_without_an_answer_are_told) {
+  Model model(row(2, {1, 0, 0}), bonded());
+  StaticCase load;
+  load.force.assign(model.particles.size(), {1, 0, 0}); // nothing holds it
+  StaticSettings few;
+  few.most_iterations = 50;
+  EXPECT_THROW(solve_static(model.particles, *model.bonds, load, few), NoEquilibrium);
+  load.force.resize(1);
+  EXPECT_THROW(solve_static(model.particles, *model.bonds, load), std::invalid_argument);
+}
+
+// Spheres without a bond stay, unless a load would carry them away.
+TEST(equilibrium, loose_spheres_stay_where_they_are) {
+  Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}, {9 * radius, 0, 0}}), bonded());
+  StaticCase load = clamped_at(row_of(model.particles, 0));
+  load.force.resize(3);
+  load.force[row_of(model.particles, 1)] = {1, 0, 0};
+  const StaticState s = solve_static(model.particles, *model.bonds, load, exact());
+  EXPECT_EQ(norm(s.displacement[row_of(model.particles, 2)]), 0);
+  EXPECT_NEAR(s.displacement[row_of(model.particles, 1)].x, 1 / (normal_stiffness * area),
+              1e-9 / (normal_stiffness * area));
+  load.force[row_of(model.particles, 2)] = {1, 0, 0};
+  EXPECT_THROW(solve_static(model.particles, *model.bonds, load), NoEquilibrium);
+}
+
+} // namespace
+} // namespace platen::dem
