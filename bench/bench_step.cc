@@ -25,6 +25,7 @@ double seconds_since(Clock::time_point start) {
 struct Options {
   int particles = 22500, threads = 1, steps = 500, repeats = 5;
   bool baseline = false, alone = false, gain = false;
+  bench::Law law = bench::Law::parallel_bond;
   std::string read, write;
 };
 
@@ -154,6 +155,7 @@ int main(int argc, char **argv) {
   app.add_option("--repeats", o.repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
   app.add_option("--specimen", o.read, "a packing from this file instead")->check(CLI::ExistingFile);
   app.add_option("--write-specimen", o.write, "write the packing to this file");
+  app.add_option("--law", o.law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
   app.add_flag("--baseline", o.baseline, "the kernels of plain x86-64");
   app.add_flag("--gain", o.gain, "one thread in turn with --threads, and what the others gain");
   app.add_flag("--alone", o.alone, "without the idealised loop");
@@ -161,7 +163,7 @@ int main(int argc, char **argv) {
 
   const dem::ThreadLimit limit(o.threads);
   const dem::Specimen specimen = specimen_for(o);
-  coupling::ProblemSettings chosen = bench::elastic_press();
+  coupling::ProblemSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
   const double before = bench::peak_memory();
   const auto start = Clock::now();

@@ -49,11 +49,19 @@ dem::Specimen close_packed(int particles) {
   return dem::random_close_packing_of(dem::cylinder(r, 4 * r), static_cast<std::size_t>(particles), 0.0, 1);
 }
 
-coupling::ProblemSettings elastic_press() {
+const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
+                                      {"cohesive-beam", Law::cohesive_beam}};
+
+coupling::ProblemSettings elastic_press(Law law) {
   coupling::ProblemSettings s;
   s.model.bond_layout.modulus = 40e9;
   s.model.bond_layout.gap = 0.1;
   s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3};
+  if (law == Law::cohesive_beam) {
+    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 1e9, 4e9, 1.0, 0.3};
+    s.model.bond_layout.radius_rule = dem::RadiusRule::mean;
+    s.model.bond_layout.radius_multiplier = 0.71;
+  }
   s.model.contact = dem::ContactSettings{};
   s.model.contact->friction = 0.5;
   s.model.local_damping = 0.5;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ namespace platen::bench {
 dem::Specimen close_packed(int particles);
 
 // Failure checks, energy book, local damping and contacts on; strengths that nothing reaches.
-coupling::ProblemSettings elastic_press();
+enum class Law { parallel_bond, cohesive_beam };
+extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
+coupling::ProblemSettings elastic_press(Law law = Law::parallel_bond);
 
 // The bonds of a problem for the idealised loop.
 Network network_of(const dem::Model &model);

@@ -183,6 +183,7 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     spring.normal = at.normal;
     spring.arm = at.local.point;
     spring.normal_stiffness = stiffness(i);
+    spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
     if (spring_ != nullptr)
       spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
     if (seat_spring_ != nullptr && row < table_.size() && seated_[row])

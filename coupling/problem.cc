@@ -126,6 +126,13 @@ std::vector<dem::GroundSpring> Problem::ground_springs() const {
   return springs;
 }
 
+std::vector<dem::GroundSpring> Problem::springs_at(bool top_platen) {
+  ContactLayer &layer = top_platen ? top_layer : bottom_layer;
+  const fem::Body &body = top_platen ? top : bottom;
+  layer.make_list(model.particles, body);
+  return layer.ground_springs(model.particles, body);
+}
+
 std::size_t Problem::springs_near() const {
   return (model.contacts ? model.contacts->table.size() : 0) + top_layer.closed + bottom_layer.closed;
 }

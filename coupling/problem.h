@@ -93,6 +93,8 @@ public:
   double packing_fraction() const { return packing_fraction_; }
   double voigt_modulus() const { return voigt_modulus_; } // Pa, intact; 0 without bonds
   double coordination_number() const;                     // bonds per particle times two
+  // Springs of the particles near a platen, in row order of its layer's list, which is made anew.
+  std::vector<dem::GroundSpring> springs_at(bool top_platen);
   std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
   std::size_t bytes() const; // of all columns of particles, bonds and contacts, and of the search lists
 

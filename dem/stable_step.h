@@ -19,6 +19,7 @@ struct GroundSpring {
   Vector3 normal, arm;                                   // arm: from the centre to the contact point, m
   double normal_stiffness = 0, tangential_stiffness = 0; // N/m
   double rotational_stiffness = 0;                       // N m/rad, about the centre
+  double gap = 0; // m, positive: open; the time step counts it as closed
 };
 
 struct StableStep {

@@ -31,11 +31,20 @@ Gauge::Gauge(const Particles &p, const Shape &shape) {
 }
 
 GaugeStrain Gauge::strain(const Particles &p) const {
+  return fit(p, [&](std::size_t i) { return p.position[i] - p.reference_position[i]; });
+}
+
+GaugeStrain Gauge::strain_of(const Particles &p, const std::vector<Vector3> &displacement) const {
+  return fit(p, [&](std::size_t i) { return displacement[i]; });
+}
+
+template <class Displacement>
+GaugeStrain Gauge::fit(const Particles &p, const Displacement &displacement) const {
   if (rows_.empty()) return {std::nan(""), std::nan(""), std::nan("")};
   // Row k of `sum`: sum over particles of u_k (X - X_centre); gradient = sum inverse.
   Vector3 sum[3];
   for (const int i : rows_) {
-    const Vector3 x = p.reference_position[i] - centre_, u = p.position[i] - p.reference_position[i];
+    const Vector3 x = p.reference_position[i] - centre_, u = displacement(static_cast<std::size_t>(i));
     for (int k = 0; k < 3; ++k)
       sum[k] += u[k] * x;
   }

@@ -20,9 +20,14 @@ class Gauge {
 public:
   Gauge(const Particles &particles, const Shape &shape);
   GaugeStrain strain(const Particles &particles) const;
+  // Of displacements (m, one per particle row) instead of where the particles are.
+  GaugeStrain strain_of(const Particles &particles, const std::vector<Vector3> &displacement) const;
   std::size_t size() const { return rows_.size(); }
 
 private:
+  template <class Displacement>
+  GaugeStrain fit(const Particles &particles, const Displacement &displacement) const;
+
   std::vector<int> rows_;
   Vector3 centre_;
   std::array<double, 9> inverse_{}; // of the second moments of the reference positions

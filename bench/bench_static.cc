@@ -1,0 +1,61 @@
+// Elastic moduli of the step benchmarks' specimen by static solves, beside the time that explicit steps would
+// take.
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "apps/io/specimen_csv.h"
+#include "coupling/static_press.h"
+#include "dem/parallel.h"
+#include "step_scene.h"
+
+namespace {
+
+using namespace platen;
+
+template <class Work>
+double seconds_of(const Work &work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  int particles = 10000, threads = 1, repeats = 3;
+  double steps = 100000;
+  bench::Law law = bench::Law::parallel_bond;
+  std::string read;
+  CLI::App app("Static solves against explicit steps.");
+  app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
+  app.add_option("--threads", threads, "threads of the explicit steps")->check(CLI::Range(1, 256));
+  app.add_option("--steps", steps, "steps of the explicit run to compare with")->check(CLI::Range(1., 1e9));
+  app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
+  app.add_option("--law", law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
+  app.add_option("--specimen", read, "a packing from this file instead")->check(CLI::ExistingFile);
+  CLI11_PARSE(app, argc, argv);
+
+  const dem::ThreadLimit limit(threads);
+  coupling::Problem problem(
+      read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen,
+      bench::elastic_press(law));
+  std::vector<double> still, step;
+  coupling::StaticPress p;
+  constexpr long timed = 100;
+  for (int r = 0; r < repeats; ++r) {
+    still.push_back(seconds_of([&] { p = coupling::press_statically(problem, 1e-5); }));
+    step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
+  }
+  const double seconds = bench::spread(still).median, explicitly = bench::spread(step).median * steps;
+  std::printf("%s, %d threads for explicit steps, one for static solves\n", bench::machine().c_str(),
+              threads);
+  std::printf("%zu particles, %zu bonds: E %.4g GPa (gauge), %.4g GPa (platens), nu %.4f\n",
+              problem.model.particles.size(), problem.model.bonds->size(), 1e-9 * p.youngs_modulus(),
+              1e-9 * p.platen_modulus(), p.poisson_ratio());
+  std::printf("static: %.3g s (%d solves, %d iterations); %.0f explicit steps: %.3g s; ratio %.0f\n", seconds,
+              p.solves, p.iterations, steps, explicitly, explicitly / seconds);
+  return 0;
+}

@@ -1,0 +1,112 @@
+#include "coupling/static_press.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/measure/gauge.h"
+
+namespace platen::coupling {
+
+using dem::cross;
+using dem::dot;
+using dem::Vector3;
+
+namespace {
+
+constexpr int most_solves = 40; // the set of contacts settles within ten, or swings
+
+// All spheres near both platens, and which of them are pressed.
+struct Contacts {
+  std::vector<dem::Support> near;
+  std::vector<bool> pressed;
+  std::size_t first_of_top = 0;
+  bool glued = false;
+};
+
+Contacts contacts_of(Problem &problem, double strain) {
+  Contacts c;
+  c.glued = problem.settings().platens.glued;
+  const double way = 0.5 * strain * problem.shape().height;
+  for (const bool top : {false, true}) {
+    if (top) c.first_of_top = c.near.size();
+    for (dem::GroundSpring &s : problem.springs_at(top))
+      if (s.gap <= way) c.near.push_back({s, {0, 0, top ? -way : way}});
+  }
+  c.pressed.assign(c.near.size(), true);
+  return c;
+}
+
+// Of the platen against the particle along the normal, N; the gap has to be closed first.
+double normal_force(const dem::Support &s, const dem::StaticState &state) {
+  const std::size_t i = static_cast<std::size_t>(s.spring.particle);
+  Vector3 u = state.displacement[i];
+  if (!state.turn.empty()) u += cross(state.turn[i], s.spring.arm);
+  return s.spring.normal_stiffness * (dot(s.moved - u, s.spring.normal) - s.spring.gap);
+}
+
+dem::StaticCase case_of(const Contacts &c) {
+  dem::StaticCase load;
+  for (std::size_t k = 0; k < c.near.size(); ++k) {
+    if (!c.pressed[k]) continue;
+    load.supports.push_back(c.near[k]);
+    // What closes the gap strains nothing.
+    load.supports.back().moved -= c.near[k].spring.gap * c.near[k].spring.normal;
+  }
+  return load;
+}
+
+// True where no sphere changed sides.
+bool update(Contacts &c, const dem::StaticState &state) {
+  bool settled = true;
+  for (std::size_t k = 0; k < c.near.size(); ++k) {
+    const bool presses = c.glued || normal_force(c.near[k], state) > 0;
+    settled = settled && presses == c.pressed[k];
+    c.pressed[k] = presses;
+  }
+  return settled;
+}
+
+StaticPress measured(const Problem &problem, const Contacts &c, const dem::StaticState &state,
+                     double strain) {
+  StaticPress p;
+  p.strain_platen = strain;
+  for (std::size_t k = 0; k < c.near.size(); ++k) {
+    if (!c.pressed[k]) continue;
+    const bool top = k >= c.first_of_top;
+    ++(top ? p.closed_top : p.closed_bottom);
+    const double up = normal_force(c.near[k], state) * c.near[k].spring.normal.z;
+    p.stress += 0.5 * (top ? -up : up) / problem.shape().cross_section();
+  }
+  dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::GaugeStrain s = gauge.strain_of(problem.model.particles, state.displacement);
+  p.strain_gauge = -s.axial;
+  p.lateral_strain = s.lateral();
+  return p;
+}
+
+} // namespace
+
+StaticPress press_statically(Problem &problem, double strain, const dem::StaticSettings &settings) {
+  if (!problem.model.bonds || !(strain > 0))
+    throw NumericsStopped("a static solve needs bonds and a strain above 0");
+  Contacts contacts = contacts_of(problem, strain);
+  int iterations = 0;
+  for (int solve = 1; solve <= most_solves; ++solve) {
+    dem::StaticState state;
+    try {
+      state = dem::solve_static(problem.model.particles, *problem.model.bonds, case_of(contacts), settings);
+    } catch (const dem::NoEquilibrium &e) {
+      throw NumericsStopped(e.what());
+    }
+    iterations += state.iterations;
+    if (!update(contacts, state)) continue;
+    StaticPress p = measured(problem, contacts, state, strain);
+    p.solves = solve;
+    p.iterations = iterations;
+    return p;
+  }
+  throw NumericsStopped("the contacts of the platens do not settle in " + std::to_string(most_solves) +
+                        " solves");
+}
+
+} // namespace platen::coupling

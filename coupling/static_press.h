@@ -1,0 +1,29 @@
+// A specimen pressed a little between its platens without inertia: elastic moduli from a few linear solves
+// instead of a hundred thousand steps.
+#pragma once
+
+#include "coupling/problem.h"
+#include "dem/equilibrium.h"
+
+namespace platen::coupling {
+
+struct StaticPress {
+  double stress = 0;         // Pa, mean of both platens over the nominal area, compression positive
+  double strain_platen = 0;  // closure over the height
+  double strain_gauge = 0;   // axial, of the middle half, compression positive
+  double lateral_strain = 0; // of the middle half, extension positive
+  double platen_modulus() const { return stress / strain_platen; } // Pa
+  double youngs_modulus() const { return stress / strain_gauge; }  // Pa
+  double poisson_ratio() const { return lateral_strain / strain_gauge; }
+  std::size_t closed_top = 0, closed_bottom = 0; // spheres that the platens press
+  int solves = 0, iterations = 0;                // of the active set, of all conjugate gradients
+};
+
+// Closes the platens by `strain` (positive) of the height against the intact network in its present state,
+// which is left as it is. A sphere that its platen touches now, or reaches on the way, presses and, where
+// there is friction, sticks; one that would have to be pulled is let go, until no sphere changes. Linear
+// otherwise: stress grows with strain alone where the set of contacts does not change. Glued ends hold in
+// either sense. Throws NumericsStopped where the set does not settle or no equilibrium is found.
+StaticPress press_statically(Problem &problem, double strain, const dem::StaticSettings &settings = {});
+
+} // namespace platen::coupling

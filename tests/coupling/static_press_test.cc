@@ -1,0 +1,93 @@
+// Moduli without inertia are those of the explicit scheme, loaded slowly.
+#include "coupling/static_press.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/measure/gauge.h"
+#include "dem/packing/advancing_front.h"
+
+namespace platen::coupling {
+namespace {
+
+dem::Specimen small_cylinder() {
+  dem::Shape shape;
+  shape.radius = 6e-3;
+  shape.height = 14e-3;
+  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
+}
+
+ProblemSettings elastic(double friction, const dem::BondParameters &bond) {
+  ProblemSettings s;
+  s.model.bond_layout.modulus = 36e9;
+  s.model.bond_layout.gap = 0.05;
+  s.model.bond = bond;
+  s.model.local_damping = 0.5;
+  s.ends = Ends::ground;
+  s.end_layer = 0.5;
+  s.platens.top = s.platens.bottom = {friction, friction};
+  s.platens.damping = 0;
+  s.platens.thickness = 2e-3;
+  s.loading.rate = 4e-4;
+  return s;
+}
+
+struct Case {
+  const char *name;
+  double friction; // enough of it to stick
+  dem::BondParameters bond;
+};
+void PrintTo(const Case &c, std::ostream *out) {
+  *out << c.name;
+}
+dem::ParallelBond::Parameters parallel() {
+  dem::ParallelBond::Parameters p;
+  p.stiffness_ratio = 0.4;
+  return p;
+}
+
+class StaticAgainstExplicit : public testing::TestWithParam<Case> {};
+
+TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
+  Problem problem(small_cylinder(), elastic(GetParam().friction, GetParam().bond));
+  const StaticPress still = press_statically(problem, 1e-5);
+  EXPECT_GT(still.closed_top, 10u);
+  EXPECT_GT(still.closed_bottom, 10u);
+  EXPECT_GT(still.poisson_ratio(), 0.02);
+  EXPECT_LT(still.youngs_modulus(), problem.voigt_modulus());
+  EXPECT_EQ(problem.closure_strain(), 0); // the problem itself has not moved
+
+  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  while (problem.closure_strain() < 1e-5)
+    problem.step();
+  const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
+  const double stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  EXPECT_GT(problem.steps(), 2000);
+  EXPECT_NEAR(still.youngs_modulus() / (stress / -strain.axial), 1, 1e-3);
+  EXPECT_NEAR(still.platen_modulus() / (stress / problem.closure_strain()), 1, 1e-3);
+  EXPECT_NEAR(still.poisson_ratio() / (strain.lateral() / -strain.axial), 1, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
+                         testing::Values(Case{"parallel_bonds_sticking", 1e6, parallel()},
+                                         Case{"parallel_bonds_lubricated", 0, parallel()},
+                                         Case{"beams_sticking", 1e6, dem::CohesiveBeam::Parameters{}}),
+                         [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
+
+TEST(static_press, stress_is_linear_where_no_contact_changes) {
+  ProblemSettings settings = elastic(1e6, parallel());
+  settings.end_layer = 0.05; // few seats, and no other sphere within reach
+  Problem problem(small_cylinder(), settings);
+  const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
+  ASSERT_EQ(once.closed_top, twice.closed_top);
+  EXPECT_NEAR(twice.stress, 2 * once.stress, 1e-6 * once.stress);
+}
+
+TEST(static_press, asks_for_bonds_and_a_strain) {
+  Problem problem(small_cylinder(), elastic(0, parallel()));
+  EXPECT_THROW(press_statically(problem, 0), NumericsStopped);
+}
+
+} // namespace
+} // namespace platen::coupling
