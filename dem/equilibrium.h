@@ -28,7 +28,7 @@ struct StaticCase {
   std::vector<Vector3> force, torque; // N, N m, on every particle; empty: none
 };
 struct StaticSettings {
-  double tolerance = 1e-9; // of the residual over the loads, in forces, with torques over the radius
+  double tolerance = 1e-8; // of the residual over the loads, in forces, with torques over the radius
   int most_iterations = 20000;
 };
 struct StaticState {
