@@ -26,7 +26,7 @@ struct ModelSettings {
   bool crack_log = true;                  // a record of each bond that breaks
   double bond_dashpot = 0;                // fraction of critical
   BondLayout bond_layout;                 // also gives unbonded pairs their stiffness
-  std::optional<BondParameters> bond;            // none: no bonds
+  std::optional<BondParameters> bond;     // none: no bonds
   std::optional<ContactSettings> contact; // none: spheres pass through each other
   InstructionSet instruction_set = best_instruction_set();
 };
