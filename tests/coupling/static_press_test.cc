@@ -6,17 +6,10 @@
 #include <cmath>
 
 #include "dem/measure/gauge.h"
-#include "dem/packing/advancing_front.h"
+#include "tests/coupling/small_cylinder.h"
 
 namespace platen::coupling {
 namespace {
-
-dem::Specimen small_cylinder() {
-  dem::Shape shape;
-  shape.radius = 6e-3;
-  shape.height = 14e-3;
-  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
-}
 
 ProblemSettings elastic(double friction, const dem::BondParameters &bond) {
   ProblemSettings s;

@@ -278,14 +278,7 @@ TEST(cohesive_beam, a_cantilever_is_strained_most_where_it_is_clamped) {
 }
 
 ModelSettings beams() {
-  ModelSettings s = bonded();
-  CohesiveBeam::Parameters law;
-  law.poisson_ratio = poisson;
-  s.bond = law;
-  s.bond_layout.modulus = young;
-  s.bond_layout.radius_rule = RadiusRule::mean;
-  s.bond_layout.radius_multiplier = slender;
-  return s;
+  return bonded_by_beams(young, poisson, slender);
 }
 
 class BeamChain : public testing::TestWithParam<int> {};

@@ -16,13 +16,7 @@ using namespace examples;
 constexpr double young = 40e9, poisson = .2, slender = .7;
 
 ModelSettings beams() {
-  ModelSettings s = bonded();
-  CohesiveBeam::Parameters law;
-  law.poisson_ratio = poisson;
-  s.bond = law;
-  s.bond_layout.modulus = young;
-  s.bond_layout.radius_multiplier = slender;
-  return s;
+  return bonded_by_beams(young, poisson, slender);
 }
 StaticSettings exact() {
   StaticSettings s;

@@ -40,6 +40,17 @@ ModelSettings bonded() {
   return s;
 }
 
+ModelSettings bonded_by_beams(double young, double poisson, double slender) {
+  ModelSettings s = bonded();
+  CohesiveBeam::Parameters law;
+  law.poisson_ratio = poisson;
+  s.bond = law;
+  s.bond_layout.modulus = young;
+  s.bond_layout.radius_rule = RadiusRule::mean;
+  s.bond_layout.radius_multiplier = slender;
+  return s;
+}
+
 ParallelBond::Parameters &parallel_bond(ModelSettings &settings) {
   return std::get<ParallelBond::Parameters>(settings.bond.value());
 }

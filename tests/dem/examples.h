@@ -30,7 +30,9 @@ Specimen packed_box(double x, double y, double z, std::uint64_t seed = 1);
 // Unbreakable bonds of the constants above, bonded where spheres touch (gap 1e-6 of the radius), rotation on,
 // no contacts, no damping.
 ModelSettings bonded();
-// The same with the strengths above, and contacts of the bond's stiffness with friction .5 and without
+// The same with beams of modulus E (Pa), Poisson ratio and radius over the mean of the spheres'.
+ModelSettings bonded_by_beams(double young, double poisson, double slender);
+// Parallel bonds with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();
 // Parameters of settings whose bonds are parallel ones.
