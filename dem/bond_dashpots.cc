@@ -11,6 +11,13 @@ double reduced(double a, double b) {
   return a * b / (a + b);
 }
 
+// Onate's dashpot acts along the normal alone, c_n = 2 gamma alpha (r_c/|D|) sqrt(m k_n), with alpha r_c^2
+// the square of the bond's radius (docs/theory.md).
+double fraction_of(const Bonds &b, std::size_t k, double smaller_radius, double alpha) {
+  if (!has_history(b.law)) return alpha;
+  return alpha * b.bond_radius[k] * b.bond_radius[k] / (smaller_radius * b.rest_length[k]);
+}
+
 } // namespace
 
 // Where the ratios differ from bond to bond the smallest holds, so that no dashpot is above its fraction of
@@ -23,7 +30,7 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
     shear = std::min(shear, s.shear / s.axial);
     if (moments) twist = std::min(twist, s.twisting / s.bending);
   }
-  dashpot_shear_ratio = std::isfinite(shear) ? std::sqrt(shear) : 0;
+  dashpot_shear_ratio = std::isfinite(shear) && !has_history(law) ? std::sqrt(shear) : 0;
   dashpot_twist_ratio = std::isfinite(twist) ? std::sqrt(twist) : 0;
   dashpot = &table.add<double>("dashpot", "N s/m");
   dashpot_force = &table.add<Vector3>("dashpot_force", "N");
@@ -34,7 +41,8 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
   for (std::size_t k = 0; k < size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
     const BondStiffness s = stiffness(k);
-    (*dashpot)[k] = 2 * alpha * std::sqrt(s.axial * reduced(p.mass[i], p.mass[j]));
+    (*dashpot)[k] = 2 * fraction_of(*this, k, std::min(p.radius[i], p.radius[j]), alpha) *
+                    std::sqrt(s.axial * reduced(p.mass[i], p.mass[j]));
     if (moments)
       (*dashpot_bending)[k] = 2 * alpha * std::sqrt(s.bending * reduced((*p.inertia)[i], (*p.inertia)[j]));
   }

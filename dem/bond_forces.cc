@@ -3,6 +3,7 @@
 
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
+#include "dem/kernels/interface_kernel.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -18,6 +19,18 @@ const kernels::BondKernels &kernels_of(InstructionSet set) {
       break;
   }
   return kernels::bond_kernels_baseline;
+}
+
+const kernels::InterfaceKernel &interface_kernel_of(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return kernels::interface_kernel_avx512;
+    case InstructionSet::avx2:
+      return kernels::interface_kernel_avx2;
+    case InstructionSet::baseline:
+      break;
+  }
+  return kernels::interface_kernel_baseline;
 }
 
 kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
@@ -59,15 +72,19 @@ kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t blo
   return c;
 }
 
+void add_weight(const Particles &p, const kernels::BlockColumns &rows, const Vector3 &gravity) {
+  if (norm_squared(gravity) > 0)
+    for (int k = 0; k < rows.own; ++k)
+      rows.force[k] += p.mass[static_cast<std::size_t>(rows.first_row + k)] * gravity;
+}
+
 // One block; true where a bond may be at its strength.
 bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
                    const kernels::BondColumns &columns, const Vector3 &gravity, std::size_t block) {
   const kernels::BlockColumns rows = block_of(p, b.blocks, block);
   const bool reached = kernels.compute_forces(columns, rows, b.law, b.blocks.first_pair[block],
                                               b.blocks.first_pair[block + 1]);
-  if (norm_squared(gravity) > 0)
-    for (int k = 0; k < rows.own; ++k)
-      rows.force[k] += p.mass[static_cast<std::size_t>(rows.first_row + k)] * gravity;
+  add_weight(p, rows, gravity);
   return reached;
 }
 
@@ -126,6 +143,35 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
   }
 }
 
+void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
+                              std::vector<BondBreak> &breaks, const Loop &beside) {
+  const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
+  kernels::InterfaceColumns columns{columns_of(p, b),         b.plastic->data(),
+                                    b.tension_damage->data(), b.shear_damage->data(),
+                                    b.dissipated->data(),     b.shear_displacement->data(),
+                                    b.friction_spring->data()};
+  columns.bonds.velocity = p.velocity.data();
+  if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
+  const ElastoDamagePlastic &law = std::get<ElastoDamagePlastic>(b.law);
+  std::vector<unsigned char> failed(b.blocks.blocks(), 0);
+  for_each_block(
+      p.size(),
+      [&](std::size_t, std::size_t, std::size_t block) {
+        const kernels::BlockColumns rows = block_of(p, b.blocks, block);
+        failed[block] = kernel.compute_forces(columns, rows, law, dt, b.blocks.first_pair[block],
+                                              b.blocks.first_pair[block + 1]);
+        add_weight(p, rows, gravity);
+      },
+      block_rows, beside);
+  for (std::size_t block = 0; block < failed.size(); ++block) {
+    if (!failed[block]) continue;
+    for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
+      if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))
+        breaks.push_back({static_cast<int>(k), (*b.tension_damage)[k] >= 1.0 ? BondState::broken_in_tension
+                                                                             : BondState::broken_in_shear});
+  }
+}
+
 double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) {
   const kernels::BondKernels &kernels = kernels_of(set);
   kernels::BondColumns columns = columns_of(p, b);
@@ -151,13 +197,14 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
 }
 
 BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
+  if (has_history(b.law)) return b.interface_totals(p);
   const kernels::BondColumns columns = columns_of(p, b);
   return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];
     kernels_of(set).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
     BondTotals sum;
     for (std::size_t k = 0; k < last - first; ++k)
-      sum += {energy[k], force[k]};
+      sum += {energy[k], force[k], 0, 0, 0};
     return sum;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "dem/cell_grid.h"
 #include "dem/kernels/bond_kernel.h"
+#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {
@@ -54,7 +55,12 @@ double BondLayout::axial_stiffness(double ri, double rj) const {
 }
 
 double BondLayout::reach(double ri, double rj) const {
+  if (interaction_range >= 0) return interaction_range * (ri + rj);
   return gap_is_relative ? gap * std::min(ri, rj) : gap;
+}
+
+double BondLayout::largest_overlap(double ri, double rj) const {
+  return interaction_range >= 0 ? interaction_range * (ri + rj) : std::numeric_limits<double>::infinity();
 }
 
 Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
@@ -67,11 +73,12 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
   // A hair wider than the reach, so that the test below alone decides.
   const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
   std::vector<IndexPair> pairs = near_pairs(particles.position.data(), particles.radius.data(), n, margin);
-  const auto too_far = [&](const IndexPair &p) {
+  const auto out_of_range = [&](const IndexPair &p) {
     const double ri = particles.radius[p.first], rj = particles.radius[p.second];
-    return norm(particles.position[p.second] - particles.position[p.first]) - ri - rj > layout.reach(ri, rj);
+    const double gap = norm(particles.position[p.second] - particles.position[p.first]) - ri - rj;
+    return gap > layout.reach(ri, rj) || -gap > layout.largest_overlap(ri, rj);
   };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), too_far), pairs.end());
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
 
   table.resize(pairs.size());
   records.resize(pairs.size());
@@ -84,14 +91,24 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
     reference[k] = particles.position[j] - particles.position[i];
     rest_length[k] = norm(reference[k]);
     if (!(rest_length[k] > 0)) throw std::invalid_argument("bonded spheres share one centre");
-    const bool centres = centre_to_centre(law);
-    lever[k] = centres ? 0.5 : ri / (ri + rj);
-    normal_stiffness[k] = centres ? layout.modulus / rest_length[k] : layout.normal_stiffness(ri, rj);
+    lever[k] = centre_to_centre(law) ? 0.5 : ri / (ri + rj);
+    normal_stiffness[k] =
+        over_distance(law) ? layout.modulus / rest_length[k] : layout.normal_stiffness(ri, rj);
     bond_radius[k] = layout.bond_radius(ri, rj);
     state[k] = static_cast<int>(BondState::intact);
     break_time[k] = std::numeric_limits<double>::quiet_NaN();
   }
+  if (has_history(law)) add_history();
   cut_blocks();
+}
+
+void Bonds::add_history() {
+  plastic = &table.add<double>("plastic", "Pa");
+  tension_damage = &table.add<double>("tension_damage", "1");
+  shear_damage = &table.add<double>("shear_damage", "1");
+  dissipated = &table.add<double>("dissipated", "J");
+  shear_displacement = &table.add<Vector3>("shear_displacement", "m");
+  friction_spring = &table.add<Vector3>("friction_spring", "m");
 }
 
 void Bonds::cut_blocks() {
@@ -104,6 +121,9 @@ std::size_t Bonds::bytes() const {
 
 void Bonds::restored() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
+  failed_rows = 0;
+  for (std::size_t k = 0; plastic != nullptr && k < size(); ++k)
+    failed_rows += has_failed(k);
   cut_blocks();
 }
 
@@ -137,6 +157,44 @@ std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, 
   return broken;
 }
 
+std::vector<BrokenBond> Bonds::fail_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
+                                         double time) {
+  std::vector<BrokenBond> failed;
+  failed.reserve(breaks.size());
+  for (const BondBreak &b : breaks) {
+    const std::size_t k = static_cast<std::size_t>(b.row);
+    failed.push_back({first[k], second[k], record[k], b.mode, rest_length[k], interface_geometry(k).area,
+                      response(k, particles), 0.0, (*dissipated)[k]});
+    (*dissipated)[k] = 0;
+    if (dashpot != nullptr) (*dashpot)[k] = 0;
+    state[record[k]] = static_cast<int>(b.mode);
+    break_time[record[k]] = time;
+  }
+  failed_rows += breaks.size();
+  return failed;
+}
+
+bool Bonds::has_failed(std::size_t k) const {
+  return normal_stiffness[k] == 0.0 || damage(k) >= 1.0;
+}
+
+double Bonds::damage(std::size_t k) const {
+  return plastic == nullptr ? 0.0 : std::max((*tension_damage)[k], (*shear_damage)[k]);
+}
+
+InterfaceState<double> Bonds::state_of(std::size_t k) const {
+  return {(*plastic)[k],
+          (*tension_damage)[k],
+          (*shear_damage)[k],
+          triple((*shear_displacement)[k]),
+          triple((*friction_spring)[k]),
+          (*dissipated)[k]};
+}
+
+InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
+  return {rest_length[k], lever[k], normal_stiffness[k], pi * bond_radius[k] * bond_radius[k]};
+}
+
 BondGeometry<double> Bonds::geometry(std::size_t k) const {
   return {triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k], bond_radius[k]};
 }
@@ -148,9 +206,28 @@ BondStiffness Bonds::stiffness(std::size_t k) const {
 BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
   const Triple<double> d = triple(p.position[j] - p.position[i]);
+  if (const auto *interface = std::get_if<ElastoDamagePlastic>(&law)) {
+    const InterfaceGeometry<double> g = interface_geometry(k);
+    return interface->bond_response(state_of(k), g, d);
+  }
   if (!p.has_rotation()) return std::get<ParallelBond>(law).without_rotation(geometry(k), d);
   const BondMotion<double> motion{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])};
-  return std::visit([&](const auto &l) { return l(geometry(k), motion); }, law);
+  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return (*beam)(geometry(k), motion);
+  return std::get<ParallelBond>(law)(geometry(k), motion);
+}
+
+BondTotals Bonds::interface_totals(const Particles &p) const {
+  const ElastoDamagePlastic &of = std::get<ElastoDamagePlastic>(law);
+  return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
+    BondTotals sum;
+    for (std::size_t k = from; k < to; ++k) {
+      const BondResponse<double> r = response(k, p);
+      const bool failed = has_failed(k);
+      sum += {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : (*dissipated)[k],
+              failed ? (*dissipated)[k] : 0.0, of.plastic_work(state_of(k), interface_geometry(k))};
+    }
+    return sum;
+  });
 }
 
 } // namespace platen::dem

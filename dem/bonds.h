@@ -22,12 +22,14 @@ struct BondLayout {
   double given_radius = 0; // m, for RadiusRule::given
   double gap = 0;          // bond where |d| - R_i - R_j <= gap; m, or in smaller radii of the pair
   bool gap_is_relative = true;
+  double interaction_range = -1; // where not negative, instead of gap: | |d|/(R_i + R_j) - 1 | <= this
 
   double bond_radius(double ri, double rj) const;                                     // R_b, m
   double normal_stiffness(double ri, double rj) const { return modulus / (ri + rj); } // k_n, Pa/m (T-24)
   // k_n A of a pair, whether it is bonded or not; N/m.
   double axial_stiffness(double ri, double rj) const;
-  double reach(double ri, double rj) const; // largest gap that is bonded, m
+  double reach(double ri, double rj) const;           // largest gap that is bonded, m
+  double largest_overlap(double ri, double rj) const; // that is bonded, m
 };
 
 enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };
@@ -37,6 +39,7 @@ struct BondBreak {
   BondState mode = BondState::broken_in_tension;
 };
 struct BrokenBond;
+struct BondTotals;
 
 struct Bonds {
   // Rows that are computed: all intact bonds, and those broken since the last compaction (their stiffness is
@@ -65,6 +68,15 @@ struct Bonds {
   Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
+  // Only where bonds remember (elasto_damage_plastic.h says what); rows then stay when they have failed.
+  Column<double> *plastic = nullptr;             // Pa
+  Column<double> *tension_damage = nullptr;      // 1
+  Column<double> *shear_damage = nullptr;        // 1
+  Column<double> *dissipated = nullptr;          // J, by damage, and once failed by friction
+  Column<Vector3> *shear_displacement = nullptr; // m
+  Column<Vector3> *friction_spring = nullptr;    // m
+  std::size_t failed_rows = 0;
+
   PairBlocks blocks; // of the rows of `table`, ends times kernels::row_stride
   BondLaw law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
@@ -86,12 +98,22 @@ struct Bonds {
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
+  // Of bonds that remember: marks these rows, which have failed, and tells what damage took from them. What
+  // they dissipate from now on is friction.
+  std::vector<BrokenBond> fail_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
+                                    double time);
+  bool has_failed(std::size_t row) const; // broken, or of those that remember
   BondResponse<double> response(std::size_t row, const Particles &particles) const;
-  BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
-  std::size_t bytes() const;                      // of all columns and of the blocks
+  BondTotals interface_totals(const Particles &particles) const; // of bonds that remember
+  double damage(std::size_t row) const;                          // 0 ... 1; of laws without history 0
+  BondStiffness stiffness(std::size_t row) const;                // at rest; 0 once broken
+  std::size_t bytes() const;                                     // of all columns and of the blocks
 
 private:
   BondGeometry<double> geometry(std::size_t row) const;
+  InterfaceState<double> state_of(std::size_t row) const;
+  InterfaceGeometry<double> interface_geometry(std::size_t row) const;
+  void add_history();
   std::size_t particles_ = 0;
   bool rotation_ = false;
   void cut_blocks();
@@ -120,6 +142,11 @@ void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set,
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                                const std::vector<BondBreak> &breaks);
 
+// The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
+// have failed in this step are appended to `breaks`, in row order; they are not marked here.
+void compute_interface_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
+                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {});
+
 // Adds the dashpots to the particles and ghosts, from the velocities of the last drift, which took dt.
 // Returns the energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog
 // sees it. Needs Bonds::add_dashpots, and each row that broke once more before it is compacted away.
@@ -128,8 +155,12 @@ double add_bond_dashpots(Particles &particles, Bonds &bonds, InstructionSet set,
 struct BondTotals {
   double energy = 0; // J
   double force = 0;  // N, sum of the sizes of all bonds' forces
+  // J, of bonds that remember: taken by damage of those that hold, by friction of those that failed, by
+  // yield.
+  double damage = 0, friction = 0, plastic = 0;
   BondTotals &operator+=(const BondTotals &b) {
     energy += b.energy, force += b.force;
+    damage += b.damage, friction += b.friction, plastic += b.plastic;
     return *this;
   }
 };

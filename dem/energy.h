@@ -10,11 +10,12 @@ struct EnergyLedger {
   double bodies = 0;   // elastic, in deformable bodies
   double damping = 0;  // lost to local and viscous damping
   double friction = 0; // lost to sliding and rolling, grains and platens
-  double fracture = 0; // lost when bonds break
+  double fracture = 0; // lost when bonds break or lose strength
+  double plastic = 0;  // lost when bonds yield
   double boundary = 0; // done by platens, servo and weight
 
   double stored() const { return kinetic + bonds + contacts + bodies; }
-  double lost() const { return damping + friction + fracture; }
+  double lost() const { return damping + friction + fracture + plastic; }
   // Zero when the book closes.
   double residual() const { return stored() + lost() - boundary; }
 };

@@ -76,12 +76,18 @@ void Model::compute_forces(double dt, const Loop &beside) {
     if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
       bonds->compact();
     breaks_.clear();
-    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside);
-    breaks = static_cast<long>(breaks_.size());
-    if (!breaks_.empty()) {
-      break_bonds(dt);
-      compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    if (has_history(bonds->law)) {
+      compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt, breaks_,
+                               beside);
+      note_breaks(bonds->fail_rows(breaks_, particles, time));
+    } else {
+      compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside);
+      if (!breaks_.empty()) {
+        break_bonds(dt);
+        compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+      }
     }
+    breaks = static_cast<long>(breaks_.size());
     if (settings_.bond_dashpot > 0)
       works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
   } else {
@@ -101,6 +107,10 @@ void Model::break_bonds(double dt) {
   else
     for (BrokenBond &b : broken)
       b.released = b.last.energy - 0.5 * dt * b.power;
+  note_breaks(broken);
+}
+
+void Model::note_breaks(const std::vector<BrokenBond> &broken) {
   for (const BrokenBond &b : broken) {
     works.fracture += b.released;
     (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
@@ -138,10 +148,9 @@ EnergyLedger Model::energy() const {
   EnergyLedger e;
   if (!settings_.energy_ledger) {
     const double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none, none, none, none, none, none, none};
+    return {none, none, none, none, none, none, none, none, none};
   }
   e.kinetic = kinetic_energy(particles);
-  if (bonds) e.bonds = bond_totals(particles, *bonds, settings_.instruction_set).energy;
   e.damping = works.damping;
   e.fracture = works.fracture;
   e.boundary = works.weight;
@@ -149,6 +158,13 @@ EnergyLedger Model::energy() const {
     e.contacts = contacts->energy();
     e.damping += contacts->damping_work;
     e.friction = contacts->friction_work;
+  }
+  if (bonds) {
+    const BondTotals totals = bond_totals(particles, *bonds, settings_.instruction_set);
+    e.bonds = totals.energy;
+    e.fracture += totals.damage;
+    e.friction += totals.friction;
+    e.plastic = totals.plastic;
   }
   return e;
 }
@@ -158,7 +174,7 @@ std::vector<Crack> Model::take_cracks() {
 }
 
 std::size_t Model::intact_bonds() const {
-  return bonds ? bonds->size() - bonds->broken_rows : 0;
+  return bonds ? bonds->size() - bonds->broken_rows - bonds->failed_rows : 0;
 }
 
 std::size_t Model::bytes() const {

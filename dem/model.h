@@ -91,6 +91,7 @@ private:
   Motion motion_;
   std::vector<BondBreak> breaks_;
   void break_bonds(double dt);
+  void note_breaks(const std::vector<BrokenBond> &broken);
   void begun(double dt);
   Ghosts ghosts() const;
 };

@@ -108,7 +108,9 @@ bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const 
 
 bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law, std::size_t first,
                        std::size_t last) {
-  return std::visit([&](const auto &one) { return compute_forces_with(c, block, one, first, last); }, law);
+  if (const auto *beam = std::get_if<CohesiveBeam>(&law))
+    return compute_forces_with(c, block, *beam, first, last);
+  return compute_forces_with(c, block, std::get<ParallelBond>(law), first, last);
 }
 
 // From the particles' columns, for bonds of any block.
@@ -159,7 +161,8 @@ void measure_with(const BondColumns &c, const Law &law, const BondRowValues &to,
 
 void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &to, std::size_t first,
                 std::size_t last) {
-  std::visit([&](const auto &one) { measure_with(c, one, to, first, last); }, law);
+  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return measure_with(c, *beam, to, first, last);
+  measure_with(c, std::get<ParallelBond>(law), to, first, last);
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).

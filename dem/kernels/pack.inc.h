@@ -27,6 +27,7 @@ using dem::larger;
 using dem::magnitude;
 using dem::positive_part;
 using dem::root;
+using dem::where_positive;
 
 inline Pack operator+(const Pack &a, const Pack &b) {
   return a.v + b.v;
@@ -57,6 +58,9 @@ inline Pack positive_part(const Pack &a) {
 }
 inline Pack larger(const Pack &a, const Pack &b) {
   return a.v > b.v ? a.v : b.v;
+}
+inline Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
+  return x.v > 0.0 ? a.v : b.v;
 }
 // `size`, which is not negative, with the sign of `of`.
 inline double with_sign(double size, double of) {

@@ -36,6 +36,10 @@ inline double positive_part(double a) {
 inline double larger(double a, double b) {
   return a > b ? a : b;
 }
+// a where x > 0, else b.
+inline double where_positive(double x, double a, double b) {
+  return x > 0.0 ? a : b;
+}
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
 template <class Real>
 struct Triple {

@@ -4,15 +4,19 @@
 #include <variant>
 
 #include "dem/laws/cohesive_beam.h"
+#include "dem/laws/elasto_damage_plastic.h"
 #include "dem/laws/parallel_bond.h"
 
 namespace platen::dem {
 
-using BondLaw = std::variant<ParallelBond, CohesiveBeam>;
-using BondParameters = std::variant<ParallelBond::Parameters, CohesiveBeam::Parameters>;
+using BondLaw = std::variant<ParallelBond, CohesiveBeam, ElastoDamagePlastic>;
+using BondParameters =
+    std::variant<ParallelBond::Parameters, CohesiveBeam::Parameters, ElastoDamagePlastic::Parameters>;
 
 inline BondLaw bond_law(const BondParameters &parameters) {
   if (const auto *beam = std::get_if<CohesiveBeam::Parameters>(&parameters)) return CohesiveBeam{*beam};
+  if (const auto *interface = std::get_if<ElastoDamagePlastic::Parameters>(&parameters))
+    return ElastoDamagePlastic{*interface};
   return ParallelBond{std::get<ParallelBond::Parameters>(parameters)};
 }
 
@@ -24,10 +28,21 @@ inline bool bends(const BondLaw &law) {
 inline bool needs_rotation(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.needs_rotation; }, law);
 }
-// From centre to centre: length is the distance of the centres, and they act on each other at its middle.
-// Otherwise length is the sum of the radii, and they act where it is divided as the radii are.
+// From centre to centre: they act on each other in the middle between the centres, otherwise where their
+// distance is divided as the radii are.
 inline bool centre_to_centre(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.centre_to_centre; }, law);
+}
+
+// The length that strain refers to is the distance of the centres when the bond is made, otherwise the sum of
+// the radii.
+inline bool over_distance(const BondLaw &law) {
+  return std::visit([](const auto &l) { return l.over_distance; }, law);
+}
+// Bonds that remember: their forces are found by bringing them up to date once a step. They yield, lose
+// strength bit by bit, and what has failed goes on as a contact of its own.
+inline bool has_history(const BondLaw &law) {
+  return std::visit([](const auto &l) { return l.has_history; }, law);
 }
 
 } // namespace platen::dem

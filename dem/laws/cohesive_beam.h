@@ -19,7 +19,8 @@ struct CohesiveBeam {
     double friction_coefficient = 0; // of shear strength in compression, tan(phi_b)
     double moment_contribution = 1;  // of bending and twisting to the stress at the skin, 0 ... 1
   };
-  static constexpr bool needs_rotation = true, centre_to_centre = true;
+  static constexpr bool needs_rotation = true, centre_to_centre = true, over_distance = true,
+                        has_history = false;
 
   Parameters parameters;
 

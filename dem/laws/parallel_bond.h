@@ -16,7 +16,8 @@ struct ParallelBond {
     double moment_contribution = 1;                                    // beta, 0 ... 1
     bool moments = true; // bending and twisting; false: spheres turn, but bonds resist neither
   };
-  static constexpr bool needs_rotation = false, centre_to_centre = false;
+  static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = false,
+                        has_history = false;
 
   Parameters parameters;
 

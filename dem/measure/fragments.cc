@@ -20,7 +20,7 @@ Fragments find_fragments(const Particles &p, const Bonds *bonds) {
   std::iota(parent.begin(), parent.end(), 0);
   if (bonds != nullptr)
     for (std::size_t k = 0; k < bonds->size(); ++k) {
-      if (bonds->normal_stiffness[k] == 0.0) continue;
+      if (bonds->has_failed(k)) continue;
       const int a = root_of(parent, bonds->first[k]), b = root_of(parent, bonds->second[k]);
       parent[std::max(a, b)] = std::min(a, b);
     }

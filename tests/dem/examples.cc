@@ -55,6 +55,24 @@ ParallelBond::Parameters &parallel_bond(ModelSettings &settings) {
   return std::get<ParallelBond::Parameters>(settings.bond.value());
 }
 
+ModelSettings interfaces() {
+  ModelSettings s = bonded();
+  ElastoDamagePlastic::Parameters law;
+  law.tensile_strength = 5e6;
+  law.shear_strength = 16e6;
+  law.friction_static = .9;
+  law.friction_dynamic = .25;
+  law.branches[0] = {20e6, 3};
+  law.branches[1] = {45e6, 12};
+  law.branches[2] = {70e6, 22};
+  s.bond = law;
+  s.bond_layout.modulus = 28e9;
+  s.bond_layout.interaction_range = .1;
+  s.contact = ContactSettings{};
+  s.contact->friction = .25;
+  return s;
+}
+
 ModelSettings breakable() {
   ModelSettings s = bonded();
   parallel_bond(s).tensile_strength = tensile_strength;

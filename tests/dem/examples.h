@@ -32,6 +32,9 @@ Specimen packed_box(double x, double y, double z, std::uint64_t seed = 1);
 ModelSettings bonded();
 // The same with beams of modulus E (Pa), Poisson ratio and radius over the mean of the spheres'.
 ModelSettings bonded_by_beams(double young, double poisson, double slender);
+// Concrete of Onate et al. 2015 (table 5): interfaces over an interaction range of .1, contacts with the
+// friction of failed ones.
+ModelSettings interfaces();
 // Parallel bonds with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();

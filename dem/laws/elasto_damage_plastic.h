@@ -1,0 +1,307 @@
+// Local elasto-damage-plastic law (Onate et al. 2015 with its gaps filled, docs/theory.md): an interface of
+// area A between two spheres that may be some way apart. Elastic; tension and shear soften by damage; closing
+// yields along straight branches and unloads elastically; what is left after failure is Coulomb friction. It
+// neither bends nor twists: moments come from the shear force's arms alone.
+//
+// Everything in stresses: k_n = E/|D| per area, u_n = |d| - |D|, and the plastic closing p held as q = k_n p:
+//   T = k_n u_n + q             > 0: tension, < 0: compression
+//   q >= e - envelope(e)        with e = -k_n u_n, the stress of closing without yield
+//   F_n/A = g(D_n) T in tension, T in compression
+//   F_s/A = k_s (g(D_s) u_s + D_s x)   with |k_s x| <= mu_2 sigma_c, x the spring of friction
+//   D_n >= (T/sigma_ft - 1)/delta_n, D_s >= (k_s |u_s|/(tau_f + mu_1 sigma_c) - 1)/delta_s
+//   g(D) = (1 - D)/(1 + delta D)       linear softening, unloading through the origin
+// so that the strength in shear passes from tau_f + mu_1 sigma_c to mu_2 sigma_c as damage grows. An
+// interface whose tension or shear is used up has failed in both.
+#pragma once
+
+#include "dem/laws/bond_form.h"
+
+namespace platen::dem {
+
+// The choice between the two lines of failure: whether tension takes from the strength in shear.
+enum class FailureLine { uncoupled, coupled };
+
+template <class Real>
+struct InterfaceGeometry {
+  Real rest_length;      // |D|, m
+  Real lever;            // a
+  Real normal_stiffness; // k_n, Pa/m
+  Real area;             // A, m^2
+};
+// From the last step to this one.
+template <class Real>
+struct InterfaceMotion {
+  Triple<Real> distance;  // d, m, now
+  Triple<Real> travelled; // of the second centre against the first, m
+  Triple<Real> moved;     // the same at their point of contact, where rotations count too, m
+  Real spun;              // both about d, rad
+};
+template <class Real>
+struct InterfaceState {
+  Real plastic;                      // q, Pa, >= 0
+  Real tension_damage, shear_damage; // D_n, D_s; the one that is 1 is what failed
+  Triple<Real> shear;                // u_s, m
+  Triple<Real> slider;               // x, m
+  Real dissipated;                   // J: by damage until it fails, by friction from then on
+};
+template <class Real>
+struct InterfaceResponse {
+  Triple<Real> force;   // N, on the first
+  Real normal, tension; // F_n, N; T, Pa
+  Triple<Real> shear;   // N, on the first
+  Real energy;          // J, stored
+  Real failed_now;      // positive where it has failed in this step
+};
+
+struct ElastoDamagePlastic {
+  struct Branch {
+    double limit = 0, slope = 1; // Pa, LCS; YRC = E_0 / E of the branch that begins there
+  };
+  struct Parameters {
+    double poisson_ratio = 0.2;                                        // k_s = k_n / (2 (1 + nu))
+    double tensile_strength = std::numeric_limits<double>::infinity(); // sigma_ft, Pa
+    double shear_strength = std::numeric_limits<double>::infinity();   // tau_f, Pa
+    double friction_static = 0;                                        // mu_1, of intact interfaces
+    double friction_dynamic = 0;                                       // mu_2, of failed ones
+    double softening_tension = 0.2, softening_shear = 1.0;             // delta, > 0
+    // N/m (J/m^2), area under the softening branch; above 0 it takes delta's place: delta = 2 G_f k /
+    // strength^2.
+    double fracture_energy_tension = 0, fracture_energy_shear = 0;
+    Branch branches[3] = {}; // limits and slopes ascending; slopes 1: no yield
+    FailureLine line = FailureLine::uncoupled;
+  };
+  static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
+                        has_history = true;
+
+  Parameters parameters;
+
+  bool bends() const { return false; }
+  BondStiffness stiffness(const BondGeometry<double> &g) const;
+  double shear_ratio() const { return 0.5 / (1 + parameters.poisson_ratio); } // k_s / k_n
+
+  // Brings the state up to date and tells what acts.
+  template <class Real>
+  InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                     const InterfaceMotion<Real> &m) const;
+  // What acts in a state as it is, at the distance d that it was last brought up to.
+  template <class Real>
+  InterfaceResponse<Real> response(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                   const Triple<Real> &d) const;
+  // The same as other bonds tell it. Ratios are those of the elastic stress to the strength: 1 where damage
+  // begins, 1 + delta where it ends.
+  BondResponse<double> bond_response(const InterfaceState<double> &s, const InterfaceGeometry<double> &g,
+                                     const Triple<double> &d) const;
+  // J, taken by the plastic closing of a state.
+  double plastic_work(const InterfaceState<double> &s, const InterfaceGeometry<double> &g) const;
+  // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
+  template <class Real>
+  Real envelope(const Real &elastic) const;
+
+private:
+  // What is never reached, as a number whose square is one too.
+  static double finite(double strength) { return std::fmin(strength, 1e100); }
+  double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
+  template <class Real>
+  struct Softening {
+    Real tension, shear; // delta
+  };
+  template <class Real>
+  Softening<Real> softening(const Real &kn) const;
+  template <class Real>
+  static Real left(const Real &damage, const Real &delta) { // g(D)
+    return (1.0 - damage) / (1.0 + delta * damage);
+  }
+  template <class Real>
+  void damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Softening<Real> &delta,
+              const Real &tension) const;
+};
+
+// The straight branches bend ever further down, so that the lowest of their lines is the envelope.
+template <class Real>
+PLATEN_INLINE Real ElastoDamagePlastic::envelope(const Real &elastic) const {
+  Real lowest = elastic;
+  for (int b = 0; b < 3; ++b) {
+    const Branch &branch = parameters.branches[b];
+    const Real line = branch.limit + (elastic - begin_of(b)) * (1.0 / branch.slope);
+    lowest = lowest - positive_part(Real(lowest - line));
+  }
+  return lowest;
+}
+
+inline double ElastoDamagePlastic::begin_of(int branch) const {
+  const Branch *b = parameters.branches;
+  double begin = b[0].limit;
+  for (int k = 1; k <= branch; ++k)
+    begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
+  return begin;
+}
+
+template <class Real>
+PLATEN_INLINE auto ElastoDamagePlastic::softening(const Real &kn) const -> Softening<Real> {
+  const Parameters &p = parameters;
+  const auto of = [&](double given, double energy, double strength, const Real &k) {
+    return energy > 0 ? Real((2.0 * energy / (strength * strength)) * k) : Real(given + 0.0 * k);
+  };
+  return {of(p.softening_tension, p.fracture_energy_tension, finite(p.tensile_strength), kn),
+          of(p.softening_shear, p.fracture_energy_shear, finite(p.shear_strength), Real(shear_ratio() * kn))};
+}
+
+// Damage by the stresses that would act without it. Its work: where the envelope is followed, the triangle
+// between the origin, the strength where damage began and where it is now; the energy that the spring of
+// friction gains comes from it. The last step to failure lets go of what the other direction still held.
+template <class Real>
+PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                               const Softening<Real> &delta, const Real &tension) const {
+  const Parameters &p = parameters;
+  const Real zero = tension * 0.0, one = zero + 1.0;
+  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
+  const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
+  const Real sliding = ks * root(dot(s.shear, s.shear));
+  const double cohesion = finite(p.shear_strength);
+  const Real strength = cohesion + p.friction_static * closing;
+  Real used_n = opening * (1.0 / p.tensile_strength), used_s = sliding / strength;
+  Real peak_n = zero + finite(p.tensile_strength), peak_s = strength;
+  if (p.line == FailureLine::coupled) { // in tension both count together
+    const Real both = used_n + used_s, per_both = 1.0 / larger(both, Real(zero + 1e-300));
+    peak_n = where_positive(opening, Real(opening * per_both), peak_n);
+    peak_s = where_positive(opening, Real(sliding * per_both), peak_s);
+    used_n = where_positive(opening, both, used_n);
+    used_s = where_positive(opening, both, used_s);
+  }
+  const Real sound = 1.0 - larger(s.tension_damage, s.shear_damage);
+  const auto grown = [&](const Real &old, const Real &used, const Real &d) {
+    const Real wanted = larger(old, Real((used - 1.0) / d));
+    return where_positive(sound, Real(one - positive_part(Real(1.0 - wanted))), old);
+  };
+  const Real dn = grown(s.tension_damage, used_n, delta.tension),
+             ds = grown(s.shear_damage, used_s, delta.shear);
+  const Real friction_energy = 0.5 * ks * dot(s.slider, s.slider);
+  Real work = 0.5 * (peak_n * peak_n * (1.0 + delta.tension) * (dn - s.tension_damage) / kn +
+                     (peak_s * peak_s * (1.0 + delta.shear) / ks) * (ds - s.shear_damage)) -
+              friction_energy * (ds - s.shear_damage);
+  const Real fails = where_positive(sound, larger(dn, ds), zero); // 1: now
+  const Real let_go = 0.5 * (left(dn, delta.tension) * opening * opening / kn +
+                             left(ds, delta.shear) * sliding * sliding / ks) -
+                      friction_energy * (1.0 - ds);
+  work = work + where_positive(Real(fails - 1.0 + 1e-15), let_go, zero);
+  s.tension_damage = dn;
+  s.shear_damage = ds;
+  s.dissipated = s.dissipated + g.area * work;
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const InterfaceState<Real> &s,
+                                                                    const InterfaceGeometry<Real> &g,
+                                                                    const Triple<Real> &d) const {
+  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
+  const Softening<Real> delta = softening(kn);
+  const Real length = root(dot(d, d));
+  const Real tension = kn * (length - g.rest_length) + s.plastic;
+  const Real zero = tension * 0.0, one = zero + 1.0;
+  const Real left_whole = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
+  const Real dn = where_positive(left_whole, s.tension_damage, one);
+  const Real ds = where_positive(left_whole, s.shear_damage, one);
+  const Real gn = left(dn, delta.tension), gs = left(ds, delta.shear);
+  const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
+  InterfaceResponse<Real> r;
+  r.tension = tension;
+  r.normal = g.area * (gn * opening - closing);
+  r.shear = scale(Real(g.area * ks), scale(gs, s.shear) + scale(ds, s.slider));
+  r.force = scale(Real(r.normal / length), d) + r.shear;
+  r.energy = 0.5 * g.area *
+             ((gn * opening * opening + closing * closing) / kn +
+              ks * (gs * dot(s.shear, s.shear) + ds * dot(s.slider, s.slider)));
+  r.failed_now = zero;
+  return r;
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceState<Real> &s,
+                                                                      const InterfaceGeometry<Real> &g,
+                                                                      const InterfaceMotion<Real> &m) const {
+  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
+  const Real square = dot(m.distance, m.distance), length = root(square);
+  const Triple<Real> n = scale(Real(1.0 / length), m.distance);
+  const Real elastic = kn * (g.rest_length - length);
+  s.plastic = larger(s.plastic, Real(elastic - envelope(elastic)));
+  const Real tension = s.plastic - elastic, zero = tension * 0.0, one = zero + 1.0;
+
+  // Both vectors turn with the plane, by the least rotation but for third powers of its angle and without
+  // change of length, and spin with the pair (Cayley's form).
+  const Real half = 0.5 * m.spun, whole = 1.0 / (1.0 + half * half);
+  const Triple<Real> across = m.travelled - scale(dot(m.travelled, n), n);
+  const Triple<Real> between_normals = n - scale(Real(0.5 / length), across);
+  const Triple<Real> moved = m.moved - scale(dot(m.moved, n), n);
+  const auto carry = [&](const Triple<Real> &v) {
+    const Triple<Real> leant = v - scale(dot(v, n), between_normals);
+    const Triple<Real> flat = leant - scale(dot(leant, n), n);
+    const Real before = dot(v, v), after = dot(flat, flat);
+    const Real keep = where_positive(after, root(Real(before / where_positive(after, after, one))), one);
+    const Triple<Real> turned =
+        scale(Real((1.0 - half * half) * whole), flat) + scale(Real(2.0 * half * whole), cross(n, flat));
+    return scale(keep, turned) + moved;
+  };
+  s.shear = carry(s.shear);
+  s.slider = carry(s.slider);
+  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
+  const Real pull = ks * root(dot(s.slider, s.slider));
+  const Real over = positive_part(Real(pull - cap)); // Pa
+  s.slider = scale(Real(1.0 - over / where_positive(pull, pull, one)), s.slider);
+  const Real failed_before = larger(s.tension_damage, s.shear_damage);
+  const Real weight = where_positive(Real(1.0 - failed_before), s.shear_damage, one);
+  damage(s, g, softening(kn), tension);
+  const Real mean = 0.5 * (weight + where_positive(Real(1.0 - failed_before), s.shear_damage, one));
+  s.dissipated = s.dissipated + g.area * mean * (cap * over / ks);
+  InterfaceResponse<Real> r = response(s, g, m.distance);
+  const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
+  r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
+  return r;
+}
+
+inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &g) const {
+  constexpr double pi = 3.14159265358979323846;
+  const double axial = pi * g.radius * g.radius * g.normal_stiffness;
+  return {axial, shear_ratio() * axial, 0, 0};
+}
+
+inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,
+                                                               const InterfaceGeometry<double> &g,
+                                                               const Triple<double> &d) const {
+  const InterfaceResponse<double> from = response(s, g, d);
+  const Triple<double> moment = cross(d, from.force);
+  BondResponse<double> r;
+  r.force = from.force;
+  r.torque_i = scale(g.lever, moment);
+  r.torque_j = scale(1 - g.lever, moment);
+  const double sliding = shear_ratio() * g.normal_stiffness * root(dot(s.shear, s.shear));
+  r.tension_ratio = positive_part(from.tension) / parameters.tensile_strength;
+  r.shear_ratio =
+      sliding / (parameters.shear_strength + parameters.friction_static * positive_part(-from.tension));
+  r.excess = larger(r.tension_ratio, r.shear_ratio) - 1;
+  r.energy = from.energy;
+  r.normal_force = from.normal;
+  r.shear = from.shear;
+  r.shear_force = root(dot(from.shear, from.shear));
+  return r;
+}
+
+// Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a
+// branch of slope 1 adds no closing.
+inline double ElastoDamagePlastic::plastic_work(const InterfaceState<double> &s,
+                                                const InterfaceGeometry<double> &g) const {
+  double work = 0, from = 0;
+  for (int b = 0; b < 3 && from < s.plastic; ++b) {
+    const Branch &branch = parameters.branches[b];
+    if (!(branch.slope > 1)) continue;
+    const double to =
+        b == 2 ? s.plastic : std::fmin(s.plastic, begin_of(b + 1) - parameters.branches[b + 1].limit);
+    const auto yield = [&](double q) {
+      return (branch.limit * branch.slope + q - begin_of(b)) / (branch.slope - 1);
+    };
+    work += 0.5 * (yield(from) + yield(to)) * (to - from);
+    from = to;
+  }
+  return g.area * work / g.normal_stiffness;
+}
+
+} // namespace platen::dem

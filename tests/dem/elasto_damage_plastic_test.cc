@@ -1,0 +1,319 @@
+// The elasto-damage-plastic law, one interface led by hand, against its closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "dem/laws/elasto_damage_plastic.h"
+
+namespace platen::dem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Concrete of Onate et al. 2015, table 5.
+ElastoDamagePlastic::Parameters concrete() {
+  ElastoDamagePlastic::Parameters p;
+  p.poisson_ratio = 0.2;
+  p.tensile_strength = 5e6;
+  p.shear_strength = 16e6;
+  p.friction_static = 0.9;
+  p.friction_dynamic = 0.25;
+  p.softening_tension = 0.2;
+  p.softening_shear = 1.0;
+  p.branches[0] = {20e6, 3};
+  p.branches[1] = {45e6, 12};
+  p.branches[2] = {70e6, 22};
+  return p;
+}
+
+constexpr double modulus = 28e9, length = 0.01, radius = 0.004; // Pa, m, m
+
+// Two spheres along z, the second one led.
+struct Interface {
+  ElastoDamagePlastic law;
+  InterfaceGeometry<double> geometry{length, 0.5, modulus / length, pi *radius *radius};
+  InterfaceState<double> state{0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0};
+  Triple<double> distance{0, 0, length};
+  InterfaceResponse<double> now;
+  double work = 0; // J, done on the pair, by the trapezoid: exact along straight lines
+
+  explicit Interface(const ElastoDamagePlastic::Parameters &p) : law{p} {
+    now = law.response(state, geometry, distance);
+  }
+  // The second sphere moves by this, in so many steps.
+  void move(const Triple<double> &by, int steps = 1) {
+    const Triple<double> part = scale(1.0 / steps, by);
+    for (int k = 0; k < steps; ++k) {
+      const Triple<double> before = now.force;
+      distance = distance + part;
+      now = law(state, geometry, {distance, part, part, 0});
+      work += 0.5 * dot(before + now.force, part);
+    }
+  }
+  double normal() const { return now.normal / geometry.area; } // Pa
+  double shear() const { return root(dot(now.shear, now.shear)) / geometry.area; }
+  double opening_limit() const {
+    return law.parameters.tensile_strength / geometry.normal_stiffness;
+  }                                                                                        // u^l, m
+  double shear_stiffness() const { return law.shear_ratio() * geometry.normal_stiffness; } // Pa/m
+};
+
+TEST(ElastoDamagePlastic, tension_softens_along_a_line_to_its_end) {
+  Interface pair(concrete());
+  const double limit = pair.opening_limit();
+  pair.move({0, 0, 0.5 * limit}, 7);
+  EXPECT_NEAR(pair.normal(), 2.5e6, 2.5e-4);
+  pair.move({0, 0, 0.5 * limit}, 7);
+  EXPECT_NEAR(pair.normal(), 5e6, 5e-4);
+  EXPECT_NEAR(pair.state.tension_damage, 0, 1e-10);
+  pair.move({0, 0, 0.05 * limit}, 3); // a quarter of the softening
+  EXPECT_NEAR(pair.state.tension_damage, 0.25, 1e-10);
+  EXPECT_NEAR(pair.normal(), 3.75e6, 5e-4);
+  pair.move({0, 0, 0.2 * limit}, 5);
+  EXPECT_EQ(pair.state.tension_damage, 1);
+  EXPECT_EQ(pair.normal(), 0);
+}
+
+TEST(ElastoDamagePlastic, tension_dissipates_the_area_under_its_curve) {
+  Interface pair(concrete());
+  const double limit = pair.opening_limit(), whole = 0.5 * 5e6 * 1.2 * limit * pair.geometry.area;
+  pair.move({0, 0, limit}, 10);
+  pair.move({0, 0, 0.1 * limit}, 10);
+  EXPECT_NEAR(pair.state.dissipated, 0.5 * whole, 1e-10 * whole); // half the damage, half the energy
+  pair.move({0, 0, (0.1 + 1e-9) * limit}, 10);
+  EXPECT_NEAR(pair.state.dissipated, whole, 1e-8 * whole);
+  EXPECT_NEAR(pair.work, whole, 1e-8 * whole);
+  EXPECT_EQ(pair.now.energy, 0);
+}
+
+// The softening triangle is the energy given, whatever the length of the pair.
+TEST(ElastoDamagePlastic, a_given_fracture_energy_does_not_depend_on_the_size_of_spheres) {
+  ElastoDamagePlastic::Parameters p = concrete();
+  p.fracture_energy_tension = 2; // J/m^2
+  p.fracture_energy_shear = 20;
+  for (const double size : {0.5, 1.0, 2.0}) {
+    Interface pair(p);
+    pair.geometry.rest_length *= size;
+    pair.geometry.normal_stiffness /= size;
+    pair.distance = {0, 0, size * length};
+    const double limit = pair.opening_limit();
+    pair.move({0, 0, limit});
+    const double end = 2 * 2 / 5e6;
+    pair.move({0, 0, end * (1 + 1e-9)}, 4);
+    EXPECT_EQ(pair.state.tension_damage, 1);
+    const double elastic = 0.5 * 5e6 * limit;
+    EXPECT_NEAR(pair.state.dissipated / pair.geometry.area - elastic, 2, 1e-8 * 2) << size;
+  }
+}
+
+TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_back) {
+  Interface pair(concrete());
+  const double limit = pair.opening_limit();
+  pair.move({0, 0, 1.1 * limit}, 11); // D = 1/2
+  const double top = pair.normal(), lost = pair.state.dissipated;
+  pair.move({0, 0, -0.55 * limit}, 3);
+  EXPECT_NEAR(pair.normal(), 0.5 * top, 1e-10 * top);
+  pair.move({0, 0, -0.55 * limit - 1e-6}, 3);
+  EXPECT_NEAR(pair.normal(), -1e-6 * pair.geometry.normal_stiffness, 1); // closed: as stiff as ever
+  pair.move({0, 0, 1e-6 + 1.1 * limit}, 5);
+  EXPECT_NEAR(pair.normal(), top, 1e-10 * top);
+  EXPECT_NEAR(pair.state.dissipated, lost, 1e-10 * lost);
+}
+
+// Breakpoints of the paper's concrete: strains 7.14286e-4, 3.39286e-3, 1.410714e-2 at 20, 45, 70 MPa.
+TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
+  Interface pair(concrete());
+  const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
+  const double stresses[] = {20e6, 45e6, 70e6};
+  double before = 0;
+  for (int k = 0; k < 3; ++k) {
+    pair.move({0, 0, -(strains[k] - before) * length}, 9);
+    EXPECT_NEAR(pair.normal(), -stresses[k], 1e-10 * stresses[k]) << k;
+    before = strains[k];
+  }
+  pair.move({0, 0, -1e-3 * length}, 3);
+  EXPECT_NEAR(pair.normal(), -(70e6 + 28e9 / 22 * 1e-3), 1e-2);
+}
+
+TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_strain) {
+  Interface pair(concrete());
+  const double kink = 20e6 / 28e9; // strain at which yield begins; steps end there, so that work is exact
+  pair.move({0, 0, -kink * length}, 10);
+  pair.move({0, 0, -(2e-3 - kink) * length}, 10);
+  const double top = pair.normal(), expected = -(20e6 + (2e-3 * 28e9 - 20e6) / 3);
+  EXPECT_NEAR(top, expected, 1e-10 * 20e6);
+  pair.move({0, 0, 0.5e-3 * length}, 4);
+  EXPECT_NEAR(pair.normal(), top + 0.5e-3 * 28e9, 1e-2);
+  const double plastic = 2e-3 + top / 28e9; // strain that stays
+  pair.move({0, 0, (2e-3 - 0.5e-3 - plastic) * length}, 5);
+  EXPECT_NEAR(pair.normal(), 0, 1e-2);
+  // Work done is what yield took, to the closed form of the law.
+  const double taken = pair.law.plastic_work(pair.state, pair.geometry);
+  EXPECT_NEAR(pair.work, taken, 1e-9 * taken);
+  EXPECT_GT(taken, 0.5 * plastic * length * 20e6 * pair.geometry.area);
+  // Tension begins at the shifted origin.
+  pair.move({0, 0, 0.5 * pair.opening_limit()});
+  EXPECT_NEAR(pair.normal(), 2.5e6, 1e-2);
+}
+
+// Steps that end at the branches' ends, so that the trapezoid is exact.
+TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) {
+  Interface pair(concrete());
+  double at = 0;
+  for (const double strain : {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2, 0.02}) {
+    pair.move({0, 0, -(strain - at) * length});
+    at = strain;
+    const double taken = pair.law.plastic_work(pair.state, pair.geometry);
+    EXPECT_NEAR(pair.work, taken + pair.now.energy, 1e-10 * pair.work) << strain;
+  }
+}
+
+TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_friction) {
+  Interface pair(concrete());
+  const double pressing = 10e6, strength = 16e6 + 0.9 * pressing, residual = 0.25 * pressing;
+  pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
+  // Across, at a distance that stays: by rotations.
+  const auto slide = [&](double by, int steps) {
+    for (int k = 0; k < steps; ++k)
+      pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {by / steps, 0, 0}, 0});
+  };
+  const double limit = strength / pair.shear_stiffness();
+  slide(0.5 * limit, 3);
+  EXPECT_NEAR(pair.shear(), 0.5 * strength, 1e-10 * strength);
+  slide(0.5 * limit, 3);
+  EXPECT_NEAR(pair.shear(), strength, 1e-10 * strength);
+  slide(0.25 * limit, 5);
+  EXPECT_NEAR(pair.state.shear_damage, 0.25, 1e-10);
+  EXPECT_NEAR(pair.shear(), 0.75 * strength + 0.25 * residual, 1e-9 * strength);
+  slide(0.75 * limit * (1 + 1e-12), 5);
+  EXPECT_EQ(pair.state.shear_damage, 1);
+  EXPECT_NEAR(pair.shear(), residual, 1e-9 * strength);
+  // It sticks the other way, then slides.
+  slide(-residual / pair.shear_stiffness(), 4);
+  EXPECT_NEAR(pair.shear(), 0, 1e-9 * strength);
+  slide(-3 * residual / pair.shear_stiffness(), 4);
+  EXPECT_NEAR(pair.shear(), residual, 1e-9 * strength);
+  // Failed in shear is failed in tension.
+  pair.distance = {0, 0, 1.0001 * length};
+  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 0});
+  EXPECT_EQ(pair.normal(), 0);
+  EXPECT_EQ(pair.shear(), 0);
+}
+
+// Work, stored and dissipated energy of a sliding interface under constant pressure, by fine steps: the
+// trapezoid misses the kinks by steps^-2.
+TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for) {
+  Interface pair(concrete());
+  const double pressing = 10e6, strength = 16e6 + 0.9 * pressing;
+  pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
+  const double limit = strength / pair.shear_stiffness(), start = pair.now.energy;
+  double work = 0;
+  constexpr int steps = 40000;
+  for (int k = 0; k < steps; ++k) {
+    const Triple<double> part{2.5 * limit / steps, 0, 0}, before = pair.now.shear;
+    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, part, 0});
+    work += 0.5 * dot(before + pair.now.shear, part);
+  }
+  EXPECT_NEAR(work, pair.state.dissipated + pair.now.energy - start, 1e-6 * work);
+}
+
+// Without pressure the energy is the law's alone: 1/2 tau_f u^l (1 + delta).
+TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
+  ElastoDamagePlastic::Parameters p = concrete();
+  Interface pair(p);
+  const double limit = 16e6 / pair.shear_stiffness(), whole = 0.5 * 16e6 * 2 * limit * pair.geometry.area;
+  double work = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Triple<double> part{0, 0.1 * limit, 0}, before = pair.now.shear;
+    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, part, 0});
+    work += 0.5 * dot(before + pair.now.shear, part);
+  }
+  EXPECT_NEAR(pair.state.dissipated, whole, 1e-8 * whole);
+  EXPECT_NEAR(work, whole, 1e-8 * whole);
+}
+
+// Tension and shear at once: with the uncoupled line each has its own strength, with the coupled one their
+// shares add up to one; the energy of a straight path is its area.
+TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
+  for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled}) {
+    ElastoDamagePlastic::Parameters p = concrete();
+    p.line = line;
+    p.softening_shear = p.softening_tension;
+    Interface pair(p);
+    const double un = pair.opening_limit(), us = 16e6 / pair.shear_stiffness();
+    double work = 0;
+    const auto go = [&](double share, int steps) { // along the line of equal shares
+      for (int k = 0; k < steps; ++k) {
+        const Triple<double> part{share * us / steps, 0, share * un / steps}, before = pair.now.force;
+        pair.distance.z += part.z;
+        pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, part, 0});
+        work += 0.5 * dot(before + pair.now.force, part);
+      }
+    };
+    const double begins = line == FailureLine::coupled ? 0.5 : 1.0;
+    go(begins * (1 - 1e-12), 5);
+    EXPECT_LT(pair.state.tension_damage + pair.state.shear_damage, 1e-10);
+    EXPECT_NEAR(pair.normal(), begins * 5e6, 1e-3);
+    EXPECT_NEAR(pair.shear(), begins * 16e6, 1e-3);
+    go(0.1 * begins, 10);
+    EXPECT_NEAR(pair.state.tension_damage, 0.5, 1e-9);
+    EXPECT_NEAR(pair.state.shear_damage, 0.5, 1e-9);
+    go(0.1 * begins + 1e-9, 10);
+    EXPECT_EQ(pair.state.tension_damage, 1);
+    EXPECT_EQ(pair.now.energy, 0);
+    EXPECT_NEAR(work, pair.state.dissipated, 1e-8 * work);
+  }
+}
+
+// With pressure the strength in shear is the same for both lines.
+TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) {
+  double damage[2];
+  for (int k = 0; k < 2; ++k) {
+    ElastoDamagePlastic::Parameters p = concrete();
+    p.line = k == 0 ? FailureLine::uncoupled : FailureLine::coupled;
+    Interface pair(p);
+    pair.move({0, 0, -1e-6});
+    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {2e-5, 0, 0}, 0});
+    damage[k] = pair.state.shear_damage;
+  }
+  EXPECT_GT(damage[0], 0.1);
+  EXPECT_EQ(damage[0], damage[1]);
+}
+
+TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
+  Interface pair(concrete());
+  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {3e-6, 1e-6, 0}, 0});
+  const double before = pair.shear(), stored = pair.now.energy;
+  // Two turns about x, then two about the pair's own axis: nothing slides.
+  constexpr int steps = 4000;
+  for (int k = 1; k <= steps; ++k) {
+    const double angle = 4 * pi * k / steps;
+    const Triple<double> before_this = pair.distance;
+    pair.distance = {0, length * std::sin(angle), length * std::cos(angle)};
+    pair.now =
+        pair.law(pair.state, pair.geometry, {pair.distance, pair.distance - before_this, {0, 0, 0}, 0});
+  }
+  EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
+  EXPECT_NEAR(pair.now.energy, stored, 1e-10 * stored);
+  EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-6 * 3e-6); // angle^3 a step
+  for (int k = 1; k <= steps; ++k)
+    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 4 * pi / steps});
+  EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
+  EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-5 * 3e-6); // angle^3/12 a step
+}
+
+TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
+  ElastoDamagePlastic::Parameters p;
+  Interface pair(p);
+  pair.move({0, 0, 1e-4}, 3);
+  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {1e-4, 0, 0}, 0});
+  pair.move({0, 0, -3e-4}, 3);
+  EXPECT_EQ(pair.state.dissipated, 0);
+  EXPECT_EQ(pair.state.plastic, 0);
+  EXPECT_NEAR(pair.normal(), -2e-4 * pair.geometry.normal_stiffness, 1);
+  EXPECT_TRUE(std::isfinite(pair.now.energy));
+}
+
+} // namespace
+} // namespace platen::dem

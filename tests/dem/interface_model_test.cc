@@ -1,0 +1,202 @@
+// Specimens held together by elasto-damage-plastic interfaces: the kernels against the law, energy, threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "dem/packing/random.h"
+#include "dem/parallel.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+Triple<double> triple(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+double difference(const Triple<double> &a, const Vector3 &b) {
+  return norm(Vector3{a.x, a.y, a.z} - b);
+}
+
+// Spheres on their way, at random and inwards: some interfaces are drawn apart, some slide, some are pressed
+// beyond yield. `rate` in 1/s.
+void set_moving(Particles &p, double speed, double rate = 0) {
+  Random random(5);
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = speed * random.direction() - rate * (p.position[i] - centre);
+    if (p.has_rotation()) (*p.angular_velocity)[i] = (speed / radius) * random.direction();
+  }
+}
+
+// Leads every interface by the law alone, in doubles, beside a model that steps.
+struct ByHand {
+  std::vector<InterfaceState<double>> states;
+
+  explicit ByHand(const Bonds &b) : states(b.size(), {0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0}) {}
+  void follow(const Particles &p, const Bonds &b, double dt) {
+    const ElastoDamagePlastic &law = std::get<ElastoDamagePlastic>(b.law);
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+      const Vector3 d = p.position[j] - p.position[i], v = p.velocity[j] - p.velocity[i];
+      Vector3 slip = v;
+      double spin = 0;
+      if (p.has_rotation()) {
+        const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
+        slip += cross(wj, (b.lever[k] - 1) * d) - cross(wi, b.lever[k] * d);
+        spin = 0.5 * dot(wi + wj, d) / norm(d);
+      }
+      const InterfaceGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
+                                        pi * b.bond_radius[k] * b.bond_radius[k]};
+      law(states[k], g, {triple(d), triple(dt * v), triple(dt * slip), dt * spin});
+    }
+  }
+};
+
+class InterfaceKernels : public testing::TestWithParam<bool> {};
+
+TEST_P(InterfaceKernels, follow_the_law_on_every_instruction_set) {
+  std::vector<InstructionSet> sets{InstructionSet::baseline};
+  if (best_instruction_set() != InstructionSet::baseline) sets.push_back(InstructionSet::avx2);
+  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
+  for (const InstructionSet set : sets) {
+    ModelSettings settings = interfaces();
+    settings.rotation = GetParam();
+    settings.instruction_set = set;
+    Model model(packed_box(15, 15, 15), settings);
+    const Bonds &b = *model.bonds;
+    ASSERT_GT(b.size(), 1000u);
+    set_moving(model.particles, 2.0, 600);
+    ByHand hand(b);
+    const double dt = .3 * model.stable_step({}, 0).limit;
+    for (int s = 0; s < 60; ++s) {
+      model.begin_step(dt);
+      hand.follow(model.particles, b, dt);
+      model.compute_forces(dt);
+      model.end_step(dt);
+    }
+    EXPECT_GT(b.failed_rows, 100u);
+    std::size_t yielded = 0, damaged = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const InterfaceState<double> &s = hand.states[k];
+      // Round-off of positions, eps times some centimetres, over the limits of some micrometres: 1e-11.
+      ASSERT_NEAR((*b.plastic)[k], s.plastic, 1e-8 * 20e6) << name(set) << " row " << k;
+      ASSERT_NEAR((*b.tension_damage)[k], s.tension_damage, 1e-8);
+      ASSERT_NEAR((*b.shear_damage)[k], s.shear_damage, 1e-8);
+      ASSERT_LE(difference(s.shear, (*b.shear_displacement)[k]), 1e-9 * radius);
+      ASSERT_LE(difference(s.slider, (*b.friction_spring)[k]), 1e-9 * radius);
+      yielded += s.plastic > 0;
+      damaged += s.tension_damage > 0 && s.tension_damage < 1;
+    }
+    EXPECT_GT(yielded, 20u);
+    EXPECT_GT(damaged, 1u);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(rotation, InterfaceKernels, testing::Bool());
+
+// A free block that shakes itself to pieces: what it had at first is stored, or booked as damage, yield and
+// friction.
+TEST(InterfaceModel, the_energy_book_of_a_breaking_block_closes) {
+  double residual[2];
+  for (int fine = 0; fine < 2; ++fine) {
+    Model model(packed_box(16, 16, 16), interfaces());
+    set_moving(model.particles, 2, 600);
+    const double start = model.energy().stored(), dt = (fine ? .0625 : .25) * model.stable_step({}, 0).limit;
+    const int steps = fine ? 1600 : 400;
+    for (int s = 0; s < steps; ++s)
+      step(model, dt);
+    const EnergyLedger e = model.energy();
+    EXPECT_GT(model.bonds->failed_rows, 20u);
+    EXPECT_GT(e.fracture, .01 * start);
+    EXPECT_GT(e.plastic, .01 * start);
+    EXPECT_GT(e.friction, 0);
+    residual[fine] = std::abs(e.residual() - start) / start;
+    EXPECT_EQ(model.broken_tension + model.broken_shear, static_cast<long>(model.bonds->failed_rows));
+    EXPECT_EQ(model.intact_bonds() + model.bonds->failed_rows, model.bonds->initial_count());
+  }
+  // Of random motion, whose kinetic energy at whole steps is off by the square of the step.
+  EXPECT_LT(residual[0], 2e-2);
+  EXPECT_LT(residual[1], 1.5e-3);
+}
+
+TEST(InterfaceModel, momentum_is_kept_through_failure) {
+  Model model(packed_box(14, 14, 14), interfaces());
+  set_moving(model.particles, 1.0);
+  const Momentum before = momentum(model.particles);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 300; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
+  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+std::vector<unsigned char> state_after(int threads) {
+  const ThreadLimit limit(threads);
+  ModelSettings settings = interfaces();
+  settings.bond_dashpot = .1;
+  Model model(packed_box(26, 26, 26), settings);
+  set_moving(model.particles, 1.5);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 120; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  EXPECT_GT(model.bonds->blocks.blocks(), 3u);
+  std::vector<unsigned char> bytes;
+  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
+    for (const auto &column : table->columns()) {
+      const auto *from = static_cast<const unsigned char *>(column->bytes());
+      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
+    }
+  return bytes;
+}
+
+TEST(InterfaceModel, threads_do_not_change_a_bit) {
+  const std::vector<unsigned char> one = state_after(1);
+  EXPECT_EQ(one, state_after(2));
+  EXPECT_EQ(one, state_after(4));
+}
+
+TEST(InterfaceModel, the_interaction_range_bonds_across_gaps) {
+  const double reach = 2 * radius * 1.1;
+  const Specimen pair = spheres({{0, 0, 0}, {0, 0, reach * (1 - 1e-9)}, {0, reach * (1 + 1e-9), 0}});
+  Model model(pair, interfaces());
+  ASSERT_EQ(model.bonds->size(), 1u);
+  EXPECT_DOUBLE_EQ(model.bonds->normal_stiffness[0], 28e9 / model.bonds->rest_length[0]);
+  EXPECT_NEAR(model.bonds->rest_length[0], reach, 1e-8 * reach);
+}
+
+// A spinning body stores nothing and loses nothing.
+TEST(InterfaceModel, a_spinning_block_stores_no_energy) {
+  ModelSettings settings = interfaces();
+  settings.contact.reset();
+  Model model(packed_box(8, 8, 8), settings);
+  Particles &p = model.particles;
+  const Vector3 spin{120, -80, 200};
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  const double dt = .05 * model.stable_step({}, 0).limit;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = cross(spin, p.position[i] - centre);
+    (*p.angular_velocity)[i] = spin;
+  }
+  for (int s = 0; s < 20000; ++s)
+    step(model, dt);
+  const EnergyLedger e = model.energy();
+  EXPECT_LT(e.bonds, 1e-3 * e.kinetic); // the stretch of a spinning body, (w r)^2 rho / E
+  double shear = 0;
+  for (const Vector3 &u : *model.bonds->shear_displacement)
+    shear = std::max(shear, norm(u));
+  EXPECT_LT(shear, 1e-5 * radius);
+  EXPECT_EQ(model.bonds->failed_rows, 0u);
+}
+
+} // namespace
+} // namespace platen::dem
