@@ -50,7 +50,8 @@ dem::Specimen close_packed(int particles) {
 }
 
 const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
-                                      {"cohesive-beam", Law::cohesive_beam}};
+                                      {"cohesive-beam", Law::cohesive_beam},
+                                      {"elasto-damage-plastic", Law::elasto_damage_plastic}};
 
 coupling::ProblemSettings elastic_press(Law law) {
   coupling::ProblemSettings s;
@@ -61,6 +62,16 @@ coupling::ProblemSettings elastic_press(Law law) {
     s.model.bond = dem::CohesiveBeam::Parameters{0.3, 1e9, 4e9, 1.0, 0.3};
     s.model.bond_layout.radius_rule = dem::RadiusRule::mean;
     s.model.bond_layout.radius_multiplier = 0.71;
+  }
+  if (law == Law::elasto_damage_plastic) {
+    dem::ElastoDamagePlastic::Parameters p;
+    p.tensile_strength = 1e9;
+    p.shear_strength = 4e9;
+    p.friction_static = 0.9;
+    p.friction_dynamic = 0.25;
+    for (dem::ElastoDamagePlastic::Branch &b : p.branches)
+      b = {1e9, 3};
+    s.model.bond = p;
   }
   s.model.contact = dem::ContactSettings{};
   s.model.contact->friction = 0.5;

@@ -18,7 +18,7 @@ namespace platen::bench {
 dem::Specimen close_packed(int particles);
 
 // Failure checks, energy book, local damping and contacts on; strengths that nothing reaches.
-enum class Law { parallel_bond, cohesive_beam };
+enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
 extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
 coupling::ProblemSettings elastic_press(Law law = Law::parallel_bond);
 

@@ -55,7 +55,7 @@ double platen_stiffness(const dem::Model &model, const ProblemSettings &settings
     return p.stiffness_of_bond * sum / static_cast<double>(b.size());
   }
   for (const double r : model.particles.radius)
-    sum += settings.model.bond_layout.axial_stiffness(r, r);
+    sum += model.settings().bond_layout.axial_stiffness(r, r);
   return p.stiffness_of_bond * sum / static_cast<double>(std::max<std::size_t>(model.particles.size(), 1));
 }
 

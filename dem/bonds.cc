@@ -7,6 +7,7 @@
 
 #include "dem/cell_grid.h"
 #include "dem/kernels/bond_kernel.h"
+#include "dem/packing/specimen.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -36,17 +37,18 @@ double power_taken(const BrokenBond &b, const Particles &p) {
 } // namespace
 
 double BondLayout::bond_radius(double ri, double rj) const {
+  const double multiplier = radius_multiplier * std::sqrt(area_factor);
   switch (radius_rule) {
     case RadiusRule::minimum:
-      return radius_multiplier * std::min(ri, rj);
+      return multiplier * std::min(ri, rj);
     case RadiusRule::mean:
-      return radius_multiplier * 0.5 * (ri + rj);
+      return multiplier * 0.5 * (ri + rj);
     case RadiusRule::harmonic:
-      return radius_multiplier * 2 * ri * rj / (ri + rj);
+      return multiplier * 2 * ri * rj / (ri + rj);
     case RadiusRule::given:
       break;
   }
-  return radius_multiplier * given_radius;
+  return multiplier * given_radius;
 }
 
 double BondLayout::axial_stiffness(double ri, double rj) const {
@@ -63,22 +65,40 @@ double BondLayout::largest_overlap(double ri, double rj) const {
   return interaction_range >= 0 ? interaction_range * (ri + rj) : std::numeric_limits<double>::infinity();
 }
 
-Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
-    : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
-  if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
-  const std::size_t n = particles.size();
+namespace {
+
+// Pairs within the layout's range, sorted by (first, second).
+std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
+                                      const BondLayout &layout) {
   double largest = 0;
-  for (const double r : particles.radius)
-    largest = std::max(largest, r);
+  for (std::size_t i = 0; i < n; ++i)
+    largest = std::max(largest, radius[i]);
   // A hair wider than the reach, so that the test below alone decides.
   const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
-  std::vector<IndexPair> pairs = near_pairs(particles.position.data(), particles.radius.data(), n, margin);
+  std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);
   const auto out_of_range = [&](const IndexPair &p) {
-    const double ri = particles.radius[p.first], rj = particles.radius[p.second];
-    const double gap = norm(particles.position[p.second] - particles.position[p.first]) - ri - rj;
+    const double ri = radius[p.first], rj = radius[p.second];
+    const double gap = norm(position[p.second] - position[p.first]) - ri - rj;
     return gap > layout.reach(ri, rj) || -gap > layout.largest_overlap(ri, rj);
   };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
+  return pairs;
+}
+
+} // namespace
+
+double packing_factor(const Specimen &s, const BondLayout &layout) {
+  const double pairs =
+      static_cast<double>(pairs_in_range(s.centre.data(), s.radius.data(), s.size(), layout).size());
+  const double porosity = 1 - volume_of_spheres(s) / s.shape.volume();
+  return 40 * porosity * static_cast<double>(s.size()) / (2 * pairs);
+}
+
+Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
+    : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
+  if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
+  const std::vector<IndexPair> pairs =
+      pairs_in_range(particles.position.data(), particles.radius.data(), particles.size(), layout);
 
   table.resize(pairs.size());
   records.resize(pairs.size());

@@ -12,12 +12,16 @@
 
 namespace platen::dem {
 
+struct Specimen;
+
 enum class RadiusRule { minimum, mean, harmonic, given };
 
 // How bonds are laid between the spheres of a packing.
 struct BondLayout {
   double modulus = std::numeric_limits<double>::quiet_NaN(); // G_b, Pa
   double radius_multiplier = 1;                              // lambda
+  // Of the bond's area, beside lambda's square. 0: 40 P / N_c of the specimen, by Model (Onate et al. 2015).
+  double area_factor = 1;
   RadiusRule radius_rule = RadiusRule::minimum;
   double given_radius = 0; // m, for RadiusRule::given
   double gap = 0;          // bond where |d| - R_i - R_j <= gap; m, or in smaller radii of the pair
@@ -31,6 +35,10 @@ struct BondLayout {
   double reach(double ri, double rj) const;           // largest gap that is bonded, m
   double largest_overlap(double ri, double rj) const; // that is bonded, m
 };
+
+// 40 P / N_c with the porosity P of the specimen (a share) and the mean number N_c of pairs in range that a
+// sphere has: 1 at 25 % and 10 (Onate et al. 2015, eq. 22).
+double packing_factor(const Specimen &specimen, const BondLayout &layout);
 
 enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };
 

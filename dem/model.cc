@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dem/effects.h"
+#include "dem/packing/specimen.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -39,17 +40,23 @@ const ModelSettings &checked(const ModelSettings &s) {
   return s;
 }
 
+ModelSettings completed(const Specimen &specimen, const ModelSettings &settings) {
+  ModelSettings s = settings;
+  if (s.bond_layout.area_factor == 0) s.bond_layout.area_factor = packing_factor(specimen, s.bond_layout);
+  return s;
+}
+
 } // namespace
 
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
     : particles(specimen, checked(settings).density * settings.mass_scaling, settings.rotation),
-      settings_(settings),
+      settings_(completed(specimen, settings)),
       integrator_{settings.rotation, settings.local_damping, settings.gravity, settings.energy_ledger,
                   settings.instruction_set} {
-  if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings.bond_layout, *settings.bond);
+  if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
-    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings.bond_layout,
+    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings_.bond_layout,
                                           settings.energy_ledger);
 }
 

@@ -68,7 +68,8 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
       [&](const auto &law) {
         b.tensile_strength = law.tensile_strength;
         b.shear_strength = law.shear_strength;
-        b.moment_contribution = law.moment_contribution;
+        if constexpr (!std::is_same_v<decltype(law), const dem::ElastoDamagePlastic::Parameters &>)
+          b.moment_contribution = law.moment_contribution;
       },
       *settings.bond);
   return b;

@@ -107,6 +107,10 @@ void FieldSeries::write_bonds(const coupling::Problem &problem) {
     if (b.normal_stiffness[k] == 0.0) continue;
     const auto response = b.response(k, p);
     const std::size_t record = static_cast<std::size_t>(b.record[k]);
+    if (!b.has_failed(k) && b.damage(k) > 0) {
+      damage[record] = b.damage(k);
+      state[record] = static_cast<int>(dem::BondState::damaged);
+    }
     normal[record] = response.normal_force;
     shear[record] = response.shear_force;
   }

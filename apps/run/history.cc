@@ -28,7 +28,8 @@ const std::vector<std::string> &history_columns() {
                                                 "axial_strain_extremal",
                                                 "platen_speed_m_s",
                                                 "time_step_s",
-                                                "grain_contacts"};
+                                                "grain_contacts",
+                                                "plastic_work_j"};
   return columns;
 }
 
@@ -59,7 +60,8 @@ std::vector<CsvCell> history_row(const Sample &s) {
           s.axial_extremal,
           s.platen_speed,
           s.time_step,
-          count(s.touching)};
+          count(s.touching),
+          s.plastic};
 }
 
 Sampler::Sampler(const coupling::Problem &problem)
@@ -89,6 +91,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.damping = energy.damping;
   s.friction = energy.friction;
   s.fracture = energy.fracture;
+  s.plastic = energy.plastic;
   s.boundary = energy.boundary;
   s.residual = energy.residual();
   s.unbalanced = problem.unbalanced_ratio();

@@ -21,8 +21,8 @@ struct Sample {
   double stress_top = 0, stress_bottom = 0;        // Pa
   double confining_pressure = 0;                   // Pa
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
-  double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0,
-         boundary = 0;     // J
+  double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
+         plastic = 0;      // J
   double residual = 0;     // J
   double unbalanced = 0;   // 1
   double platen_speed = 0; // m/s

@@ -34,6 +34,7 @@ dem::BondLayout bond_layout(const Bond &from) {
   dem::BondLayout to;
   to.modulus = from.modulus;
   to.radius_multiplier = from.radius_multiplier;
+  to.area_factor = from.area_factor;
   to.radius_rule = radius_rule(from.radius_rule);
   if (from.radius_rule == RadiusRule::given) to.given_radius = from.radius;
   to.gap = from.gap.value;
@@ -50,12 +51,35 @@ Parameters with_strengths(Parameters to, const Bond &from) {
   return to;
 }
 
+dem::ElastoDamagePlastic::Parameters interface_parameters(const Bond &from) {
+  dem::ElastoDamagePlastic::Parameters to;
+  to.poisson_ratio = from.poisson_ratio;
+  to.tensile_strength = strength(from.tensile_strength);
+  to.shear_strength = strength(from.shear_strength);
+  to.friction_static = from.friction_static;
+  to.friction_dynamic = from.friction_dynamic;
+  to.softening_tension = from.softening_tension;
+  to.softening_shear = from.softening_shear;
+  to.fracture_energy_tension = from.fracture_energy_tension;
+  to.fracture_energy_shear = from.fracture_energy_shear;
+  // Branches that are not given go on as the last one does.
+  dem::ElastoDamagePlastic::Branch last;
+  for (std::size_t b = 0; b < 3; ++b) {
+    if (b < from.compression_limits.size()) last = {from.compression_limits[b], from.compression_slopes[b]};
+    to.branches[b] = last;
+  }
+  to.line =
+      from.failure_line == FailureLine::coupled ? dem::FailureLine::coupled : dem::FailureLine::uncoupled;
+  return to;
+}
+
 dem::BondParameters bond_parameters(const Bond &from, const Effects &effects) {
   if (effects.bond == BondKind::cohesive_beam) {
     dem::CohesiveBeam::Parameters beam;
     beam.poisson_ratio = from.poisson_ratio;
     return with_strengths(beam, from);
   }
+  if (effects.bond == BondKind::elasto_damage_plastic) return interface_parameters(from);
   dem::ParallelBond::Parameters bond;
   bond.stiffness_ratio = from.stiffness_ratio;
   bond.moments = effects.bond_moments;
@@ -124,6 +148,8 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.local_damping = scene.integration.damping;
   to.bond_dashpot = scene.bond.damping;
   to.bond_layout = bond_layout(scene.bond);
+  if (scene.effects.bond == BondKind::elasto_damage_plastic)
+    to.bond_layout.interaction_range = scene.bond.interaction_range;
   to.energy_ledger = scene.effects.energy_ledger;
   to.crack_log = scene.effects.crack_log;
   if (scene.effects.bond != BondKind::none) to.bond = bond_parameters(scene.bond, scene.effects);

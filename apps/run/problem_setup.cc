@@ -10,29 +10,43 @@ struct Effect {
   const char *word;
 };
 
+const char *word(BondKind bond) {
+  switch (bond) {
+    case BondKind::cohesive_beam:
+      return "cohesive beam";
+    case BondKind::elasto_damage_plastic:
+      return "elasto damage plastic";
+    case BondKind::parallel_bond:
+    case BondKind::none:
+      break;
+  }
+  return "parallel bond";
+}
+
 std::vector<Effect> effects(const Scene &s) {
   const Effects &e = s.effects;
   const bool bonded = e.bond != BondKind::none, touching = e.contact != ContactKind::none;
-  return {{bonded, e.bond == BondKind::cohesive_beam ? "cohesive beam" : "parallel bond"},
-          {touching && e.contact == ContactKind::linear, "linear contact"},
-          {touching && e.contact == ContactKind::hertz, "hertz contact"},
-          {touching && e.tangential != TangentialKind::none, "coulomb friction"},
-          {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
-          {e.rotation, "rotation"},
-          {bonded && e.rotation && e.bond_moments, "bond moments"},
-          {e.gravity, "gravity"},
-          {s.integration.damping > 0, "local damping"},
-          {bonded && s.bond.damping > 0, "bond dashpots"},
-          {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
-           "contact dashpots"},
-          {s.platens.damping > 0, "platen dashpots"},
-          {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
-          {s.platens.attachment == Attachment::glued, "glued ends"},
-          {s.specimen.seat, "seats"},
-          {s.integration.mass_scaling > 1, "mass scaling"},
-          {e.energy_ledger, "energy ledger"},
-          {bonded && e.crack_log, "crack log"},
-          {s.output.fields, "fields"}};
+  return {
+      {bonded, word(e.bond)},
+      {touching && e.contact == ContactKind::linear, "linear contact"},
+      {touching && e.contact == ContactKind::hertz, "hertz contact"},
+      {touching && e.tangential != TangentialKind::none, "coulomb friction"},
+      {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
+      {e.rotation, "rotation"},
+      {bonded && e.rotation && e.bond_moments && e.bond != BondKind::elasto_damage_plastic, "bond moments"},
+      {e.gravity, "gravity"},
+      {s.integration.damping > 0, "local damping"},
+      {bonded && s.bond.damping > 0, "bond dashpots"},
+      {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
+       "contact dashpots"},
+      {s.platens.damping > 0, "platen dashpots"},
+      {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
+      {s.platens.attachment == Attachment::glued, "glued ends"},
+      {s.specimen.seat, "seats"},
+      {s.integration.mass_scaling > 1, "mass scaling"},
+      {e.energy_ledger, "energy ledger"},
+      {bonded && e.crack_log, "crack log"},
+      {s.output.fields, "fields"}};
 }
 
 std::vector<std::string> chosen(const Scene &scene, bool on) {

@@ -21,6 +21,7 @@ public:
   void specimen() const;
   void effects() const;
   void bond() const;
+  void compression() const;
   void contact() const;
   void platens() const;
   void loading() const;
@@ -44,6 +45,7 @@ private:
   void spheres_fit() const;
   void friction(const std::string &name, const PlatenSide &side) const;
   void note(const std::string &path, const std::string &why);
+  void bond_notes();
 
   Scene &scene_;
   const Parameters &parameters_;
@@ -148,11 +150,28 @@ void SceneCheck::bond() const {
     refuse("Bond/Gap",
            "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
                ": a bare number is metres. Did you mean \"" + shortest_text(bond.gap.value) + " R_min\"?");
+  compression();
   const bool needed = scene_.effects.bond != BondKind::none && app_ != AppKind::pack &&
                       app_ != AppKind::report &&
                       !(app_ == AppKind::bonds && !scene_.pair_test.moduli.empty());
   if (needed)
     need("Bond/Modulus", bond.modulus, "Effects/Bond is " + parameters_.at("Effects/Bond").text + ".");
+}
+
+void SceneCheck::compression() const {
+  const std::vector<double> &limits = scene_.bond.compression_limits,
+                            &slopes = scene_.bond.compression_slopes;
+  const std::string count = std::to_string(limits.size());
+  if (limits.size() > 3) refuse("Bond/Compression limits", "has " + count + " stresses. Allowed: up to 3.");
+  if (slopes.size() != limits.size())
+    refuse("Bond/Compression slopes", "has " + std::to_string(slopes.size()) +
+                                          " numbers. Allowed: as many as Bond/Compression limits, " + count +
+                                          ".");
+  if (!std::is_sorted(limits.begin(), limits.end()))
+    refuse("Bond/Compression limits", "descends. Allowed: ascending stresses.");
+  if (!std::is_sorted(slopes.begin(), slopes.end()))
+    refuse("Bond/Compression slopes",
+           "descends: compression would grow stiffer again. Allowed: ascending numbers.");
 }
 
 void SceneCheck::contact() const {
@@ -207,6 +226,10 @@ void SceneCheck::pair_test() const {
   if (app_ != AppKind::bonds) return;
   if (scene_.effects.bond == BondKind::none)
     refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
+  if (scene_.effects.bond == BondKind::elasto_damage_plastic)
+    refuse("Effects/Bond",
+           "yields and softens: platen-bonds brings bonds to rest by swinging, which such a "
+           "bond would remember. Allowed: parallel bond, cohesive beam.");
   if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
     refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
 }
@@ -218,6 +241,30 @@ void SceneCheck::note(const std::string &path, const std::string &why) {
                          " has no effect: " + why + ".");
 }
 
+void SceneCheck::bond_notes() {
+  const BondKind kind = scene_.effects.bond;
+  if (kind == BondKind::cohesive_beam)
+    note("Bond/Stiffness ratio", "a cohesive beam has that of its section");
+  if (kind == BondKind::parallel_bond)
+    note("Bond/Poisson ratio", "Effects/Bond is not cohesive beam or elasto damage plastic");
+  if (scene_.bond.shear_strength == 0) note("Bond/Friction angle", "Bond/Shear strength is infinite");
+  if (kind == BondKind::elasto_damage_plastic) {
+    for (const char *key : {"Bond/Stiffness ratio", "Bond/Friction angle", "Bond/Moment contribution",
+                            "Bond/Gap", "Effects/Bond moments"})
+      note(key, "Effects/Bond = elasto damage plastic, which has its own or none");
+    if (scene_.bond.fracture_energy_tension > 0)
+      note("Bond/Softening tension", "Bond/Fracture energy tension takes its place");
+    if (scene_.bond.fracture_energy_shear > 0)
+      note("Bond/Softening shear", "Bond/Fracture energy shear takes its place");
+    return;
+  }
+  for (const char *key :
+       {"Bond/Interaction range", "Bond/Friction static", "Bond/Friction dynamic", "Bond/Softening tension",
+        "Bond/Softening shear", "Bond/Fracture energy tension", "Bond/Fracture energy shear",
+        "Bond/Compression limits", "Bond/Compression slopes", "Bond/Failure line"})
+    note(key, "Effects/Bond is not elasto damage plastic");
+}
+
 void SceneCheck::notes() {
   const SpecimenSection &specimen = scene_.specimen;
   const Effects &effects = scene_.effects;
@@ -227,11 +274,7 @@ void SceneCheck::notes() {
       note(key, "Specimen/Radius distribution is not two sizes");
   if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
   if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
-  if (effects.bond == BondKind::cohesive_beam)
-    note("Bond/Stiffness ratio", "a cohesive beam has that of its section");
-  else
-    note("Bond/Poisson ratio", "Effects/Bond is not cohesive beam");
-  if (scene_.bond.shear_strength == 0) note("Bond/Friction angle", "Bond/Shear strength is infinite");
+  bond_notes();
   if (effects.contact != ContactKind::linear)
     for (const char *key : {"Contact/Stiffness", "Contact/Tangential ratio", "Contact/Damping"})
       note(key, "Effects/Contact is not linear");

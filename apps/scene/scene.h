@@ -98,11 +98,12 @@ struct Effects {
 };
 
 enum class RadiusRule { minimum, mean, harmonic, given };
+enum class FailureLine { uncoupled, coupled };
 
 struct Bond {
   double modulus = not_given;     // Pa
   double stiffness_ratio = 0.4;   // parallel bond
-  double poisson_ratio = 0.3;     // cohesive beam
+  double poisson_ratio = 0.3;     // cohesive beam, elasto damage plastic
   double tensile_strength = 0;    // Pa; 0: never breaks in tension
   double shear_strength = 0;      // Pa; 0: never breaks in shear
   double friction_angle = 0;      // rad
@@ -112,6 +113,18 @@ struct Bond {
   double radius = not_given; // m; Radius rule = given
   Gap gap;
   double damping = 0; // dashpot, fraction of critical
+  // Elasto damage plastic.
+  double interaction_range = 0.1;         // of the sum of both radii
+  double area_factor = 1;                 // 0: from the packing
+  double friction_static = 0;             // while it holds
+  double friction_dynamic = 0;            // once it has failed
+  double softening_tension = 0.2;         // displacement of softening over that at the strength
+  double softening_shear = 1;             // the same
+  double fracture_energy_tension = 0;     // J/m2 of the softening branch; 0: by softening_tension
+  double fracture_energy_shear = 0;       // J/m2
+  std::vector<double> compression_limits; // Pa, LCS1..3
+  std::vector<double> compression_slopes; // YRC1..3
+  FailureLine failure_line = FailureLine::uncoupled;
 };
 
 struct Contact {

@@ -74,7 +74,7 @@ void declare_effects(Parameters &parameters, Effects &effects) {
                           {"parallel bond", BondKind::parallel_bond},
                           {"cohesive beam", BondKind::cohesive_beam},
                           {"elasto damage plastic", BondKind::elasto_damage_plastic}},
-                         {"elasto damage plastic"}, "What holds the grains together.");
+                         {}, "What holds the grains together.");
   section.word<ContactKind>(
       "Contact", effects.contact,
       {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}}, {},
@@ -94,13 +94,45 @@ void declare_effects(Parameters &parameters, Effects &effects) {
   section.flag("Crack log", effects.crack_log, "cracks.csv; without it broken bonds are counted alone.");
 }
 
+// Of Effects/Bond = elasto damage plastic alone.
+void declare_interface(Section &section, Bond &bond) {
+  section.number("Interaction range", bond.interaction_range, between(0, 1),
+                 "Pairs whose distance differs from the sum of their radii by at most this share of it are "
+                 "bonded (elasto damage plastic, instead of Gap).");
+  section.number(
+      "Area factor", bond.area_factor, between(0, 10),
+      "Alpha, on the area of the bond; 0: 40 times porosity over mean number of bonds of a sphere.");
+  section.number("Friction static", bond.friction_static, between(0, 5),
+                 "Shear strength grows by this times the compression, while the bond holds (mu_1).");
+  section.number("Friction dynamic", bond.friction_dynamic, between(0, 5),
+                 "Coefficient of friction of a bond that has failed (mu_2).");
+  section.number("Softening tension", bond.softening_tension, {1e-3, 1000, true, true},
+                 "Opening from the strength to nothing, over that at the strength (delta_n).");
+  section.number("Softening shear", bond.softening_shear, {1e-3, 1000, true, true},
+                 "The same in shear (delta_s).");
+  section.quantity("Fracture energy tension", bond.fracture_energy_tension, "J/m2", at_least(0),
+                   "Area under the softening branch, for any size of spheres; 0: by Softening tension.");
+  section.quantity("Fracture energy shear", bond.fracture_energy_shear, "J/m2", at_least(0),
+                   "The same in shear.");
+  section.list("Compression limits", bond.compression_limits, "Pa", above(0),
+               "Up to three stresses, ascending, where the branches of compression begin (LCS); empty: "
+               "elastic without limit.");
+  section.list("Compression slopes", bond.compression_slopes, "1", at_least(1),
+               "Modulus over that of each branch, not descending (YRC); as many as limits.");
+  section.word<FailureLine>(
+      "Failure line", bond.failure_line,
+      {{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}}, {},
+      "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
+}
+
 void declare_bond(Parameters &parameters, Bond &bond) {
   Section section(parameters, "Bond");
   section.quantity("Modulus", bond.modulus, "Pa", above(0), "Young modulus of the bond.");
   section.number("Stiffness ratio", bond.stiffness_ratio, between(0, 5),
                  "Shear over normal stiffness, k_s / k_n (parallel bond).");
-  section.number("Poisson ratio", bond.poisson_ratio, between_open(-1, 0.5),
-                 "Of the beam: its shear modulus is Modulus / (2 (1 + nu)) (cohesive beam).");
+  section.number(
+      "Poisson ratio", bond.poisson_ratio, between_open(-1, 0.5),
+      "Of the bond: its shear modulus is Modulus / (2 (1 + nu)) (cohesive beam, elasto damage plastic).");
   section.quantity("Tensile strength", bond.tensile_strength, "Pa", at_least(0),
                    "0: never breaks in tension.");
   section.quantity("Shear strength", bond.shear_strength, "Pa", at_least(0),
@@ -123,6 +155,7 @@ void declare_bond(Parameters &parameters, Bond &bond) {
       "Pairs with at most this distance between their surfaces are bonded; R_min is the smaller radius.");
   section.number("Damping", bond.damping, between(0, 1),
                  "Dashpot of the bond, fraction of critical damping.");
+  declare_interface(section, bond);
 }
 
 void declare_contact(Parameters &parameters, Contact &contact) {

@@ -51,7 +51,7 @@ TEST_F(EffectsOff, ledger_and_log_only_watch) {
     for (std::size_t row = 1; row < a.size(); ++row)
       ASSERT_EQ(b[row][c], energy ? "nan" : a[row][c]) << column << " in row " << row;
   }
-  EXPECT_EQ(energies, 9u);
+  EXPECT_EQ(energies, 10u);
 }
 
 TEST_F(EffectsOff, moments_cost_columns_of_no_bond_but_strength_of_all) {
