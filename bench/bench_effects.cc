@@ -69,6 +69,7 @@ void rub(dem::ModelSettings &s) {
 
 std::vector<Effect> effects_of_bonds() {
   return {{compiled::local_damping, "local damping", [](auto &s) { s.local_damping = 0.5; }},
+          {compiled::dissipative_scheme, "dissipative scheme", [](auto &s) { s.dissipation = 1.2; }},
           {compiled::gravity, "gravity",
            [](auto &s) {
              s.gravity = {0, 0, -9.80665};

@@ -8,7 +8,7 @@ struct EnergyLedger {
   double bonds = 0;    // elastic, in bonds
   double contacts = 0; // elastic, in grain and platen contacts
   double bodies = 0;   // elastic, in deformable bodies
-  double damping = 0;  // lost to local and viscous damping
+  double damping = 0;  // lost to local and viscous damping, and to a dissipative scheme
   double friction = 0; // lost to sliding and rolling, grains and platens
   double fracture = 0; // lost when bonds break or lose strength
   double plastic = 0;  // lost when bonds yield

@@ -15,7 +15,7 @@ namespace {
 
 kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
   const kernels::MotionEffects effects{how.rotation, how.local_damping > 0, norm_squared(how.gravity) > 0,
-                                       how.energy_ledger};
+                                       how.energy_ledger, how.dissipation > 1};
   switch (how.instruction_set) {
     case InstructionSet::avx512:
       return kernels::motion_kernel_avx512(halves, effects);
@@ -33,6 +33,8 @@ kernels::MotionColumns columns_of(Particles &p) {
   c.velocity = p.velocity.data();
   c.force = p.force.data();
   c.mass = p.mass.data();
+  if (p.excess_velocity != nullptr) c.excess_velocity = p.excess_velocity->data();
+  if (p.excess_spin != nullptr) c.excess_spin = p.excess_spin->data();
   if (!p.has_rotation()) return c;
   c.orientation = p.orientation->data();
   c.angular_velocity = p.angular_velocity->data();
@@ -57,7 +59,7 @@ Sums pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghos
           double next) {
   const kernels::MotionKernel kernel = kernel_of(how, halves);
   const kernels::MotionColumns columns = columns_of(p);
-  const kernels::MotionStep step{finished, next, how.local_damping, how.gravity};
+  const kernels::MotionStep step{finished, next, how.local_damping, how.gravity, how.dissipation - 1};
   return ordered_sum<Sums>(p.size(), [&](std::size_t first, std::size_t last) {
     if (halves != Halves::begin) {
       if (ghosts.bonds != nullptr) return_ghosts(p, *ghosts.bonds, first / block_rows);

@@ -1,4 +1,5 @@
-// Velocity Verlet with rotation, as passes over the particles.
+// Velocity Verlet with rotation, or the dissipative scheme of Tchamwa and Wielgosz, as passes over the
+// particles.
 #pragma once
 
 #include "dem/bonds.h"
@@ -12,7 +13,7 @@ struct Motion {
 };
 
 struct KickSums {
-  double damping_work = 0;   // J, lost to local damping in this step
+  double damping_work = 0;   // J, lost to local damping and to the scheme in this step
   double weight_work = 0;    // J, done by gravity in this step
   double kinetic_energy = 0; // J, at full-step velocities
   double unbalanced = 0;     // N, sum of |net force| before damping
@@ -30,8 +31,13 @@ struct Integrator {
   Vector3 gravity;           // m/s^2
   bool energy_ledger = true; // sums of works and energies
   InstructionSet instruction_set = best_instruction_set();
+  // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet. Above 1 particles need their excess columns
+  // (Particles::add_excess).
+  double dissipation = 1;
 
-  // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. Returns the largest speed.
+  // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. With a dissipation phi the velocity
+  // of the drift, which `velocity` holds until `end`, is larger by (phi - 1) dt F/m. Returns the largest
+  // speed.
   Motion begin(Particles &particles, double dt) const;
   // Returns ghosts, damps, makes the second half kick. Forces and torques are then
   // complete and damped. Without a ledger all sums but that of unbalanced forces are 0.

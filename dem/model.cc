@@ -30,6 +30,7 @@ const ModelSettings &checked(const ModelSettings &s) {
   require_compiled(norm_squared(s.gravity) > 0, compiled::gravity, "gravity");
   require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
   require_compiled(s.crack_log, compiled::crack_log, "crack log");
+  require_compiled(s.dissipation > 1, compiled::dissipative_scheme, "dissipative scheme");
   if (!s.contact) return s;
   const ContactSettings &c = *s.contact;
   require_compiled(c.normal == NormalContact::hertz, compiled::hertz, "hertz contact");
@@ -51,8 +52,9 @@ ModelSettings completed(const Specimen &specimen, const ModelSettings &settings)
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
     : particles(specimen, checked(settings).density * settings.mass_scaling, settings.rotation),
       settings_(completed(specimen, settings)),
-      integrator_{settings.rotation, settings.local_damping, settings.gravity, settings.energy_ledger,
-                  settings.instruction_set} {
+      integrator_{settings.rotation,      settings.local_damping,   settings.gravity,
+                  settings.energy_ledger, settings.instruction_set, settings.dissipation} {
+  if (settings.dissipation > 1) particles.add_excess();
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
@@ -203,6 +205,7 @@ StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double su
                           : 0.5; // Hertz: stiffness grows with the overlap; a reserve instead of a law
   dashpots.surfaces = surface_dashpot;
   dashpots.local = settings_.local_damping;
+  dashpots.scheme = settings_.dissipation;
   return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
 }
 

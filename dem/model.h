@@ -29,6 +29,7 @@ struct ModelSettings {
   std::optional<BondParameters> bond;     // none: no bonds
   std::optional<ContactSettings> contact; // none: spheres pass through each other
   InstructionSet instruction_set = best_instruction_set();
+  double dissipation = 1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
 };
 
 // One bond failure, for the crack log.

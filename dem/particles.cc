@@ -71,4 +71,9 @@ void Particles::add_rotation() {
   inertia = &table.add<double>("inertia", "kg m^2");
 }
 
+void Particles::add_excess() {
+  excess_velocity = &table.add<Vector3>("excess_velocity", "m/s");
+  if (has_rotation()) excess_spin = &table.add<Vector3>("excess_spin", "rad/s");
+}
+
 } // namespace platen::dem

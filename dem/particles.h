@@ -11,8 +11,8 @@ namespace platen::dem {
 struct Specimen;
 
 // Motion and forces live on one clock: between drift and the second half kick `velocity` and
-// `angular_velocity` hold the half-step values; after it the full-step ones (docs/theory.md, time
-// integration).
+// `angular_velocity` hold the values by which particles drifted, with velocity Verlet those of the half step;
+// after it the full-step ones (docs/theory.md, time integration).
 struct Particles {
   Table table;
   Column<int> &id = table.add<int>("id", "1");
@@ -27,6 +27,8 @@ struct Particles {
   Column<Vector3> *angular_velocity = nullptr; // rad/s, global axes
   Column<Vector3> *torque = nullptr;           // N m, about the centre, global axes
   Column<double> *inertia = nullptr;           // kg m^2, 2/5 m R^2
+  // Only with a dissipative scheme: what the drift had above the half-step values; the second with rotation.
+  Column<Vector3> *excess_velocity = nullptr, *excess_spin = nullptr; // m/s, rad/s
 
   Particles() = default;
   // Spheres of one density (kg/m^3) at rest, in spatial (Morton) order.
@@ -37,6 +39,7 @@ struct Particles {
   std::size_t size() const { return table.size(); }
   bool has_rotation() const { return orientation != nullptr; }
   void add_rotation();
+  void add_excess();
 };
 
 // Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row

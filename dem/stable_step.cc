@@ -268,7 +268,9 @@ LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
 // The dashpots see half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
 // largest eigenvalues of K and C apart (their sum is an upper bound) that is a quadratic equation for dt. A
 // dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because that mode is
-// faster than the pair.
+// faster than the pair. With a dissipation phi, at
+// the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
+// terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
   StableStep result;
@@ -281,7 +283,8 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   const double rate = damping.empty() ? 0.0 : largest_eigenvalue(damping, particles.size()).value; // 1/s
   result.iterations = squared.iterations;
   result.omega = std::sqrt(squared.value);
-  const double holding = 1 + dashpots.local, k = holding * squared.value, c = holding * rate;
+  const double holding = (1 + dashpots.local) * (2 * dashpots.scheme - 1), k = holding * squared.value,
+               c = holding * rate;
   result.limit = (std::sqrt(c * c + 4 * k) - c) / k;
   // A few more applications bring out the place that sets the limit.
   Mode &x = squared.mode;

@@ -37,7 +37,8 @@ struct StableStep {
 // a stiffness.
 struct DashpotFractions {
   double bonds = 0, contacts = 0, surfaces = 0;
-  double local = 0; // alpha, 0 ... 1
+  double local = 0;  // alpha, 0 ... 1
+  double scheme = 1; // phi of Tchamwa and Wielgosz: narrows the limit by sqrt(2 phi - 1)
 };
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots);

@@ -126,6 +126,7 @@ void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
   check(to.crack_log, crack_log, "Effects/Crack log", "off");
   check(to.bond_dashpot > 0, bond_dashpots, "Bond/Damping", "0");
   check(to.local_damping > 0, local_damping, "Integration/Damping", "0");
+  check(to.dissipation > 1, dissipative_scheme, "Integration/Scheme", "velocity verlet");
   if (!to.contact) return;
   const dem::ContactSettings &c = *to.contact;
   const bool hertzian = c.normal == dem::NormalContact::hertz;
@@ -146,6 +147,7 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.mass_scaling = scene.integration.mass_scaling;
   if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
   to.local_damping = scene.integration.damping;
+  if (scene.integration.scheme == Scheme::tchamwa_wielgosz) to.dissipation = scene.integration.dissipation;
   to.bond_dashpot = scene.bond.damping;
   to.bond_layout = bond_layout(scene.bond);
   if (scene.effects.bond == BondKind::elasto_damage_plastic)

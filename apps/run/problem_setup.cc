@@ -26,27 +26,29 @@ const char *word(BondKind bond) {
 std::vector<Effect> effects(const Scene &s) {
   const Effects &e = s.effects;
   const bool bonded = e.bond != BondKind::none, touching = e.contact != ContactKind::none;
-  return {
-      {bonded, word(e.bond)},
-      {touching && e.contact == ContactKind::linear, "linear contact"},
-      {touching && e.contact == ContactKind::hertz, "hertz contact"},
-      {touching && e.tangential != TangentialKind::none, "coulomb friction"},
-      {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
-      {e.rotation, "rotation"},
-      {bonded && e.rotation && e.bond_moments && e.bond != BondKind::elasto_damage_plastic, "bond moments"},
-      {e.gravity, "gravity"},
-      {s.integration.damping > 0, "local damping"},
-      {bonded && s.bond.damping > 0, "bond dashpots"},
-      {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
-       "contact dashpots"},
-      {s.platens.damping > 0, "platen dashpots"},
-      {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
-      {s.platens.attachment == Attachment::glued, "glued ends"},
-      {s.specimen.seat, "seats"},
-      {s.integration.mass_scaling > 1, "mass scaling"},
-      {e.energy_ledger, "energy ledger"},
-      {bonded && e.crack_log, "crack log"},
-      {s.output.fields, "fields"}};
+  const bool moments = e.rotation && e.bond_moments && e.bond != BondKind::elasto_damage_plastic;
+  return {{bonded, word(e.bond)},
+          {touching && e.contact == ContactKind::linear, "linear contact"},
+          {touching && e.contact == ContactKind::hertz, "hertz contact"},
+          {touching && e.tangential != TangentialKind::none, "coulomb friction"},
+          {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
+          {e.rotation, "rotation"},
+          {bonded && moments, "bond moments"},
+          {e.gravity, "gravity"},
+          {s.integration.damping > 0, "local damping"},
+          {s.integration.scheme == Scheme::tchamwa_wielgosz && s.integration.dissipation > 1,
+           "dissipative scheme"},
+          {bonded && s.bond.damping > 0, "bond dashpots"},
+          {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
+           "contact dashpots"},
+          {s.platens.damping > 0, "platen dashpots"},
+          {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
+          {s.platens.attachment == Attachment::glued, "glued ends"},
+          {s.specimen.seat, "seats"},
+          {s.integration.mass_scaling > 1, "mass scaling"},
+          {e.energy_ledger, "energy ledger"},
+          {bonded && e.crack_log, "crack log"},
+          {s.output.fields, "fields"}};
 }
 
 std::vector<std::string> chosen(const Scene &scene, bool on) {

@@ -291,6 +291,8 @@ void SceneCheck::notes() {
   if (scene_.platens.top_control == PlatenControl::motion)
     for (const char *key : {"Platens/Top/Stress", "Loading/Hold"})
       note(key, "Platens/Top/Control = motion");
+  if (scene_.integration.scheme != Scheme::tchamwa_wielgosz)
+    note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
     for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})

@@ -185,8 +185,12 @@ struct Loading {
 
 enum class InstructionSet { best, baseline };
 
+enum class Scheme { velocity_verlet, tchamwa_wielgosz };
+
 struct Integration {
-  double safety = 0.8; // time step over its limit
+  Scheme scheme = Scheme::velocity_verlet;
+  double dissipation = 1.1; // phi of tchamwa wielgosz
+  double safety = 0.8;      // time step over its limit
   double mass_scaling = 1;
   double damping = 0.5; // local, non-viscous
   double time_step = 0; // s; 0: safety times the limit

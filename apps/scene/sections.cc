@@ -250,6 +250,14 @@ void declare_loading(Parameters &parameters, Loading &loading) {
 
 void declare_integration(Parameters &parameters, Integration &integration) {
   Section section(parameters, "Integration");
+  section.word<Scheme>(
+      "Scheme", integration.scheme,
+      {{"velocity verlet", Scheme::velocity_verlet}, {"tchamwa wielgosz", Scheme::tchamwa_wielgosz}}, {},
+      "Tchamwa Wielgosz takes energy from fast swings by the drift itself, for slow tests.");
+  section.number(
+      "Dissipation", integration.dissipation, between(1, 1.5),
+      "phi of tchamwa wielgosz: a swing of frequency w is damped by (phi - 1) w dt / 2 of critical; "
+      "1: none, which is velocity Verlet.");
   section.number("Safety", integration.safety, above_up_to(0, 1), "Time step over the stability limit.");
   section.number("Mass scaling", integration.mass_scaling, between(1, 1e6),
                  "Factor on all masses; the time step grows by its root, and inertia with it.");

@@ -15,6 +15,8 @@ struct MotionColumns {
   Quaternion *orientation;
   Vector3 *angular_velocity, *torque;
   const double *inertia;
+  // Only with a dissipative scheme; the second with rotation too.
+  Vector3 *excess_velocity, *excess_spin;
 };
 
 struct MotionStep {
@@ -22,13 +24,14 @@ struct MotionStep {
   double next = 0;     // s, of the step that the first half kick and the drift begin
   double local_damping = 0;
   Vector3 gravity;
+  double excess = 0; // phi - 1 of a dissipative scheme
 };
 
 // What a pass does.
 enum class Halves { end, begin, end_and_begin };
 
 struct MotionSums {
-  double damping_work = 0;   // J, lost to local damping in the finished step
+  double damping_work = 0;   // J, lost to local damping and to the scheme in the finished step
   double weight_work = 0;    // J, done by gravity in it
   double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end, also without a book
   double kinetic_energy = 0; // J, at full-step velocities; only Halves::end
@@ -39,7 +42,8 @@ struct MotionSums {
 // Which effects a pass has; each combination is a loop of its own.
 struct MotionEffects {
   bool rotation = false, local_damping = false, gravity = false;
-  bool book = true; // energy sums
+  bool book = true;         // energy sums
+  bool dissipative = false; // drifts by an excess over the half-step velocity
 };
 
 using MotionKernel = MotionSums (*)(const MotionColumns &, const MotionStep &, std::size_t first,

@@ -56,17 +56,34 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
   return {s * p.w, s * p.x, s * p.y, s * p.z};
 }
 
-// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load.
-template <class Real, bool damping, bool book, Halves halves>
+// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `excess`:
+// what the drift had above the half-step velocity, only with a dissipative scheme.
+template <class Real, bool damping, bool book, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
-                     const MotionStep &step, Book<Real> &sums) {
+                     const MotionStep &step, Book<Real> &sums, const Triple<Real> &excess = {}) {
   const Triple<Real> whole = load;
   if constexpr (damping)
     load = {damped(load.x, v.x, step.local_damping), damped(load.y, v.y, step.local_damping),
             damped(load.z, v.z, step.local_damping)};
+  if constexpr (dissipative) v = v - excess;
   v = v + scale(Real(0.5 * step.finished * mobility), load);
-  // The work lost in the step, which the leapfrog books at the full-step velocity.
-  if constexpr (damping && book) sums.damping_work = sums.damping_work + step.finished * dot(whole - load, v);
+  if constexpr (dissipative) {
+    if constexpr (book) {
+      // The mean of the loads at both ends of the drift, over the excess of its path.
+      const Real before = (1 / step.excess) * mass * dot(excess, excess);
+      sums.damping_work = sums.damping_work + 0.5 * (before + step.finished * dot(load, excess));
+    }
+    if constexpr (damping && book) {
+      // At the mean of the drifts on either side, which the excess lets differ from the full-step velocity.
+      const Triple<Real> next = scale(Real(step.excess * step.finished * mobility), load);
+      sums.damping_work =
+          sums.damping_work + step.finished * dot(whole - load, v + scale(Real(0.5), excess + next));
+    }
+  } else {
+    // The work lost in the step, which the leapfrog books at the full-step velocity.
+    if constexpr (damping && book)
+      sums.damping_work = sums.damping_work + step.finished * dot(whole - load, v);
+  }
   if constexpr (book && halves == Halves::end)
     sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
 }
@@ -77,23 +94,38 @@ inline void begin_kick(Triple<Real> &v, const Triple<Real> &load, const Real &mo
   v = v + scale(Real(0.5 * step.next * mobility), load);
 }
 
-template <class Real, bool rotation, bool damping, bool gravity, bool book, Halves halves>
+// Lets the drift that follows go further than the half-step velocity; returns by how much.
+template <class Real>
+inline Triple<Real> add_excess(Triple<Real> &v, const Triple<Real> &load, const Real &mobility,
+                               const MotionStep &step) {
+  const Triple<Real> excess = scale(Real(step.excess * step.next * mobility), load);
+  v = v + excess;
+  return excess;
+}
+
+template <class Real, bool rotation, bool damping, bool gravity, bool book, bool dissipative, Halves halves>
 inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, Book<Real> &sums) {
   using R = Rows<Real>;
   Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
   const Real mass = R::scalar(c.mass + i), mobility = 1.0 / mass;
   if constexpr (halves == Halves::end) sums.unbalanced = sums.unbalanced + root(dot(force, force));
   if constexpr (halves != Halves::begin) {
-    end_kick<Real, damping, book, halves>(v, force, mass, mobility, step, sums);
+    [[maybe_unused]] const Triple<Real> drift = v;
+    if constexpr (dissipative)
+      end_kick<Real, damping, book, true, halves>(v, force, mass, mobility, step, sums,
+                                                  R::vector(c.excess_velocity + i));
+    else
+      end_kick<Real, damping, book, false, halves>(v, force, mass, mobility, step, sums);
     if constexpr (gravity && book) {
       const Triple<Real> g{Real(step.gravity.x), Real(step.gravity.y), Real(step.gravity.z)};
-      sums.weight_work = sums.weight_work + step.finished * mass * dot(g, v);
+      sums.weight_work = sums.weight_work + step.finished * mass * dot(g, dissipative ? drift : v);
     }
   }
   if constexpr (halves == Halves::end) {
     store(c.force + i, force);
   } else {
     begin_kick(v, force, mobility, step);
+    if constexpr (dissipative) store(c.excess_velocity + i, add_excess(v, force, mobility, step));
     store(c.position + i, R::vector(c.position + i) + scale(Real(step.next), v));
     const Real square = dot(v, v);
     sums.speed_squares = sums.speed_squares + square;
@@ -103,26 +135,30 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   if constexpr (rotation) {
     Triple<Real> w = R::vector(c.angular_velocity + i), torque = R::vector(c.torque + i);
     const Real inertia = R::scalar(c.inertia + i), turn_mobility = 1.0 / inertia;
-    if constexpr (halves != Halves::begin)
-      end_kick<Real, damping, book, halves>(w, torque, inertia, turn_mobility, step, sums);
+    if constexpr (halves != Halves::begin && dissipative)
+      end_kick<Real, damping, book, true, halves>(w, torque, inertia, turn_mobility, step, sums,
+                                                  R::vector(c.excess_spin + i));
+    if constexpr (halves != Halves::begin && !dissipative)
+      end_kick<Real, damping, book, false, halves>(w, torque, inertia, turn_mobility, step, sums);
     if constexpr (halves == Halves::end) {
       store(c.torque + i, torque);
     } else {
       begin_kick(w, torque, turn_mobility, step);
+      if constexpr (dissipative) store(c.excess_spin + i, add_excess(w, torque, turn_mobility, step));
       store(c.orientation + i, turned_by(R::rotation(c.orientation + i), w, step.next));
     }
     store(c.angular_velocity + i, w);
   }
 }
 
-template <bool rotation, bool damping, bool gravity, bool book, Halves halves>
+template <bool rotation, bool damping, bool gravity, bool book, bool dissipative, Halves halves>
 MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_t first, std::size_t last) {
   constexpr std::size_t packs = slots / lanes;
   Book<Pack> wide[packs];
   std::size_t i = first;
   for (; i + slots <= last; i += slots)
     for (std::size_t p = 0; p < packs; ++p)
-      move<Pack, rotation, damping, gravity, book, halves>(c, step, i + p * lanes, wide[p]);
+      move<Pack, rotation, damping, gravity, book, dissipative, halves>(c, step, i + p * lanes, wide[p]);
   Book<double> slot[slots];
   for (std::size_t s = 0; s < slots; ++s) {
     const Book<Pack> &w = wide[s / lanes];
@@ -131,7 +167,7 @@ MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_
                w.kinetic_energy.v[l], w.speed_squares.v[l], w.fastest_square.v[l]};
   }
   for (std::size_t s = 0; i < last; ++i, ++s)
-    move<double, rotation, damping, gravity, book, halves>(c, step, i, slot[s]);
+    move<double, rotation, damping, gravity, book, dissipative, halves>(c, step, i, slot[s]);
   MotionSums sums;
   for (const Book<double> &b : slot) {
     sums.damping_work += b.damping_work;
@@ -144,24 +180,30 @@ MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_
   return sums;
 }
 
-template <bool rotation, bool damping, bool gravity, bool book>
+template <bool rotation, bool damping, bool gravity, bool book, bool dissipative>
 MotionKernel kernel_for(Halves halves) {
-  if (halves == Halves::end) return move_block<rotation, damping, gravity, book, Halves::end>;
-  if (halves == Halves::begin) return move_block<rotation, false, false, book, Halves::begin>;
-  return move_block<rotation, damping, gravity, book, Halves::end_and_begin>;
+  if (halves == Halves::end) return move_block<rotation, damping, gravity, book, dissipative, Halves::end>;
+  if (halves == Halves::begin) return move_block<rotation, false, false, book, dissipative, Halves::begin>;
+  return move_block<rotation, damping, gravity, book, dissipative, Halves::end_and_begin>;
 }
 // What a build leaves out is not instantiated.
+template <bool rotation, bool damping, bool gravity, bool book>
+MotionKernel choose(Halves h, bool dissipative) {
+  if constexpr (compiled::dissipative_scheme)
+    if (dissipative) return kernel_for<rotation, damping, gravity, book, true>(h);
+  return kernel_for<rotation, damping, gravity, book, false>(h);
+}
 template <bool rotation, bool damping, bool gravity>
-MotionKernel choose(Halves h, bool book) {
+MotionKernel choose(Halves h, const MotionEffects &e) {
   if constexpr (compiled::energy_ledger)
-    if (book) return kernel_for<rotation, damping, gravity, true>(h);
-  return kernel_for<rotation, damping, gravity, false>(h);
+    if (e.book) return choose<rotation, damping, gravity, true>(h, e.dissipative);
+  return choose<rotation, damping, gravity, false>(h, e.dissipative);
 }
 template <bool rotation, bool damping>
 MotionKernel choose(Halves h, const MotionEffects &e) {
   if constexpr (compiled::gravity)
-    if (e.gravity) return choose<rotation, damping, true>(h, e.book);
-  return choose<rotation, damping, false>(h, e.book);
+    if (e.gravity) return choose<rotation, damping, true>(h, e);
+  return choose<rotation, damping, false>(h, e);
 }
 template <bool rotation>
 MotionKernel choose(Halves h, const MotionEffects &e) {

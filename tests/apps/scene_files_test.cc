@@ -224,6 +224,10 @@ TEST_F(SceneFiles, entries_without_effect_are_told) {
       scene.notes[0],
       "command line, --set 1: note: Contact/Restitution = 0.5 has no effect: Effects/Contact is not hertz.");
   EXPECT_TRUE(read("b.prm", concrete).notes.empty());
+  EXPECT_EQ(read("c.prm", concrete, {"Integration/Dissipation = 1.2"}).notes.size(), 1u);
+  EXPECT_TRUE(
+      read("d.prm", concrete, {"Integration/Scheme = tchamwa wielgosz", "Integration/Dissipation = 1.2"})
+          .notes.empty());
 }
 
 TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {

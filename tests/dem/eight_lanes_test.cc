@@ -154,10 +154,10 @@ TEST_P(EightLanes, measure_the_same) {
 }
 
 TEST_P(EightLanes, move_to_the_same_bits) {
-  const kernels::MotionEffects effects{GetParam(), true, true, true};
-  const kernels::MotionStep step{1e-7, 2e-7, .4, {1, 2, -9.81}};
-  const auto moved = [&](kernels::MotionKernel kernel) {
+  const kernels::MotionStep step{1e-7, 2e-7, .4, {1, 2, -9.81}, .3};
+  const auto moved = [&](kernels::MotionKernel kernel, bool dissipative) {
     Model copy(specimen(), settings());
+    if (dissipative) copy.particles.add_excess();
     Particles &p = copy.particles;
     Random random(8);
     kernels::MotionColumns c{};
@@ -171,6 +171,12 @@ TEST_P(EightLanes, move_to_the_same_bits) {
       c.orientation = p.orientation->data(), c.angular_velocity = p.angular_velocity->data();
       c.torque = p.torque->data(), c.inertia = p.inertia->data();
     }
+    if (dissipative) {
+      for (Vector3 &v : *p.excess_velocity)
+        v = .1 * random.direction();
+      c.excess_velocity = p.excess_velocity->data();
+      if (p.has_rotation()) c.excess_spin = p.excess_spin->data();
+    }
     const kernels::MotionSums sums = kernel(c, step, 0, p.size());
     std::vector<double> all{sums.damping_work, sums.weight_work, sums.speed_squares, sums.fastest_square};
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -180,8 +186,11 @@ TEST_P(EightLanes, move_to_the_same_bits) {
     return all;
   };
   const auto halves = kernels::Halves::end_and_begin;
-  EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects)),
-            moved(kernels::motion_kernel_of_eight_lanes(halves, effects)));
+  for (const bool dissipative : {false, true}) {
+    const kernels::MotionEffects effects{GetParam(), true, true, true, dissipative};
+    EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects), dissipative),
+              moved(kernels::motion_kernel_of_eight_lanes(halves, effects), dissipative));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(kernels, EightLanes, testing::Bool());

@@ -20,6 +20,7 @@ struct Effects {
   double local_damping;
   Vector3 gravity;
   bool book;
+  double dissipation = 1;
 };
 
 void PrintTo(const Effects &effects, std::ostream *to) {
@@ -30,7 +31,7 @@ class Passes : public testing::TestWithParam<Effects> {
 protected:
   Integrator how(InstructionSet set) const {
     const Effects &e = GetParam();
-    return {e.rotation, e.local_damping, e.gravity, e.book, set};
+    return {e.rotation, e.local_damping, e.gravity, e.book, set, e.dissipation};
   }
   // A cloud in motion under random loads; 1029 rows leave a block of five.
   void set_in_motion(Particles &p) const {
@@ -43,6 +44,10 @@ protected:
       (*p.angular_velocity)[i] = 40 * random.direction();
       (*p.torque)[i] = 1e-5 * random.direction();
     }
+  }
+  void prepare(Particles &p) const {
+    if (GetParam().dissipation > 1) p.add_excess();
+    set_in_motion(p);
   }
   Specimen cloud() const {
     std::vector<Vector3> centres;
@@ -69,17 +74,18 @@ void expect_same_bits(const KickSums &a, const KickSums &b) {
 
 TEST_P(Passes, do_not_depend_on_the_instruction_set) {
   Particles expected(cloud(), 2400, GetParam().rotation);
-  set_in_motion(expected);
+  prepare(expected);
   const Motion motion = how(InstructionSet::baseline).begin(expected, 1e-7);
   const KickSums sums = how(InstructionSet::baseline).end(expected, {}, 1e-7);
   EXPECT_GT(motion.fastest, 0);
   EXPECT_EQ(sums.kinetic_energy > 0, GetParam().book);
-  EXPECT_EQ(sums.damping_work > 0, GetParam().book && GetParam().local_damping > 0);
+  EXPECT_EQ(sums.damping_work > 0,
+            GetParam().book && (GetParam().local_damping > 0 || GetParam().dissipation > 1));
   EXPECT_EQ(sums.weight_work != 0, GetParam().book && norm(GetParam().gravity) > 0);
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (set > best_instruction_set()) continue;
     Particles p(cloud(), 2400, GetParam().rotation);
-    set_in_motion(p);
+    prepare(p);
     EXPECT_EQ(how(set).begin(p, 1e-7).fastest, motion.fastest);
     expect_same_bits(how(set).end(p, {}, 1e-7), sums);
     expect_same_bits(p, expected, name(set));
@@ -89,8 +95,8 @@ TEST_P(Passes, do_not_depend_on_the_instruction_set) {
 TEST_P(Passes, may_be_one_or_two) {
   const Integrator integrator = how(best_instruction_set());
   Particles two(cloud(), 2400, GetParam().rotation), one(cloud(), 2400, GetParam().rotation);
-  set_in_motion(two);
-  set_in_motion(one);
+  prepare(two);
+  prepare(one);
   const KickSums ended = integrator.end(two, {}, 1.5e-7);
   const Motion begun = integrator.begin(two, 1e-7);
   KickSums sums;
@@ -112,7 +118,10 @@ INSTANTIATE_TEST_SUITE_P(motion_kernel, Passes,
                                          Effects{"without_damping", true, 0, {0, 0, -9.81}, true},
                                          Effects{"without_gravity", true, .5, {}, true},
                                          Effects{"without_book", true, .5, {0, 0, -9.81}, false},
-                                         Effects{"translation_alone", false, 0, {}, false}),
+                                         Effects{"translation_alone", false, 0, {}, false},
+                                         Effects{"all_and_dissipation", true, .5, {1, -2, -9.81}, true, 1.3},
+                                         Effects{"dissipation_alone", true, 0, {}, true, 1.3},
+                                         Effects{"dissipation_unbooked", false, 0, {}, false, 1.3}),
                          [](const auto &effects) { return std::string(effects.param.name); });
 
 } // namespace

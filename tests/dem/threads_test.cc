@@ -32,12 +32,13 @@ void append(std::vector<unsigned char> &state, const Table &table) {
 }
 
 // A free block of some thousand spheres that cracks, with friction and dashpots.
-Outcome cracking_block(int threads) {
+Outcome cracking_block(int threads, double dissipation) {
   const ThreadLimit limit(threads);
   ModelSettings settings = breakable();
   settings.contact->damping = .2;
   settings.local_damping = .1;
   settings.bond_dashpot = .05;
+  settings.dissipation = dissipation;
   Model model(packed_box(30, 30, 30), settings);
   Particles &p = model.particles;
   Random random(9);
@@ -60,17 +61,25 @@ Outcome cracking_block(int threads) {
   return o;
 }
 
-TEST(threads, one_two_and_four_give_the_same_bits) {
-  const Outcome one = cracking_block(1);
+void expect_the_same_bits_on_more_threads(double dissipation) {
+  const Outcome one = cracking_block(1, dissipation);
   EXPECT_GT(one.broken, 500);
   EXPECT_GT(one.touching, 50u);
   for (const int threads : {2, 4, 1}) {
-    const Outcome other = cracking_block(threads);
+    const Outcome other = cracking_block(threads, dissipation);
     ASSERT_EQ(other.state.size(), one.state.size()) << threads;
     EXPECT_EQ(std::memcmp(other.state.data(), one.state.data(), one.state.size()), 0) << threads;
     EXPECT_EQ(std::memcmp(&other.energy, &one.energy, sizeof one.energy), 0) << threads;
     EXPECT_EQ(other.limit, one.limit) << threads;
   }
+}
+
+TEST(threads, one_two_and_four_give_the_same_bits) {
+  expect_the_same_bits_on_more_threads(1);
+}
+
+TEST(threads, a_dissipative_scheme_repeats_too) {
+  expect_the_same_bits_on_more_threads(1.2);
 }
 
 double resident_megabytes() {
