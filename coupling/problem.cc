@@ -109,7 +109,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
                      "its end planes.");
   }
   voigt_modulus_ = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
-  const double density = settings.model.density * settings.model.mass_scaling * packing_fraction_;
+  grain_density_ = dem::grain_density(specimen, settings.model.density, settings.model.density_of);
+  const double density = grain_density_ * settings.model.mass_scaling * packing_fraction_;
   wave_crossing_ = voigt_modulus_ > 0 ? shape_.height * std::sqrt(density / voigt_modulus_) : 0.0;
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
   if (settings.loading.servo)

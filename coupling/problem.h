@@ -91,6 +91,7 @@ public:
   double ramp() const { return ramp_; }                   // s
   double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
+  double grain_density() const { return grain_density_; } // kg/m^3, before mass scaling
   double voigt_modulus() const { return voigt_modulus_; } // Pa, intact; 0 without bonds
   double coordination_number() const;                     // bonds per particle times two
   // Springs of the particles near a platen, in row order of its layer's list, which is made anew.
@@ -126,7 +127,7 @@ private:
 
   ProblemSettings settings_;
   dem::Shape shape_;
-  double packing_fraction_ = 0, voigt_modulus_ = 0, wave_crossing_ = 0, ramp_ = 0;
+  double packing_fraction_ = 0, grain_density_ = 0, voigt_modulus_ = 0, wave_crossing_ = 0, ramp_ = 0;
   double time_step_ = 0;
   std::string reason_;
   long steps_ = 0;

@@ -49,8 +49,19 @@ ModelSettings completed(const Specimen &specimen, const ModelSettings &settings)
 
 } // namespace
 
+double grain_density(const Specimen &specimen, double density, DensityOf of) {
+  if (of == DensityOf::grains) return density;
+  const double volume = specimen.shape.volume(), spheres = volume_of_spheres(specimen);
+  if (!(volume > 0 && spheres > 0))
+    throw std::invalid_argument("a density of the solid needs a specimen that fills a volume");
+  return density * volume / spheres;
+}
+
 Model::Model(const Specimen &specimen, const ModelSettings &settings)
-    : particles(specimen, checked(settings).density * settings.mass_scaling, settings.rotation),
+    : particles(
+          specimen,
+          grain_density(specimen, checked(settings).density, settings.density_of) * settings.mass_scaling,
+          settings.rotation),
       settings_(completed(specimen, settings)),
       integrator_{settings.rotation,      settings.local_damping,   settings.gravity,
                   settings.energy_ledger, settings.instruction_set, settings.dissipation} {

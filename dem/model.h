@@ -16,6 +16,9 @@
 
 namespace platen::dem {
 
+// Whose density is given: that of the grains, or that of the solid which they stand for, voids included.
+enum class DensityOf { grains, solid };
+
 struct ModelSettings {
   bool rotation = true;
   double density = 2400;                  // kg/m^3
@@ -30,7 +33,12 @@ struct ModelSettings {
   std::optional<ContactSettings> contact; // none: spheres pass through each other
   InstructionSet instruction_set = best_instruction_set();
   double dissipation = 1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
+  DensityOf density_of = DensityOf::grains;
 };
+
+// Density of the grains before mass scaling, kg/m^3: of a solid, such that all spheres together weigh what
+// the specimen's shape filled with it weighs. Throws std::invalid_argument where that shape has no volume.
+double grain_density(const Specimen &specimen, double density, DensityOf of);
 
 // One bond failure, for the crack log.
 struct Crack {

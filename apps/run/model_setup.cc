@@ -140,10 +140,15 @@ void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
 
 } // namespace
 
+dem::DensityOf density_of(const Scene &scene) {
+  return scene.material.density_of == DensityOf::solid ? dem::DensityOf::solid : dem::DensityOf::grains;
+}
+
 dem::ModelSettings model_settings(const Scene &scene) {
   dem::ModelSettings to;
   to.rotation = scene.effects.rotation;
   to.density = scene.material.density;
+  to.density_of = density_of(scene);
   to.mass_scaling = scene.integration.mass_scaling;
   if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
   to.local_damping = scene.integration.damping;

@@ -9,5 +9,6 @@ namespace platen::apps {
 // Effects, Bond, Contact, Material and Integration as the particle model takes them. A strength of 0 becomes
 // infinite. The bond layout is set without bonds too: it gives unbonded pairs their stiffness.
 dem::ModelSettings model_settings(const Scene &scene);
+dem::DensityOf density_of(const Scene &scene);
 
 } // namespace platen::apps

@@ -17,6 +17,7 @@
 #include "apps/io/summary.h"
 #include "apps/io/vtu.h"
 #include "apps/run/expectations.h"
+#include "apps/run/model_setup.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
@@ -34,6 +35,7 @@ struct Judgement {
   dem::PackingQuality quality; // at 1e-3 mean radii
   std::vector<double> coordination;
   std::size_t seated_bottom = 0, seated_top = 0; // as the scene prepares the ends
+  double grain_density = 0;                      // kg/m3
 };
 
 Judgement judge(const dem::Specimen &specimen, const Scene &scene) {
@@ -49,6 +51,7 @@ Judgement judge(const dem::Specimen &specimen, const Scene &scene) {
                      scene.specimen.end_layer);
   j.seated_bottom = ends.bottom.particle.size();
   j.seated_top = ends.top.particle.size();
+  j.grain_density = dem::grain_density(specimen, scene.material.density, density_of(scene));
   return j;
 }
 
@@ -63,6 +66,7 @@ Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
   s["mean_radius_m"] = q.mean_radius;
   s["packing_fraction"] = q.packing_fraction;
   s["core_packing_fraction"] = q.core_packing_fraction;
+  s["grain_density_kg_m3"] = j.grain_density;
   s["coordination_number"] = q.coordination_number;
   s["core_coordination_number"] = q.core_coordination_number;
   for (std::size_t k = 0; k < j.coordination.size(); ++k)

@@ -59,6 +59,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
   s["packing_fraction"] = problem.packing_fraction();
+  s["grain_density_kg_m3"] = problem.grain_density();
   s["seated_top"] = problem.top_layer.seats();
   s["seated_bottom"] = problem.bottom_layer.seats();
   s["steps"] = problem.steps();

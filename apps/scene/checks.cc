@@ -92,6 +92,9 @@ void SceneCheck::specimen() const {
   const SpecimenSection &specimen = scene_.specimen;
   if (app_ == AppKind::bonds)
     need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
+  if (app_ == AppKind::bonds && scene_.material.density_of == DensityOf::solid)
+    refuse("Material/Density of",
+           "needs a packed specimen, of which platen-bonds has none. Allowed: grains.");
   if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusDistribution::uniform)
     refuse("Specimen/Radius spread", "needs Specimen/Radius distribution = uniform.");
   if (specimen.seat && specimen.ends != EndsKind::ground)

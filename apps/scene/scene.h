@@ -76,8 +76,11 @@ struct SpecimenSection {
   } // cross-section: circle of `radius`, else width_x x width_y
 };
 
-struct Material {              // of the grains
-  double density = 2400;       // kg/m3
+enum class DensityOf { grains, solid };
+
+struct Material {        // of the grains
+  double density = 2400; // kg/m3
+  DensityOf density_of = DensityOf::grains;
   double young_modulus = 17e9; // Pa
   double poisson_ratio = 0.15;
 };

@@ -60,7 +60,10 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
 
 void declare_material(Parameters &parameters, Material &material) {
   Section section(parameters, "Material");
-  section.quantity("Density", material.density, "kg/m3", above(0), "Density of the grains.");
+  section.quantity("Density", material.density, "kg/m3", above(0), "Density of the grains, or of the solid.");
+  section.word<DensityOf>("Density of", material.density_of,
+                          {{"grains", DensityOf::grains}, {"solid", DensityOf::solid}}, {},
+                          "Solid: grains are heavier, so that the specimen with its voids has that density.");
   section.quantity("Young modulus", material.young_modulus, "Pa", above(0),
                    "Young modulus of the grains (hertz contact; bulk stiffness of linear contact).");
   section.number("Poisson ratio", material.poisson_ratio, between_open(-1, 0.5),
@@ -292,6 +295,7 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"bonds", "1"},
     {"coordination_number", "1"},
     {"packing_fraction", "1"},
+    {"grain_density_kg_m3", "kg/m3"},
     {"steps", "1"},
     {"time_step_s", "s"},
     {"strength_pa", "Pa"},

@@ -87,6 +87,17 @@ TEST_F(PackApp, judges_what_it_packs) {
   EXPECT_NEAR(s["coordination_number"].get<double>(), 2 * (3 * n - 6) / n, .02);
 }
 
+// The figure of the summary is a double written with all its digits.
+TEST_F(PackApp, tells_how_heavy_grains_make_a_solid) {
+  const Scene solid = scene("small.prm", {"Material/Density = 2201", "Material/Density of = solid"});
+  ASSERT_EQ(run(solid, "solid"), status_done);
+  ASSERT_EQ(run(scene("small.prm", {"Material/Density = 2201"}), "grains"), status_done);
+  EXPECT_EQ(summary("grains")["grain_density_kg_m3"], 2201);
+  EXPECT_NEAR(summary("solid")["grain_density_kg_m3"].get<double>() *
+                  summary("solid")["packing_fraction"].get<double>(),
+              2201, 2201e-12);
+}
+
 TEST_F(PackApp, the_same_seed_gives_the_same_file) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
   ASSERT_EQ(run(scene("small.prm"), "b"), status_done);

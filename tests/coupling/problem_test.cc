@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "tests/coupling/small_cylinder.h"
 
@@ -36,6 +38,31 @@ void expect_same_bits(const dem::Table &a, const dem::Table &b) {
     const dem::ColumnBase &one = *a.columns()[c], &other = *b.columns()[c];
     EXPECT_EQ(std::memcmp(one.bytes(), other.bytes(), one.size() * one.bytes_per_row()), 0) << one.name();
   }
+}
+
+// The spheres weigh what the shape filled with the solid weighs, and a wave crosses in h sqrt(rho / E).
+TEST(problem, a_density_of_the_solid_is_that_of_the_specimen) {
+  const dem::Specimen specimen = small_cylinder();
+  ProblemSettings settings = crushing();
+  settings.model.density = 2201;
+  settings.model.density_of = dem::DensityOf::solid;
+  settings.model.mass_scaling = 4;
+  const Problem problem(specimen, settings);
+  const double volume = specimen.shape.volume();
+  double mass = 0;
+  for (const double m : problem.model.particles.mass)
+    mass += m;
+  EXPECT_NEAR(mass / 4, 2201 * volume, 1e-12 * 2201 * volume);
+  EXPECT_NEAR(problem.grain_density() * problem.packing_fraction(), 2201, 1e-12 * 2201);
+  const double crossing = specimen.shape.height * std::sqrt(4 * 2201 / problem.voigt_modulus());
+  EXPECT_NEAR(problem.wave_crossing(), crossing, 1e-12 * crossing);
+}
+
+TEST(problem, a_density_of_the_solid_needs_a_volume) {
+  dem::Specimen loose;
+  loose.centre = {{0, 0, 0}}, loose.radius = {1e-3};
+  EXPECT_EQ(dem::grain_density(loose, 2201, dem::DensityOf::grains), 2201);
+  EXPECT_THROW(dem::grain_density(loose, 2201, dem::DensityOf::solid), std::invalid_argument);
 }
 
 TEST(problem, steps_in_one_go_are_the_same_as_one_by_one) {
