@@ -43,6 +43,7 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   c.lever = b.lever.data();
   c.normal_stiffness = b.normal_stiffness.data();
   c.bond_radius = b.bond_radius.data();
+  if (b.strength_factor != nullptr) c.strength_factor = b.strength_factor->data();
   c.position = p.position.data();
   c.orientation = p.has_rotation() ? p.orientation->data() : nullptr;
   return c;

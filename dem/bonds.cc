@@ -135,6 +135,12 @@ void Bonds::cut_blocks() {
   blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_, kernels::row_stride(rotation_));
 }
 
+void Bonds::add_strength_factor() {
+  if (strength_factor != nullptr) return;
+  strength_factor = &table.add<double>("strength_factor", "1");
+  std::fill(strength_factor->begin(), strength_factor->end(), 1.0);
+}
+
 std::size_t Bonds::bytes() const {
   return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
 }
@@ -216,7 +222,9 @@ InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
 }
 
 BondGeometry<double> Bonds::geometry(std::size_t k) const {
-  return {triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k], bond_radius[k]};
+  BondGeometry<double> g{triple(reference[k]), rest_length[k], lever[k], normal_stiffness[k], bond_radius[k]};
+  if (strength_factor != nullptr) g.strength_factor = (*strength_factor)[k];
+  return g;
 }
 
 BondStiffness Bonds::stiffness(std::size_t k) const {

@@ -61,6 +61,8 @@ struct Bonds {
   Column<double> &lever = table.add<double>("lever", "1");
   Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m");
   Column<double> &bond_radius = table.add<double>("bond_radius", "m");
+  // Only where bonds differ in strength: factor of both strengths.
+  Column<double> *strength_factor = nullptr; // 1
   // Only with dashpots: their coefficients (0 once broken) along the bond and in bending, times the ratios in
   // shear and torsion; and what they exerted on the first particle in the last step.
   Column<double> *dashpot = nullptr;         // N s/m
@@ -97,6 +99,8 @@ struct Bonds {
   // Dashpots of the fraction alpha of critical in every bond: F = 2 alpha sqrt(K m*) v beside each spring of
   // stiffness K, with the reduced mass m*, or inertia for moments. Bonds must be intact.
   void add_dashpots(const Particles &particles, double alpha);
+  // Strength factors of 1, to be changed.
+  void add_strength_factor();
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit.

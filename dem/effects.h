@@ -13,11 +13,13 @@ inline constexpr bool rotation = PLATEN_WITH_ROTATION, bond_moments = PLATEN_WIT
                       contact_dashpots = PLATEN_WITH_CONTACT_DASHPOTS,
                       local_damping = PLATEN_WITH_LOCAL_DAMPING, gravity = PLATEN_WITH_GRAVITY,
                       energy_ledger = PLATEN_WITH_ENERGY_LEDGER, crack_log = PLATEN_WITH_CRACK_LOG,
-                      dissipative_scheme = PLATEN_WITH_DISSIPATIVE_SCHEME;
+                      dissipative_scheme = PLATEN_WITH_DISSIPATIVE_SCHEME,
+                      strength_factors = PLATEN_WITH_STRENGTH_FACTORS;
 #else
 inline constexpr bool rotation = true, bond_moments = true, friction = true, rolling = true, hertz = true,
                       bond_dashpots = true, contact_dashpots = true, local_damping = true, gravity = true,
-                      energy_ledger = true, crack_log = true, dissipative_scheme = true;
+                      energy_ledger = true, crack_log = true, dissipative_scheme = true,
+                      strength_factors = true;
 #endif
 
 } // namespace platen::dem::compiled

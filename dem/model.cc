@@ -31,6 +31,7 @@ const ModelSettings &checked(const ModelSettings &s) {
   require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
   require_compiled(s.crack_log, compiled::crack_log, "crack log");
   require_compiled(s.dissipation > 1, compiled::dissipative_scheme, "dissipative scheme");
+  require_compiled(s.strength_scatter.has_value(), compiled::strength_factors, "strength factors");
   if (!s.contact) return s;
   const ContactSettings &c = *s.contact;
   require_compiled(c.normal == NormalContact::hertz, compiled::hertz, "hertz contact");
@@ -67,6 +68,7 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
                   settings.energy_ledger, settings.instruction_set, settings.dissipation} {
   if (settings.dissipation > 1) particles.add_excess();
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
+  if (bonds && settings.strength_scatter) scatter_strengths(*bonds, *settings.strength_scatter);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
     contacts = std::make_unique<Contacts>(particles, *settings.contact, settings_.bond_layout,

@@ -13,6 +13,7 @@
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "dem/stages.h"
+#include "dem/strength_scatter.h"
 
 namespace platen::dem {
 
@@ -34,6 +35,7 @@ struct ModelSettings {
   InstructionSet instruction_set = best_instruction_set();
   double dissipation = 1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
   DensityOf density_of = DensityOf::grains;
+  std::optional<StrengthScatter> strength_scatter; // none: all bonds are as strong
 };
 
 // Density of the grains before mass scaling, kg/m^3: of a solid, such that all spheres together weigh what

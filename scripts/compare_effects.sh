@@ -13,7 +13,7 @@ mkdir -p "$2"
 work=$(cd "$2" && pwd)
 shift 2
 all=(rotation bond_moments friction rolling hertz bond_dashpots contact_dashpots local_damping gravity energy_ledger
-  crack_log dissipative_scheme)
+  crack_log dissipative_scheme strength_factors)
 [[ $# -gt 0 ]] && chosen=("$@") || chosen=("${all[@]}" all)
 
 # What switches an effect off, from a scene that has it on (all but hertz, which is off unless asked for).
@@ -30,6 +30,7 @@ off() {
     gravity) echo "Effects/Gravity = off" ;;
     energy_ledger) echo "Effects/Energy ledger = off" ;;
     crack_log) echo "Effects/Crack log = off" ;;
+    strength_factors) echo "Bond/Strength scatter = none" ;;
     dissipative_scheme) echo "Integration/Scheme = velocity verlet" ;;
     all)
       for effect in "${all[@]}"; do [[ $effect == rolling ]] || off "$effect"; done | paste -sd ';'
@@ -38,7 +39,7 @@ off() {
   esac
 }
 on="Effects/Tangential = coulomb with rolling resistance;Contact/Rolling friction = 0.1;Bond/Damping = 0.05"
-on+=";Effects/Gravity = on;Integration/Scheme = tchamwa wielgosz;Output/Fields = off;Loading/Target strain = 0.002"
+on+=";Effects/Gravity = on;Integration/Scheme = tchamwa wielgosz;Bond/Strength scatter = weibull;Bond/Weibull modulus = 8;Output/Fields = off;Loading/Target strain = 0.002"
 
 run() { # BINARY FOLDER ENTRIES [COMMAND BEFORE]; of two entries with one key the last holds
   local arguments=() entries entry

@@ -126,6 +126,7 @@ void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
   check(to.crack_log, crack_log, "Effects/Crack log", "off");
   check(to.bond_dashpot > 0, bond_dashpots, "Bond/Damping", "0");
   check(to.local_damping > 0, local_damping, "Integration/Damping", "0");
+  check(to.strength_scatter.has_value(), strength_factors, "Bond/Strength scatter", "none");
   check(to.dissipation > 1, dissipative_scheme, "Integration/Scheme", "velocity verlet");
   if (!to.contact) return;
   const dem::ContactSettings &c = *to.contact;
@@ -159,6 +160,8 @@ dem::ModelSettings model_settings(const Scene &scene) {
     to.bond_layout.interaction_range = scene.bond.interaction_range;
   to.energy_ledger = scene.effects.energy_ledger;
   to.crack_log = scene.effects.crack_log;
+  if (scene.effects.bond != BondKind::none && scene.bond.strength_scatter == Scatter::weibull)
+    to.strength_scatter = dem::StrengthScatter{scene.bond.weibull_modulus, scene.general.seed};
   if (scene.effects.bond != BondKind::none) to.bond = bond_parameters(scene.bond, scene.effects);
   if (scene.effects.contact != ContactKind::none) to.contact = contact_settings(scene);
   to.instruction_set = scene.integration.instruction_set == InstructionSet::baseline

@@ -154,6 +154,10 @@ void SceneCheck::bond() const {
            "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
                ": a bare number is metres. Did you mean \"" + shortest_text(bond.gap.value) + " R_min\"?");
   compression();
+  if (bond.strength_scatter != Scatter::none && app_ == AppKind::bonds)
+    refuse("Bond/Strength scatter", "leaves no bond of a known strength to test. Allowed: none.");
+  if (bond.strength_scatter == Scatter::weibull)
+    need("Bond/Weibull modulus", bond.weibull_modulus, "Bond/Strength scatter = weibull takes it.");
   const bool needed = scene_.effects.bond != BondKind::none && app_ != AppKind::pack &&
                       app_ != AppKind::report &&
                       !(app_ == AppKind::bonds && !scene_.pair_test.moduli.empty());
@@ -278,6 +282,10 @@ void SceneCheck::notes() {
   if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
   if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
   bond_notes();
+  if (scene_.bond.strength_scatter == Scatter::none)
+    note("Bond/Weibull modulus", "Bond/Strength scatter = none");
+  else if (scene_.bond.tensile_strength == 0 && scene_.bond.shear_strength == 0)
+    note("Bond/Strength scatter", "both strengths are infinite");
   if (effects.contact != ContactKind::linear)
     for (const char *key : {"Contact/Stiffness", "Contact/Tangential ratio", "Contact/Damping"})
       note(key, "Effects/Contact is not linear");

@@ -36,6 +36,7 @@ struct BondColumns {
   const PairBlocks::Ends *ends; // of the bond in its block, times row_stride
   const Vector3 *reference;
   const double *rest_length, *lever, *normal_stiffness, *bond_radius;
+  const double *strength_factor; // null: all bonds alike
   const Vector3 *position;       // columns of particles can be read one row beyond their end
   const Quaternion *orientation; // null: no rotation
   // Only for dashpots.

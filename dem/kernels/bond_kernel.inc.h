@@ -16,6 +16,7 @@ struct Tail {
   int first[lanes], second[lanes];
   Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
   double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
+  double strength_factor[lanes];
   double dashpot[lanes], dashpot_bending[lanes];
 
   Tail(const BondColumns &c, std::size_t from, std::size_t to) {
@@ -26,6 +27,7 @@ struct Tail {
       reference[l] = c.reference[k];
       rest_length[l] = c.rest_length[k], lever[l] = c.lever[k];
       normal_stiffness[l] = c.normal_stiffness[k], bond_radius[l] = c.bond_radius[k];
+      if (c.strength_factor != nullptr) strength_factor[l] = c.strength_factor[k];
       if (c.dashpot == nullptr) continue;
       dashpot[l] = real ? c.dashpot[k] : 0;
       dashpot_force[l] = real ? c.dashpot_force[k] : Vector3{};
@@ -38,12 +40,14 @@ struct Tail {
     c.first = first, c.second = second;
     c.reference = reference, c.rest_length = rest_length, c.lever = lever;
     c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
+    c.strength_factor = strength_factor;
     c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
     c.dashpot_force = dashpot_force, c.dashpot_moment = dashpot_moment;
     return c;
   }
 };
 
+template <bool factors>
 PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
   BondGeometry<Pack> g;
   g.reference = load(c.reference + k);
@@ -51,31 +55,34 @@ PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
   g.lever = load(c.lever + k);
   g.normal_stiffness = load(c.normal_stiffness + k);
   g.radius = load(c.bond_radius + k);
+  if constexpr (factors) g.strength_factor = load(c.strength_factor + k);
   return g;
 }
 
-template <Turning turning, class Law>
+// `factors`: bonds have strengths of their own.
+template <Turning turning, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends) {
   constexpr bool rotation = turning != Turning::none;
   const Triple<Pack> d = distances(ends);
   BondResponse<Pack> r;
   if constexpr (rotation)
     r = law.template turning<turning == Turning::moments>(
-        geometry(c, k), BondMotion<Pack>{d, orientations(ends.first), orientations(ends.second)});
+        geometry<factors>(c, k), BondMotion<Pack>{d, orientations(ends.first), orientations(ends.second)});
   else
-    r = law.without_rotation(geometry(c, k), d);
+    r = law.without_rotation(geometry<factors>(c, k), d);
   scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
   return r.excess;
 }
 
-template <Turning turning, class Law>
+template <Turning turning, bool factors, class Law>
 [[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
                                 std::size_t k, std::size_t last) {
   Tail tail(c, k, last);
-  return add_pack<turning>(tail.columns(c), law, 0, tail_ends<turning != Turning::none>(c, block, k, last));
+  return add_pack<turning, factors>(tail.columns(c), law, 0,
+                                    tail_ends<turning != Turning::none>(c, block, k, last));
 }
 
-template <Turning turning, class Law>
+template <Turning turning, bool factors, class Law>
 bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
                     std::size_t last) {
   constexpr bool rotation = turning != Turning::none;
@@ -83,8 +90,8 @@ bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &
   Pack excess = Pack(-1.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    excess = larger(excess, add_pack<turning>(c, law, k, ends_of(c, block, k)));
-  if (k < last) excess = larger(excess, add_tail<turning>(c, block, law, k, last));
+    excess = larger(excess, add_pack<turning, factors>(c, law, k, ends_of(c, block, k)));
+  if (k < last) excess = larger(excess, add_tail<turning, factors>(c, block, law, k, last));
   hand_over<rotation, false>(block);
   bool reached = false;
   for (int l = 0; l < lanes; ++l)
@@ -92,40 +99,45 @@ bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &
   return reached;
 }
 
-template <class Law>
+template <bool factors, class Law>
 bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
                          std::size_t last) {
   if constexpr (compiled::rotation && (compiled::bond_moments || Law::needs_rotation))
     if (c.orientation != nullptr && law.bends())
-      return compute_forces<Turning::moments>(c, block, law, first, last);
+      return compute_forces<Turning::moments, factors>(c, block, law, first, last);
   if constexpr (!Law::needs_rotation) {
     if constexpr (compiled::rotation)
-      if (c.orientation != nullptr) return compute_forces<Turning::forces>(c, block, law, first, last);
-    return compute_forces<Turning::none>(c, block, law, first, last);
+      if (c.orientation != nullptr)
+        return compute_forces<Turning::forces, factors>(c, block, law, first, last);
+    return compute_forces<Turning::none, factors>(c, block, law, first, last);
   }
   return false;
 }
 
 bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law, std::size_t first,
                        std::size_t last) {
-  if (const auto *beam = std::get_if<CohesiveBeam>(&law))
-    return compute_forces_with(c, block, *beam, first, last);
-  return compute_forces_with(c, block, std::get<ParallelBond>(law), first, last);
+  const auto compute = [&](const auto &one) {
+    if constexpr (compiled::strength_factors)
+      if (c.strength_factor != nullptr) return compute_forces_with<true>(c, block, one, first, last);
+    return compute_forces_with<false>(c, block, one, first, last);
+  };
+  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return compute(*beam);
+  return compute(std::get<ParallelBond>(law));
 }
 
 // From the particles' columns, for bonds of any block.
-template <Turning turning, class Law>
+template <Turning turning, bool factors, class Law>
 PLATEN_INLINE BondResponse<Pack> respond(const BondColumns &c, const Law &law, std::size_t k) {
   const int *i = c.first + k, *j = c.second + k;
   const Triple<Pack> d = gather_difference(c.position, j, i);
   if constexpr (turning == Turning::none)
-    return law.without_rotation(geometry(c, k), d);
+    return law.without_rotation(geometry<factors>(c, k), d);
   else
     return law.template turning<turning == Turning::moments>(
-        geometry(c, k), BondMotion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
+        geometry<factors>(c, k), BondMotion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
 }
 
-template <Turning turning, class Law>
+template <Turning turning, bool factors, class Law>
 void measure(const BondColumns &c, const Law &law, const BondRowValues &to, std::size_t first,
              std::size_t last) {
   const auto put = [&](double *column, const Pack &value, std::size_t at, std::size_t count) {
@@ -137,10 +149,10 @@ void measure(const BondColumns &c, const Law &law, const BondRowValues &to, std:
     const std::size_t count = last - k < lanes ? last - k : lanes;
     BondResponse<Pack> r;
     if (count == lanes) {
-      r = respond<turning>(c, law, k);
+      r = respond<turning, factors>(c, law, k);
     } else {
       Tail tail(c, k, last);
-      r = respond<turning>(tail.columns(c), law, 0);
+      r = respond<turning, factors>(tail.columns(c), law, 0);
     }
     put(to.tension_ratio, r.tension_ratio, k - first, count);
     put(to.shear_ratio, r.shear_ratio, k - first, count);
@@ -149,20 +161,26 @@ void measure(const BondColumns &c, const Law &law, const BondRowValues &to, std:
   }
 }
 
-template <class Law>
+template <bool factors, class Law>
 void measure_with(const BondColumns &c, const Law &law, const BondRowValues &to, std::size_t first,
                   std::size_t last) {
-  if (c.orientation != nullptr && law.bends()) return measure<Turning::moments>(c, law, to, first, last);
+  if (c.orientation != nullptr && law.bends())
+    return measure<Turning::moments, factors>(c, law, to, first, last);
   if constexpr (!Law::needs_rotation) {
-    if (c.orientation != nullptr) return measure<Turning::forces>(c, law, to, first, last);
-    measure<Turning::none>(c, law, to, first, last);
+    if (c.orientation != nullptr) return measure<Turning::forces, factors>(c, law, to, first, last);
+    measure<Turning::none, factors>(c, law, to, first, last);
   }
 }
 
 void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &to, std::size_t first,
                 std::size_t last) {
-  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return measure_with(c, *beam, to, first, last);
-  measure_with(c, std::get<ParallelBond>(law), to, first, last);
+  const auto measure_all = [&](const auto &one) {
+    if constexpr (compiled::strength_factors)
+      if (c.strength_factor != nullptr) return measure_with<true>(c, one, to, first, last);
+    measure_with<false>(c, one, to, first, last);
+  };
+  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return measure_all(*beam);
+  measure_all(std::get<ParallelBond>(law));
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).

@@ -88,11 +88,12 @@ inline Rotation<Real> between(const Rotation<Real> &p, const Rotation<Real> &q) 
 
 template <class Real>
 struct BondGeometry {
-  Triple<Real> reference; // D, m
-  Real rest_length;       // |D|, m
-  Real lever;             // a
-  Real normal_stiffness;  // k_n, Pa/m; 0 once the bond is broken
-  Real radius;            // R_b, m
+  Triple<Real> reference;           // D, m
+  Real rest_length;                 // |D|, m
+  Real lever;                       // a
+  Real normal_stiffness;            // k_n, Pa/m; 0 once the bond is broken
+  Real radius;                      // R_b, m
+  Real strength_factor = Real(1.0); // s, of both strengths
 };
 template <class Real>
 struct BondMotion {
@@ -183,19 +184,20 @@ PLATEN_INLINE void bend_and_twist(BondResponse<Real> &r, BondStrain<Real> &strai
 }
 
 // Stresses at the skin, Pa, before the strengths p look at them: sigma = axial + bending, tau = shear +
-// twisting, shear strength growing with compression by tan(phi_b). The excess compares squares, so that a
+// twisting, shear strength growing with compression by tan(phi_b), which the bond's factor leaves alone. The
+// excess compares squares, so that a
 // loop that asks only whether any bond may be at its strength takes no root and no quotient; its margin makes
 // up for the round-off of both.
 template <class Strength, class Real>
 PLATEN_INLINE void compare_with_strength(BondResponse<Real> &r, const Strength &p, const Real &axial,
                                          const Real &bending_square, const Real &shear_square,
-                                         const Real &twisting) {
+                                         const Real &twisting, const Real &factor = Real(1.0)) {
   constexpr double margin = 1 + 1e-12;
-  const Real capacity =
-      larger(Real(p.shear_strength - p.friction_coefficient * axial), Real(p.shear_strength));
-  r.tension_ratio = (axial + root(bending_square)) * (1.0 / p.tensile_strength);
+  const Real tensile_strength = factor * p.tensile_strength, cohesion = factor * p.shear_strength;
+  const Real capacity = larger(Real(cohesion - p.friction_coefficient * axial), cohesion);
+  r.tension_ratio = (axial + root(bending_square)) * (1.0 / p.tensile_strength) / factor;
   r.shear_ratio = (root(shear_square) + twisting) / capacity;
-  const Real left = p.tensile_strength - axial, left_in_shear = capacity - twisting;
+  const Real left = tensile_strength - axial, left_in_shear = capacity - twisting;
   r.excess = larger(Real(margin * bending_square - left * magnitude(left)),
                     Real(margin * shear_square - left_in_shear * magnitude(left_in_shear)));
 }

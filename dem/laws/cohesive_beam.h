@@ -58,9 +58,9 @@ PLATEN_INLINE void CohesiveBeam::add_failure(BondResponse<Real> &r, const BondGe
   const Real both = magnitude(Real(12.0 * bend * e.per_square * dot(cross(d, e.slip), e.bend)));
   const Real ends = bend * bend * e.bend_square + 36.0 * e.per_square * e.slip_square + both;
   const Real ratio = shear_ratio(g) * kn;
-  compare_with_strength(r, p, Real(kn * e.stretch), Real(skin * skin * ends),
-                        Real(ratio * ratio * e.slip_square),
-                        Real((0.5 * (1.0 + more_twisting())) * skin * magnitude(Real(bend * e.twist))));
+  compare_with_strength(
+      r, p, Real(kn * e.stretch), Real(skin * skin * ends), Real(ratio * ratio * e.slip_square),
+      Real((0.5 * (1.0 + more_twisting())) * skin * magnitude(Real(bend * e.twist))), g.strength_factor);
 }
 
 template <bool moments, class Real>

@@ -50,7 +50,7 @@ PLATEN_INLINE void ParallelBond::add_failure(BondResponse<Real> &r, const BondGe
   const Real bending_modulus = turning * kn;
   compare_with_strength(r, p, Real(kn * e.stretch), Real(bending_modulus * bending_modulus * e.bend_square),
                         Real(shear_modulus * shear_modulus * e.slip_square),
-                        Real(turning * shear_modulus * magnitude(e.twist)));
+                        Real(turning * shear_modulus * magnitude(e.twist)), g.strength_factor);
 }
 
 template <bool moments, class Real>

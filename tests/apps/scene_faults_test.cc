@@ -117,6 +117,11 @@ TEST(SceneFaults, each_app_asks_for_what_it_needs) {
       message_of(good, {"Pair test/Force = 3 kN", "Bond/Modulus =", "Pair test/Modulus list = 1 GPa, 2 GPa"},
                  AppKind::bonds),
       "");
+  for (const char *entry : {"Material/Density of = solid", "Bond/Strength scatter = weibull"})
+    EXPECT_NE(message_of(good, {"Pair test/Force = 3 kN", entry}, AppKind::bonds)
+                  .find(std::string(entry).substr(0, std::string(entry).find(" ="))),
+              std::string::npos)
+        << entry;
 }
 
 // Bytes are changed, dropped, doubled and swapped in good scenes: whatever comes out is read or refused by

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/motion_kernel.h"
@@ -21,7 +22,8 @@ namespace {
 
 using namespace examples;
 
-class EightLanes : public testing::TestWithParam<bool> { // with rotation
+// With rotation; with bonds of unlike strength.
+class EightLanes : public testing::TestWithParam<std::tuple<bool, bool>> {
 protected:
   EightLanes() : model(specimen(), settings()) {
     Particles &p = model.particles;
@@ -34,10 +36,12 @@ protected:
       (*p.angular_velocity)[i] = (1 / radius) * random.direction();
     }
   }
+  static bool rotation() { return std::get<0>(GetParam()); }
   static Specimen specimen() { return packed_box(19, 19, 19); }
   static ModelSettings settings() {
     ModelSettings s = breakable();
-    s.rotation = GetParam();
+    s.rotation = rotation();
+    if (std::get<1>(GetParam())) s.strength_scatter = StrengthScatter{3, 1};
     s.bond_dashpot = .1;
     return s;
   }
@@ -49,6 +53,7 @@ protected:
     c.reference = b.reference.data();
     c.rest_length = b.rest_length.data(), c.lever = b.lever.data();
     c.normal_stiffness = b.normal_stiffness.data(), c.bond_radius = b.bond_radius.data();
+    if (b.strength_factor != nullptr) c.strength_factor = b.strength_factor->data();
     c.position = p.position.data();
     c.velocity = p.velocity.data();
     c.dashpot = b.dashpot->data(), c.dashpot_force = b.dashpot_force->data();
@@ -65,11 +70,11 @@ protected:
   std::vector<double> loads_of(const Run &run) {
     Particles &p = model.particles;
     PairBlocks &blocks = model.bonds->blocks;
-    const std::size_t stride = static_cast<std::size_t>(kernels::row_stride(GetParam()));
+    const std::size_t stride = static_cast<std::size_t>(kernels::row_stride(rotation()));
     std::vector<double> memory((p.size() + blocks.ghost_particle.size() + kernels::spare_rows + 1) * stride);
     for (std::size_t i = 0; i < p.size(); ++i) {
       p.force[i] = {};
-      if (GetParam()) (*p.torque)[i] = {};
+      if (rotation()) (*p.torque)[i] = {};
     }
     for (std::size_t k = 0; k < blocks.blocks(); ++k) {
       const std::size_t first = k * block_rows, ghost = blocks.first_ghost[k];
@@ -80,7 +85,7 @@ protected:
       c.ghosts = static_cast<int>(blocks.first_ghost[k + 1] - ghost);
       c.ghost_particle = blocks.ghost_particle.data() + ghost;
       c.force = p.force.data() + first, c.ghost_force = blocks.ghost_force.data() + ghost;
-      if (GetParam()) {
+      if (rotation()) {
         c.torque = p.torque->data() + first, c.ghost_torque = blocks.ghost_torque.data() + ghost;
         std::fill_n(c.ghost_torque, c.ghosts, Vector3{});
       }
@@ -93,7 +98,7 @@ protected:
         all.insert(all.end(), {v.x, v.y, v.z});
     };
     append(p.force), append(blocks.ghost_force);
-    if (GetParam()) append(*p.torque), append(blocks.ghost_torque);
+    if (rotation()) append(*p.torque), append(blocks.ghost_torque);
     return all;
   }
   static void expect_near(const std::vector<double> &a, const std::vector<double> &b) {
@@ -132,7 +137,7 @@ TEST_P(EightLanes, give_the_same_forces_and_dashpots) {
       });
   for (Vector3 &f : *model.bonds->dashpot_force)
     f = {};
-  if (GetParam())
+  if (rotation())
     for (Vector3 &m : *model.bonds->dashpot_moment)
       m = {};
   expect_near(by_few, loads_of([&](const auto &c, const auto &block, std::size_t first, std::size_t last) {
@@ -187,13 +192,13 @@ TEST_P(EightLanes, move_to_the_same_bits) {
   };
   const auto halves = kernels::Halves::end_and_begin;
   for (const bool dissipative : {false, true}) {
-    const kernels::MotionEffects effects{GetParam(), true, true, true, dissipative};
+    const kernels::MotionEffects effects{rotation(), true, true, true, dissipative};
     EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects), dissipative),
               moved(kernels::motion_kernel_of_eight_lanes(halves, effects), dissipative));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(kernels, EightLanes, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(kernels, EightLanes, testing::Combine(testing::Bool(), testing::Bool()));
 
 } // namespace
 } // namespace platen::dem

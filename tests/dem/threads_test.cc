@@ -32,13 +32,14 @@ void append(std::vector<unsigned char> &state, const Table &table) {
 }
 
 // A free block of some thousand spheres that cracks, with friction and dashpots.
-Outcome cracking_block(int threads, double dissipation) {
+Outcome cracking_block(int threads, double dissipation, bool scattered) {
   const ThreadLimit limit(threads);
   ModelSettings settings = breakable();
   settings.contact->damping = .2;
   settings.local_damping = .1;
   settings.bond_dashpot = .05;
   settings.dissipation = dissipation;
+  if (scattered) settings.strength_scatter = StrengthScatter{4, 2};
   Model model(packed_box(30, 30, 30), settings);
   Particles &p = model.particles;
   Random random(9);
@@ -61,12 +62,12 @@ Outcome cracking_block(int threads, double dissipation) {
   return o;
 }
 
-void expect_the_same_bits_on_more_threads(double dissipation) {
-  const Outcome one = cracking_block(1, dissipation);
+void expect_the_same_bits_on_more_threads(double dissipation, bool scattered = false) {
+  const Outcome one = cracking_block(1, dissipation, scattered);
   EXPECT_GT(one.broken, 500);
   EXPECT_GT(one.touching, 50u);
   for (const int threads : {2, 4, 1}) {
-    const Outcome other = cracking_block(threads, dissipation);
+    const Outcome other = cracking_block(threads, dissipation, scattered);
     ASSERT_EQ(other.state.size(), one.state.size()) << threads;
     EXPECT_EQ(std::memcmp(other.state.data(), one.state.data(), one.state.size()), 0) << threads;
     EXPECT_EQ(std::memcmp(&other.energy, &one.energy, sizeof one.energy), 0) << threads;
@@ -80,6 +81,10 @@ TEST(threads, one_two_and_four_give_the_same_bits) {
 
 TEST(threads, a_dissipative_scheme_repeats_too) {
   expect_the_same_bits_on_more_threads(1.2);
+}
+
+TEST(threads, scattered_strengths_repeat_too) {
+  expect_the_same_bits_on_more_threads(1, true);
 }
 
 double resident_megabytes() {
