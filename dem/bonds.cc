@@ -218,7 +218,10 @@ InterfaceState<double> Bonds::state_of(std::size_t k) const {
 }
 
 InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
-  return {rest_length[k], lever[k], normal_stiffness[k], pi * bond_radius[k] * bond_radius[k]};
+  InterfaceGeometry<double> g{rest_length[k], lever[k], normal_stiffness[k],
+                              pi * bond_radius[k] * bond_radius[k]};
+  if (strength_factor != nullptr) g.strength_factor = (*strength_factor)[k];
+  return g;
 }
 
 BondGeometry<double> Bonds::geometry(std::size_t k) const {

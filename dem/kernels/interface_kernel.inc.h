@@ -13,13 +13,24 @@ struct Rows {
   const double *rest_length, *lever, *normal_stiffness, *bond_radius;
   double *plastic, *tension_damage, *shear_damage, *dissipated;
   Vector3 *shear, *slider;
+  const double *strength_factor; // only with factors
 };
 
 Rows rows_at(const InterfaceColumns &c, std::size_t k) {
   const BondColumns &b = c.bonds;
-  return {b.first + k,       b.second + k,  b.rest_length + k,    b.lever + k,        b.normal_stiffness + k,
-          b.bond_radius + k, c.plastic + k, c.tension_damage + k, c.shear_damage + k, c.dissipated + k,
-          c.shear + k,       c.slider + k};
+  return {b.first + k,
+          b.second + k,
+          b.rest_length + k,
+          b.lever + k,
+          b.normal_stiffness + k,
+          b.bond_radius + k,
+          c.plastic + k,
+          c.tension_damage + k,
+          c.shear_damage + k,
+          c.dissipated + k,
+          c.shear + k,
+          c.slider + k,
+          b.strength_factor == nullptr ? nullptr : b.strength_factor + k};
 }
 
 // The last interfaces of a block, the very last repeated where they do not fill a pack.
@@ -27,6 +38,7 @@ struct Filled {
   int first[lanes], second[lanes];
   double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
   double plastic[lanes], tension_damage[lanes], shear_damage[lanes], dissipated[lanes];
+  double strength_factor[lanes];
   Vector3 shear[lanes + 1], slider[lanes + 1];
 
   Filled(const InterfaceColumns &c, std::size_t from, std::size_t to) {
@@ -38,12 +50,12 @@ struct Filled {
       plastic[l] = *r.plastic, dissipated[l] = *r.dissipated;
       tension_damage[l] = *r.tension_damage, shear_damage[l] = *r.shear_damage;
       shear[l] = *r.shear, slider[l] = *r.slider;
+      strength_factor[l] = r.strength_factor == nullptr ? 1.0 : *r.strength_factor;
     }
   }
   Rows rows() {
-    return {first,       second,  rest_length,    lever,        normal_stiffness,
-            bond_radius, plastic, tension_damage, shear_damage, dissipated,
-            shear,       slider};
+    return {first,          second,       rest_length, lever, normal_stiffness, bond_radius,    plastic,
+            tension_damage, shear_damage, dissipated,  shear, slider,           strength_factor};
   }
   void give_back(const InterfaceColumns &c, std::size_t from, std::size_t to) const {
     for (std::size_t l = 0; from + l < to; ++l) {
@@ -80,13 +92,14 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, const Rows &
   return m;
 }
 
-template <bool rotation>
+template <bool rotation, bool factors>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const ElastoDamagePlastic &law, const Rows &r,
                             const Ends &ends, double dt) {
   constexpr double pi = 3.14159265358979323846;
   const Pack radius = load(r.bond_radius);
-  const InterfaceGeometry<Pack> g{load(r.rest_length), load(r.lever), load(r.normal_stiffness),
-                                  Pack(pi * radius * radius)};
+  InterfaceGeometry<Pack> g{load(r.rest_length), load(r.lever), load(r.normal_stiffness),
+                            Pack(pi * radius * radius)};
+  if constexpr (factors) g.strength_factor = load(r.strength_factor);
   InterfaceState<Pack> s{load(r.plastic), load(r.tension_damage), load(r.shear_damage),
                          load(r.shear),   load(r.slider),         load(r.dissipated)};
   const InterfaceMotion<Pack> m = motion_of<rotation>(c.bonds, r, ends, g.lever, dt);
@@ -103,18 +116,19 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const ElastoDamagePlastic
   return response.failed_now;
 }
 
-template <bool rotation>
+template <bool rotation, bool factors>
 bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
                     double dt, std::size_t first, std::size_t last) {
   take_up<rotation>(c.bonds, block);
   Pack failed(0.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    failed = larger(failed, add_pack<rotation>(c, law, rows_at(c, k), ends_of(c.bonds, block, k), dt));
+    failed =
+        larger(failed, add_pack<rotation, factors>(c, law, rows_at(c, k), ends_of(c.bonds, block, k), dt));
   if (k < last) {
     Filled filled(c, k, last);
-    failed = larger(
-        failed, add_pack<rotation>(c, law, filled.rows(), tail_ends<rotation>(c.bonds, block, k, last), dt));
+    failed = larger(failed, add_pack<rotation, factors>(c, law, filled.rows(),
+                                                        tail_ends<rotation>(c.bonds, block, k, last), dt));
     filled.give_back(c, k, last);
   }
   hand_over<rotation, false>(block);
@@ -124,11 +138,20 @@ bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const 
   return any;
 }
 
+template <bool rotation>
+bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
+                  double dt, std::size_t first, std::size_t last) {
+  if constexpr (compiled::strength_factors)
+    if (c.bonds.strength_factor != nullptr)
+      return compute_forces<rotation, true>(c, block, law, dt, first, last);
+  return compute_forces<rotation, false>(c, block, law, dt, first, last);
+}
+
 bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
                        double dt, std::size_t first, std::size_t last) {
   if constexpr (compiled::rotation)
-    if (c.bonds.orientation != nullptr) return compute_forces<true>(c, block, law, dt, first, last);
-  return compute_forces<false>(c, block, law, dt, first, last);
+    if (c.bonds.orientation != nullptr) return compute_with<true>(c, block, law, dt, first, last);
+  return compute_with<false>(c, block, law, dt, first, last);
 }
 
 } // namespace

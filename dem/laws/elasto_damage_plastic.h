@@ -23,10 +23,11 @@ enum class FailureLine { uncoupled, coupled };
 
 template <class Real>
 struct InterfaceGeometry {
-  Real rest_length;      // |D|, m
-  Real lever;            // a
-  Real normal_stiffness; // k_n, Pa/m
-  Real area;             // A, m^2
+  Real rest_length;                 // |D|, m
+  Real lever;                       // a
+  Real normal_stiffness;            // k_n, Pa/m
+  Real area;                        // A, m^2
+  Real strength_factor = Real(1.0); // of both strengths
 };
 // From the last step to this one.
 template <class Real>
@@ -106,7 +107,7 @@ private:
     Real tension, shear; // delta
   };
   template <class Real>
-  Softening<Real> softening(const Real &kn) const;
+  Softening<Real> softening(const InterfaceGeometry<Real> &g) const;
   template <class Real>
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
@@ -137,8 +138,9 @@ inline double ElastoDamagePlastic::begin_of(int branch) const {
 }
 
 template <class Real>
-PLATEN_INLINE auto ElastoDamagePlastic::softening(const Real &kn) const -> Softening<Real> {
+PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> &g) const -> Softening<Real> {
   const Parameters &p = parameters;
+  const Real kn = g.normal_stiffness / (g.strength_factor * g.strength_factor);
   const auto of = [&](double given, double energy, double strength, const Real &k) {
     return energy > 0 ? Real((2.0 * energy / (strength * strength)) * k) : Real(given + 0.0 * k);
   };
@@ -157,10 +159,11 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
   const Real sliding = ks * root(dot(s.shear, s.shear));
-  const double cohesion = finite(p.shear_strength);
+  const Real cohesion = g.strength_factor * finite(p.shear_strength);
+  const Real tensile = g.strength_factor * finite(p.tensile_strength);
   const Real strength = cohesion + p.friction_static * closing;
-  Real used_n = opening * (1.0 / p.tensile_strength), used_s = sliding / strength;
-  Real peak_n = zero + finite(p.tensile_strength), peak_s = strength;
+  Real used_n = opening / tensile, used_s = sliding / strength;
+  Real peak_n = tensile, peak_s = strength;
   if (p.line == FailureLine::coupled) { // in tension both count together
     const Real both = used_n + used_s, per_both = 1.0 / larger(both, Real(zero + 1e-300));
     peak_n = where_positive(opening, Real(opening * per_both), peak_n);
@@ -194,7 +197,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
                                                                     const InterfaceGeometry<Real> &g,
                                                                     const Triple<Real> &d) const {
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
-  const Softening<Real> delta = softening(kn);
+  const Softening<Real> delta = softening(g);
   const Real length = root(dot(d, d));
   const Real tension = kn * (length - g.rest_length) + s.plastic;
   const Real zero = tension * 0.0, one = zero + 1.0;
@@ -249,7 +252,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   s.slider = scale(Real(1.0 - over / where_positive(pull, pull, one)), s.slider);
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
   const Real weight = where_positive(Real(1.0 - failed_before), s.shear_damage, one);
-  damage(s, g, softening(kn), tension);
+  damage(s, g, softening(g), tension);
   const Real mean = 0.5 * (weight + where_positive(Real(1.0 - failed_before), s.shear_damage, one));
   s.dissipated = s.dissipated + g.area * mean * (cap * over / ks);
   InterfaceResponse<Real> r = response(s, g, m.distance);
@@ -274,9 +277,9 @@ inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceSt
   r.torque_i = scale(g.lever, moment);
   r.torque_j = scale(1 - g.lever, moment);
   const double sliding = shear_ratio() * g.normal_stiffness * root(dot(s.shear, s.shear));
-  r.tension_ratio = positive_part(from.tension) / parameters.tensile_strength;
-  r.shear_ratio =
-      sliding / (parameters.shear_strength + parameters.friction_static * positive_part(-from.tension));
+  r.tension_ratio = positive_part(from.tension) / (g.strength_factor * parameters.tensile_strength);
+  r.shear_ratio = sliding / (g.strength_factor * parameters.shear_strength +
+                             parameters.friction_static * positive_part(-from.tension));
   r.excess = larger(r.tension_ratio, r.shear_ratio) - 1;
   r.energy = from.energy;
   r.normal_force = from.normal;

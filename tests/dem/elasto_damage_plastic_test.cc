@@ -315,5 +315,24 @@ TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
   EXPECT_TRUE(std::isfinite(pair.now.energy));
 }
 
+TEST(ElastoDamagePlastic, a_strength_factor_scales_both_strengths_and_keeps_fracture_energies) {
+  ElastoDamagePlastic::Parameters p = concrete();
+  p.fracture_energy_tension = 2;
+  Interface pair(p);
+  pair.geometry.strength_factor = 1.5;
+  pair.move({0, 0, 1.5 * pair.opening_limit()});
+  EXPECT_NEAR(pair.normal(), 7.5e6, 1);
+  EXPECT_NEAR(pair.state.tension_damage, 0, 1e-9);
+  pair.move({0, 0, 2 * 2 / 7.5e6 * (1 + 1e-9)}, 3);
+  EXPECT_EQ(pair.state.tension_damage, 1);
+  const double elastic = 0.5 * 7.5e6 * 1.5 * pair.opening_limit();
+  EXPECT_NEAR(pair.state.dissipated / pair.geometry.area, elastic + 2, 1e-7);
+  Interface other(p);
+  other.geometry.strength_factor = 1.5;
+  const double limit = 24e6 / other.shear_stiffness();
+  other.now = other.law(other.state, other.geometry, {other.distance, {0, 0, 0}, {1.25 * limit, 0, 0}, 0});
+  EXPECT_NEAR(other.state.shear_damage, 0.25, 1e-9);
+}
+
 } // namespace
 } // namespace platen::dem
