@@ -84,6 +84,20 @@ double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
 }
 
+// A cell's pressure rises over this many wave crossings where nothing else is said.
+constexpr double crossings_of_cell = 60;
+// Of a specimen in contact the servo may be as quick as it can. Its time constant is then that of its
+// dashpot, ten impedances, over the specimen's stiffness: ten wave crossings, more where ends are soft. What
+// it is told runs ahead by that, so that the stress on the platens keeps up with the pressure.
+constexpr double gain_of_cell = 10, crossings_ahead = 9;
+// The platens take over when the axial stress is as near to the pressure as this share of it, or after as
+// much time again as pressure and hold have had.
+constexpr double settled_share = 0.01, patience = 2;
+// The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
+constexpr double servo_reserve = 10;
+// Areas of the skin are looked at in every step that is a multiple of this.
+constexpr long steps_between_skins = 400;
+
 } // namespace
 
 Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
@@ -94,7 +108,9 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
       bottom_layer(model.particles, bottom,
                    layer_settings(model, specimen, settings, settings.platens.bottom)),
       settings_(settings),
-      shape_(specimen.shape) {
+      shape_(specimen.shape),
+      bottom_plane_(platen_plane(specimen, false, settings.ends)),
+      top_plane_(platen_plane(specimen, true, settings.ends)) {
   double solid = 0;
   for (const double r : specimen.radius)
     solid += 4.0 / 3.0 * pi * r * r * r;
@@ -115,9 +131,32 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
+  if (settings.loading.cell) start_cell(*settings.loading.cell);
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
+}
+
+dem::EndPlanes Problem::end_planes() const {
+  return {bottom_plane_ + bottom.displacement()[2], top_plane_ + top.displacement()[2]};
+}
+
+void Problem::start_cell(const CellSettings &cell) {
+  cell_ramp_ = cell.ramp > 0 ? cell.ramp : crossings_of_cell * wave_crossing_;
+  if (!(cell_ramp_ > 0))
+    throw BadSetup("Loading/Confining ramp",
+                   "has to be given: without bonds there is no wave to take it from.");
+  cell_end_ = std::numeric_limits<double>::infinity();
+  try {
+    confinement_ = std::make_unique<dem::Confinement>(model.particles, model.bonds.get(), shape_,
+                                                      end_planes(), cell.area);
+  } catch (const std::invalid_argument &e) {
+    throw BadSetup("Loading/Confinement", std::string("cannot be: ") + e.what() + ".");
+  }
+  const double stiffness = voigt_modulus_ > 0 ? voigt_modulus_ : std::numeric_limits<double>::infinity();
+  const double fastest = servo_reserve * cell.pressure / stiffness * shape_.height / cell_ramp_;
+  servo_ =
+      std::make_unique<Servo>(Servo::Parameters{gain_of_cell, std::max(fastest, settings_.loading.rate)});
 }
 
 std::vector<dem::GroundSpring> Problem::ground_springs() const {
@@ -170,12 +209,32 @@ void Problem::choose_step(bool first) {
   }
 }
 
+// Time constant of the servo times the rate of the pressure, Pa.
+double Problem::lead_of_cell(double time) const {
+  const double x = time / cell_ramp_;
+  const double rate = x < 1 ? 6 * x * (1 - x) / cell_ramp_ * settings_.loading.cell->pressure : 0.0;
+  return crossings_ahead * wave_crossing_ * rate;
+}
+
+void Problem::look_at_cell() {
+  if (!confinement_ || model.time >= cell_end_) return;
+  const double least = cell_ramp_ + settings_.loading.cell->hold;
+  const double stress = 0.5 * (stress_top() + stress_bottom()), pressure = confinement_->pressure();
+  const bool near = std::abs(stress - pressure) < settled_share * pressure;
+  if (model.time >= least && (near || model.time >= patience * least)) cell_end_ = model.time;
+}
+
 void Problem::set_platen_speeds() {
   const LoadingSettings &loading = settings_.loading;
   const double middle = model.time - 0.5 * time_step_;
-  const double start = ramp_ > 0 ? smooth_start(middle / ramp_) : 1.0;
-  if (servo_) {
-    const double wanted = start * loading.top_stress * shape_.cross_section();
+  const bool confining = confinement_ && middle < cell_end_;
+  const double begun = confining || !confinement_ ? middle : middle - cell_end_;
+  const double whole = confining ? cell_ramp_ : ramp_;
+  const double start = whole > 0 ? smooth_start(begun / whole) : 1.0;
+  if (servo_ && (confining || loading.servo)) {
+    const double wanted =
+        (confining ? start * loading.cell->pressure + lead_of_cell(middle) : start * loading.top_stress) *
+        shape_.cross_section();
     top.set_velocity(
         {0, 0, -servo_->velocity(wanted, reaction_top_, top_layer.servo_load(model.particles), time_step_)});
     bottom.set_velocity({0, 0, 0});
@@ -260,6 +319,14 @@ void Problem::add_forces() {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   give_platen_forces();
   book_reactions();
+  if (confinement_) press_skin();
+}
+
+void Problem::press_skin() {
+  const double pressure = smooth_start(model.time / cell_ramp_) * settings_.loading.cell->pressure;
+  confinement_->add_forces(model.particles, model.bonds.get(), end_planes(), pressure, time_step_,
+                           model.last_motion().fastest * time_step_, steps_ % steps_between_skins == 0);
+  look_at_cell();
 }
 
 bool Problem::platens_apart() {
@@ -323,7 +390,7 @@ dem::EnergyLedger Problem::energy() const {
   e.contacts += top_layer.elastic_energy() + bottom_layer.elastic_energy();
   e.friction += top_layer.friction_work + bottom_layer.friction_work;
   e.damping += top_layer.damping_work + bottom_layer.damping_work;
-  e.boundary += boundary_work_;
+  e.boundary += boundary_work_ + (confinement_ ? confinement_->work() : 0.0);
   return e;
 }
 
@@ -336,31 +403,42 @@ double Problem::unbalanced_ratio() const {
 }
 
 std::vector<double> Problem::numbers() const {
-  return {servo_ ? servo_->state()[0] : 0.0,
-          model.time,
-          time_step_,
-          static_cast<double>(steps_),
-          static_cast<double>(near_at_choice_),
-          boundary_work_,
-          reaction_top_,
-          reaction_bottom_,
-          model.works.damping,
-          model.works.fracture,
-          model.works.weight,
-          static_cast<double>(model.broken_tension),
-          static_cast<double>(model.broken_shear),
-          model.contacts ? model.contacts->friction_work : 0.0,
-          model.contacts ? model.contacts->damping_work : 0.0,
-          top_layer.friction_work,
-          top_layer.damping_work,
-          bottom_layer.friction_work,
-          bottom_layer.damping_work,
-          static_cast<double>(top_layer.closed),
-          static_cast<double>(bottom_layer.closed)};
+  std::vector<double> all{servo_ ? servo_->state()[0] : 0.0,
+                          model.time,
+                          time_step_,
+                          static_cast<double>(steps_),
+                          static_cast<double>(near_at_choice_),
+                          boundary_work_,
+                          reaction_top_,
+                          reaction_bottom_,
+                          model.works.damping,
+                          model.works.fracture,
+                          model.works.weight,
+                          static_cast<double>(model.broken_tension),
+                          static_cast<double>(model.broken_shear),
+                          model.contacts ? model.contacts->friction_work : 0.0,
+                          model.contacts ? model.contacts->damping_work : 0.0,
+                          top_layer.friction_work,
+                          top_layer.damping_work,
+                          bottom_layer.friction_work,
+                          bottom_layer.damping_work,
+                          static_cast<double>(top_layer.closed),
+                          static_cast<double>(bottom_layer.closed)};
+  if (confinement_) {
+    all.push_back(cell_end_);
+    const std::vector<double> more = confinement_->numbers();
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
+  if (confinement_) {
+    const auto own = static_cast<std::ptrdiff_t>(confinement_->numbers().size());
+    cell_end_ = *(n.end() - own - 1);
+    confinement_->set_numbers({n.end() - own, n.end()});
+  }
   if (servo_) servo_->set_state({n[0]});
   model.time = n[1];
   time_step_ = n[2];

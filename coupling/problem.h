@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "coupling/contact_layer.h"
 #include "coupling/servo.h"
+#include "dem/confinement.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
@@ -50,12 +52,21 @@ struct PlatenSettings {
   bool glued = false;
 };
 
+// A cell: pressure on the lateral skin and, while it rises and stands alone, the same stress on the platens.
+struct CellSettings {
+  double pressure = 0; // Pa
+  double ramp = 0;     // s, from none to all of it; 0: sixty wave crossings of the height
+  double hold = 0;     // s, how long it stands alone at least
+  dem::ConfinementArea area = dem::ConfinementArea::voronoi;
+};
+
 struct LoadingSettings {
   bool tension = false;
   double rate = 0;    // m/s, closure (opening) speed of the platens, each moving at half of it
   double ramp = 0;    // s; 0: ten wave crossings of the height
   bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
+  std::optional<CellSettings> cell;
 };
 
 struct ProblemSettings {
@@ -99,6 +110,15 @@ public:
   std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
   std::size_t bytes() const; // of all columns of particles, bonds and contacts, and of the search lists
 
+  // Of a cell: its pressure now, Pa; whether the platens have taken over (true without one). They do when the
+  // pressure has risen and stood for its time, and the axial stress is within 1 % of it.
+  double confining_pressure() const { return confinement_ ? confinement_->pressure() : 0.0; }
+  bool axial_stage() const { return !confinement_ || model.time >= cell_end_; }
+  double cell_ramp() const { return cell_ramp_; }                // s
+  dem::Confinement *confinement() { return confinement_.get(); } // null without a pressure on the skin
+  const dem::Confinement *confinement() const { return confinement_.get(); }
+  dem::EndPlanes end_planes() const; // where the platens' faces are now
+
   // Laboratory signs: compression positive (tension tests: still compression positive).
   double closure_strain() const;                    // platen to platen, over the height
   double stress_top() const, stress_bottom() const; // Pa, nominal area
@@ -117,6 +137,10 @@ private:
   void choose_step(bool first);
   void look_at_step();
   void add_forces();
+  void press_skin();
+  void look_at_cell();
+  double lead_of_cell(double time) const;
+  void start_cell(const CellSettings &cell);
   void give_platen_forces();
   bool platens_apart();
   void book_reactions();
@@ -127,6 +151,7 @@ private:
 
   ProblemSettings settings_;
   dem::Shape shape_;
+  double bottom_plane_ = 0, top_plane_ = 0; // m, z of the platens' faces at the start
   double packing_fraction_ = 0, grain_density_ = 0, voigt_modulus_ = 0, wave_crossing_ = 0, ramp_ = 0;
   double time_step_ = 0;
   std::string reason_;
@@ -136,7 +161,9 @@ private:
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
   long lists_compared_ = -1;                      // search lists made by both layers when apart_ was found
   bool apart_ = false;                            // no particle is near both platens
-  std::unique_ptr<Servo> servo_;                  // null where both platens are driven
+  std::unique_ptr<Servo> servo_;                  // null where both platens are always driven
+  double cell_ramp_ = 0, cell_end_ = 0;           // s
+  std::unique_ptr<dem::Confinement> confinement_;
 };
 
 } // namespace platen::coupling

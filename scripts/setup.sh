@@ -7,7 +7,7 @@ packages=(
   git g++ cmake ninja-build pkg-config # tools
   libdeal.ii-dev                       # finite elements; brings Trilinos, MPI and UMFPACK
   libvtk9-dev                          # VTU files, pictures
-  libeigen3-dev                        # particle library
+  libeigen3-dev voro++-dev             # particle library
   libcli11-dev nlohmann-json3-dev libfmt-dev libudunits2-dev libxxhash-dev # apps
   libgtest-dev                         # tests; holds GTest's CMake configuration too
   xvfb xauth                           # pictures where there is no display

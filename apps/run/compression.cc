@@ -114,6 +114,8 @@ private:
   bool checkpoint_due() const;
   ProgressSample where() const;
   bool finished() const;
+  bool by_time() const; // the run ends after a time (hydrostatic: or a little later), not at a strain
+  double end_time() const;
   void save_summary(const std::string &status);
   RunCosts costs() const;
 
@@ -132,6 +134,7 @@ private:
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
+  bool confined_ = false;
 };
 
 Loudness loudness(const CommandLine &c) {
@@ -144,7 +147,8 @@ Test::Test(const CommandLine &command, const Scene &scene)
       paths_(command.output),
       log_(loudness(command)),
       threads_(command.threads),
-      results_(scene.loading.test == LoadingTest::tension) {
+      results_(scene.loading.test == LoadingTest::tension),
+      confined_(scene.loading.cell()) {
   fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
@@ -163,10 +167,9 @@ Test::Test(const CommandLine &command, const Scene &scene)
     throw InputError(e.entry() + " " + e.what());
   }
   const double seconds =
-      scene.platens.top_control == PlatenControl::stress
-          ? problem_->ramp() + scene.loading.hold
-          : scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate +
-                0.5 * problem_->ramp();
+      by_time() ? end_time()
+                : (confined_ ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
+                      scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
   expected_steps_ = std::max(1.0, seconds / problem_->time_step());
   sampler_ = std::make_unique<Sampler>(*problem_);
   setup_seconds_ = seconds_since(start_);
@@ -207,6 +210,9 @@ std::string Test::description() const {
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
                       problem_->time_step_reason(), expected_steps_);
+  if (confined_)
+    text += fmt::format("  confinement: {} spheres of the skin, ramp {:.3g} s\n",
+                        problem_->confinement()->size(), problem_->cell_ramp());
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", problem_->ramp(), problem_->wave_crossing());
   text += fmt::format(
@@ -248,16 +254,17 @@ long Test::steps_unobserved() const {
   if (fields_) steps = std::min(steps, steps_until_due(scene_.output.fields_every, automatic_frames));
   if (scene_.checkpoint.every.kind == Interval::Kind::steps)
     steps = std::min(steps, steps_until_due(scene_.checkpoint.every, 1));
-  const double step_closes = scene_.loading.axial_rate * p.time_step() / p.shape().height;
-  steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.closure_strain())) / step_closes - 1);
-  if (scene_.platens.top_control == PlatenControl::stress)
-    steps = std::min(steps, (p.ramp() + scene_.loading.hold - p.time()) / p.time_step() - 1);
+  if (!scene_.loading.hydrostatic()) {
+    const double step_closes = scene_.loading.axial_rate * p.time_step() / p.shape().height;
+    steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.closure_strain())) / step_closes - 1);
+  }
+  if (by_time()) steps = std::min(steps, (end_time() - p.time()) / p.time_step() - 1);
   return static_cast<long>(std::clamp(steps, 1.0, most_unobserved));
 }
 
 void Test::open_files() {
   if (!command_.resume) {
-    history_.emplace(paths_.history(), history_columns());
+    history_.emplace(paths_.history(), history_columns(confined_));
     if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     sample();
@@ -268,7 +275,7 @@ void Test::open_files() {
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *problem_, results_);
-  history_.emplace(paths_.history(), history_columns(), marks.history_bytes);
+  history_.emplace(paths_.history(), history_columns(confined_), marks.history_bytes);
   if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
@@ -282,7 +289,7 @@ void Test::open_files() {
 void Test::sample() {
   dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::measures);
   const Sample s = (*sampler_)(*problem_);
-  history_->row(history_row(s));
+  history_->row(history_row(s, confined_));
   const bool fallen = results_.add(s, *problem_);
   if (fallen && fields_) fields_->write(*problem_); // the state that damage and opening are measured in
 }
@@ -313,19 +320,25 @@ bool Test::checkpoint_due() const {
          std::fmod(static_cast<double>(problem_->steps()), every.value) == 0;
 }
 
+bool Test::by_time() const {
+  return scene_.platens.top_control == PlatenControl::stress || scene_.loading.hydrostatic();
+}
+
+double Test::end_time() const {
+  return (scene_.loading.hydrostatic() ? problem_->cell_ramp() : problem_->ramp()) + scene_.loading.hold;
+}
+
 bool Test::finished() const {
-  if (scene_.platens.top_control == PlatenControl::stress &&
-      problem_->time() >= problem_->ramp() + scene_.loading.hold)
-    return true;
+  if (scene_.loading.hydrostatic()) return problem_->axial_stage();
+  if (by_time() && problem_->time() >= end_time()) return true;
   if (std::abs(problem_->closure_strain()) >= scene_.loading.target_strain) return true;
   return scene_.loading.stop_at_residual > 0 && results_.fallen_to(scene_.loading.stop_at_residual);
 }
 
 ProgressSample Test::where() const {
   ProgressSample p;
-  p.fraction = std::min(1.0, scene_.platens.top_control == PlatenControl::stress
-                                 ? problem_->time() / (problem_->ramp() + scene_.loading.hold)
-                                 : std::abs(problem_->closure_strain()) / scene_.loading.target_strain);
+  p.fraction = std::min(1.0, by_time() ? problem_->time() / end_time()
+                                       : std::abs(problem_->closure_strain()) / scene_.loading.target_strain);
   p.step = static_cast<std::uint64_t>(problem_->steps());
   p.time = problem_->time();
   p.strain = problem_->closure_strain();

@@ -2,66 +2,69 @@
 
 namespace platen::apps {
 
-const std::vector<std::string> &history_columns() {
-  static const std::vector<std::string> columns{"time_s",
-                                                "axial_strain_platen",
-                                                "axial_strain_gauge",
-                                                "lateral_strain",
-                                                "volumetric_strain",
-                                                "axial_stress_top_pa",
-                                                "axial_stress_bottom_pa",
-                                                "confining_pressure_pa",
-                                                "intact_bonds",
-                                                "broken_tension",
-                                                "broken_shear",
-                                                "kinetic_energy_j",
-                                                "bond_energy_j",
-                                                "contact_energy_j",
-                                                "body_energy_j",
-                                                "damping_work_j",
-                                                "friction_work_j",
-                                                "fracture_work_j",
-                                                "boundary_work_j",
-                                                "energy_residual_j",
-                                                "unbalanced_force_ratio",
-                                                "lateral_strain_extremal",
-                                                "axial_strain_extremal",
-                                                "platen_speed_m_s",
-                                                "time_step_s",
-                                                "grain_contacts",
-                                                "plastic_work_j"};
+std::vector<std::string> history_columns(bool confined) {
+  std::vector<std::string> columns{"time_s",
+                                   "axial_strain_platen",
+                                   "axial_strain_gauge",
+                                   "lateral_strain",
+                                   "volumetric_strain",
+                                   "axial_stress_top_pa",
+                                   "axial_stress_bottom_pa",
+                                   "confining_pressure_pa",
+                                   "intact_bonds",
+                                   "broken_tension",
+                                   "broken_shear",
+                                   "kinetic_energy_j",
+                                   "bond_energy_j",
+                                   "contact_energy_j",
+                                   "body_energy_j",
+                                   "damping_work_j",
+                                   "friction_work_j",
+                                   "fracture_work_j",
+                                   "boundary_work_j",
+                                   "energy_residual_j",
+                                   "unbalanced_force_ratio",
+                                   "lateral_strain_extremal",
+                                   "axial_strain_extremal",
+                                   "platen_speed_m_s",
+                                   "time_step_s",
+                                   "grain_contacts",
+                                   "plastic_work_j"};
+  if (confined) columns.emplace_back("deviator_pa");
   return columns;
 }
 
-std::vector<CsvCell> history_row(const Sample &s) {
+std::vector<CsvCell> history_row(const Sample &s, bool confined) {
   const auto count = [](double n) { return CsvCell(static_cast<long long>(n)); };
-  return {s.time,
-          s.strain_platen,
-          s.strain_gauge,
-          s.lateral_strain,
-          s.volumetric_strain,
-          s.stress_top,
-          s.stress_bottom,
-          s.confining_pressure,
-          count(s.intact_bonds),
-          count(s.broken_tension),
-          count(s.broken_shear),
-          s.kinetic,
-          s.bond,
-          s.contact,
-          s.body,
-          s.damping,
-          s.friction,
-          s.fracture,
-          s.boundary,
-          s.residual,
-          s.unbalanced,
-          s.lateral_extremal,
-          s.axial_extremal,
-          s.platen_speed,
-          s.time_step,
-          count(s.touching),
-          s.plastic};
+  std::vector<CsvCell> row{s.time,
+                           s.strain_platen,
+                           s.strain_gauge,
+                           s.lateral_strain,
+                           s.volumetric_strain,
+                           s.stress_top,
+                           s.stress_bottom,
+                           s.confining_pressure,
+                           count(s.intact_bonds),
+                           count(s.broken_tension),
+                           count(s.broken_shear),
+                           s.kinetic,
+                           s.bond,
+                           s.contact,
+                           s.body,
+                           s.damping,
+                           s.friction,
+                           s.fracture,
+                           s.boundary,
+                           s.residual,
+                           s.unbalanced,
+                           s.lateral_extremal,
+                           s.axial_extremal,
+                           s.platen_speed,
+                           s.time_step,
+                           count(s.touching),
+                           s.plastic};
+  if (confined) row.emplace_back(s.deviator());
+  return row;
 }
 
 Sampler::Sampler(const coupling::Problem &problem)
@@ -81,6 +84,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.axial_extremal = -pairs_.axial(model.particles);
   s.stress_top = problem.stress_top();
   s.stress_bottom = problem.stress_bottom();
+  s.confining_pressure = problem.confining_pressure();
   s.intact_bonds = static_cast<double>(model.intact_bonds());
   s.broken_tension = static_cast<double>(model.broken(dem::BondState::broken_in_tension));
   s.broken_shear = static_cast<double>(model.broken(dem::BondState::broken_in_shear));
@@ -97,6 +101,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.unbalanced = problem.unbalanced_ratio();
   s.platen_speed = problem.platen_speed();
   s.time_step = problem.time_step();
+  s.axial_stage = problem.axial_stage() ? 1.0 : 0.0;
   s.touching = model.contacts ? static_cast<double>(model.contacts->touching_count()) : 0.0;
   return s;
 }

@@ -28,13 +28,16 @@ struct Sample {
   double platen_speed = 0; // m/s
   double time_step = 0;    // s
   double touching = 0;     // grain contacts
+  double axial_stage = 1;  // 0 while a cell's pressure rises and stands alone
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
+  double deviator() const { return stress() - confining_pressure; }    // Pa
   double internal() const { return bond + contact + body; }            // J
 };
 
-const std::vector<std::string> &history_columns();
-std::vector<CsvCell> history_row(const Sample &sample);
+// Confined tests have a column more, deviator_pa.
+std::vector<std::string> history_columns(bool confined);
+std::vector<CsvCell> history_row(const Sample &sample, bool confined);
 
 // Measures a problem; the gauges remember its reference state.
 class Sampler {

@@ -1,5 +1,7 @@
 #include "apps/run/problem_setup.h"
 
+#include <cmath>
+
 #include "apps/run/model_setup.h"
 
 namespace platen::apps {
@@ -45,6 +47,7 @@ std::vector<Effect> effects(const Scene &s) {
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
+          {s.loading.cell(), "confinement on particles"},
           {s.specimen.seat, "seats"},
           {s.integration.mass_scaling > 1, "mass scaling"},
           {e.energy_ledger, "energy ledger"},
@@ -57,6 +60,16 @@ std::vector<std::string> chosen(const Scene &scene, bool on) {
   for (const Effect &e : effects(scene))
     if (e.on == on) words.emplace_back(e.word);
   return words;
+}
+
+coupling::CellSettings cell_settings(const Loading &from) {
+  coupling::CellSettings to;
+  to.pressure = from.confining_pressure;
+  to.ramp = from.confining_ramp;
+  to.hold = from.hold;
+  to.area = from.confinement_area == ConfinementArea::sphere ? dem::ConfinementArea::sphere
+                                                             : dem::ConfinementArea::voronoi;
+  return to;
 }
 
 } // namespace
@@ -89,10 +102,11 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.platens.material = {from.density, from.young_modulus, from.poisson_ratio};
   to.platens.glued = from.attachment == Attachment::glued;
   to.loading.tension = scene.loading.test == LoadingTest::tension;
-  to.loading.rate = scene.loading.axial_rate;
+  to.loading.rate = std::isnan(scene.loading.axial_rate) ? 0.0 : scene.loading.axial_rate;
   to.loading.ramp = scene.loading.ramp;
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;
+  if (scene.loading.cell()) to.loading.cell = cell_settings(scene.loading);
   to.safety = scene.integration.safety;
   to.fixed_step = scene.integration.time_step;
   return to;

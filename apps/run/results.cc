@@ -33,6 +33,7 @@ Pattern measure_pattern(const coupling::Problem &problem) {
 
 bool Results::add(const Sample &sample, const coupling::Problem &problem) {
   samples_.push_back(sample);
+  if (sample.axial_stage == 0) return false;
   const double now = stress(sample);
   if (now > peak_) {
     peak_ = now;
@@ -56,20 +57,41 @@ bool Results::fallen_to(double share) const {
 
 std::size_t Results::peak_row() const {
   std::size_t best = 0;
+  while (best + 1 < samples_.size() && samples_[best].axial_stage == 0)
+    ++best;
   for (std::size_t k = 1; k < samples_.size(); ++k)
-    if (stress(samples_[k]) > stress(samples_[best])) best = k;
+    if (samples_[k].axial_stage != 0 && stress(samples_[k]) > stress(samples_[best])) best = k;
   return best;
 }
 
 double Results::strength() const {
+  return peak_ > 0 ? sign_ * samples_[peak_row()].stress() : not_measured;
+}
+double Results::deviator_strength() const {
   return peak_ > 0 ? peak_ : not_measured;
 }
 
+const Sample &Results::zero() const {
+  std::size_t last = 0;
+  while (last + 1 < samples_.size() && samples_[last + 1].axial_stage == 0)
+    ++last; // with a pressure the first sample is of the hydrostatic stage
+  return samples_[last];
+}
+
+double Results::bulk_modulus() const {
+  if (samples_.empty()) return not_measured;
+  const Sample &end = zero();
+  return end.confining_pressure > 0 ? end.confining_pressure / end.volumetric_strain : not_measured;
+}
+
+double Results::gained_at_peak(double Sample::*value) const {
+  return peak_ > 0 ? sign_ * (samples_[peak_row()].*value - zero().*value) : not_measured;
+}
 double Results::strain_at_peak_platen() const {
-  return peak_ > 0 ? sign_ * samples_[peak_row()].strain_platen : not_measured;
+  return gained_at_peak(&Sample::strain_platen);
 }
 double Results::strain_at_peak_gauge() const {
-  return peak_ > 0 ? sign_ * samples_[peak_row()].strain_gauge : not_measured;
+  return gained_at_peak(&Sample::strain_gauge);
 }
 double Results::time_at_peak() const {
   return peak_ > 0 ? samples_[peak_row()].time : not_measured;
@@ -77,6 +99,7 @@ double Results::time_at_peak() const {
 
 Results::Crossing Results::ascending(double share) const {
   for (std::size_t k = 1; k < samples_.size() && peak_ > 0; ++k) {
+    if (samples_[k].axial_stage == 0) continue;
     const double before = stress(samples_[k - 1]), after = stress(samples_[k]);
     if (after >= share * peak_) return {true, k, (share * peak_ - before) / (after - before)};
   }
@@ -87,30 +110,42 @@ double Results::at(const Crossing &c, double Sample::*value) const {
   return (1 - c.weight) * samples_[c.after - 1].*value + c.weight * samples_[c.after].*value;
 }
 
+double Results::gained(const Crossing &c, double Sample::*value) const {
+  return at(c, value) - zero().*value;
+}
 double Results::youngs_modulus_gauge() const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / (sign_ * at(c, &Sample::strain_gauge)) : not_measured;
+  return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_gauge)) : not_measured;
 }
 double Results::youngs_modulus_platen() const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / (sign_ * at(c, &Sample::strain_platen)) : not_measured;
+  return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_platen)) : not_measured;
 }
 double Results::poisson_ratio() const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? -at(c, &Sample::lateral_strain) / at(c, &Sample::strain_gauge) : not_measured;
+  return c.found ? -gained(c, &Sample::lateral_strain) / gained(c, &Sample::strain_gauge) : not_measured;
 }
 double Results::poisson_ratio_extremal() const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? -at(c, &Sample::lateral_extremal) / at(c, &Sample::axial_extremal) : not_measured;
+  return c.found ? -gained(c, &Sample::lateral_extremal) / gained(c, &Sample::axial_extremal) : not_measured;
+}
+
+// Without an axial stage the book is read from half the pressure on.
+std::size_t Results::whole_book_from() const {
+  if (peak_ > 0) return ascending(0.1).after;
+  std::size_t k = 0;
+  while (k + 1 < samples_.size() && samples_[k].confining_pressure < 0.5 * samples_.back().confining_pressure)
+    ++k;
+  return k;
 }
 
 double Results::energy_residual_relative() const {
-  const Crossing c = ascending(0.1);
-  if (!c.found || std::isnan(samples_[c.after].residual)) return not_measured; // no ledger
+  const std::size_t from = whole_book_from();
+  if (from == 0 || std::isnan(samples_[from].residual)) return not_measured; // no load, or no ledger
   double largest = 0;
-  for (std::size_t k = c.after; k < samples_.size(); ++k)
+  for (std::size_t k = from; k < samples_.size(); ++k)
     largest = std::max(largest, std::abs(samples_[k].residual));
-  return largest / samples_[peak_row()].boundary;
+  return largest / samples_[peak_ > 0 ? peak_row() : samples_.size() - 1].boundary;
 }
 
 double Results::kinetic_to_internal_max() const {

@@ -21,7 +21,9 @@ Pattern measure_pattern(const coupling::Problem &problem);
 
 class Results {
 public:
-  // Stresses and strains are taken with this sign: +1 compression, -1 tension.
+  // Stresses and strains are taken with this sign: +1 compression, -1 tension. Peak, moduli and strains are
+  // of the deviator (axial stress minus confining pressure), from the end of the hydrostatic stage on, as
+  // laboratories count them.
   explicit Results(bool tension) : sign_(tension ? -1.0 : 1.0) {}
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
@@ -32,7 +34,10 @@ public:
   void finish(const coupling::Problem &problem) { last_ = measure_pattern(problem); }
 
   // Of all samples; NaN where the run did not get there.
-  double strength() const; // Pa, positive
+  double strength() const;          // Pa, positive: largest axial stress, or that at the largest deviator
+  double deviator_strength() const; // Pa, positive
+  // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
+  double bulk_modulus() const;
   double strain_at_peak_platen() const, strain_at_peak_gauge() const;
   double youngs_modulus_gauge() const, youngs_modulus_platen() const; // Pa, secant at 40 % of the strength
   double poisson_ratio() const;                                       // gauge, at 40 % of the strength
@@ -67,7 +72,11 @@ private:
   };
   Crossing ascending(double share) const;
   double at(const Crossing &crossing, double Sample::*value) const;
-  double stress(const Sample &s) const { return sign_ * s.stress(); }
+  double stress(const Sample &s) const { return sign_ * s.deviator(); }
+  const Sample &zero() const; // where the strains of the axial stage begin
+  double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
+  double gained_at_peak(double Sample::*value) const;
+  std::size_t whole_book_from() const; // first sample where the book says more than noise
 
   double sign_;
   std::vector<Sample> samples_;

@@ -48,6 +48,7 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
   to.add("bottom/body", problem.bottom.state());
   to.add_table("top/contacts", problem.top_layer.history());
   to.add_table("bottom/contacts", problem.bottom_layer.history());
+  if (problem.confinement() != nullptr) to.add_table("confinement", problem.confinement()->table());
   to.add("samples", results.samples());
   to.add("results", results.progress());
   to.add("marks", marks);
@@ -64,6 +65,7 @@ FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, R
     from.read_table("contacts", model.contacts->table);
     model.contacts->search_state().set_state(load_search(from));
   }
+  if (problem.confinement() != nullptr) from.read_table("confinement", problem.confinement()->table());
   std::vector<double> numbers;
   from.get("top/body", numbers);
   problem.top.set_state(numbers);

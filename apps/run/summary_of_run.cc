@@ -35,6 +35,32 @@ double crossings_to_peak(const coupling::Problem &problem, const Results &result
   return problem.wave_crossing() > 0 ? results.time_at_peak() / problem.wave_crossing() : not_measured;
 }
 
+const char *word_of(LoadingTest test) {
+  switch (test) {
+    case LoadingTest::tension:
+      return "tension";
+    case LoadingTest::hydrostatic:
+      return "hydrostatic";
+    case LoadingTest::uniaxial_strain:
+      return "uniaxial strain";
+    case LoadingTest::compression:
+      break;
+  }
+  return "compression";
+}
+
+// Of a pressure on the skin: where it acts, and what the hydrostatic stage says.
+void add_cell(Json &to, const coupling::Problem &problem, const Results &results) {
+  const dem::Confinement *skin = problem.confinement();
+  if (skin == nullptr) return;
+  to["confining_pressure_pa"] = skin->pressure();
+  to["deviator_strength_pa"] = results.deviator_strength();
+  to["bulk_modulus_pa"] = results.bulk_modulus();
+  to["skin_spheres"] = skin->size();
+  to["skin_coverage"] = skin->coverage(problem.model.particles, problem.end_planes());
+  to["confinement_work_j"] = skin->work();
+}
+
 } // namespace
 
 std::size_t bytes_per_bond(const dem::Model &model) {
@@ -54,7 +80,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["version"] = version_line();
   s["effects"] = effects_on(scene);
   s["effects_off"] = effects_off(scene);
-  s["test"] = scene.loading.test == LoadingTest::tension ? "tension" : "compression";
+  s["test"] = word_of(scene.loading.test);
   s["particles"] = model.particles.size();
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
@@ -85,6 +111,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["poisson_ratio"] = results.poisson_ratio();
   s["poisson_ratio_extremal"] = results.poisson_ratio_extremal();
   s["youngs_modulus_voigt_pa"] = problem.voigt_modulus() > 0 ? problem.voigt_modulus() : not_measured;
+  add_cell(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
@@ -111,6 +138,10 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   };
   line(tension ? "tensile strength" : "compressive strength",
        fmt::format("{:.2f} MPa", results.strength() / 1e6));
+  if (problem.confinement() != nullptr) {
+    line("largest deviator", fmt::format("{:.2f} MPa", results.deviator_strength() / 1e6));
+    line("bulk modulus", fmt::format("{:.2f} GPa", results.bulk_modulus() / 1e9));
+  }
   line("strain at peak (platen, gauge)",
        fmt::format("{:.5f}, {:.5f}", results.strain_at_peak_platen(), results.strain_at_peak_gauge()));
   line("Young's modulus (gauge, platen)",

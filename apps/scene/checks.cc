@@ -25,6 +25,7 @@ public:
   void contact() const;
   void platens() const;
   void loading() const;
+  void cell() const;
   void pair_test() const;
   void notes();
 
@@ -221,12 +222,29 @@ void SceneCheck::platens() const {
 
 void SceneCheck::loading() const {
   const Loading &loading = scene_.loading;
-  if (loads()) need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
+  if (loads() && !loading.hydrostatic())
+    need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
   if (loading.confining_pressure > 0 && loading.confinement == ConfinementKind::none)
     refuse("Loading/Confining pressure", "needs Loading/Confinement other than none.");
   for (const char *key : {"Sleeve/Thickness", "Sleeve/Modulus", "Sleeve/Poisson ratio"})
     if (parameters_.at(key).changed() && loading.confinement != ConfinementKind::sleeve)
       refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
+}
+
+void SceneCheck::cell() const {
+  const Loading &loading = scene_.loading;
+  if (loading.hydrostatic() && !loading.cell())
+    refuse("Loading/Test", "needs Loading/Confinement = particles: the lateral surface is pressed too.");
+  if (!loading.cell()) return;
+  if (loads() && !(loading.confining_pressure > 0))
+    refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
+  if (loads() && scene_.effects.bond == BondKind::none)
+    refuse("Loading/Confinement",
+           "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
+  if (scene_.platens.top_control == PlatenControl::stress)
+    refuse("Platens/Top/Control",
+           "does not go with Loading/Confinement = particles: the pressure holds the "
+           "platen at first, then it moves. Allowed: motion.");
 }
 
 void SceneCheck::pair_test() const {
@@ -299,9 +317,16 @@ void SceneCheck::notes() {
   if (scene_.platens.kind == PlatenKind::rigid)
     for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio"})
       note(key, "Platens/Kind = rigid");
-  if (scene_.platens.top_control == PlatenControl::motion)
-    for (const char *key : {"Platens/Top/Stress", "Loading/Hold"})
-      note(key, "Platens/Top/Control = motion");
+  if (scene_.platens.top_control == PlatenControl::motion) {
+    note("Platens/Top/Stress", "Platens/Top/Control = motion");
+    if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");
+  }
+  if (!scene_.loading.cell())
+    for (const char *key : {"Loading/Confining ramp", "Loading/Confinement area"})
+      note(key, "Loading/Confinement is not particles");
+  if (scene_.loading.hydrostatic())
+    for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Loading/Stop at residual"})
+      note(key, "Loading/Test = hydrostatic");
   if (scene_.integration.scheme != Scheme::tchamwa_wielgosz)
     note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
@@ -325,6 +350,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.contact();
   check.platens();
   check.loading();
+  check.cell();
   check.pair_test();
   check.notes();
 }

@@ -175,18 +175,24 @@ struct Sleeve {
   double poisson_ratio = not_given;
 };
 
-enum class LoadingTest { compression, tension };
+enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain };
 enum class ConfinementKind { none, particles, sleeve };
+enum class ConfinementArea { voronoi, sphere };
 
 struct Loading {
   LoadingTest test = LoadingTest::compression;
   double axial_rate = not_given; // m/s, speed of the platens towards (tension: from) each other, > 0
   double ramp = 0;               // s, smooth start; 0: the app chooses
-  double hold = 0;               // s, how long a stress is held after the ramp (Platens/Top/Control = stress)
-  double target_strain = 0.01;   // closure of the platens over the height of the specimen
+  double hold = 0;             // s, how long a stress is held after its ramp: the top platen's, or the cell's
+  double target_strain = 0.01; // closure of the platens over the height of the specimen
   double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
   ConfinementKind confinement = ConfinementKind::none;
   double confining_pressure = 0; // Pa
+  double confining_ramp = 0;     // s; 0: the app chooses
+  ConfinementArea confinement_area = ConfinementArea::voronoi;
+
+  bool cell() const { return confinement == ConfinementKind::particles; }
+  bool hydrostatic() const { return test == LoadingTest::hydrostatic; }
 };
 
 enum class InstructionSet { best, baseline };

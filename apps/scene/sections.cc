@@ -236,24 +236,41 @@ void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
 
 void declare_loading(Parameters &parameters, Loading &loading) {
   Section section(parameters, "Loading");
-  section.word<LoadingTest>("Test", loading.test,
-                            {{"compression", LoadingTest::compression}, {"tension", LoadingTest::tension}},
-                            {}, "The platens approach or part.");
+  section.word<LoadingTest>(
+      "Test", loading.test,
+      {{"compression", LoadingTest::compression},
+       {"tension", LoadingTest::tension},
+       {"hydrostatic", LoadingTest::hydrostatic},
+       {"uniaxial strain", LoadingTest::uniaxial_strain}},
+      {"uniaxial strain"},
+      "The platens approach or part; hydrostatic: they and the lateral surface press alike, "
+      "up to Confining pressure.");
   section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
                    "Speed of closure (tension: of opening).");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
-  section.quantity("Hold", loading.hold, "s", at_least(0),
-                   "How long the stress of Platens/Top/Control = stress is held after the ramp.");
+  section.quantity(
+      "Hold", loading.hold, "s", at_least(0),
+      "How long the stress of Platens/Top/Control = stress is held after the ramp; with Confinement: "
+      "how long its pressure stands on all sides before the platens move on.");
   section.number("Target strain", loading.target_strain, above_up_to(0, 1),
                  "Closure over height at which the run is over.");
   section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
                  "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
-  section.word<ConfinementKind>("Confinement", loading.confinement,
-                                {{"none", ConfinementKind::none},
-                                 {"particles", ConfinementKind::particles},
-                                 {"sleeve", ConfinementKind::sleeve}},
-                                {"particles", "sleeve"}, "How the lateral surface is pressed.");
-  section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0), "Lateral pressure.");
+  section.word<ConfinementKind>(
+      "Confinement", loading.confinement,
+      {{"none", ConfinementKind::none},
+       {"particles", ConfinementKind::particles},
+       {"sleeve", ConfinementKind::sleeve}},
+      {"sleeve"}, "How the lateral surface is pressed; particles: by forces on those of the surface.");
+  section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0),
+                   "Lateral pressure, and that on the platens while it rises.");
+  section.quantity("Confining ramp", loading.confining_ramp, "s", at_least(0),
+                   "Time in which the pressure rises smoothly; 0: chosen by the app.");
+  section.word<ConfinementArea>(
+      "Confinement area", loading.confinement_area,
+      {{"voronoi", ConfinementArea::voronoi}, {"sphere", ConfinementArea::sphere}}, {},
+      "What the pressure acts on (Confinement = particles): each sphere's part of the deformed surface, or "
+      "pi R^2 of each lateral sphere.");
 }
 
 void declare_integration(Parameters &parameters, Integration &integration) {
@@ -308,6 +325,8 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"strain_at_peak_gauge", "1"},
     {"youngs_modulus_gauge_pa", "Pa"},
     {"youngs_modulus_platen_pa", "Pa"},
+    {"deviator_strength_pa", "Pa"},
+    {"bulk_modulus_pa", "Pa"},
     {"poisson_ratio", "1"},
     {"broken_tension", "1"},
     {"broken_shear", "1"},

@@ -1,0 +1,153 @@
+#include "dem/confinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "dem/measure/fragments.h"
+
+namespace platen::dem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double share_of_body = 0.05;   // of the spheres: smaller pieces are left alone
+constexpr double move_of_areas = 0.05;   // mean radii
+constexpr double depth_of_spheres = 1.0; // mean radii, between a lateral sphere's surface and the wall
+
+std::vector<char> body_of(const Particles &p, const Bonds *bonds) {
+  std::vector<char> body(p.size(), 1);
+  if (bonds == nullptr) return body;
+  const Fragments pieces = find_fragments(p, bonds);
+  const double least = share_of_body * static_cast<double>(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    body[i] = pieces.particles[static_cast<std::size_t>(pieces.of_particle[i])] >= least;
+  return body;
+}
+
+double broken_bonds(const Bonds *bonds) {
+  if (bonds == nullptr) return 0;
+  return static_cast<double>(bonds->initial_count()) -
+         static_cast<double>(bonds->size() - bonds->broken_rows);
+}
+
+double perimeter(const Shape &s) {
+  return s.kind == ShapeKind::cylinder ? 2 * pi * s.radius : 2 * (s.width_x + s.width_y);
+}
+
+// From the lateral surface inwards, m.
+double lateral_clearance(const Shape &s, const Vector3 &x) {
+  if (s.kind == ShapeKind::cylinder) return s.radius - std::hypot(x.x, x.y);
+  return std::min(0.5 * s.width_x - std::abs(x.x), 0.5 * s.width_y - std::abs(x.y));
+}
+
+} // namespace
+
+Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &shape, const EndPlanes &planes,
+                         ConfinementArea kind)
+    : shape_(shape), kind_(kind) {
+  for (const double r : p.radius)
+    mean_radius_ += r / static_cast<double>(std::max<std::size_t>(p.size(), 1));
+  find(p, bonds, planes);
+  if (kind_ == ConfinementArea::sphere) return;
+  const double found = coverage(p, planes);
+  if (!(found > 0))
+    throw std::invalid_argument("the specimen has no lateral skin that a pressure could act on");
+  factor_ = 1 / found;
+  for (Vector3 &a : area_)
+    a *= factor_;
+}
+
+// The part of an area vector that faces outwards as the shape's lateral surface does there. At the edge of a
+// box both faces have a part.
+Vector3 Confinement::outward(const Vector3 &area, const Vector3 &x) const {
+  if (shape_.kind == ShapeKind::cylinder) {
+    const double r = std::hypot(x.x, x.y);
+    if (!(r > 0)) return {};
+    const Vector3 n{x.x / r, x.y / r, 0};
+    return dot(area, n) * n;
+  }
+  const double depth = 4 * mean_radius_; // where a face's skin ends
+  Vector3 out;
+  if (0.5 * shape_.width_x - std::abs(x.x) < depth) out.x = area.x;
+  if (0.5 * shape_.width_y - std::abs(x.y) < depth) out.y = area.y;
+  return out;
+}
+
+double Confinement::coverage(const Particles &p, const EndPlanes &planes) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < particle_.size(); ++k) {
+    const Vector3 x = p.position[static_cast<std::size_t>(particle_[k])], a = outward(area_[k], x);
+    if (shape_.kind == ShapeKind::cylinder)
+      sum += std::copysign(norm(a), a.x * x.x + a.y * x.y);
+    else
+      sum += std::copysign(1.0, x.x) * a.x + std::copysign(1.0, x.y) * a.y;
+  }
+  return sum / (perimeter(shape_) * (planes.high - planes.low));
+}
+
+Skin Confinement::sphere_skin(const Particles &p, const std::vector<char> &body) const {
+  Skin skin;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double gap = lateral_clearance(shape_, p.reference_position[i]) - p.radius[i];
+    if (!body[i] || gap > depth_of_spheres * mean_radius_) continue;
+    const Vector3 x = p.position[i];
+    Vector3 n{x.x, x.y, 0};
+    if (shape_.kind == ShapeKind::box) {
+      const Vector3 &X = p.reference_position[i];
+      const bool along_x = 0.5 * shape_.width_x - std::abs(X.x) < 0.5 * shape_.width_y - std::abs(X.y);
+      n = along_x ? Vector3{X.x, 0, 0} : Vector3{0, X.y, 0};
+    }
+    const double length = norm(n);
+    if (!(length > 0)) continue;
+    skin.particle.push_back(static_cast<int>(i));
+    skin.area.push_back(pi * p.radius[i] * p.radius[i] / length * n);
+  }
+  return skin;
+}
+
+void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &planes) {
+  const std::vector<char> body = body_of(p, bonds);
+  Skin skin = kind_ == ConfinementArea::voronoi ? find_skin(p, body, planes) : sphere_skin(p, body);
+  balance(skin, p);
+  table_.resize(skin.particle.size());
+  for (std::size_t k = 0; k < skin.particle.size(); ++k) {
+    particle_[k] = skin.particle[k];
+    area_[k] = factor_ * skin.area[k];
+  }
+  moved_ = 0;
+  broken_ = broken_bonds(bonds);
+}
+
+// Sum of a.v, m^3/s: by it the specimen swells.
+double Confinement::power(const Particles &p) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < particle_.size(); ++k)
+    sum += dot(area_[k], p.velocity[static_cast<std::size_t>(particle_[k])]);
+  return sum;
+}
+
+void Confinement::add_forces(Particles &p, const Bonds *bonds, const EndPlanes &planes, double pressure,
+                             double dt, double distance, bool look) {
+  moved_ += distance;
+  // By the trapezoid over the drift: the old areas and pressure at its beginning, the new ones at its end.
+  double swelling = power(p);
+  work_ -= 0.5 * dt * pressure_ * swelling;
+  if (look && (moved_ > move_of_areas * mean_radius_ || broken_bonds(bonds) != broken_)) {
+    find(p, bonds, planes);
+    swelling = power(p);
+  }
+  pressure_ = pressure;
+  work_ -= 0.5 * dt * pressure_ * swelling;
+  for (std::size_t k = 0; k < particle_.size(); ++k)
+    p.force[static_cast<std::size_t>(particle_[k])] -= pressure_ * area_[k];
+}
+
+void Confinement::set_numbers(const std::vector<double> &n) {
+  if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
+  pressure_ = n[0];
+  work_ = n[1];
+  moved_ = n[2];
+  broken_ = n[3];
+}
+
+} // namespace platen::dem

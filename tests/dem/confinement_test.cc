@@ -1,0 +1,207 @@
+// A pressure on the skin: the surface that it acts on is closed, has the specimen's area, and is that of the
+// specimen as it is now.
+#include "dem/confinement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "dem/packing/advancing_front.h"
+#include "dem/packing/growth.h"
+#include "dem/parallel.h"
+
+namespace platen::dem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+BondLayout layout() {
+  BondLayout l;
+  l.modulus = 36e9;
+  l.gap = 0.05;
+  return l;
+}
+
+struct Body {
+  Specimen specimen;
+  Particles particles;
+  Bonds bonds;
+  explicit Body(const Specimen &s)
+      : specimen(s), particles(s, 2400, true), bonds(particles, layout(), ParallelBond::Parameters{}) {}
+  EndPlanes planes() const { return {0, specimen.shape.height}; }
+  Confinement confinement(ConfinementArea kind = ConfinementArea::voronoi) const {
+    return Confinement(particles, &bonds, specimen.shape, planes(), kind);
+  }
+};
+
+const Specimen &packed_cylinder() {
+  static const Specimen s = random_close_packing(cylinder(10e-3, 25e-3), 1e-3, 0.25, 4);
+  return s;
+}
+Specimen packed_box() {
+  return random_close_packing(box(16e-3, 20e-3, 20e-3), 1e-3, 0.25, 4);
+}
+
+Vector3 sum_of_areas(const Confinement &c) {
+  Vector3 sum;
+  for (std::size_t k = 0; k < c.size(); ++k)
+    sum += c.area(k);
+  return sum;
+}
+double total_area(const Confinement &c) {
+  double sum = 0;
+  for (std::size_t k = 0; k < c.size(); ++k)
+    sum += norm(c.area(k));
+  return sum;
+}
+
+TEST(confinement, a_uniform_pressure_has_neither_force_nor_moment) {
+  for (const Specimen &s : {packed_cylinder(), packed_box()})
+    for (const ConfinementArea kind : {ConfinementArea::voronoi, ConfinementArea::sphere}) {
+      const Body body(s);
+      const Confinement c = body.confinement(kind);
+      Vector3 moment;
+      for (std::size_t k = 0; k < c.size(); ++k)
+        moment += cross(body.particles.position[static_cast<std::size_t>(c.particle(k))], c.area(k));
+      // Round-off of some hundred terms.
+      EXPECT_LT(norm(sum_of_areas(c)), 1e-13 * total_area(c));
+      EXPECT_LT(norm(moment), 1e-13 * total_area(c) * s.shape.height);
+    }
+}
+
+// Before it is balanced: the diagram's own surface is closed but for the 32 faces that stand for a ball.
+TEST(confinement, the_diagrams_surface_is_nearly_closed_by_itself) {
+  const Body body(packed_cylinder());
+  Skin skin = find_skin(body.particles, std::vector<char>(body.particles.size(), 1), body.planes());
+  EXPECT_LT(balance(skin, body.particles), 0.01);
+}
+
+TEST(confinement, voronoi_areas_are_those_of_the_shape) {
+  const Body round(packed_cylinder());
+  const Confinement c = round.confinement();
+  double radial = 0, halves[2] = {0, 0}, upper = 0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Vector3 x = round.particles.position[static_cast<std::size_t>(c.particle(k))], a = c.area(k);
+    const double outward = (a.x * x.x + a.y * x.y) / std::hypot(x.x, x.y);
+    radial += outward;
+    halves[x.x > 0] += a.x;
+    if (x.z > 0.5 * round.specimen.shape.height) upper += outward;
+  }
+  const double area = 2 * pi * 10e-3 * 25e-3;
+  EXPECT_NEAR(radial / area, 1, 0.01);
+  EXPECT_NEAR(c.coverage(round.particles, round.planes()), 1, 0.01);
+  // What a section through the axis has to carry: the projected area, 2 r h; 3 % for the spheres that it
+  // cuts.
+  EXPECT_NEAR(halves[1] / (20e-3 * 25e-3), 1, 0.03);
+  EXPECT_NEAR(-halves[0] / (20e-3 * 25e-3), 1, 0.03);
+  EXPECT_NEAR(upper / area, 0.5, 0.02); // no end is favoured
+  // The diagram needs little mending: the balls' own surface is larger because it lies further out.
+  EXPECT_GT(c.factor(), 0.85);
+  EXPECT_LT(c.factor(), 1.0);
+
+  const Body square(packed_box());
+  const Confinement b = square.confinement();
+  double face_x = 0, face_y = 0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const Vector3 x = square.particles.position[static_cast<std::size_t>(b.particle(k))];
+    if (x.x > 0) face_x += b.area(k).x;
+    if (x.y > 0) face_y += b.area(k).y;
+  }
+  EXPECT_NEAR(face_x / (20e-3 * 20e-3), 1, 0.04);
+  EXPECT_NEAR(face_y / (16e-3 * 20e-3), 1, 0.04);
+}
+
+TEST(confinement, the_skin_is_at_the_surface) {
+  const Body body(packed_cylinder());
+  const Confinement c = body.confinement();
+  std::set<int> skin;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    skin.insert(c.particle(k));
+    const Vector3 x = body.particles.position[static_cast<std::size_t>(c.particle(k))];
+    EXPECT_GT(std::hypot(x.x, x.y), 10e-3 - 4e-3) << "a pore inside is taken for the outside";
+  }
+  for (std::size_t i = 0; i < body.particles.size(); ++i) {
+    const Vector3 x = body.particles.position[i];
+    const bool at_wall = std::hypot(x.x, x.y) > 10e-3 - 1.05 * body.particles.radius[i];
+    EXPECT_TRUE(!at_wall || skin.count(static_cast<int>(i)) == 1) << i;
+  }
+}
+
+TEST(confinement, areas_follow_the_deformed_surface) {
+  Body body(packed_cylinder());
+  Confinement c = body.confinement();
+  // Centres move outwards by a tenth; the surface lies a ball of 2 R beyond the outermost, which does not
+  // grow.
+  for (std::size_t i = 0; i < body.particles.size(); ++i) {
+    body.particles.position[i].x *= 1.1;
+    body.particles.position[i].y *= 1.1;
+  }
+  c.add_forces(body.particles, &body.bonds, body.planes(), 0, 0, 1e-3, true);
+  const double r = 10e-3, sphere = 1e-3, expected = (1.1 * (r - sphere) + 2 * sphere) / (r + sphere);
+  EXPECT_NEAR(c.coverage(body.particles, body.planes()), expected, 0.01);
+}
+
+TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneath) {
+  Body body(packed_cylinder());
+  Confinement c = body.confinement();
+  const int loose = c.particle(c.size() / 2);
+  const double before = c.coverage(body.particles, body.planes());
+  std::set<int> skin;
+  for (std::size_t k = 0; k < c.size(); ++k)
+    skin.insert(c.particle(k));
+  std::vector<BondBreak> breaks;
+  for (std::size_t k = 0; k < body.bonds.size(); ++k)
+    if (body.bonds.first[k] == loose || body.bonds.second[k] == loose)
+      breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  ASSERT_FALSE(breaks.empty());
+  body.bonds.break_rows(breaks, body.particles, 0.0);
+  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, false);
+  EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0) << "nobody has looked yet";
+  for (Vector3 &f : body.particles.force)
+    f = {};
+  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, true);
+  EXPECT_EQ(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0);
+  EXPECT_NEAR(c.coverage(body.particles, body.planes()), before, 0.01); // its share has gone to others
+  // Ejected, far away, it changes nothing more.
+  const std::size_t size = c.size();
+  body.particles.position[static_cast<std::size_t>(loose)] += {0.1, 0, 0};
+  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 1e-3, true);
+  EXPECT_EQ(c.size(), size);
+}
+
+TEST(confinement, work_is_pressure_times_the_volume_that_is_lost) {
+  Body body(packed_cylinder());
+  Confinement c = body.confinement();
+  // Every sphere moves towards the axis by 1e-4 of its distance: dV/V = -2e-4.
+  for (std::size_t i = 0; i < body.particles.size(); ++i) {
+    const Vector3 x = body.particles.position[i];
+    body.particles.velocity[i] = {-1e-4 * x.x, -1e-4 * x.y, 0};
+  }
+  const double p = 5e6, lost = 2e-4 * body.specimen.shape.volume();
+  c.add_forces(body.particles, &body.bonds, body.planes(), p, 1.0, 0, false);
+  EXPECT_NEAR(c.work(), 0.5 * p * c.coverage(body.particles, body.planes()) * lost, 0.06 * p * lost)
+      << "the pressure has risen from 0 in the step; centres lie a radius (10 %) inside the surface";
+  const double first = c.work();
+  c.add_forces(body.particles, &body.bonds, body.planes(), p, 1.0, 0, false);
+  EXPECT_NEAR(c.work() - first, 2 * first, 1e-12 * first);
+}
+
+TEST(confinement, threads_change_no_bit) {
+  const Body body(packed_cylinder());
+  std::vector<Vector3> areas[2];
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    const Confinement c = body.confinement();
+    for (std::size_t k = 0; k < c.size(); ++k)
+      areas[threads > 1].push_back(c.area(k));
+  }
+  ASSERT_EQ(areas[0].size(), areas[1].size());
+  for (std::size_t k = 0; k < areas[0].size(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(areas[0][k][axis], areas[1][k][axis]);
+}
+
+} // namespace
+} // namespace platen::dem
