@@ -43,20 +43,24 @@ fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, b
       fem::BoxPlate{{-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}});
 }
 
-// Without bonds the stiffness that a bond would have still measures the grains.
-double platen_stiffness(const dem::Model &model, const ProblemSettings &settings) {
-  const PlatenSettings &p = settings.platens;
-  if (p.stiffness_absolute > 0) return p.stiffness_absolute;
+// Without bonds the stiffness that a bond would have still measures the grains; N/m.
+double mean_bond_stiffness(const dem::Model &model, const ProblemSettings &settings) {
   double sum = 0;
   if (model.bonds && model.bonds->size() > 0) {
     const dem::Bonds &b = *model.bonds;
     for (std::size_t k = 0; k < b.size(); ++k)
       sum += pi * b.bond_radius[k] * b.bond_radius[k] * b.normal_stiffness[k];
-    return p.stiffness_of_bond * sum / static_cast<double>(b.size());
+    return sum / static_cast<double>(b.size());
   }
   for (const double r : model.particles.radius)
     sum += model.settings().bond_layout.axial_stiffness(r, r);
-  return p.stiffness_of_bond * sum / static_cast<double>(std::max<std::size_t>(model.particles.size(), 1));
+  return sum / static_cast<double>(std::max<std::size_t>(model.particles.size(), 1));
+}
+
+double platen_stiffness(const dem::Model &model, const ProblemSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (p.stiffness_absolute > 0) return p.stiffness_absolute;
+  return p.stiffness_of_bond * mean_bond_stiffness(model, settings);
 }
 
 SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
@@ -132,6 +136,10 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   if (settings.loading.cell) start_cell(*settings.loading.cell);
+  if (settings.loading.wall_stiffness > 0)
+    wall_ = std::make_unique<dem::LateralWall>(
+        model.particles, shape_, settings.loading.wall_stiffness * mean_bond_stiffness(model, settings),
+        settings.loading.wall_layer * dem::mean_radius(specimen));
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
@@ -182,9 +190,14 @@ void Problem::choose_step(bool first) {
   // Lists made now, so that the choice is the same whether the run was stopped and resumed on its way or not.
   top_layer.make_list(model.particles, top);
   bottom_layer.make_list(model.particles, bottom);
-  const std::vector<dem::GroundSpring> springs = ground_springs();
-  const dem::StableStep limit = model.stable_step(springs, settings_.platens.damping);
+  std::vector<dem::GroundSpring> springs = ground_springs();
   near_at_choice_ = (model.contacts ? model.contacts->table.size() : 0) + springs.size();
+  if (wall_) {
+    wall_->make_list(model.particles);
+    const std::vector<dem::GroundSpring> more = wall_->ground_springs(model.particles);
+    springs.insert(springs.end(), more.begin(), more.end());
+  }
+  const dem::StableStep limit = model.stable_step(springs, settings_.platens.damping);
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string above =
@@ -240,7 +253,12 @@ void Problem::set_platen_speeds() {
     bottom.set_velocity({0, 0, 0});
     return;
   }
-  const double speed = (loading.tension ? -0.5 : 0.5) * loading.rate * start;
+  double speed = (loading.tension ? -0.5 : 0.5) * loading.rate * start;
+  if (!loading.unload_at.empty()) {
+    const double most = ramp_ > 0 ? 2 * time_step_ / ramp_ : 2.0;
+    cycle_.speed += std::clamp(cycle_.direction - cycle_.speed, -most, most);
+    speed *= cycle_.speed;
+  }
   top.set_velocity({0, 0, -speed});
   bottom.set_velocity({0, 0, speed});
 }
@@ -320,6 +338,27 @@ void Problem::add_forces() {
   give_platen_forces();
   book_reactions();
   if (confinement_) press_skin();
+  if (wall_) wall_->add_forces(model.particles, model.last_motion().fastest * dt);
+  if (!settings_.loading.unload_at.empty() && axial_stage()) turn_round();
+}
+
+double Problem::confining_pressure() const {
+  if (confinement_) return confinement_->pressure();
+  if (!wall_) return 0;
+  const dem::EndPlanes planes = end_planes();
+  return wall_->pressure(planes.high - planes.low);
+}
+
+void Problem::turn_round() {
+  const LoadingSettings &loading = settings_.loading;
+  const double pressure = confinement_ ? confinement_->pressure() : 0.0;
+  const double deviator = 0.5 * (stress_top() + stress_bottom()) - pressure;
+  const double stress = loading.tension ? -deviator : deviator;
+  const std::size_t turns = static_cast<std::size_t>(cycle_.turns);
+  if (cycle_.direction > 0 && turns < loading.unload_at.size() && loaded_strain() >= loading.unload_at[turns])
+    cycle_ = {-1, cycle_.speed, cycle_.turns + 1, loaded_strain(), stress};
+  else if (cycle_.direction < 0 && stress <= loading.unload_to * cycle_.stress)
+    cycle_.direction = 1;
 }
 
 void Problem::press_skin() {
@@ -387,6 +426,7 @@ double Problem::platen_speed() const {
 
 dem::EnergyLedger Problem::energy() const {
   dem::EnergyLedger e = model.energy();
+  if (wall_) e.contacts += wall_->elastic_energy();
   e.contacts += top_layer.elastic_energy() + bottom_layer.elastic_energy();
   e.friction += top_layer.friction_work + bottom_layer.friction_work;
   e.damping += top_layer.damping_work + bottom_layer.damping_work;
@@ -424,6 +464,8 @@ std::vector<double> Problem::numbers() const {
                           bottom_layer.damping_work,
                           static_cast<double>(top_layer.closed),
                           static_cast<double>(bottom_layer.closed)};
+  if (!settings_.loading.unload_at.empty())
+    all.insert(all.end(), {cycle_.direction, cycle_.speed, cycle_.turns, cycle_.strain, cycle_.stress});
   if (confinement_) {
     all.push_back(cell_end_);
     const std::vector<double> more = confinement_->numbers();
@@ -439,6 +481,7 @@ void Problem::set_numbers(const std::vector<double> &n) {
     cell_end_ = *(n.end() - own - 1);
     confinement_->set_numbers({n.end() - own, n.end()});
   }
+  if (!settings_.loading.unload_at.empty()) cycle_ = {n[21], n[22], n[23], n[24], n[25]};
   if (servo_) servo_->set_state({n[0]});
   model.time = n[1];
   time_step_ = n[2];
@@ -462,6 +505,7 @@ void Problem::set_numbers(const std::vector<double> &n) {
 void Problem::restored() {
   top_layer.restored();
   bottom_layer.restored();
+  if (wall_) wall_->forget();
   if (model.bonds) model.bonds->restored();
   if (model.contacts) model.contacts->restored();
 }

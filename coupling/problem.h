@@ -11,6 +11,7 @@
 #include "coupling/contact_layer.h"
 #include "coupling/servo.h"
 #include "dem/confinement.h"
+#include "dem/lateral_wall.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
@@ -67,6 +68,12 @@ struct LoadingSettings {
   bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
   std::optional<CellSettings> cell;
+  double wall_stiffness = 0; // multiple of the mean bond's; 0: no wall around the specimen
+  double wall_layer = 1;     // mean radii: deeper spheres are not seated on the wall
+  // Closure strains at which the platens turn round until the axial stress (less the cell's pressure) has
+  // fallen to this share of what it was; ascending.
+  std::vector<double> unload_at;
+  double unload_to = 0.1;
 };
 
 struct ProblemSettings {
@@ -110,11 +117,16 @@ public:
   std::size_t springs_near() const; // grain contacts that are near, platen contacts that are closed
   std::size_t bytes() const; // of all columns of particles, bonds and contacts, and of the search lists
 
-  // Of a cell: its pressure now, Pa; whether the platens have taken over (true without one). They do when the
-  // pressure has risen and stood for its time, and the axial stress is within 1 % of it.
-  double confining_pressure() const { return confinement_ ? confinement_->pressure() : 0.0; }
+  // Pressure of the cell, or on the wall; Pa. Whether the platens have taken over (true without one). They do
+  // when the pressure has risen and stood for its time, and the axial stress is within 1 % of it.
+  double confining_pressure() const;
   bool axial_stage() const { return !confinement_ || model.time >= cell_end_; }
-  double cell_ramp() const { return cell_ramp_; }                // s
+  double cell_ramp() const { return cell_ramp_; } // s
+  // From a turn of the platens until the strain of the turn has been reached again.
+  bool cycling() const {
+    return cycle_.turns > 0 && (cycle_.direction < 0 || loaded_strain() < cycle_.strain);
+  }
+  const dem::LateralWall *wall() const { return wall_.get(); }   // null without a wall
   dem::Confinement *confinement() { return confinement_.get(); } // null without a pressure on the skin
   const dem::Confinement *confinement() const { return confinement_.get(); }
   dem::EndPlanes end_planes() const; // where the platens' faces are now
@@ -138,6 +150,8 @@ private:
   void look_at_step();
   void add_forces();
   void press_skin();
+  void turn_round();
+  double loaded_strain() const { return settings_.loading.tension ? -closure_strain() : closure_strain(); }
   void look_at_cell();
   double lead_of_cell(double time) const;
   void start_cell(const CellSettings &cell);
@@ -164,6 +178,12 @@ private:
   std::unique_ptr<Servo> servo_;                  // null where both platens are always driven
   double cell_ramp_ = 0, cell_end_ = 0;           // s
   std::unique_ptr<dem::Confinement> confinement_;
+  std::unique_ptr<dem::LateralWall> wall_;
+  struct Cycle {
+    double direction = 1, speed = 1; // of loading; what the speed is now, which follows within the ramp
+    double turns = 0;
+    double strain = 0, stress = 0; // of the last turn; Pa
+  } cycle_;
 };
 
 } // namespace platen::coupling

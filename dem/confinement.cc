@@ -30,10 +30,6 @@ double broken_bonds(const Bonds *bonds) {
          static_cast<double>(bonds->size() - bonds->broken_rows);
 }
 
-double perimeter(const Shape &s) {
-  return s.kind == ShapeKind::cylinder ? 2 * pi * s.radius : 2 * (s.width_x + s.width_y);
-}
-
 // From the lateral surface inwards, m.
 double lateral_clearance(const Shape &s, const Vector3 &x) {
   if (s.kind == ShapeKind::cylinder) return s.radius - std::hypot(x.x, x.y);
@@ -82,7 +78,7 @@ double Confinement::coverage(const Particles &p, const EndPlanes &planes) const 
     else
       sum += std::copysign(1.0, x.x) * a.x + std::copysign(1.0, x.y) * a.y;
   }
-  return sum / (perimeter(shape_) * (planes.high - planes.low));
+  return sum / (lateral_perimeter(shape_) * (planes.high - planes.low));
 }
 
 Skin Confinement::sphere_skin(const Particles &p, const std::vector<char> &body) const {

@@ -85,6 +85,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.stress_top = problem.stress_top();
   s.stress_bottom = problem.stress_bottom();
   s.confining_pressure = problem.confining_pressure();
+  if (problem.confinement() != nullptr) s.cell_pressure = s.confining_pressure;
   s.intact_bonds = static_cast<double>(model.intact_bonds());
   s.broken_tension = static_cast<double>(model.broken(dem::BondState::broken_in_tension));
   s.broken_shear = static_cast<double>(model.broken(dem::BondState::broken_in_shear));
@@ -101,6 +102,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.unbalanced = problem.unbalanced_ratio();
   s.platen_speed = problem.platen_speed();
   s.time_step = problem.time_step();
+  s.cycling = problem.cycling() ? 1.0 : 0.0;
   s.axial_stage = problem.axial_stage() ? 1.0 : 0.0;
   s.touching = model.contacts ? static_cast<double>(model.contacts->touching_count()) : 0.0;
   return s;

@@ -19,7 +19,8 @@ struct Sample {
   double lateral_strain = 0, volumetric_strain = 0;
   double lateral_extremal = 0, axial_extremal = 0; // Tannu's pairs of outermost particles
   double stress_top = 0, stress_bottom = 0;        // Pa
-  double confining_pressure = 0;                   // Pa
+  double confining_pressure = 0;                   // Pa, of a cell or on a wall
+  double cell_pressure = 0;                        // Pa, of a cell alone
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
          plastic = 0;      // J
@@ -28,10 +29,11 @@ struct Sample {
   double platen_speed = 0; // m/s
   double time_step = 0;    // s
   double touching = 0;     // grain contacts
+  double cycling = 0;      // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;  // 0 while a cell's pressure rises and stands alone
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
-  double deviator() const { return stress() - confining_pressure; }    // Pa
+  double deviator() const { return stress() - cell_pressure; }         // Pa
   double internal() const { return bond + contact + body; }            // J
 };
 

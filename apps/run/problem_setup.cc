@@ -48,6 +48,8 @@ std::vector<Effect> effects(const Scene &s) {
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
           {s.loading.cell(), "confinement on particles"},
+          {s.loading.walled(), "lateral wall"},
+          {!s.loading.unload_at.empty(), "unloading"},
           {s.specimen.seat, "seats"},
           {s.integration.mass_scaling > 1, "mass scaling"},
           {e.energy_ledger, "energy ledger"},
@@ -107,6 +109,9 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;
   if (scene.loading.cell()) to.loading.cell = cell_settings(scene.loading);
+  if (scene.loading.walled()) to.loading.wall_stiffness = scene.loading.wall_stiffness;
+  to.loading.unload_at = scene.loading.unload_at;
+  to.loading.unload_to = scene.loading.unload_to;
   to.safety = scene.integration.safety;
   to.fixed_step = scene.integration.time_step;
   return to;

@@ -33,7 +33,7 @@ Pattern measure_pattern(const coupling::Problem &problem) {
 
 bool Results::add(const Sample &sample, const coupling::Problem &problem) {
   samples_.push_back(sample);
-  if (sample.axial_stage == 0) return false;
+  if (sample.axial_stage == 0 || sample.cycling != 0) return false;
   const double now = stress(sample);
   if (now > peak_) {
     peak_ = now;
@@ -52,7 +52,8 @@ bool Results::add(const Sample &sample, const coupling::Problem &problem) {
 }
 
 bool Results::fallen_to(double share) const {
-  return !samples_.empty() && peak_ > 0 && stress(samples_.back()) < share * peak_;
+  return !samples_.empty() && samples_.back().cycling == 0 && peak_ > 0 &&
+         stress(samples_.back()) < share * peak_;
 }
 
 std::size_t Results::peak_row() const {
@@ -60,7 +61,9 @@ std::size_t Results::peak_row() const {
   while (best + 1 < samples_.size() && samples_[best].axial_stage == 0)
     ++best;
   for (std::size_t k = 1; k < samples_.size(); ++k)
-    if (samples_[k].axial_stage != 0 && stress(samples_[k]) > stress(samples_[best])) best = k;
+    if (samples_[k].axial_stage != 0 && samples_[k].cycling == 0 &&
+        stress(samples_[k]) > stress(samples_[best]))
+      best = k;
   return best;
 }
 
@@ -81,7 +84,7 @@ const Sample &Results::zero() const {
 double Results::bulk_modulus() const {
   if (samples_.empty()) return not_measured;
   const Sample &end = zero();
-  return end.confining_pressure > 0 ? end.confining_pressure / end.volumetric_strain : not_measured;
+  return end.cell_pressure > 0 ? end.cell_pressure / end.volumetric_strain : not_measured;
 }
 
 double Results::gained_at_peak(double Sample::*value) const {
@@ -120,6 +123,10 @@ double Results::youngs_modulus_gauge() const {
 double Results::youngs_modulus_platen() const {
   const Crossing c = ascending(modulus_share);
   return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_platen)) : not_measured;
+}
+double Results::lateral_over_axial() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? at(c, &Sample::confining_pressure) / (modulus_share * peak_) : not_measured;
 }
 double Results::poisson_ratio() const {
   const Crossing c = ascending(modulus_share);

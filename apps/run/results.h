@@ -40,8 +40,9 @@ public:
   double bulk_modulus() const;
   double strain_at_peak_platen() const, strain_at_peak_gauge() const;
   double youngs_modulus_gauge() const, youngs_modulus_platen() const; // Pa, secant at 40 % of the strength
-  double poisson_ratio() const;                                       // gauge, at 40 % of the strength
-  double poisson_ratio_extremal() const;                              // Tannu's way, there
+  double lateral_over_axial() const;     // pressure on a wall over axial stress, at 40 % of its largest value
+  double poisson_ratio() const;          // gauge, at 40 % of the strength
+  double poisson_ratio_extremal() const; // Tannu's way, there
   // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
   double energy_residual_relative() const;
   double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak

@@ -61,6 +61,17 @@ void add_cell(Json &to, const coupling::Problem &problem, const Results &results
   to["confinement_work_j"] = skin->work();
 }
 
+// Between a stiff wall neither Young's modulus nor Poisson's ratio is measured, but these.
+void add_wall(Json &to, const coupling::Problem &problem, const Results &results) {
+  if (problem.wall() == nullptr) return;
+  to["wall_seats"] = problem.wall()->seats();
+  to["constrained_modulus_pa"] = results.youngs_modulus_gauge();
+  to["lateral_over_axial_stress"] = results.lateral_over_axial();
+  for (const char *key :
+       {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"})
+    to[key] = nullptr;
+}
+
 } // namespace
 
 std::size_t bytes_per_bond(const dem::Model &model) {
@@ -112,6 +123,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["poisson_ratio_extremal"] = results.poisson_ratio_extremal();
   s["youngs_modulus_voigt_pa"] = problem.voigt_modulus() > 0 ? problem.voigt_modulus() : not_measured;
   add_cell(s, problem, results);
+  add_wall(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
@@ -144,10 +156,14 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   }
   line("strain at peak (platen, gauge)",
        fmt::format("{:.5f}, {:.5f}", results.strain_at_peak_platen(), results.strain_at_peak_gauge()));
-  line("Young's modulus (gauge, platen)",
+  const bool walled = problem.wall() != nullptr;
+  line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
        fmt::format("{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
                    results.youngs_modulus_platen() / 1e9));
-  line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
+  if (walled)
+    line("lateral over axial stress", fmt::format("{:.3f}", results.lateral_over_axial()));
+  else
+    line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
   line("broken bonds (tension, shear)",
        fmt::format("{}, {} of {}", problem.model.broken(dem::BondState::broken_in_tension),
                    problem.model.broken(dem::BondState::broken_in_shear),

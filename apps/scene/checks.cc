@@ -25,6 +25,7 @@ public:
   void contact() const;
   void platens() const;
   void loading() const;
+  void cycles() const;
   void cell() const;
   void pair_test() const;
   void notes();
@@ -231,8 +232,22 @@ void SceneCheck::loading() const {
       refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
 }
 
+void SceneCheck::cycles() const {
+  const Loading &loading = scene_.loading;
+  if (loading.unload_at.empty()) return;
+  if (!std::is_sorted(loading.unload_at.begin(), loading.unload_at.end()))
+    refuse("Loading/Unload at", "does not ascend.");
+  if (loading.unload_at.back() >= loading.target_strain)
+    refuse("Loading/Unload at",
+           "goes beyond Loading/Target strain = " + parameters_.at("Loading/Target strain").text + ".");
+  if (loading.hydrostatic() || scene_.platens.top_control == PlatenControl::stress)
+    refuse("Loading/Unload at", "needs platens that are driven by motion.");
+}
+
 void SceneCheck::cell() const {
   const Loading &loading = scene_.loading;
+  if (loading.walled() && loading.confinement != ConfinementKind::none)
+    refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
   if (loading.hydrostatic() && !loading.cell())
     refuse("Loading/Test", "needs Loading/Confinement = particles: the lateral surface is pressed too.");
   if (!loading.cell()) return;
@@ -324,6 +339,8 @@ void SceneCheck::notes() {
   if (!scene_.loading.cell())
     for (const char *key : {"Loading/Confining ramp", "Loading/Confinement area"})
       note(key, "Loading/Confinement is not particles");
+  if (!scene_.loading.walled()) note("Loading/Wall stiffness", "Loading/Test is not uniaxial strain");
+  if (scene_.loading.unload_at.empty()) note("Loading/Unload to", "Loading/Unload at is empty");
   if (scene_.loading.hydrostatic())
     for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Loading/Stop at residual"})
       note(key, "Loading/Test = hydrostatic");
@@ -350,6 +367,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.contact();
   check.platens();
   check.loading();
+  check.cycles();
   check.cell();
   check.pair_test();
   check.notes();

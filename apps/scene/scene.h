@@ -191,7 +191,12 @@ struct Loading {
   double confining_ramp = 0;     // s; 0: the app chooses
   ConfinementArea confinement_area = ConfinementArea::voronoi;
 
+  double wall_stiffness = 10;    // of the mean bond's; test = uniaxial_strain
+  std::vector<double> unload_at; // closure strains, ascending
+  double unload_to = 0.1;        // share of the axial stress at the turn
+
   bool cell() const { return confinement == ConfinementKind::particles; }
+  bool walled() const { return test == LoadingTest::uniaxial_strain; }
   bool hydrostatic() const { return test == LoadingTest::hydrostatic; }
 };
 

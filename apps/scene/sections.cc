@@ -242,9 +242,10 @@ void declare_loading(Parameters &parameters, Loading &loading) {
        {"tension", LoadingTest::tension},
        {"hydrostatic", LoadingTest::hydrostatic},
        {"uniaxial strain", LoadingTest::uniaxial_strain}},
-      {"uniaxial strain"},
-      "The platens approach or part; hydrostatic: they and the lateral surface press alike, "
-      "up to Confining pressure.");
+      {},
+      "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
+      "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
+      "holds the lateral surface.");
   section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
                    "Speed of closure (tension: of opening).");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
@@ -266,6 +267,13 @@ void declare_loading(Parameters &parameters, Loading &loading) {
                    "Lateral pressure, and that on the platens while it rises.");
   section.quantity("Confining ramp", loading.confining_ramp, "s", at_least(0),
                    "Time in which the pressure rises smoothly; 0: chosen by the app.");
+  section.number("Wall stiffness", loading.wall_stiffness, above_up_to(0, 1000),
+                 "Of each sphere at the wall, as a multiple of the mean bond's (Test = uniaxial strain).");
+  section.list("Unload at", loading.unload_at, "1", above_up_to(0, 1),
+               "Closures over height, ascending, at which the platens turn round; empty: never.");
+  section.number(
+      "Unload to", loading.unload_to, between(0, 0.95),
+      "Share of the axial stress at the turn (less a confining pressure) at which they load again.");
   section.word<ConfinementArea>(
       "Confinement area", loading.confinement_area,
       {{"voronoi", ConfinementArea::voronoi}, {"sphere", ConfinementArea::sphere}}, {},
@@ -327,6 +335,8 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"youngs_modulus_platen_pa", "Pa"},
     {"deviator_strength_pa", "Pa"},
     {"bulk_modulus_pa", "Pa"},
+    {"constrained_modulus_pa", "Pa"},
+    {"lateral_over_axial_stress", "1"},
     {"poisson_ratio", "1"},
     {"broken_tension", "1"},
     {"broken_shear", "1"},

@@ -100,10 +100,13 @@ Shape box(double width_x, double width_y, double height) {
   return shape;
 }
 
+double lateral_perimeter(const Shape &shape) {
+  return shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
+                                           : 2 * (shape.width_x + shape.width_y);
+}
+
 double surface_area(const Shape &shape) {
-  const double perimeter = shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
-                                                             : 2 * (shape.width_x + shape.width_y);
-  return perimeter * shape.height + 2 * shape.cross_section();
+  return lateral_perimeter(shape) * shape.height + 2 * shape.cross_section();
 }
 
 double smallest_width(const Shape &shape) {

@@ -28,6 +28,7 @@ struct Shape {
 Shape cylinder(double radius, double height);             // m
 Shape box(double width_x, double width_y, double height); // m
 double surface_area(const Shape &shape);                  // m^2, ends included
+double lateral_perimeter(const Shape &shape);         // m, of the cross-section
 double smallest_width(const Shape &shape);                // m: diameter, an edge, or the height
 // Distance from a point to the nearest wall or end plane, m; negative outside (there, for a box, the largest
 // distance to a face plane).

@@ -81,14 +81,16 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
                {"bad.prm:3", "needs Loading/Confinement = particles"});
   refuse_scene("subsection Loading\n  set Confinement = particles\nend\n",
                {"bad.prm:3", "needs Loading/Confining pressure > 0"});
+  refuse_scene("subsection Loading\n  set Unload at = 0.003, 0.002\nend\n", {"bad.prm:3", "does not ascend"});
+  refuse_scene("subsection Loading\n  set Unload at = 0.05\nend\n",
+               {"bad.prm:3", "goes beyond Loading/Target strain = 0.008"});
   refuse_scene("subsection Expect\n  set strenth_pa = 1 ... 2\nend\n",
                {"bad.prm:3", "strenth_pa", "strength_pa"});
 }
 
 TEST_F(Errors, what_is_not_there_yet_is_refused_and_not_ignored) {
-  for (const char *entry :
-       {"Loading/Confinement = sleeve", "Loading/Test = uniaxial strain", "Platens/Kind = deformable",
-        "Specimen/Shape = disc", "Scene/Quality = reference"})
+  for (const char *entry : {"Loading/Confinement = sleeve", "Platens/Kind = deformable",
+                            "Specimen/Shape = disc", "Scene/Quality = reference"})
     refuse({with({entry}),
             {"command line, --set 1: error: " + std::string(entry) + " is not available in this version"}});
   refuse({with({"Sleeve/Thickness = 2 mm"}), {"Loading/Confinement = sleeve, which is not available"}});
