@@ -38,7 +38,9 @@ fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, b
   if (s.shape.kind == dem::ShapeKind::cylinder)
     return fem::make_grid(
         fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2});
-  const double x = 0.5 * p.overhang * s.shape.width_x, y = 0.5 * p.overhang * s.shape.width_y;
+  const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
+  const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
+               y = 0.5 * p.overhang * s.shape.width_y;
   return fem::make_grid(
       fem::BoxPlate{{-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}});
 }

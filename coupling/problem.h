@@ -45,9 +45,10 @@ struct PlatenSettings {
   double stiffness_of_bond = 1;  // multiple of the mean bond's k_n A ...
   double stiffness_absolute = 0; // ... or N/m where positive
   double tangential_ratio = 0.8;
-  double damping = 0.2;  // fraction of critical
-  double overhang = 1.2; // platen half-width over the specimen's
-  double thickness = 0;  // m
+  double damping = 0.2;   // fraction of critical
+  double strip_width = 0; // m, of strips that press a disc; 0: as wide as the platens
+  double overhang = 1.2;  // platen half-width over the specimen's
+  double thickness = 0;   // m
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;

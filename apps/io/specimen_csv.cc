@@ -31,6 +31,8 @@ std::string_view trimmed(std::string_view text) {
 std::string shape_line(const dem::Shape &shape) {
   if (shape.kind == dem::ShapeKind::cylinder)
     return fmt::format("{} cylinder radius_m={} height_m={}\n", shape_words, shape.radius, shape.height);
+  if (shape.kind == dem::ShapeKind::disc)
+    return fmt::format("{} disc radius_m={} thickness_m={}\n", shape_words, shape.radius, shape.width_y);
   return fmt::format("{} box width_x_m={} width_y_m={} height_m={}\n", shape_words, shape.width_x,
                      shape.width_y, shape.height);
 }
@@ -52,10 +54,12 @@ dem::Shape read_shape(std::string_view text, const Place &place) {
   std::map<std::string, double *> wanted;
   if (kind == "cylinder")
     wanted = {{"radius_m", &shape.radius}, {"height_m", &shape.height}};
+  else if (kind == "disc")
+    wanted = {{"radius_m", &shape.radius}, {"thickness_m", &shape.width_y}};
   else if (kind == "box")
     wanted = {{"width_x_m", &shape.width_x}, {"width_y_m", &shape.width_y}, {"height_m", &shape.height}};
   else
-    place.fail(fmt::format("shape \"{}\" is not known; allowed: cylinder, box", kind));
+    place.fail(fmt::format("shape \"{}\" is not known; allowed: cylinder, box, disc", kind));
   shape.kind = kind == "cylinder" ? dem::ShapeKind::cylinder : dem::ShapeKind::box;
   for (std::string word; words >> word;) {
     const auto equals = word.find('=');
@@ -67,6 +71,7 @@ dem::Shape read_shape(std::string_view text, const Place &place) {
     wanted.erase(found);
   }
   if (!wanted.empty()) place.fail(fmt::format("shape {}: {} is missing", kind, wanted.begin()->first));
+  if (kind == "disc") return dem::disc(shape.radius, shape.width_y);
   return shape;
 }
 

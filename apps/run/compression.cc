@@ -95,9 +95,11 @@ const std::vector<std::string> crack_columns{"time_s",   "axial_strain", "x_m", 
                                              "nx",       "ny",           "nz",        "area_m2", "mode",
                                              "energy_j", "particle_a",   "particle_b"};
 
+enum class Pressed { along_axis, across_axis };
+
 class Test {
 public:
-  Test(const CommandLine &command, const Scene &scene);
+  Test(const CommandLine &command, const Scene &scene, Pressed pressed);
   int run();
 
 private:
@@ -134,21 +136,38 @@ private:
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
-  bool confined_ = false;
+  ExtraColumns columns_;
 };
+
+// The specimen as the app presses it.
+dem::Specimen placed(const Scene &scene, Pressed pressed) {
+  const dem::Specimen made = make_specimen(scene);
+  const auto refuse = [&](const std::string &reason) {
+    if (scene.parameters) scene.parameters->refuse("Specimen/File", reason);
+    throw InputError("Specimen/File " + reason);
+  };
+  if (pressed == Pressed::across_axis) {
+    if (made.shape.kind == dem::ShapeKind::box)
+      refuse("states a box, which cannot be laid on its rim. Allowed: a cylinder, a disc.");
+    return dem::laid_down(made);
+  }
+  if (made.shape.kind == dem::ShapeKind::disc)
+    refuse("states a disc that lies on its rim, for platen-brazilian. Allowed: a cylinder, a box.");
+  return made;
+}
 
 Loudness loudness(const CommandLine &c) {
   return c.quiet ? Loudness::quiet : (c.verbose ? Loudness::verbose : Loudness::normal);
 }
 
-Test::Test(const CommandLine &command, const Scene &scene)
+Test::Test(const CommandLine &command, const Scene &scene, Pressed pressed)
     : command_(command),
       scene_(scene),
       paths_(command.output),
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension),
-      confined_(scene.loading.cell()) {
+      columns_{scene.loading.cell(), pressed == Pressed::across_axis} {
   fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
@@ -159,7 +178,7 @@ Test::Test(const CommandLine &command, const Scene &scene)
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen = command.resume && !command.dry_run
                                      ? read_specimen_csv(paths_.specimen_csv()).specimen
-                                     : make_specimen(scene);
+                                     : placed(scene, pressed);
   try {
     problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
   } catch (const coupling::BadSetup &e) {
@@ -167,9 +186,10 @@ Test::Test(const CommandLine &command, const Scene &scene)
     throw InputError(e.entry() + " " + e.what());
   }
   const double seconds =
-      by_time() ? end_time()
-                : (confined_ ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
-                      scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
+      by_time()
+          ? end_time()
+          : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
+                scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
   expected_steps_ = std::max(1.0, seconds / problem_->time_step());
   sampler_ = std::make_unique<Sampler>(*problem_);
   setup_seconds_ = seconds_since(start_);
@@ -210,7 +230,7 @@ std::string Test::description() const {
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
                       problem_->time_step_reason(), expected_steps_);
-  if (confined_)
+  if (columns_.confined)
     text += fmt::format("  confinement: {} spheres of the skin, ramp {:.3g} s\n",
                         problem_->confinement()->size(), problem_->cell_ramp());
   text +=
@@ -264,7 +284,7 @@ long Test::steps_unobserved() const {
 
 void Test::open_files() {
   if (!command_.resume) {
-    history_.emplace(paths_.history(), history_columns(confined_));
+    history_.emplace(paths_.history(), history_columns(columns_));
     if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     sample();
@@ -275,7 +295,7 @@ void Test::open_files() {
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *problem_, results_);
-  history_.emplace(paths_.history(), history_columns(confined_), marks.history_bytes);
+  history_.emplace(paths_.history(), history_columns(columns_), marks.history_bytes);
   if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
@@ -289,7 +309,7 @@ void Test::open_files() {
 void Test::sample() {
   dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::measures);
   const Sample s = (*sampler_)(*problem_);
-  history_->row(history_row(s, confined_));
+  history_->row(history_row(s, columns_));
   const bool fallen = results_.add(s, *problem_);
   if (fallen && fields_) fields_->write(*problem_); // the state that damage and opening are measured in
 }
@@ -395,7 +415,7 @@ int Test::run() {
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));
   if (signal_ != 0) {
-    log_.info("stopped by a signal; go on with: platen-compress {} -o {} --resume", command_.scene,
+    log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*problem_), command_.scene,
               command_.output);
     return exit_status_of_signal(signal_);
   }
@@ -406,7 +426,11 @@ int Test::run() {
 } // namespace
 
 int run_compression(const CommandLine &command, const Scene &scene) {
-  return Test(command, scene).run();
+  return Test(command, scene, Pressed::along_axis).run();
+}
+
+int run_brazilian(const CommandLine &command, const Scene &scene) {
+  return Test(command, scene, Pressed::across_axis).run();
 }
 
 } // namespace platen::apps

@@ -2,7 +2,7 @@
 
 namespace platen::apps {
 
-std::vector<std::string> history_columns(bool confined) {
+std::vector<std::string> history_columns(const ExtraColumns &extra) {
   std::vector<std::string> columns{"time_s",
                                    "axial_strain_platen",
                                    "axial_strain_gauge",
@@ -30,11 +30,12 @@ std::vector<std::string> history_columns(bool confined) {
                                    "time_step_s",
                                    "grain_contacts",
                                    "plastic_work_j"};
-  if (confined) columns.emplace_back("deviator_pa");
+  if (extra.confined) columns.emplace_back("deviator_pa");
+  if (extra.disc) columns.emplace_back("opening_m");
   return columns;
 }
 
-std::vector<CsvCell> history_row(const Sample &s, bool confined) {
+std::vector<CsvCell> history_row(const Sample &s, const ExtraColumns &extra) {
   const auto count = [](double n) { return CsvCell(static_cast<long long>(n)); };
   std::vector<CsvCell> row{s.time,
                            s.strain_platen,
@@ -63,12 +64,16 @@ std::vector<CsvCell> history_row(const Sample &s, bool confined) {
                            s.time_step,
                            count(s.touching),
                            s.plastic};
-  if (confined) row.emplace_back(s.deviator());
+  if (extra.confined) row.emplace_back(s.deviator());
+  if (extra.disc) row.emplace_back(s.opening);
   return row;
 }
 
 Sampler::Sampler(const coupling::Problem &problem)
-    : gauge_(problem.model.particles, problem.shape()), pairs_(problem.model.particles, problem.shape()) {}
+    : gauge_(problem.model.particles, problem.shape()), pairs_(problem.model.particles, problem.shape()) {
+  if (problem.shape().kind == dem::ShapeKind::disc)
+    opening_.emplace(problem.model.particles, problem.shape());
+}
 
 Sample Sampler::operator()(const coupling::Problem &problem) const {
   const dem::Model &model = problem.model;
@@ -102,6 +107,7 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.unbalanced = problem.unbalanced_ratio();
   s.platen_speed = problem.platen_speed();
   s.time_step = problem.time_step();
+  if (opening_) s.opening = (*opening_)(model.particles);
   s.cycling = problem.cycling() ? 1.0 : 0.0;
   s.axial_stage = problem.axial_stage() ? 1.0 : 0.0;
   s.touching = model.contacts ? static_cast<double>(model.contacts->touching_count()) : 0.0;

@@ -1,6 +1,7 @@
 // One row of history.csv: what is measured at every sample of a run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "coupling/problem.h"
 #include "dem/energy.h"
 #include "dem/measure/gauge.h"
+#include "dem/measure/split.h"
 
 namespace platen::apps {
 
@@ -29,6 +31,7 @@ struct Sample {
   double platen_speed = 0; // m/s
   double time_step = 0;    // s
   double touching = 0;     // grain contacts
+  double opening = 0;      // m, of a disc across its loaded diameter
   double cycling = 0;      // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;  // 0 while a cell's pressure rises and stands alone
 
@@ -37,9 +40,13 @@ struct Sample {
   double internal() const { return bond + contact + body; }            // J
 };
 
-// Confined tests have a column more, deviator_pa.
-std::vector<std::string> history_columns(bool confined);
-std::vector<CsvCell> history_row(const Sample &sample, bool confined);
+// Columns of some tests alone, after the others.
+struct ExtraColumns {
+  bool confined = false; // deviator_pa
+  bool disc = false;     // opening_m
+};
+std::vector<std::string> history_columns(const ExtraColumns &extra);
+std::vector<CsvCell> history_row(const Sample &sample, const ExtraColumns &extra);
 
 // Measures a problem; the gauges remember its reference state.
 class Sampler {
@@ -50,6 +57,7 @@ public:
 private:
   dem::Gauge gauge_;
   dem::ExtremalPairs pairs_;
+  std::optional<dem::DiscOpening> opening_;
 };
 
 } // namespace platen::apps

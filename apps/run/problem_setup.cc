@@ -98,6 +98,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
     to.platens.stiffness_of_bond = from.stiffness.value;
   to.platens.tangential_ratio = from.tangential_ratio;
   to.platens.damping = from.damping;
+  to.platens.strip_width = from.strip_width;
   to.platens.overhang = from.overhang;
   to.platens.thickness = from.thickness;
   to.platens.elements_across = from.elements_across;

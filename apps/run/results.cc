@@ -96,6 +96,9 @@ double Results::strain_at_peak_platen() const {
 double Results::strain_at_peak_gauge() const {
   return gained_at_peak(&Sample::strain_gauge);
 }
+double Results::opening_at_peak() const {
+  return peak_ > 0 ? samples_[peak_row()].opening : not_measured;
+}
 double Results::time_at_peak() const {
   return peak_ > 0 ? samples_[peak_row()].time : not_measured;
 }

@@ -46,6 +46,7 @@ public:
   // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
   double energy_residual_relative() const;
   double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
+  double opening_at_peak() const;         // m, of a disc
   double time_at_peak() const;            // s
 
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far

@@ -43,6 +43,7 @@ void check_length(const Scene &scene, const char *path, double wanted, double fo
 }
 
 bool same_kind(SpecimenShape wanted, dem::ShapeKind found) {
+  if (wanted == SpecimenShape::disc) return found != dem::ShapeKind::box;
   return wanted == SpecimenShape::bar || (wanted == SpecimenShape::box) == (found == dem::ShapeKind::box);
 }
 
@@ -52,8 +53,9 @@ void check_shape(const Scene &scene, const dem::Shape &found) {
   const bool states = scene.parameters && scene.parameters->at("Specimen/Shape").changed();
   if (states && !same_kind(wanted.shape, found.kind))
     refuse(scene, "Specimen/Shape", "contradicts the shape that " + wanted.file + " states.");
-  check_length(scene, "Specimen/Height", wanted.height, found.height);
-  if (found.kind == dem::ShapeKind::cylinder) {
+  const bool lying = found.kind == dem::ShapeKind::disc;
+  check_length(scene, "Specimen/Height", wanted.height, lying ? found.width_y : found.height);
+  if (found.kind != dem::ShapeKind::box) {
     check_length(scene, "Specimen/Radius", wanted.radius, found.radius);
   } else {
     check_length(scene, "Specimen/Width x", wanted.width_x, found.width_x);

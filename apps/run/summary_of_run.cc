@@ -9,6 +9,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/version.h"
 #include "dem/measure/fragments.h"
+#include "dem/measure/split.h"
 
 namespace platen::apps {
 namespace {
@@ -72,7 +73,27 @@ void add_wall(Json &to, const coupling::Problem &problem, const Results &results
     to[key] = nullptr;
 }
 
+// Of a disc: strength is 2 P / (pi D t); Young's modulus is not measured.
+void add_disc(Json &to, const coupling::Problem &problem, const Results &results) {
+  if (problem.shape().kind != dem::ShapeKind::disc) return;
+  to["failure_load_n"] = results.strength() * problem.shape().cross_section();
+  to["opening_at_peak_m"] = results.opening_at_peak();
+  for (const char *key :
+       {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"})
+    to[key] = nullptr;
+  if (!problem.model.bonds) return;
+  const dem::SplitPattern p =
+      dem::split_pattern(problem.model.particles, *problem.model.bonds, problem.shape());
+  to["cracks_on_loaded_diameter"] = p.on_diameter;
+  to["cracks_in_middle_of_diameter"] = p.in_middle;
+  to["first_cracks_in_middle_of_diameter"] = p.first_in_middle;
+}
+
 } // namespace
+
+const char *app_of(const coupling::Problem &problem) {
+  return problem.shape().kind == dem::ShapeKind::disc ? "platen-brazilian" : "platen-compress";
+}
 
 std::size_t bytes_per_bond(const dem::Model &model) {
   if (!model.bonds) return 0;
@@ -86,7 +107,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   const double particles = static_cast<double>(model.particles.size());
   Json s;
   s["status"] = status;
-  s["app"] = "platen-compress";
+  s["app"] = app_of(problem);
   s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
   s["version"] = version_line();
   s["effects"] = effects_on(scene);
@@ -124,6 +145,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["youngs_modulus_voigt_pa"] = problem.voigt_modulus() > 0 ? problem.voigt_modulus() : not_measured;
   add_cell(s, problem, results);
   add_wall(s, problem, results);
+  add_disc(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
@@ -148,7 +170,13 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   const auto line = [&](const std::string &what, const std::string &value) {
     text += fmt::format("  {:<36}{}\n", what, value);
   };
-  line(tension ? "tensile strength" : "compressive strength",
+  const bool disc = problem.shape().kind == dem::ShapeKind::disc;
+  if (disc)
+    line("load at failure",
+         fmt::format("{:.2f} kN", results.strength() * problem.shape().cross_section() / 1e3));
+  line(disc      ? "splitting strength, 2P/(pi D t)"
+       : tension ? "tensile strength"
+                 : "compressive strength",
        fmt::format("{:.2f} MPa", results.strength() / 1e6));
   if (problem.confinement() != nullptr) {
     line("largest deviator", fmt::format("{:.2f} MPa", results.deviator_strength() / 1e6));
@@ -157,18 +185,26 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   line("strain at peak (platen, gauge)",
        fmt::format("{:.5f}, {:.5f}", results.strain_at_peak_platen(), results.strain_at_peak_gauge()));
   const bool walled = problem.wall() != nullptr;
-  line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
-       fmt::format("{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
-                   results.youngs_modulus_platen() / 1e9));
-  if (walled)
-    line("lateral over axial stress", fmt::format("{:.3f}", results.lateral_over_axial()));
-  else
-    line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
+  if (!disc) {
+    line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
+         fmt::format("{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
+                     results.youngs_modulus_platen() / 1e9));
+    if (walled)
+      line("lateral over axial stress", fmt::format("{:.3f}", results.lateral_over_axial()));
+    else
+      line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
+  }
   line("broken bonds (tension, shear)",
        fmt::format("{}, {} of {}", problem.model.broken(dem::BondState::broken_in_tension),
                    problem.model.broken(dem::BondState::broken_in_shear),
                    problem.model.bonds ? problem.model.bonds->initial_count() : 0));
-  if (!std::isnan(p.strain) && !tension) {
+  if (disc && problem.model.bonds) {
+    const dem::SplitPattern s =
+        dem::split_pattern(problem.model.particles, *problem.model.bonds, problem.shape());
+    line("cracks on the loaded diameter", fmt::format("{:.2f}, of the first twenty in its middle half {:.2f}",
+                                                      s.on_diameter, s.first_in_middle));
+  }
+  if (!std::isnan(p.strain) && !tension && !disc) {
     line("damage at 0.8 of the peak, after it",
          fmt::format("top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top, p.end_bottom, p.middle));
     line("end spread, barrel at peak", fmt::format("{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak()));

@@ -24,6 +24,9 @@ nlohmann::ordered_json summary_of_run(const std::string &status, const Scene &sc
                                       const coupling::Problem &problem, const Results &results,
                                       const RunCosts &costs);
 
+// "platen-compress" or "platen-brazilian".
+const char *app_of(const coupling::Problem &problem);
+
 // Bytes of one bond in its columns and in its block.
 std::size_t bytes_per_bond(const dem::Model &model);
 // A few lines for the screen: strength, strains, moduli, damage, energy.

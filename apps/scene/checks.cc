@@ -25,6 +25,7 @@ public:
   void contact() const;
   void platens() const;
   void loading() const;
+  void splitting() const;
   void cycles() const;
   void cell() const;
   void pair_test() const;
@@ -65,9 +66,14 @@ void SceneCheck::file_packing() const {
 void SceneCheck::cross_section() const {
   const SpecimenSection &specimen = scene_.specimen;
   const bool width = given(specimen.width_x) || given(specimen.width_y);
+  const bool disc = specimen.shape == SpecimenShape::disc;
+  if (disc && app_ != AppKind::brazilian && app_ != AppKind::pack)
+    refuse("Specimen/Shape", "lies on its rim, for platen-brazilian. Allowed: cylinder, box, bar.");
+  if (app_ == AppKind::brazilian && !disc && specimen.shape != SpecimenShape::cylinder)
+    refuse("Specimen/Shape", "cannot be laid on its rim. Allowed: disc, cylinder.");
   const std::string which = given(specimen.width_x) ? "Specimen/Width x" : "Specimen/Width y";
-  if (specimen.shape == SpecimenShape::cylinder && width)
-    refuse(which, "contradicts Specimen/Shape = cylinder.");
+  if ((disc || specimen.shape == SpecimenShape::cylinder) && width)
+    refuse(which, "contradicts Specimen/Shape = " + parameters_.at("Specimen/Shape").text + ".");
   if (specimen.shape == SpecimenShape::box && specimen.round())
     refuse("Specimen/Radius", "contradicts Specimen/Shape = box. Allowed: Width x and Width y.");
   if (specimen.shape == SpecimenShape::bar && specimen.round() && width)
@@ -123,10 +129,13 @@ void SceneCheck::specimen() const {
   }
   if (!given(specimen.sphere_radius)) return;
   spheres_fit();
-  if (specimen.ends == EndsKind::ground && given(specimen.height) &&
-      2 * specimen.end_layer * specimen.sphere_radius > specimen.height)
-    refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/Height = " +
-                                     parameters_.at("Specimen/Height").text + ".");
+  const bool rim = app_ == AppKind::brazilian;
+  const double extent = rim ? 2 * specimen.radius : specimen.height;
+  if (specimen.ends == EndsKind::ground && given(extent) &&
+      2 * specimen.end_layer * specimen.sphere_radius > extent)
+    refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/" +
+                                     std::string(rim ? "Radius" : "Height") + " = " +
+                                     parameters_.at(rim ? "Specimen/Radius" : "Specimen/Height").text + ".");
 }
 
 void SceneCheck::effects() const {
@@ -230,6 +239,14 @@ void SceneCheck::loading() const {
   for (const char *key : {"Sleeve/Thickness", "Sleeve/Modulus", "Sleeve/Poisson ratio"})
     if (parameters_.at(key).changed() && loading.confinement != ConfinementKind::sleeve)
       refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
+}
+
+void SceneCheck::splitting() const {
+  if (app_ != AppKind::brazilian) return;
+  if (scene_.loading.test != LoadingTest::compression)
+    refuse("Loading/Test", "does not go with platen-brazilian. Allowed: compression.");
+  if (scene_.loading.confinement != ConfinementKind::none)
+    refuse("Loading/Confinement", "does not go with platen-brazilian. Allowed: none.");
 }
 
 void SceneCheck::cycles() const {
@@ -339,6 +356,7 @@ void SceneCheck::notes() {
   if (!scene_.loading.cell())
     for (const char *key : {"Loading/Confining ramp", "Loading/Confinement area"})
       note(key, "Loading/Confinement is not particles");
+  if (app_ != AppKind::brazilian) note("Platens/Strip width", "only platen-brazilian has strips");
   if (!scene_.loading.walled()) note("Loading/Wall stiffness", "Loading/Test is not uniaxial strain");
   if (scene_.loading.unload_at.empty()) note("Loading/Unload to", "Loading/Unload at is empty");
   if (scene_.loading.hydrostatic())
@@ -367,6 +385,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.contact();
   check.platens();
   check.loading();
+  check.splitting();
   check.cycles();
   check.cell();
   check.pair_test();

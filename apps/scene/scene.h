@@ -160,6 +160,7 @@ struct Platens {
   Stiffness stiffness;           // of_bond (of the mean bond) or absolute
   double tangential_ratio = 0.8; // tangential over normal penalty stiffness
   double damping = 0.2;          // fraction of critical
+  double strip_width = 0;        // m, platen-brazilian; 0: as wide as the platens
   double overhang = 1.2;         // platen half-width over that of the specimen
   double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
   int elements_across = 8;

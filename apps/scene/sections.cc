@@ -26,7 +26,9 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
        {"box", SpecimenShape::box},
        {"bar", SpecimenShape::bar},
        {"disc", SpecimenShape::disc}},
-      {"disc"}, "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular.");
+      {},
+      "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular; a disc (Radius, Height) "
+      "is laid on its rim by platen-brazilian.");
   section.quantity("Radius", specimen.radius, "m", above(0), "Radius of a cylinder or round bar.");
   section.quantity("Height", specimen.height, "m", above(0), "Extent along z.");
   section.quantity("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
@@ -207,6 +209,9 @@ void declare_platens(Parameters &parameters, Platens &platens) {
                  "Fraction of critical damping of grains on platens.");
   section.number("Overhang", platens.overhang, between(1, 10),
                  "Half-width of the platens over that of the specimen.");
+  section.quantity(
+      "Strip width", platens.strip_width, "m", at_least(0),
+      "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens.");
   section.quantity("Thickness", platens.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
   section.integer("Elements across", platens.elements_across, 1, 1000, "Finite elements across a platen.");
   section.quantity("Density", platens.density, "kg/m3", above(0), "Density of the platens.");
@@ -336,6 +341,9 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"deviator_strength_pa", "Pa"},
     {"bulk_modulus_pa", "Pa"},
     {"constrained_modulus_pa", "Pa"},
+    {"failure_load_n", "N"},
+    {"cracks_on_loaded_diameter", "1"},
+    {"first_cracks_in_middle_of_diameter", "1"},
     {"lateral_over_axial_stress", "1"},
     {"poisson_ratio", "1"},
     {"broken_tension", "1"},

@@ -100,12 +100,30 @@ Shape box(double width_x, double width_y, double height) {
   return shape;
 }
 
+Shape disc(double radius, double thickness) {
+  Shape shape = box(2 * radius, thickness, 2 * radius);
+  shape.kind = ShapeKind::disc;
+  shape.radius = radius;
+  return shape;
+}
+
+Specimen laid_down(const Specimen &standing) {
+  if (standing.shape.kind != ShapeKind::cylinder) return standing;
+  Specimen lying = standing;
+  lying.shape = disc(standing.shape.radius, standing.shape.height);
+  // A quarter turn about x, (x, y, z) to (x, z, -y), and shifts.
+  for (Vector3 &c : lying.centre)
+    c = {c.x, c.z - 0.5 * standing.shape.height, standing.shape.radius - c.y};
+  return lying;
+}
+
 double lateral_perimeter(const Shape &shape) {
   return shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
                                            : 2 * (shape.width_x + shape.width_y);
 }
 
 double surface_area(const Shape &shape) {
+  if (shape.kind == ShapeKind::disc) return 2 * shape.volume() * (1 / shape.radius + 1 / shape.width_y);
   return lateral_perimeter(shape) * shape.height + 2 * shape.cross_section();
 }
 
@@ -116,6 +134,8 @@ double smallest_width(const Shape &shape) {
 }
 
 double wall_clearance(const Shape &shape, const Vector3 &p) {
+  if (shape.kind == ShapeKind::disc)
+    return std::min(shape.radius - std::hypot(p.x, p.z - shape.radius), 0.5 * shape.width_y - std::abs(p.y));
   const double ends = std::min(p.z, shape.height - p.z);
   if (shape.kind == ShapeKind::cylinder)
     return std::min(ends, shape.radius - std::sqrt(p.x * p.x + p.y * p.y));

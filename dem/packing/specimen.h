@@ -9,26 +9,33 @@
 
 namespace platen::dem {
 
-enum class ShapeKind { cylinder, box };
+enum class ShapeKind { cylinder, box, disc };
 
 // A cylinder of radius r and height h on 0 <= z <= h, axis x = y = 0; or a box [-lx/2, lx/2] x [-ly/2, ly/2]
-// x [0, h]. (A bar is a box or cylinder that is long along z.)
+// x [0, h]. (A bar is a box or cylinder that is long along z.) Or a disc that lies on its rim: a cylinder of
+// radius r along y, |y| <= w/2, on 0 <= z <= h = 2 r.
 struct Shape {
   ShapeKind kind = ShapeKind::cylinder;
-  double radius = 0;               // m, cylinder
-  double width_x = 0, width_y = 0; // m, box
+  double radius = 0;               // m, cylinder, disc
+  double width_x = 0, width_y = 0; // m, box; of a disc: 2 r and its thickness
   double height = 0;               // m
 
-  double cross_section() const { // m^2
-    return kind == ShapeKind::cylinder ? 3.14159265358979323846 * radius * radius : width_x * width_y;
+  // m^2, what a load along z is divided by; of a disc pi r w, which gives 2 P / (pi D w).
+  double cross_section() const {
+    constexpr double pi = 3.14159265358979323846;
+    if (kind == ShapeKind::disc) return pi * radius * width_y;
+    return kind == ShapeKind::cylinder ? pi * radius * radius : width_x * width_y;
   }
-  double volume() const { return cross_section() * height; } // m^3
+  double volume() const { // m^3
+    return kind == ShapeKind::disc ? cross_section() * radius : cross_section() * height;
+  }
 };
 
 Shape cylinder(double radius, double height);             // m
 Shape box(double width_x, double width_y, double height); // m
 double surface_area(const Shape &shape);                  // m^2, ends included
-double lateral_perimeter(const Shape &shape);         // m, of the cross-section
+Shape disc(double radius, double thickness);              // m
+double lateral_perimeter(const Shape &shape);             // m, of the cross-section
 double smallest_width(const Shape &shape);                // m: diameter, an edge, or the height
 // Distance from a point to the nearest wall or end plane, m; negative outside (there, for a box, the largest
 // distance to a face plane).
@@ -43,6 +50,9 @@ struct Specimen {
 
   std::size_t size() const { return centre.size(); }
 };
+
+// A standing cylinder laid on its rim; other shapes stay as they are.
+Specimen laid_down(const Specimen &specimen);
 
 struct BoundingBox {
   Vector3 low, high; // m

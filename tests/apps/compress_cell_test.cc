@@ -1,0 +1,96 @@
+// Tests in a cell: strength grows with the pressure, the book closes, and a stopped run repeats.
+#include <signal.h>
+
+#include "apps/crushed.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class Cell : public Crushed {
+protected:
+  std::vector<double> column(const std::string &name, const std::string &column) const {
+    return column_of(folder_ / name / "history.csv", column);
+  }
+};
+
+TEST_F(Cell, strength_grows_with_the_confining_pressure) {
+  const auto confined = [&](const std::string &name, const std::string &pressure) {
+    return crush(name, {"Loading/Confinement = particles", "Loading/Confining pressure = " + pressure,
+                        "Loading/Target strain = 0.01"});
+  };
+  const nlohmann::json bare = crush("bare", {"Loading/Target strain = 0.01"}), low = confined("low", "2 MPa"),
+                       high = confined("high", "6 MPa");
+  // A unit of pressure adds several units of strength to a brittle material (Richart: 4.1 in concrete); what
+  // must not be is less than that unit itself.
+  EXPECT_GT(low["strength_pa"].get<double>(), bare["strength_pa"].get<double>() + 2 * 2e6);
+  EXPECT_GT(high["strength_pa"].get<double>(), low["strength_pa"].get<double>() + 2 * 4e6);
+  EXPECT_GT(high["strain_at_peak_platen"], bare["strain_at_peak_platen"]);
+  // The elastic part does not feel the pressure: strains are counted from the end of the hydrostatic stage.
+  EXPECT_NEAR(high["youngs_modulus_gauge_pa"].get<double>() / bare["youngs_modulus_gauge_pa"].get<double>(),
+              1, 0.05);
+  EXPECT_FALSE(bare.contains("confining_pressure_pa"));
+  for (const nlohmann::json &s : {low, high}) {
+    EXPECT_NEAR(s["strength_pa"].get<double>(),
+                s["deviator_strength_pa"].get<double>() + s["confining_pressure_pa"].get<double>(), 1);
+    // Through crushing; 1 % is what the program promises, and pressure adds no error of its own.
+    EXPECT_LT(s["energy_residual_relative"], 0.01);
+  }
+  const auto pressure = column("high", "confining_pressure_pa"), deviator = column("high", "deviator_pa"),
+             top = column("high", "axial_stress_top_pa"), bottom = column("high", "axial_stress_bottom_pa");
+  EXPECT_EQ(pressure.front(), 0);
+  EXPECT_EQ(pressure.back(), 6e6);
+  for (std::size_t k = 0; k < pressure.size(); ++k)
+    ASSERT_NEAR(deviator[k], 0.5 * (top[k] + bottom[k]) - pressure[k], 1e-3);
+}
+
+TEST_F(Cell, unconfined_runs_have_no_column_of_it) {
+  crush("bare", {"Loading/Target strain = 0.001"});
+  const std::string header = content_of(folder_ / "bare/history.csv").substr(0, 900);
+  EXPECT_FALSE(contains(header, "deviator_pa"));
+  EXPECT_FALSE(contains(header, "opening_m"));
+}
+
+// Areas, ramp, servo, turns of the platens: all in the checkpoint. Stopped in the hydrostatic stage and again
+// when bonds have broken and the platens turn round.
+TEST_F(Cell, a_stopped_run_ends_as_if_it_had_not_been) {
+  const std::vector<std::string> entries{"Loading/Confinement = particles",
+                                         "Loading/Confining pressure = 3 MPa", "Loading/Unload at = 0.003",
+                                         "Loading/Unload to = 0.3"};
+  std::vector<std::string> options{test_scene("crushed.prm")};
+  for (const std::string &entry : entries)
+    options.insert(options.end(), {"-s", entry});
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), more.begin(), more.end());
+    all.emplace_back("--quiet");
+    return all;
+  };
+  const Outcome whole = run_compress(with({"-o", "whole", "-t", "2"}), folder_);
+  ASSERT_EQ(whole.status, 0) << whole.error;
+  EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 300);
+  const auto stop_at = [&](long rows, std::vector<std::string> more) {
+    Program program(compress_command(with(std::move(more))), folder_);
+    EXPECT_TRUE(program.wait_until([&] { return lines_in(folder_ / "stopped/history.csv") >= rows; }));
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait(), 143);
+  };
+  stop_at(10, {"-o", "stopped", "-t", "1"});
+  stop_at(130, {"-o", "stopped", "-t", "2", "--resume"});
+  const Outcome last = run_compress(with({"-o", "stopped", "-t", "1", "--resume"}), folder_);
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+}
+
+TEST_F(Cell, a_wall_measures_what_it_holds) {
+  const nlohmann::json s = crush("wall", {"Loading/Test = uniaxial strain", "Bond/Tensile strength = 0",
+                                          "Bond/Shear strength = 0", "Loading/Target strain = 0.002"});
+  EXPECT_EQ(s["test"], "uniaxial strain");
+  EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
+  EXPECT_GT(s["constrained_modulus_pa"], 0);
+  EXPECT_GT(s["lateral_over_axial_stress"], 0.05);
+  EXPECT_LT(s["lateral_over_axial_stress"], 0.5);
+  EXPECT_LT(s["energy_residual_relative"], 1e-3);
+}
+
+} // namespace
+} // namespace platen::apps::testing
