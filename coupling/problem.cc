@@ -46,7 +46,7 @@ fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, b
 }
 
 // Without bonds the stiffness that a bond would have still measures the grains; N/m.
-double mean_bond_stiffness(const dem::Model &model, const ProblemSettings &settings) {
+double mean_bond_stiffness(const dem::Model &model) {
   double sum = 0;
   if (model.bonds && model.bonds->size() > 0) {
     const dem::Bonds &b = *model.bonds;
@@ -62,7 +62,7 @@ double mean_bond_stiffness(const dem::Model &model, const ProblemSettings &setti
 double platen_stiffness(const dem::Model &model, const ProblemSettings &settings) {
   const PlatenSettings &p = settings.platens;
   if (p.stiffness_absolute > 0) return p.stiffness_absolute;
-  return p.stiffness_of_bond * mean_bond_stiffness(model, settings);
+  return p.stiffness_of_bond * mean_bond_stiffness(model);
 }
 
 SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
@@ -75,7 +75,7 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
   c.friction_dynamic = side.friction_dynamic;
   c.damping = p.damping;
   c.attachment = p.glued ? Attachment::glued : Attachment::free;
-  c.seat_modulus = settings.seat ? settings.model.bond_layout.modulus : 0.0;
+  c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;
   c.skin = surface_skin * dem::mean_radius(s);
   return c;
 }
@@ -139,9 +139,9 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   if (settings.loading.cell) start_cell(*settings.loading.cell);
   if (settings.loading.wall_stiffness > 0)
-    wall_ = std::make_unique<dem::LateralWall>(
-        model.particles, shape_, settings.loading.wall_stiffness * mean_bond_stiffness(model, settings),
-        settings.loading.wall_layer * dem::mean_radius(specimen));
+    wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,
+                                               settings.loading.wall_stiffness * mean_bond_stiffness(model),
+                                               settings.loading.wall_layer * dem::mean_radius(specimen));
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
