@@ -231,8 +231,10 @@ std::string Test::description() const {
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
                       problem_->time_step_reason(), expected_steps_);
   if (columns_.confined)
-    text += fmt::format("  confinement: {} spheres of the skin, ramp {:.3g} s\n",
-                        problem_->confinement()->size(), problem_->cell_ramp());
+    text += fmt::format(
+        "  confinement: {} spheres of the skin with {:.3f} of the lateral area, ramp {:.3g} s\n",
+        problem_->confinement()->size(),
+        problem_->confinement()->coverage(model.particles, problem_->end_planes()), problem_->cell_ramp());
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", problem_->ramp(), problem_->wave_crossing());
   text += fmt::format(
