@@ -383,9 +383,9 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.effects();
   check.bond();
   check.contact();
+  check.splitting();
   check.platens();
   check.loading();
-  check.splitting();
   check.cycles();
   check.cell();
   check.pair_test();

