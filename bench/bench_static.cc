@@ -31,7 +31,7 @@ int main(int argc, char **argv) {
   std::string read;
   CLI::App app("Static solves against explicit steps.");
   app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
-  app.add_option("--threads", threads, "threads of the explicit steps")->check(CLI::Range(1, 256));
+  app.add_option("--threads", threads, "threads of steps and solves")->check(CLI::Range(1, 256));
   app.add_option("--steps", steps, "steps of the explicit run to compare with")->check(CLI::Range(1., 1e9));
   app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
   app.add_option("--law", law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
@@ -50,8 +50,7 @@ int main(int argc, char **argv) {
     step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
   }
   const double seconds = bench::spread(still).median, explicitly = bench::spread(step).median * steps;
-  std::printf("%s, %d threads for explicit steps, one for static solves\n", bench::machine().c_str(),
-              threads);
+  std::printf("%s, %d threads\n", bench::machine().c_str(), threads);
   std::printf("%zu particles, %zu bonds: E %.4g GPa (gauge), %.4g GPa (platens), nu %.4f\n",
               problem.model.particles.size(), problem.model.bonds->size(), 1e-9 * p.youngs_modulus(),
               1e-9 * p.platen_modulus(), p.poisson_ratio());

@@ -14,6 +14,7 @@ using dem::Vector3;
 namespace {
 
 constexpr int most_solves = 40; // the set of contacts settles within ten, or swings
+constexpr double rough = 1e-4;
 
 // All spheres near both platens, and which of them are pressed.
 struct Contacts {
@@ -90,16 +91,24 @@ StaticPress press_statically(Problem &problem, double strain, const dem::StaticS
   if (!problem.model.bonds || !(strain > 0))
     throw NumericsStopped("a static solve needs bonds and a strain above 0");
   Contacts contacts = contacts_of(problem, strain);
+  dem::StaticSolver solver(problem.model.particles, *problem.model.bonds);
+  // While the set of contacts still changes a rough answer tells which.
+  dem::StaticSettings now = settings;
+  now.tolerance = std::max(settings.tolerance, rough);
+  dem::StaticState state;
   int iterations = 0;
   for (int solve = 1; solve <= most_solves; ++solve) {
-    dem::StaticState state;
     try {
-      state = dem::solve_static(problem.model.particles, *problem.model.bonds, case_of(contacts), settings);
+      state = solver.solve(case_of(contacts), now, solve > 1 ? &state : nullptr);
     } catch (const dem::NoEquilibrium &e) {
       throw NumericsStopped(e.what());
     }
     iterations += state.iterations;
     if (!update(contacts, state)) continue;
+    if (now.tolerance > settings.tolerance) {
+      now.tolerance = settings.tolerance;
+      continue;
+    }
     StaticPress p = measured(problem, contacts, state, strain);
     p.solves = solve;
     p.iterations = iterations;

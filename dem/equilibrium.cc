@@ -1,172 +1,16 @@
 #include "dem/equilibrium.h"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+
+#include "dem/statics/conjugate_gradients.h"
+#include "dem/statics/multigrid.h"
+#include "dem/statics/network.h"
 
 namespace platen::dem {
 namespace {
-
-using Matrix3 = Eigen::Matrix3d;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Eigen::Index;
-
-Eigen::Vector3d eigen(const Vector3 &a) {
-  return {a.x, a.y, a.z};
-}
-Vector3 vector(const Eigen::Vector3d &a) {
-  return {a.x(), a.y(), a.z()};
-}
-Matrix3 skew(const Vector3 &a) {
-  Matrix3 m;
-  m << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0;
-  return m;
-}
-// Along n one stiffness, across it another.
-Matrix3 spring(const Vector3 &n, double along, double across) {
-  return across * Matrix3::Identity() + (along - across) * eigen(n) * eigen(n).transpose();
-}
-
-// K x = f in displacements and rotations times the radius, the particles' own or, without rotation,
-// displacements alone. What is led is moved to the right hand side; its own rows are those of the unit
-// matrix.
-class Network {
-public:
-  Network(const Particles &p, const StaticCase &load) : p_(p), width_(p.has_rotation() ? 6 : 3) {
-    led_.assign(p.size(), -1);
-    for (std::size_t k = 0; k < load.led.size(); ++k)
-      led_[static_cast<std::size_t>(load.led[k].particle)] = static_cast<int>(k);
-    led_state_.resize(load.led.size());
-    for (std::size_t k = 0; k < load.led.size(); ++k)
-      led_state_[k] << eigen(load.led[k].displacement),
-          p.radius[static_cast<std::size_t>(load.led[k].particle)] * eigen(load.led[k].turn);
-    diagonal_.assign(p.size(), Matrix6::Zero());
-    right_ = Eigen::VectorXd::Zero(width_ * static_cast<Index>(p.size()));
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      if (!load.force.empty()) right_.segment<3>(at(i)) += eigen(load.force[i]);
-      if (width_ == 6 && !load.torque.empty())
-        right_.segment<3>(at(i) + 3) += eigen(load.torque[i]) / p.radius[i];
-    }
-  }
-
-  void add(const Bonds &b) {
-    entries_.reserve(b.size() * static_cast<std::size_t>(width_ * width_) +
-                     p_.size() * static_cast<std::size_t>(width_ * (width_ + 1) / 2));
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const BondStiffness s = b.stiffness(k);
-      if (s.axial == 0) continue;
-      const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
-      const Vector3 d = p_.position[j] - p_.position[i], n = d / norm(d);
-      const Matrix3 force = spring(n, s.axial, s.shear), moment = spring(n, s.twisting, s.bending);
-      const auto move_i = moves(i, b.lever[k] * d), move_j = moves(j, -(1 - b.lever[k]) * d);
-      Matrix6 turn = Matrix6::Zero();
-      turn.bottomRightCorner<3, 3>() = moment;
-      diagonal_[i] += move_i.transpose() * force * move_i + turn / (p_.radius[i] * p_.radius[i]);
-      diagonal_[j] += move_j.transpose() * force * move_j + turn / (p_.radius[j] * p_.radius[j]);
-      couple(j, i, -(move_j.transpose() * force * move_i) - turn / (p_.radius[i] * p_.radius[j]));
-    }
-  }
-
-  void add(const Support &support) {
-    const GroundSpring &s = support.spring;
-    const std::size_t i = static_cast<std::size_t>(s.particle);
-    const Matrix3 force = spring(s.normal, s.normal_stiffness, s.tangential_stiffness);
-    const auto move = moves(i, s.arm);
-    diagonal_[i] += move.transpose() * force * move;
-    diagonal_[i].bottomRightCorner<3, 3>() +=
-        s.rotational_stiffness / (p_.radius[i] * p_.radius[i]) * Matrix3::Identity();
-    right_.segment(at(i), width_) += (move.transpose() * force * eigen(support.moved)).head(width_);
-  }
-
-  StaticState solve(const StaticSettings &settings) {
-    finish();
-    Eigen::SparseMatrix<double> k(right_.size(), right_.size());
-    k.setFromTriplets(entries_.begin(), entries_.end());
-    entries_ = {};
-    StaticState state;
-    state.displacement.resize(p_.size());
-    state.turn.resize(p_.size());
-    if (right_.squaredNorm() == 0) return state;
-    // In the particles' own order, along a curve through space: the factor is better and sooner made than in
-    // one of least fill.
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower,
-                             Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>>
-        solver;
-    solver.setTolerance(settings.tolerance);
-    solver.setMaxIterations(settings.most_iterations);
-    solver.compute(k);
-    const Eigen::VectorXd x = solver.solve(right_);
-    state.iterations = static_cast<int>(solver.iterations());
-    state.residual = solver.error();
-    if (!(state.residual <= settings.tolerance))
-      throw NoEquilibrium("the static solve stopped at a residual of " + std::to_string(state.residual) +
-                          " of the loads after " + std::to_string(state.iterations) + " iterations");
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      state.displacement[i] = vector(x.segment<3>(at(i)));
-      if (width_ == 6) state.turn[i] = vector(x.segment<3>(at(i) + 3) / p_.radius[i]);
-    }
-    return state;
-  }
-
-private:
-  Index at(std::size_t i) const { return width_ * static_cast<Index>(i); }
-
-  // Of a point of particle i, `arm` from its centre, by its displacement and its rotation times the radius.
-  Eigen::Matrix<double, 3, 6> moves(std::size_t i, const Vector3 &arm) const {
-    Eigen::Matrix<double, 3, 6> m;
-    m << Matrix3::Identity(), (-1 / p_.radius[i]) * skew(arm);
-    return m;
-  }
-
-  void couple(std::size_t row, std::size_t column, const Matrix6 &block) {
-    const int led_row = led_[row], led_column = led_[column];
-    if (led_row >= 0 && led_column >= 0) return;
-    if (led_column >= 0)
-      right_.segment(at(row), width_) -=
-          (block * led_state_[static_cast<std::size_t>(led_column)]).head(width_);
-    else if (led_row >= 0)
-      right_.segment(at(column), width_) -=
-          (block.transpose() * led_state_[static_cast<std::size_t>(led_row)]).head(width_);
-    else
-      for (Index c = 0; c < width_; ++c)
-        for (Index r = 0; r < width_; ++r)
-          entries_.emplace_back(at(row) + r, at(column) + c, block(r, c));
-  }
-
-  // The diagonal blocks. What nothing holds, or what is led, keeps the unit matrix, times a stiffness like
-  // others'.
-  void finish() {
-    double largest = 0;
-    for (const Matrix6 &d : diagonal_)
-      largest = std::max(largest, d.diagonal().maxCoeff());
-    if (largest == 0) largest = 1;
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      const bool led = led_[i] >= 0, loose = diagonal_[i].isZero(0);
-      if (loose && !led && !right_.segment(at(i), width_).isZero(0))
-        throw NoEquilibrium("nothing holds particle " + std::to_string(p_.id[i]) + ", which is loaded");
-      if (led || loose) diagonal_[i] = largest * Matrix6::Identity();
-      if (led)
-        right_.segment(at(i), width_) =
-            (largest * led_state_[static_cast<std::size_t>(led_[i])]).head(width_);
-      for (Index c = 0; c < width_; ++c)
-        for (Index r = c; r < width_; ++r)
-          entries_.emplace_back(at(i) + r, at(i) + c, diagonal_[i](r, c));
-    }
-  }
-
-  const Particles &p_;
-  Index width_;
-  std::vector<int> led_; // row in led_state_, or -1
-  std::vector<Vector6> led_state_;
-  std::vector<Matrix6> diagonal_;
-  std::vector<Eigen::Triplet<double>> entries_; // lower triangle
-  Eigen::VectorXd right_;
-};
 
 void check(const Particles &p, const StaticCase &load) {
   if ((!load.force.empty() && load.force.size() != p.size()) ||
@@ -174,16 +18,160 @@ void check(const Particles &p, const StaticCase &load) {
     throw std::invalid_argument("static loads need one row per particle");
 }
 
+void put(const Vector3 &a, double *to) {
+  to[0] = a.x, to[1] = a.y, to[2] = a.z;
+}
+
 } // namespace
+
+struct StaticSolver::Implementation {
+  virtual ~Implementation() = default;
+  virtual StaticState solve(const StaticCase &load, const StaticSettings &settings,
+                            const StaticState *start) = 0;
+};
+
+namespace {
+
+template <int n>
+class Network final : public StaticSolver::Implementation {
+public:
+  Network(const Particles &p, const Bonds &b)
+      : p_(p),
+        bonds_(statics::assemble<n>(
+            p.size(), b, [&](std::size_t row) { return statics::material_stiffness<n>(p, b, row); })),
+        matrix_(bonds_) {
+    diagonal_.resize(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      for (std::size_t k = bonds_.begin[i]; k < bonds_.begin[i + 1]; ++k)
+        if (static_cast<std::size_t>(bonds_.column[k]) == i) diagonal_[i] = k;
+  }
+
+  StaticState solve(const StaticCase &load, const StaticSettings &settings,
+                    const StaticState *start) override {
+    hold(load);
+    support(load);
+    std::vector<double> x(n * p_.size(), 0.0), right(n * p_.size(), 0.0);
+    if (start != nullptr) begin_from(*start, x);
+    take(load, x, right);
+    refuse_loose(right);
+    if (!multigrid_)
+      multigrid_.emplace(matrix_, std::vector<Vector3>(p_.position.begin(), p_.position.end()),
+                         std::vector<double>(p_.radius.begin(), p_.radius.end()), held_);
+    const statics::Solution s = statics::conjugate_gradients(matrix_, *multigrid_, held_, right, x,
+                                                             settings.tolerance, settings.most_iterations);
+    if (!(s.residual <= settings.tolerance))
+      throw NoEquilibrium("the static solve stopped at a residual of " + std::to_string(s.residual) +
+                          " of the loads after " + std::to_string(s.iterations) + " iterations");
+    return state_of(x, s);
+  }
+
+private:
+  // What is led, or held by nothing, has no equation. Another set of them needs another multigrid.
+  void hold(const StaticCase &load) {
+    std::vector<char> led(p_.size(), 0);
+    for (const Led &l : load.led)
+      led[static_cast<std::size_t>(l.particle)] = 1;
+    std::vector<char> supported(p_.size(), 0);
+    for (const Support &s : load.supports)
+      supported[static_cast<std::size_t>(s.spring.particle)] = 1;
+    std::vector<char> held = led;
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      if (!supported[i] && loose(i)) held[i] = 1;
+    led_ = std::move(led);
+    if (held == held_) return;
+    held_ = std::move(held);
+    multigrid_.reset();
+  }
+  bool loose(std::size_t i) const {
+    const double *d = bonds_.at(diagonal_[i]);
+    return std::all_of(d, d + n * n, [](double a) { return a == 0; });
+  }
+
+  void support(const StaticCase &load) {
+    for (const std::size_t i : supported_)
+      std::copy_n(bonds_.at(diagonal_[i]), n * n, matrix_.at(diagonal_[i]));
+    supported_.clear();
+    for (const Support &s : load.supports) {
+      const std::size_t i = static_cast<std::size_t>(s.spring.particle);
+      statics::add_support<n>(p_, s.spring, matrix_.at(diagonal_[i]));
+      supported_.push_back(i);
+    }
+  }
+
+  void begin_from(const StaticState &start, std::vector<double> &x) const {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      put(start.displacement[i], &x[n * i]);
+      if constexpr (n == 6) put(p_.radius[i] * start.turn[i], &x[n * i + 3]);
+    }
+  }
+
+  void take(const StaticCase &load, std::vector<double> &x, std::vector<double> &right) const {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (!load.force.empty()) put(load.force[i], &right[n * i]);
+      if constexpr (n == 6)
+        if (!load.torque.empty()) put(load.torque[i] / p_.radius[i], &right[n * i + 3]);
+      if (held_[i]) std::fill_n(&x[n * i], n, 0.0);
+    }
+    for (const Support &s : load.supports)
+      statics::add_support_load<n>(p_, s.spring, s.moved,
+                                   &right[n * static_cast<std::size_t>(s.spring.particle)]);
+    for (const Led &l : load.led) {
+      const std::size_t i = static_cast<std::size_t>(l.particle);
+      put(l.displacement, &x[n * i]);
+      if constexpr (n == 6) put(p_.radius[i] * l.turn, &x[n * i + 3]);
+    }
+  }
+
+  void refuse_loose(const std::vector<double> &right) const {
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      if (held_[i] && !led_[i])
+        for (int c = 0; c < n; ++c)
+          if (right[n * i + static_cast<std::size_t>(c)] != 0)
+            throw NoEquilibrium("nothing holds particle " + std::to_string(p_.id[i]) + ", which is loaded");
+  }
+
+  StaticState state_of(const std::vector<double> &x, const statics::Solution &s) const {
+    StaticState state;
+    state.iterations = s.iterations;
+    state.residual = s.residual;
+    state.displacement.resize(p_.size());
+    state.turn.resize(p_.size());
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      const double *u = &x[n * i];
+      state.displacement[i] = {u[0], u[1], u[2]};
+      if constexpr (n == 6) state.turn[i] = Vector3{u[3], u[4], u[5]} / p_.radius[i];
+    }
+    return state;
+  }
+
+  const Particles &p_;
+  statics::BlockRows<n, double> bonds_, matrix_; // without and with supports
+  std::vector<std::size_t> diagonal_;            // block of each row
+  std::vector<std::size_t> supported_;           // rows
+  std::vector<char> held_, led_;
+  std::optional<statics::Multigrid<n>> multigrid_;
+};
+
+} // namespace
+
+StaticSolver::StaticSolver(const Particles &particles, const Bonds &bonds) {
+  if (particles.has_rotation())
+    implementation_ = std::make_unique<Network<6>>(particles, bonds);
+  else
+    implementation_ = std::make_unique<Network<3>>(particles, bonds);
+}
+StaticSolver::~StaticSolver() = default;
+StaticSolver::StaticSolver(StaticSolver &&) noexcept = default;
+
+StaticState StaticSolver::solve(const StaticCase &load, const StaticSettings &settings,
+                                const StaticState *start) {
+  return implementation_->solve(load, settings, start);
+}
 
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings) {
   check(particles, load);
-  Network network(particles, load);
-  network.add(bonds);
-  for (const Support &support : load.supports)
-    network.add(support);
-  return network.solve(settings);
+  return StaticSolver(particles, bonds).solve(load, settings);
 }
 
 } // namespace platen::dem

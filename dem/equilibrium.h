@@ -1,8 +1,9 @@
 // Static equilibrium of a bonded network under loads and moving supports, by the tangent stiffness of its
-// bonds and conjugate gradients: for what needs no inertia. Linear: bonds do not break, and rotations are
-// small.
+// bonds and conjugate gradients with a multigrid: for what needs no inertia. Linear: bonds do not break, and
+// rotations are small (large_rotations.h goes on from there).
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -44,8 +45,27 @@ struct NoEquilibrium : std::runtime_error {
 // What bonds in their present directions, with no forces in them, answer to the case. Particles that nothing
 // holds stay where they are. A network that its supports leave free to move as a whole comes to rest at one
 // of its equilibria, if the loads have any. Throws NoEquilibrium where the residual does not fall to the
-// tolerance, and std::invalid_argument where columns of loads do not fit the particles.
+// tolerance, and std::invalid_argument where columns of loads do not fit the particles. The same on any
+// number of threads, to the last bit.
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings = {});
+
+// The same for several cases of one network, which must stay as it is: its stiffness is assembled once, and
+// what prepares the solves is kept while the led particles are the same.
+class StaticSolver {
+public:
+  StaticSolver(const Particles &particles, const Bonds &bonds);
+  ~StaticSolver();
+  StaticSolver(StaticSolver &&) noexcept;
+
+  // From `start` on, if it is given: of another case that is near.
+  StaticState solve(const StaticCase &load, const StaticSettings &settings = {},
+                    const StaticState *start = nullptr);
+
+  struct Implementation;
+
+private:
+  std::unique_ptr<Implementation> implementation_;
+};
 
 } // namespace platen::dem

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "dem/measure/moduli.h"
+#include "dem/parallel.h"
 #include "tests/dem/examples.h"
+#include "tests/dem/sparse_equilibrium.h"
 
 namespace platen::dem {
 namespace {
@@ -121,6 +123,77 @@ TEST(equilibrium, bonds_of_the_displaced_state_balance_the_loads) {
       ASSERT_LT(norm(answer.torque[i] + load.torque[i]), 1e-4 * 5e-3 * radius) << i;
     }
   }
+}
+
+// Some thousand spheres on springs below, led above, with a few loads: three levels of the multigrid.
+StaticCase pressed(const Particles &p, double height) {
+  StaticCase load;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const int row = static_cast<int>(i);
+    if (p.position[i].z < 2 * radius)
+      load.supports.push_back({{row, {0, 0, 1}, {0, 0, -radius}, 1e7, 0, 0.}, {}});
+    if (p.position[i].z > height - 2 * radius) load.led.push_back({row, {1e-6, 0, -2e-6}, {0, 1e-5, 0}});
+  }
+  load.force.assign(p.size(), {0, 0, -1e-2});
+  load.torque.assign(p.size(), {});
+  load.torque[p.size() / 2] = {1e-5, 0, 2e-5};
+  return load;
+}
+double largest_difference(const Particles &p, const StaticState &a, const StaticState &b) {
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    largest = std::max({largest, norm(a.displacement[i]), radius * norm(a.turn[i])});
+    difference = std::max(
+        {difference, norm(a.displacement[i] - b.displacement[i]), radius * norm(a.turn[i] - b.turn[i])});
+  }
+  return difference / largest;
+}
+
+TEST(equilibrium, clusters_do_not_change_the_answer) {
+  ModelSettings still = bonded();
+  still.rotation = false;
+  for (const ModelSettings &settings : {bonded(), beams(), still}) {
+    Model model(packed_box(20, 20, 30), settings);
+    const Particles &p = model.particles;
+    ASSERT_GT(p.size(), 1000u);
+    const StaticCase load = pressed(p, 30 * radius);
+    StaticSettings fine;
+    fine.tolerance = 1e-12;
+    const StaticState s = solve_static(p, *model.bonds, load, fine);
+    EXPECT_LT(largest_difference(p, s, solve_sparse(p, *model.bonds, load, fine)), 1e-8);
+    EXPECT_LT(s.iterations, 80);
+  }
+}
+
+TEST(equilibrium, any_number_of_threads_gives_the_same_bits) {
+  Model model(packed_box(20, 20, 30), bonded());
+  const Particles &p = model.particles;
+  const StaticCase load = pressed(p, 30 * radius);
+  StaticState one;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const StaticState s = solve_static(p, *model.bonds, load);
+    if (threads == 1) one = s;
+    EXPECT_EQ(s.iterations, one.iterations);
+    EXPECT_EQ(largest_difference(p, s, one), 0) << threads;
+  }
+}
+
+// What was found before is no more than a beginning: supports come and go.
+TEST(equilibrium, a_start_saves_iterations_and_nothing_else) {
+  Model model(packed_box(20, 20, 30), bonded());
+  const Particles &p = model.particles;
+  StaticCase load = pressed(p, 30 * radius);
+  StaticSolver solver(p, *model.bonds);
+  StaticSettings fine;
+  fine.tolerance = 1e-11;
+  const StaticState all = solver.solve(load, fine);
+  load.supports.pop_back();
+  const StaticState fewer = solver.solve(load, fine, &all), anew = solve_static(p, *model.bonds, load, fine);
+  EXPECT_GT(largest_difference(p, all, anew), 1e-5);
+  EXPECT_LT(largest_difference(p, fewer, anew), 1e-8);
+  EXPECT_LT(fewer.iterations, anew.iterations);
+  EXPECT_EQ(solver.solve(load, fine, &fewer).iterations, 0);
 }
 
 TEST(equilibrium, loads_without_an_answer_are_told) {

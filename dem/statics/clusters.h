@@ -1,0 +1,49 @@
+// Neighbouring rows of a network's stiffness joined to clusters that move rigidly.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dem/statics/block_rows.h"
+#include "dem/vector3.h"
+
+namespace platen::dem::statics {
+
+template <int n>
+class Clusters {
+public:
+  Clusters() = default;
+  // A row and all its neighbours where none of them is taken yet; what is left joins a neighbour's cluster.
+  // Held rows, and rows without a stiffness, are in none.
+  Clusters(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
+           const std::vector<double> &length, const std::vector<char> &held);
+
+  std::size_t size() const { return place_.size(); }
+  const std::vector<Vector3> &place() const { return place_; }  // m, mean of the members'
+  const std::vector<double> &length() const { return length_; } // m, by which rotations are multiplied
+  BlockRows<n, double> stiffness(const BlockRows<n, double> &matrix) const; // of the rigid clusters
+
+  void gather(const std::vector<float> &forces, std::vector<float> &of_clusters) const;
+  // What the clusters' motions, times a factor, are to their members; 0 for rows in none.
+  void spread(const std::vector<float> &of_clusters, float factor, std::vector<float> &motions) const;
+
+private:
+  // A member moves by u = U + W x arm and w = ratio W, with rotations times lengths.
+  struct Carry {
+    double arm[3] = {0, 0, 0}, ratio = 1;
+  };
+  void join(const BlockRows<n, double> &matrix, const std::vector<char> &held);
+  void add_carried(const double *block, const Carry &row, const Carry &column, double *to) const;
+
+  std::vector<int> cluster_; // of each row, or -1
+  std::vector<Carry> carry_;
+  std::vector<std::size_t> begin_{0}; // of each cluster's members
+  std::vector<int> member_;
+  std::vector<Vector3> place_;
+  std::vector<double> length_;
+};
+
+extern template class Clusters<3>;
+extern template class Clusters<6>;
+
+} // namespace platen::dem::statics

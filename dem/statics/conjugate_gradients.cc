@@ -1,0 +1,96 @@
+#include "dem/statics/conjugate_gradients.h"
+
+#include <cmath>
+
+namespace platen::dem::statics {
+namespace {
+
+// Unknowns of a vector that a thread takes at a time.
+constexpr std::size_t entries_per_part = 1 << 13;
+
+// Sum over entries in the order of the parts.
+template <class Term>
+double ordered(std::size_t entries, const Term &term) {
+  std::vector<double> partial(number_of_blocks(entries, entries_per_part), 0.0);
+  for_each_block(
+      entries,
+      [&](std::size_t first, std::size_t last, std::size_t part) {
+        double sum = 0;
+        for (std::size_t k = first; k < last; ++k)
+          sum += term(k);
+        partial[part] = sum;
+      },
+      entries_per_part);
+  double sum = 0;
+  for (const double p : partial)
+    sum += p;
+  return sum;
+}
+
+} // namespace
+
+template <int n>
+Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+                             const std::vector<char> &held, const std::vector<double> &right,
+                             std::vector<double> &x, double tolerance, int most_iterations) {
+  const std::size_t size = right.size();
+  std::vector<double> r(size), z(size), d(size, 0.0), ad(size, 0.0);
+  // What the loads, and the held rows where they are, ask for.
+  std::vector<double> led(size, 0.0);
+  for (std::size_t k = 0; k < size; ++k)
+    if (held[k / n]) led[k] = x[k];
+  for_each_product(a, led.data(), [&](std::size_t i, const double *sum) {
+    for (std::size_t c = 0; c < n; ++c)
+      r[n * i + c] = held[i] ? 0.0 : right[n * i + c] - sum[c];
+  });
+  const double wanted = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; }));
+  Solution s;
+  if (wanted == 0) {
+    x = led;
+    return s;
+  }
+  for_each_product(a, x.data(), [&](std::size_t i, const double *sum) {
+    for (std::size_t c = 0; c < n; ++c)
+      r[n * i + c] = held[i] ? 0.0 : right[n * i + c] - sum[c];
+  });
+  // The multigrid is not quite the same from call to call, by round-off of single precision: beta is that of
+  // Polak and Ribiere, with the change of the residual.
+  double rz = 0, change = 0;
+  s.residual = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; })) / wanted;
+  while (s.residual > tolerance && s.iterations < most_iterations) {
+    inverse.apply(r, z);
+    const double now = ordered(size, [&](std::size_t k) { return r[k] * z[k]; });
+    if (s.iterations > 0) change = ordered(size, [&](std::size_t k) { return ad[k] * z[k]; });
+    const double beta = s.iterations > 0 ? change / rz : 0;
+    rz = now;
+    for_each(
+        size, [&](std::size_t k) { d[k] = z[k] + beta * d[k]; }, entries_per_part);
+    for_each_product(a, d.data(), [&](std::size_t i, const double *sum) {
+      for (std::size_t c = 0; c < n; ++c)
+        ad[n * i + c] = held[i] ? 0.0 : sum[c];
+    });
+    const double curvature = ordered(size, [&](std::size_t k) { return d[k] * ad[k]; });
+    if (!(curvature > 0) || !(rz > 0)) return s;
+    const double alpha = rz / curvature;
+    for_each(
+        size,
+        [&](std::size_t k) {
+          x[k] += alpha * d[k];
+          ad[k] *= -alpha; // what the residual changes by, kept for beta
+          r[k] += ad[k];
+        },
+        entries_per_part);
+    s.residual = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; })) / wanted;
+    ++s.iterations;
+  }
+  return s;
+}
+
+template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
+                                         const std::vector<char> &, const std::vector<double> &,
+                                         std::vector<double> &, double, int);
+template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
+                                         const std::vector<char> &, const std::vector<double> &,
+                                         std::vector<double> &, double, int);
+
+} // namespace platen::dem::statics

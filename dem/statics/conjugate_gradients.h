@@ -1,0 +1,30 @@
+// Conjugate gradients on block rows, from a start and with a preconditioner.
+#pragma once
+
+#include <vector>
+
+#include "dem/statics/multigrid.h"
+
+namespace platen::dem::statics {
+
+struct Solution {
+  int iterations = 0;
+  double residual = 0; // over the right hand side, that of the held rows included
+};
+
+// A x = right in the rows that are not held; x is the start, holds what the held rows are at, and is the
+// answer. The residual is over the larger of `right` and of what the held rows bring to it. Ends at the
+// tolerance, after so many iterations, or where A turns out to have a negative eigenvalue.
+template <int n>
+Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+                             const std::vector<char> &held, const std::vector<double> &right,
+                             std::vector<double> &x, double tolerance, int most_iterations);
+
+extern template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
+                                                const std::vector<char> &, const std::vector<double> &,
+                                                std::vector<double> &, double, int);
+extern template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
+                                                const std::vector<char> &, const std::vector<double> &,
+                                                std::vector<double> &, double, int);
+
+} // namespace platen::dem::statics

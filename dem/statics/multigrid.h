@@ -1,0 +1,46 @@
+// An approximate inverse of a network's stiffness, for conjugate gradients: neighbouring particles are joined
+// to rigid clusters, clusters to larger ones, until a few are left whose equations are solved exactly
+// (aggregation multigrid with rigid motions as coarse functions; Braess, Computing 55 (1995) 379-393). A
+// level is smoothed by Chebyshev polynomials of the matrix scaled by its diagonal blocks (Adams et al., J.
+// Comput. Phys. 188 (2003) 593-610), and visits the next one twice. In single precision, because it is
+// approximate anyway and bound by memory.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dem/statics/block_rows.h"
+#include "dem/vector3.h"
+
+namespace platen::dem::statics {
+
+// n = 6: displacement and rotation times a length; n = 3: displacement alone.
+template <int n>
+class Multigrid {
+public:
+  // Of a symmetric matrix without negative eigenvalues. `place`: of each row, m; `length`: by which its
+  // rotation is multiplied, m. Rows that are `held` have no part in it: what comes back for them is 0.
+  Multigrid(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
+            const std::vector<double> &length, const std::vector<char> &held);
+  ~Multigrid();
+  Multigrid(Multigrid &&) noexcept;
+
+  // z = B r, with B symmetric and positive; the same for any number of threads.
+  void apply(const std::vector<double> &r, std::vector<double> &z);
+
+private:
+  struct Level;
+  struct Direct;
+  void make_next(const BlockRows<n, double> &matrix, std::vector<Vector3> place, std::vector<double> length,
+                 std::vector<char> held);
+  void cycle(std::size_t level, bool rest);
+  void visit_next(std::size_t level);
+
+  std::vector<Level> levels_;
+  std::unique_ptr<Direct> direct_;
+};
+
+extern template class Multigrid<3>;
+extern template class Multigrid<6>;
+
+} // namespace platen::dem::statics

@@ -1,0 +1,93 @@
+#include "dem/statics/network.h"
+
+#include <Eigen/Core>
+
+namespace platen::dem::statics {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Eigen::Vector3d eigen(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+Matrix3 skew(const Vector3 &a) {
+  Matrix3 m;
+  m << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0;
+  return m;
+}
+// Along n one stiffness, across it another.
+Matrix3 spring(const Vector3 &n, double along, double across) {
+  return across * Matrix3::Identity() + (along - across) * eigen(n) * eigen(n).transpose();
+}
+// Of a point, `arm` from the centre of a particle, by its displacement and its rotation times the radius.
+Matrix36 moves(double radius, const Vector3 &arm) {
+  Matrix36 m;
+  m << Matrix3::Identity(), (-1 / radius) * skew(arm);
+  return m;
+}
+
+template <int n>
+Eigen::Map<Eigen::Matrix<double, n, n>> block_at(double *to) {
+  return Eigen::Map<Eigen::Matrix<double, n, n>>(to);
+}
+
+} // namespace
+
+template <int n>
+BondBlocks<n> material_stiffness(const Particles &p, const Bonds &b, std::size_t row) {
+  BondBlocks<n> blocks{};
+  const BondStiffness s = b.stiffness(row);
+  if (s.axial == 0) return blocks;
+  const std::size_t i = static_cast<std::size_t>(b.first[row]), j = static_cast<std::size_t>(b.second[row]);
+  const Vector3 d = p.position[j] - p.position[i], along = d / norm(d);
+  const Matrix3 force = spring(along, s.axial, s.shear);
+  if constexpr (n == 3) {
+    block_at<3>(blocks.ii) = block_at<3>(blocks.jj) = force;
+    block_at<3>(blocks.ij) = -force;
+  } else {
+    const double ri = p.radius[i], rj = p.radius[j];
+    const Matrix3 moment = spring(along, s.twisting, s.bending);
+    const Matrix36 move_i = moves(ri, b.lever[row] * d), move_j = moves(rj, (b.lever[row] - 1) * d);
+    const Matrix36 force_i = force * move_i, force_j = force * move_j;
+    block_at<6>(blocks.ii).noalias() = move_i.transpose() * force_i;
+    block_at<6>(blocks.jj).noalias() = move_j.transpose() * force_j;
+    block_at<6>(blocks.ij).noalias() = -(move_i.transpose() * force_j);
+    block_at<6>(blocks.ii).template bottomRightCorner<3, 3>() += moment / (ri * ri);
+    block_at<6>(blocks.jj).template bottomRightCorner<3, 3>() += moment / (rj * rj);
+    block_at<6>(blocks.ij).template bottomRightCorner<3, 3>() -= moment / (ri * rj);
+  }
+  return blocks;
+}
+
+template <int n>
+void add_support(const Particles &p, const GroundSpring &s, double *block) {
+  const double radius = p.radius[static_cast<std::size_t>(s.particle)];
+  const Matrix3 force = spring(s.normal, s.normal_stiffness, s.tangential_stiffness);
+  if constexpr (n == 3) {
+    block_at<3>(block) += force;
+  } else {
+    const Matrix36 move = moves(radius, s.arm);
+    block_at<6>(block) += move.transpose() * force * move;
+    block_at<6>(block).template bottomRightCorner<3, 3>() +=
+        s.rotational_stiffness / (radius * radius) * Matrix3::Identity();
+  }
+}
+
+template <int n>
+void add_support_load(const Particles &p, const GroundSpring &s, const Vector3 &moved, double *load) {
+  const double radius = p.radius[static_cast<std::size_t>(s.particle)];
+  const Matrix3 force = spring(s.normal, s.normal_stiffness, s.tangential_stiffness);
+  Eigen::Map<Eigen::Matrix<double, n, 1>>(load, n) +=
+      (moves(radius, s.arm).transpose() * force * eigen(moved)).template head<n>();
+}
+
+template BondBlocks<3> material_stiffness<3>(const Particles &, const Bonds &, std::size_t);
+template BondBlocks<6> material_stiffness<6>(const Particles &, const Bonds &, std::size_t);
+template void add_support<3>(const Particles &, const GroundSpring &, double *);
+template void add_support<6>(const Particles &, const GroundSpring &, double *);
+template void add_support_load<3>(const Particles &, const GroundSpring &, const Vector3 &, double *);
+template void add_support_load<6>(const Particles &, const GroundSpring &, const Vector3 &, double *);
+
+} // namespace platen::dem::statics
