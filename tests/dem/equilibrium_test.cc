@@ -132,7 +132,8 @@ StaticCase pressed(const Particles &p, double height) {
     const int row = static_cast<int>(i);
     if (p.position[i].z < 2 * radius)
       load.supports.push_back({{row, {0, 0, 1}, {0, 0, -radius}, 1e7, 0, 0.}, {}});
-    if (p.position[i].z > height - 2 * radius) load.led.push_back({row, {1e-6, 0, -2e-6}, {0, 1e-5, 0}});
+    if (p.position[i].z > height - 2 * radius)
+      load.led.push_back({row, {1e-6, 0, -2e-6}, {0, p.has_rotation() ? 1e-5 : 0, 0}});
   }
   load.force.assign(p.size(), {0, 0, -1e-2});
   load.torque.assign(p.size(), {});
