@@ -70,7 +70,8 @@ fs::path default_output_folder(const fs::path &scene_file) {
 
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
-      "(scene(\\.part)?\\.prm|(history|cracks|specimen|study|costs)(\\.part)?\\.csv"
+      "((scene|found)(\\.part)?\\.prm|(history|cracks|specimen|study|costs|trials|abacus|packing_[0-9]+)(\\."
+      "part)?\\.csv"
       "|summary(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
       "|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
   static const std::regex frame("(specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu");

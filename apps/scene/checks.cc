@@ -29,6 +29,7 @@ public:
   void cycles() const;
   void cell() const;
   void pair_test() const;
+  void calibrate() const;
   void notes();
 
 private:
@@ -232,7 +233,7 @@ void SceneCheck::platens() const {
 
 void SceneCheck::loading() const {
   const Loading &loading = scene_.loading;
-  if (loads() && !loading.hydrostatic())
+  if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic())
     need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
   if (loading.confining_pressure > 0 && loading.confinement == ConfinementKind::none)
     refuse("Loading/Confining pressure", "needs Loading/Confinement other than none.");
@@ -289,6 +290,44 @@ void SceneCheck::pair_test() const {
            "bond would remember. Allowed: parallel bond, cohesive beam.");
   if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
     refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
+}
+
+void SceneCheck::calibrate() const {
+  if (app_ != AppKind::calibrate) return;
+  const Calibrate &c = scene_.calibrate;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
+  if (scene_.platens.top_control == PlatenControl::stress)
+    refuse("Platens/Top/Control", "is not for calibration: platens are moved. Allowed: motion.");
+  const auto ascending = [&](double low, double high, const std::string &path) {
+    if (low >= high)
+      refuse("Calibrate/Smallest " + path,
+             "is not below Calibrate/Largest " + path + ", " + shortest_text(high) + ".");
+  };
+  ascending(c.ratio_low, c.ratio_high, "stiffness ratio");
+  ascending(c.multiplier_low, c.multiplier_high, "radius multiplier");
+  ascending(c.strengths_low, c.strengths_high, "shear over tensile strength");
+  const bool beam = scene_.effects.bond == BondKind::cohesive_beam;
+  if (beam && !c.stiffness_ratios.empty())
+    refuse("Calibrate/Stiffness ratio list", "is for parallel bonds: a beam has the ratio of its section.");
+  if (!beam && !c.poisson_ratios.empty())
+    refuse("Calibrate/Poisson ratio list", "is for beams: Effects/Bond = parallel bond has none.");
+  if (c.mode != CalibrateMode::search) return;
+  const bool strengths = given(c.compressive_strength) || given(c.tensile_strength);
+  if (!strengths && !given(c.young_modulus) && !given(c.poisson_ratio))
+    refuse("Calibrate/Mode",
+           "has nothing to search for. Allowed: bounds, abacus, or a wanted Young modulus, Poisson ratio or "
+           "strength.");
+  if (!strengths) return;
+  need("Loading/Axial rate", scene_.loading.axial_rate, "the platens have to move.");
+  if (scene_.bond.tensile_strength == 0)
+    refuse("Bond/Tensile strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
+  if (scene_.bond.shear_strength == 0)
+    refuse("Bond/Shear strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
+  if (given(c.compressive_strength) && given(c.tensile_strength) &&
+      c.compressive_strength <= c.tensile_strength)
+    refuse("Calibrate/Tensile strength", "is not below Calibrate/Compressive strength = " +
+                                             parameters_.at("Calibrate/Compressive strength").text + ".");
 }
 
 void SceneCheck::note(const std::string &path, const std::string &why) {
@@ -389,6 +428,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.cycles();
   check.cell();
   check.pair_test();
+  check.calibrate();
   check.notes();
 }
 

@@ -249,6 +249,26 @@ struct PairTest { // platen-bonds
   int steps = 1000;
 };
 
+enum class CalibrateMode { bounds, abacus, search };
+
+struct Calibrate { // platen-calibrate
+  CalibrateMode mode = CalibrateMode::search;
+  // Wanted of the specimen; each may be left out.
+  double young_modulus = not_given, poisson_ratio = not_given;           // Pa, 1
+  double compressive_strength = not_given, tensile_strength = not_given; // Pa
+  int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
+  double strain = 1e-5;                  // of the static solves
+  double tension_rate = not_given;       // m/s; tension tests
+  int most_trials = 8;                   // sets of strengths that are tried
+  double tolerance = 0.01;               // of strengths, relative
+  // Abacus; each holds the bond's own value where the list is empty.
+  std::vector<double> moduli, stiffness_ratios, radius_multipliers, poisson_ratios; // Pa, 1, 1, 1
+  // Where the search may go.
+  double ratio_low = 0.02, ratio_high = 1;          // shear over normal stiffness (parallel bond)
+  double multiplier_low = 0.3, multiplier_high = 1; // radius multiplier (cohesive beam)
+  double strengths_low = 0.5, strengths_high = 12;  // shear over tensile strength of the bond
+};
+
 struct Scene {
   std::string name = "default"; // file name without its ending
   std::string path;             // as given on the command line
@@ -266,6 +286,7 @@ struct Scene {
   Checkpoint checkpoint;
   std::vector<Expectation> expect; // only those that the scene gives
   PairTest pair_test;
+  Calibrate calibrate;
   std::vector<std::string> notes; // entries that were set and have no effect here, one line each
   std::shared_ptr<const Parameters> parameters; // the same entries as text
 };

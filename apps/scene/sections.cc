@@ -396,6 +396,53 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
 
+void declare_calibrate(Parameters &parameters, Calibrate &c) {
+  Section section(parameters, "Calibrate");
+  section.word<CalibrateMode>(
+      "Mode", c.mode,
+      {{"bounds", CalibrateMode::bounds},
+       {"abacus", CalibrateMode::abacus},
+       {"search", CalibrateMode::search}},
+      {}, "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+  section.quantity("Young modulus", c.young_modulus, "Pa", above(0),
+                   "Wanted of the specimen's middle; may be left out.");
+  section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
+                 "Wanted of the specimen's middle; may be left out.");
+  section.quantity("Compressive strength", c.compressive_strength, "Pa", above(0),
+                   "Wanted between the platens of the scene; may be left out.");
+  section.quantity("Tensile strength", c.tensile_strength, "Pa", above(0),
+                   "Wanted between glued ends; may be left out.");
+  section.integer("Seeds", c.seeds, 1, 1000, "Packings to calibrate on: Scene/Seed and those after it.");
+  section.integer("Verification seeds", c.verification_seeds, 0, 1000,
+                  "Packings after those, on which what was found is judged.");
+  section.number("Strain", c.strain, above_up_to(0, 0.01), "Closure over height in the static solves.");
+  section.quantity("Tension rate", c.tension_rate, "m/s", above(0),
+                   "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
+                   "tensile over compressive strength (a tenth where one is not wanted).");
+  section.integer("Most trials", c.most_trials, 1, 1000, "Sets of strengths that are tried.");
+  section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
+                 "Relative difference of the strengths that ends the search.");
+  section.list("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
+  section.list("Stiffness ratio list", c.stiffness_ratios, "1", between(0, 5),
+               "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
+  section.list("Radius multiplier list", c.radius_multipliers, "1", above_up_to(0, 10),
+               "Abacus; empty: Bond/Radius multiplier.");
+  section.list("Poisson ratio list", c.poisson_ratios, "1", between_open(-1, 0.5),
+               "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
+  section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
+                 "Search for Poisson's ratio (parallel bond).");
+  section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
+                 "Search for Poisson's ratio (parallel bond).");
+  section.number("Smallest radius multiplier", c.multiplier_low, above_up_to(0, 10),
+                 "Search for Poisson's ratio (cohesive beam).");
+  section.number("Largest radius multiplier", c.multiplier_high, above_up_to(0, 10),
+                 "Search for Poisson's ratio (cohesive beam).");
+  section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
+                 "Search for the ratio of the strengths.");
+  section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
+                 "Search for the ratio of the strengths.");
+}
+
 } // namespace
 
 void declare_scene(Parameters &parameters, Scene &scene) {
@@ -412,6 +459,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_output(parameters, scene.output, scene.checkpoint);
   declare_expect(parameters, scene.expect);
   declare_pair_test(parameters, scene.pair_test);
+  declare_calibrate(parameters, scene.calibrate);
 }
 
 } // namespace platen::apps

@@ -1,0 +1,88 @@
+#include "apps/calibrate/abacus.h"
+
+#include "apps/calibrate/scatter.h"
+
+namespace platen::apps {
+namespace {
+
+const std::vector<std::string> columns{"seed",
+                                       "bond_modulus_pa",
+                                       "stiffness_ratio",
+                                       "radius_multiplier",
+                                       "bond_poisson",
+                                       "youngs_modulus_gauge_pa",
+                                       "youngs_modulus_platen_pa",
+                                       "poisson_ratio",
+                                       "voigt_modulus_pa",
+                                       "voigt_poisson",
+                                       "reuss_modulus_pa",
+                                       "reuss_poisson"};
+
+std::vector<double> or_own(const std::vector<double> &list, double own) {
+  return list.empty() ? std::vector<double>{own} : list;
+}
+
+std::vector<BondChoice> combinations(const Scene &scene) {
+  const Calibrate &c = scene.calibrate;
+  std::vector<BondChoice> all;
+  for (const double multiplier : or_own(c.radius_multipliers, scene.bond.radius_multiplier))
+    for (const double ratio : or_own(c.stiffness_ratios, scene.bond.stiffness_ratio))
+      for (const double poisson : or_own(c.poisson_ratios, scene.bond.poisson_ratio))
+        for (const double modulus : or_own(c.moduli, scene.bond.modulus)) {
+          BondChoice choice = choice_of(scene);
+          choice.radius_multiplier = multiplier;
+          choice.stiffness_ratio = ratio;
+          choice.poisson_ratio = poisson;
+          choice.modulus = modulus;
+          all.push_back(choice);
+        }
+  return all;
+}
+
+} // namespace
+
+Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, RunLog &log) {
+  const std::vector<BondChoice> choices = combinations(scene);
+  const bool linear = scene.platens.stiffness.kind != Stiffness::Kind::absolute;
+  const std::vector<unsigned long> seeds = training_seeds(scene);
+  std::vector<Trial> asked;
+  for (const BondChoice &choice : choices)
+    for (const unsigned long seed : seeds) {
+      asked.push_back({TrialKind::elastic, seed, choice});
+      if (linear) asked.back().choice.modulus = scene.bond.modulus;
+    }
+  const std::vector<TrialResult> results = trials(asked);
+
+  CsvWriter table(paths.folder / "abacus.csv", columns);
+  Json rows = Json::array();
+  log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
+           "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    const BondChoice &c = choices[k];
+    Scatter young, poisson, voigt, voigt_poisson;
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      const TrialResult &r = results[k * seeds.size() + s];
+      const double scale = linear ? c.modulus / scene.bond.modulus : 1.0;
+      const dem::NetworkModuli b = bounds_of(scene, trials.packing(seeds[s]), c);
+      table.row({seeds[s], c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
+                 scale * r.young_modulus, scale * r.platen_modulus, r.poisson_ratio, b.young_voigt,
+                 b.poisson_voigt, b.young_reuss, b.poisson_reuss});
+      if (r.good()) young.add(scale * r.young_modulus), poisson.add(r.poisson_ratio);
+      voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
+    }
+    log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",
+             1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio, 1e-9 * young.mean(),
+             1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(), voigt_poisson.mean());
+    Json row;
+    row["bond_modulus_pa"] = c.modulus;
+    row["stiffness_ratio"] = c.stiffness_ratio;
+    row["radius_multiplier"] = c.radius_multiplier;
+    row["bond_poisson_ratio"] = c.poisson_ratio;
+    row["youngs_modulus_gauge_pa"] = young.mean();
+    row["poisson_ratio"] = poisson.mean();
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+} // namespace platen::apps

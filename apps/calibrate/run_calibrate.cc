@@ -1,0 +1,261 @@
+#include "apps/calibrate/run_calibrate.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "apps/calibrate/abacus.h"
+#include "apps/calibrate/search.h"
+#include "apps/calibrate/trials.h"
+#include "apps/io/file.h"
+#include "apps/io/machine.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/stop_signal.h"
+#include "apps/io/summary.h"
+#include "apps/run/expectations.h"
+#include "apps/run/problem_setup.h"
+#include "apps/scene/units.h"
+#include "apps/scene/version.h"
+#include "dem/parallel.h"
+#include "fem/threads.h"
+
+namespace platen::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string text_of(const Scene &scene, const std::filesystem::path &folder) {
+  std::ostringstream text;
+  write_scene(scene, folder.string(), text);
+  return text.str();
+}
+
+void require_same_scene(const Scene &scene, const OutputPaths &paths) {
+  std::ifstream file(paths.scene(), std::ios::binary);
+  std::ostringstream before;
+  before << file.rdbuf();
+  if (before.str() != text_of(scene, paths.folder))
+    throw InputError(
+        paths.scene().string() +
+        ": error: is another scene than the one given, or the folder holds no calibration; resume "
+        "with the scene as it was, or leave out --resume");
+}
+
+const char *word(CalibrateMode mode) {
+  constexpr const char *words[] = {"bounds", "abacus", "search"};
+  return words[static_cast<int>(mode)];
+}
+
+class Calibration {
+public:
+  Calibration(const CommandLine &command, const Scene &scene)
+      : command_(command),
+        scene_(scene),
+        paths_(command.output),
+        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
+        limit_(command.threads) {
+    fem::limit_threads(command.threads);
+  }
+
+  int run();
+
+private:
+  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  std::string description() const;
+  void open();
+  void tell_bounds(Trials &trials, Json &s);
+  void tell_found(const Found &found, Json &s);
+  void write_found(const Found &found);
+  Json head() const;
+
+  const CommandLine &command_;
+  const Scene &scene_;
+  Clock::time_point start_ = Clock::now();
+  OutputPaths paths_;
+  RunLog log_;
+  dem::ThreadLimit limit_;
+};
+
+std::string Calibration::description() const {
+  const Calibrate &c = scene_.calibrate;
+  std::string text = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+  text += fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word(c.mode), c.seeds,
+                      c.mode == CalibrateMode::search ? c.verification_seeds : 0);
+  const auto say = [&](const char *what, double value, const char *unit, double factor) {
+    if (!std::isnan(value)) text += fmt::format("  wanted: {} {:.5g}{}\n", what, factor * value, unit);
+  };
+  if (c.mode != CalibrateMode::search) return text;
+  say("Young's modulus", c.young_modulus, " GPa", 1e-9);
+  say("Poisson's ratio", c.poisson_ratio, "", 1);
+  say("compressive strength", c.compressive_strength, " MPa", 1e-6);
+  say("tensile strength", c.tensile_strength, " MPa", 1e-6);
+  return text;
+}
+
+void Calibration::open() {
+  std::vector<std::filesystem::path> inputs{command_.scene};
+  if (!scene_.specimen.file.empty()) inputs.emplace_back(scene_.specimen.file);
+  if (command_.resume) {
+    require_same_scene(scene_, paths_);
+  } else {
+    open_output_folder(paths_.folder, command_.overwrite ? FolderUse::overwrite : FolderUse::fresh, inputs);
+    write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
+  }
+  log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
+}
+
+Json Calibration::head() const {
+  Json s;
+  s["status"] = "done";
+  s["app"] = "platen-calibrate";
+  s["scene"] = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+  s["version"] = version_line();
+  s["effects"] = effects_on(scene_);
+  s["mode"] = word(scene_.calibrate.mode);
+  s["threads"] = threads();
+  return s;
+}
+
+void Calibration::tell_bounds(Trials &trials, Json &s) {
+  const dem::Specimen &first = trials.packing(scene_.general.seed);
+  const dem::NetworkModuli b = bounds_of(scene_, first, choice_of(scene_));
+  log_.info(
+      "  of the bonds alone, as the scene has them: E at most {:.5g} GPa (Voigt, nu {:.4f}), about {:.5g} "
+      "GPa "
+      "(Reuss, nu {:.4f})",
+      1e-9 * b.young_voigt, b.poisson_voigt, 1e-9 * b.young_reuss, b.poisson_reuss);
+  s["particles"] = first.size();
+  s["bounds"] = {{"young_voigt_pa", b.young_voigt},
+                 {"poisson_voigt", b.poisson_voigt},
+                 {"young_reuss_pa", b.young_reuss},
+                 {"poisson_reuss", b.poisson_reuss}};
+}
+
+Json json_of(const Scatter &scatter) {
+  return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
+}
+Json json_of(const Measured &m) {
+  return {{"youngs_modulus_gauge_pa", json_of(m.young)}, {"youngs_modulus_platen_pa", json_of(m.platen)},
+          {"poisson_ratio", json_of(m.poisson)},         {"compressive_strength_pa", json_of(m.compressive)},
+          {"tensile_strength_pa", json_of(m.tensile)},   {"failed", m.failed}};
+}
+
+std::string row_of(const char *what, double unit, double wanted, const Scatter &training,
+                   const Scatter &unseen) {
+  const auto one = [&](const Scatter &s) {
+    if (s.count() == 0) return std::string("-");
+    if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
+    return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
+  };
+  const std::string goal = std::isnan(wanted) ? "-" : fmt::format("{:.4g}", wanted / unit);
+  const double off = 100 * (unseen.mean() / wanted - 1);
+  return fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", what, goal, one(training), one(unseen),
+                     std::isnan(off) ? "" : fmt::format("{:+.1f} %", off));
+}
+
+std::string table_of(const Scene &scene, const Found &f) {
+  const Calibrate &c = scene.calibrate;
+  std::string text = fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", "", "wanted", "calibrated on",
+                                 "unseen seeds", "off");
+  text += row_of("Young's modulus, GPa", 1e9, c.young_modulus, f.training.young, f.unseen.young);
+  text += row_of("Poisson's ratio", 1, c.poisson_ratio, f.training.poisson, f.unseen.poisson);
+  text += row_of("compressive strength, MPa", 1e6, c.compressive_strength, f.training.compressive,
+                 f.unseen.compressive);
+  text += row_of("tensile strength, MPa", 1e6, c.tensile_strength, f.training.tensile, f.unseen.tensile);
+  return text;
+}
+
+void Calibration::tell_found(const Found &f, Json &s) {
+  const BondChoice &c = f.choice;
+  s["found"] = {{"bond_modulus_pa", c.modulus},
+                {"stiffness_ratio", c.stiffness_ratio},
+                {"radius_multiplier", c.radius_multiplier},
+                {"bond_tensile_strength_pa", c.tensile_strength},
+                {"bond_shear_strength_pa", c.shear_strength}};
+  s["training"] = json_of(f.training);
+  s["verification"] = json_of(f.unseen);
+  const Measured &judged = f.unseen.young.count() > 0 ? f.unseen : f.training;
+  s["youngs_modulus_gauge_pa"] = judged.young.mean();
+  s["youngs_modulus_platen_pa"] = judged.platen.mean();
+  s["poisson_ratio"] = judged.poisson.mean();
+  s["strength_pa"] = judged.compressive.mean();
+  s["tensile_strength_pa"] = judged.tensile.mean();
+  s["strength_trials"] = f.strength_trials;
+  s["missed"] = f.missed;
+  log_.info(
+      "found: bond modulus {:.5g} GPa, stiffness ratio {:.5g}, radius multiplier {:.5g}, tensile strength "
+      "{:.5g} "
+      "MPa, shear strength {:.5g} MPa\n{}",
+      1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
+      1e-6 * c.shear_strength, table_of(scene_, f));
+  for (const std::string &line : f.missed)
+    log_.warning("{}", line);
+}
+
+// The scene itself with what was found in it.
+void Calibration::write_found(const Found &f) {
+  const BondChoice &c = f.choice;
+  std::vector<std::string> overrides = command_.overrides;
+  const auto set = [&](const char *key, double value, const char *unit) {
+    overrides.push_back(fmt::format("Bond/{} = {}{}", key, shortest_text(value), unit));
+  };
+  set("Modulus", c.modulus, " Pa");
+  set("Stiffness ratio", c.stiffness_ratio, "");
+  set("Radius multiplier", c.radius_multiplier, "");
+  set("Tensile strength", c.tensile_strength, " Pa");
+  set("Shear strength", c.shear_strength, " Pa");
+  const Scene scene = read_scene(command_.scene, overrides, AppKind::calibrate);
+  std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", scene_.name,
+                                    version_line(), table_of(scene_, f));
+  for (const std::string &line : f.missed)
+    comment += line + "\n";
+  std::string text;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);)
+    text += "# " + line + "\n";
+  write_text_aside(paths_.folder / "found.prm", text + text_of(scene, paths_.folder));
+}
+
+int Calibration::run() {
+  const CalibrateMode mode = scene_.calibrate.mode;
+  if (command_.dry_run) {
+    fmt::print("{}", description());
+    return status_done;
+  }
+  catch_stop_signals();
+  open();
+  log_.info("{}", description());
+  Json s = head();
+  try {
+    Trials trials(scene_, paths_, command_.resume, threads(), log_);
+    tell_bounds(trials, s);
+    if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene_, paths_, trials, log_);
+    if (mode == CalibrateMode::search) {
+      const Found found = search(scene_, trials, log_);
+      tell_found(found, s);
+      write_found(found);
+    }
+    s["trials"] = trials.made();
+    s["failed_trials"] = trials.failed();
+  } catch (const Trials::Stopped &stopped) {
+    log_.info("stopped by a signal; go on with: platen-calibrate {} -o {} --resume", command_.scene,
+              command_.output);
+    return exit_status_of_signal(stopped.signal);
+  }
+  s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
+  s["peak_memory_bytes"] = peak_memory_bytes();
+  write_summary(paths_.summary(), s);
+  log_.info("results are in {}", paths_.folder.string());
+  return tell_expectations(scene_, s, log_);
+}
+
+} // namespace
+
+int run_calibrate(const CommandLine &command, const Scene &scene) {
+  return Calibration(command, scene).run();
+}
+
+} // namespace platen::apps

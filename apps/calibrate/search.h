@@ -1,0 +1,26 @@
+// Bonds for a wanted material: Poisson's ratio by the stiffness ratio (beams: the radius multiplier), Young's
+// modulus by the bond's, to which it is proportional; then the ratio of the strengths by that of the bond's
+// shear and tensile strength, and their size by the latter, to which it is proportional.
+#pragma once
+
+#include "apps/calibrate/scatter.h"
+#include "apps/calibrate/trials.h"
+
+namespace platen::apps {
+
+// Means over seeds, compression and tension of those runs that came to a peak.
+struct Measured {
+  Scatter young, platen, poisson, compressive, tensile;
+  int failed = 0;
+};
+
+struct Found {
+  BondChoice choice;
+  Measured training, unseen;
+  int strength_trials = 0;
+  std::vector<std::string> missed; // what could not be reached, one line each
+};
+
+Found search(const Scene &scene, Trials &trials, RunLog &log);
+
+} // namespace platen::apps

@@ -1,0 +1,7 @@
+# Sources of platen-calibrate but for its main, apps/platen_calibrate.cc; linked with platen_run.
+set(PLATEN_CALIBRATE_SOURCES
+  calibrate/abacus.cc
+  calibrate/run_calibrate.cc
+  calibrate/search.cc
+  calibrate/trial.cc
+  calibrate/trials.cc)

@@ -1,0 +1,149 @@
+#include "apps/calibrate/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/run/problem_setup.h"
+#include "apps/scene/parameters.h"
+#include "coupling/static_press.h"
+#include "dem/measure/gauge.h"
+
+namespace platen::apps {
+namespace {
+
+// Looks at the stress on the way to the largest strain, as many as platen-compress takes.
+constexpr double looks = 600;
+// A run is over when the stress has fallen to this share of its peak; moduli are secants at that of 40 %.
+constexpr double fallen = 0.8, modulus_share = 0.4;
+// Largest strain of a tension test over that of a compression test.
+constexpr double tension_strain = 0.25;
+
+Scene chosen(const Scene &scene, const BondChoice &choice) {
+  Scene s = scene;
+  s.bond.modulus = choice.modulus;
+  s.bond.stiffness_ratio = choice.stiffness_ratio;
+  s.bond.radius_multiplier = choice.radius_multiplier;
+  s.bond.poisson_ratio = choice.poisson_ratio;
+  s.bond.tensile_strength = choice.tensile_strength;
+  s.bond.shear_strength = choice.shear_strength;
+  s.effects.energy_ledger = s.effects.crack_log = false;
+  return s;
+}
+
+coupling::Problem problem_of(const Scene &scene, const dem::Specimen &specimen) {
+  try {
+    return coupling::Problem(specimen, problem_settings(scene));
+  } catch (const coupling::BadSetup &e) {
+    if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
+    throw InputError(e.entry() + " " + e.what());
+  }
+}
+
+double tension_rate(const Scene &scene) {
+  const Calibrate &c = scene.calibrate;
+  if (!std::isnan(c.tension_rate)) return c.tension_rate;
+  const double ratio = c.tensile_strength / c.compressive_strength;
+  return scene.loading.axial_rate * (std::isnan(ratio) ? 0.1 : ratio);
+}
+
+struct Look {
+  double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
+};
+
+// Linear between the looks on both sides of a share of the peak, before it.
+void add_moduli(const std::vector<Look> &all, double peak, TrialResult &result) {
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    const Look &a = all[k - 1], &b = all[k];
+    if (b.stress < modulus_share * peak) continue;
+    const double w = (modulus_share * peak - a.stress) / (b.stress - a.stress);
+    const auto at = [&](double Look::*value) { return (1 - w) * a.*value + w * b.*value; };
+    result.young_modulus = modulus_share * peak / at(&Look::axial);
+    result.platen_modulus = modulus_share * peak / at(&Look::strain_platen);
+    result.poisson_ratio = at(&Look::lateral) / at(&Look::axial);
+    return;
+  }
+}
+
+void load_to_peak(coupling::Problem &problem, bool tension, double target, TrialResult &result) {
+  const double sign = tension ? -1 : 1;
+  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const double step_closes = problem.settings().loading.rate * problem.time_step() / problem.shape().height;
+  const long between = std::max(1L, std::lround(target / looks / step_closes));
+  std::vector<Look> all{{}};
+  double peak = 0;
+  while (sign * problem.closure_strain() < target) {
+    for (long made = 0; made < between;)
+      made += problem.advance(between - made);
+    const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
+    all.push_back({sign * 0.5 * (problem.stress_top() + problem.stress_bottom()),
+                   sign * problem.closure_strain(), -sign * strain.axial, sign * strain.lateral()});
+    const Look &now = all.back();
+    if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen;
+    const bool broken = problem.model.broken_tension + problem.model.broken_shear > 0;
+    if (broken && now.stress < fallen * peak) {
+      result.strength = peak;
+      add_moduli(all, peak, result);
+      return;
+    }
+  }
+  result.strain_at_peak = not_given;
+  result.status = "no peak before the largest strain";
+}
+
+} // namespace
+
+const char *word(TrialKind kind) {
+  constexpr const char *words[] = {"elastic", "compression", "tension"};
+  return words[static_cast<int>(kind)];
+}
+
+BondChoice choice_of(const Scene &scene) {
+  const Bond &b = scene.bond;
+  return {b.modulus,       b.stiffness_ratio,  b.radius_multiplier,
+          b.poisson_ratio, b.tensile_strength, b.shear_strength};
+}
+
+TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
+  TrialResult result;
+  try {
+    coupling::Problem problem = problem_of(chosen(scene, choice), specimen);
+    const coupling::StaticPress p = coupling::press_statically(problem, scene.calibrate.strain);
+    result.young_modulus = p.youngs_modulus();
+    result.platen_modulus = p.platen_modulus();
+    result.poisson_ratio = p.poisson_ratio();
+  } catch (const coupling::NumericsStopped &e) {
+    result.status = e.what();
+  }
+  return result;
+}
+
+TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice,
+                           bool tension) {
+  Scene s = chosen(scene, choice);
+  if (tension) {
+    s.loading.test = LoadingTest::tension;
+    s.platens.attachment = Attachment::glued;
+    s.loading.axial_rate = tension_rate(scene);
+    s.loading.target_strain *= tension_strain;
+  } else {
+    s.loading.test = LoadingTest::compression;
+  }
+  TrialResult result;
+  try {
+    coupling::Problem problem = problem_of(s, specimen);
+    load_to_peak(problem, tension, s.loading.target_strain, result);
+  } catch (const coupling::NumericsStopped &e) {
+    result.status = e.what();
+  }
+  return result;
+}
+
+dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
+  const dem::ModelSettings settings = problem_settings(chosen(scene, choice)).model;
+  const dem::Particles particles(specimen, settings.density, settings.rotation);
+  const dem::Bonds bonds(particles, settings.bond_layout, *settings.bond);
+  return dem::network_moduli(bonds, specimen.shape.volume());
+}
+
+} // namespace platen::apps

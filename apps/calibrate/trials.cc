@@ -1,0 +1,211 @@
+#include "apps/calibrate/trials.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "apps/io/numbers.h"
+#include "apps/io/specimen_csv.h"
+#include "apps/io/stop_signal.h"
+#include "apps/run/specimen_setup.h"
+#include "apps/scene/errors.h"
+#include "apps/scene/units.h"
+#include "dem/parallel.h"
+
+namespace platen::apps {
+namespace {
+
+const std::vector<std::string> columns{"test",
+                                       "seed",
+                                       "bond_modulus_pa",
+                                       "stiffness_ratio",
+                                       "radius_multiplier",
+                                       "bond_poisson",
+                                       "tensile_pa",
+                                       "shear_pa",
+                                       "status",
+                                       "youngs_modulus_gauge_pa",
+                                       "youngs_modulus_platen_pa",
+                                       "poisson_ratio",
+                                       "strength_pa",
+                                       "strain_at_peak"};
+
+// What decides the result; elastic trials do not ask for strengths.
+std::string key_of(const Trial &t) {
+  const BondChoice &c = t.choice;
+  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
+  for (const double number : {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio})
+    key += "," + shortest_text(number);
+  if (t.kind == TrialKind::elastic) return key + ",0,0";
+  return key + "," + shortest_text(c.tensile_strength) + "," + shortest_text(c.shear_strength);
+}
+
+std::vector<std::string> cells_of(const std::string &line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+// Without what would break a row in two.
+std::string one_cell(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '"'; }, ';');
+  return text;
+}
+
+// work(k) for k of [0, count), on so many threads; what a piece throws is thrown here once all are done.
+template <class Work>
+void share_out(std::size_t count, int threads, const Work &work) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  const auto serve = [&] {
+    for (std::size_t k = next++; k < count; k = next++)
+      try {
+        work(k);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!thrown) thrown = std::current_exception();
+        next = count;
+      }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
+    others.emplace_back(serve);
+  serve();
+  for (std::thread &other : others)
+    other.join();
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+} // namespace
+
+Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log)
+    : scene_(scene), paths_(paths), threads_(threads), log_(log) {
+  if (resume)
+    read();
+  else
+    table_.emplace(paths_.folder / "trials.csv", columns);
+}
+
+void Trials::read() {
+  const std::filesystem::path path = paths_.folder / "trials.csv";
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream whole;
+  whole << file.rdbuf();
+  const std::string text = whole.str();
+  const std::size_t end = text.rfind('\n'); // a row that was cut off counts for nothing
+  if (!file || end == std::string::npos)
+    throw InputError(path.string() + ": error: holds no trials to resume from; leave out --resume");
+  std::istringstream lines(text.substr(0, end + 1));
+  std::string line;
+  std::getline(lines, line);
+  if (cells_of(line) != columns)
+    throw InputError(path.string() + ":1: error: has other columns than this version writes");
+  for (int number = 2; std::getline(lines, line); ++number) {
+    const std::vector<std::string> cells = cells_of(line);
+    std::vector<double> values;
+    for (std::size_t k = 9; k < cells.size(); ++k)
+      if (const auto value = number_of(cells[k])) values.push_back(*value);
+    if (cells.size() != columns.size() || values.size() != 5)
+      throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
+    std::string key = cells[0] + "," + cells[1];
+    for (std::size_t k = 2; k < 8; ++k)
+      key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
+    known_[key] = {cells[8], values[0], values[1], values[2], values[3], values[4]};
+  }
+  table_.emplace(path, columns, end + 1);
+}
+
+void Trials::keep(const Trial &t, const TrialResult &r) {
+  const BondChoice &c = t.choice;
+  const bool elastic = t.kind == TrialKind::elastic;
+  const std::string status = one_cell(r.status);
+  table_->row({word(t.kind), t.seed, c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
+               elastic ? 0.0 : c.tensile_strength, elastic ? 0.0 : c.shear_strength, status, r.young_modulus,
+               r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  known_[key_of(t)] = r;
+  ++made_;
+}
+
+const dem::Specimen &Trials::packing(unsigned long seed) {
+  pack({seed});
+  return packings_.at(seed);
+}
+
+void Trials::pack(const std::vector<unsigned long> &seeds) {
+  std::vector<unsigned long> missing;
+  for (const unsigned long seed : seeds)
+    if (packings_.count(seed) == 0 && std::find(missing.begin(), missing.end(), seed) == missing.end())
+      missing.push_back(seed);
+  std::vector<dem::Specimen> made(missing.size());
+  const auto file_of = [&](unsigned long seed) {
+    return paths_.folder / ("packing_" + std::to_string(seed) + ".csv");
+  };
+  share_out(missing.size(), threads_, [&](std::size_t k) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file_of(missing[k]), ignored)) {
+      made[k] = read_specimen_csv(file_of(missing[k])).specimen;
+      return;
+    }
+    Scene scene = scene_;
+    scene.general.seed = missing[k];
+    made[k] = make_specimen(scene);
+    write_specimen_csv(file_of(missing[k]), made[k]);
+  });
+  for (std::size_t k = 0; k < missing.size(); ++k) {
+    log_.info("packing of seed {}: {} spheres", missing[k], made[k].size());
+    packings_[missing[k]] = std::move(made[k]);
+  }
+}
+
+TrialResult Trials::run(const Trial &t) const {
+  const dem::Specimen &specimen = packings_.at(t.seed);
+  if (t.kind == TrialKind::elastic) return elastic_trial(scene_, specimen, t.choice);
+  return strength_trial(scene_, specimen, t.choice, t.kind == TrialKind::tension);
+}
+
+std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
+  std::vector<Trial> open;
+  std::vector<unsigned long> seeds;
+  for (const Trial &t : trials) {
+    const std::string key = key_of(t);
+    if (known_.count(key) > 0 ||
+        std::any_of(open.begin(), open.end(), [&](const Trial &o) { return key_of(o) == key; }))
+      continue;
+    open.push_back(t);
+    seeds.push_back(t.seed);
+  }
+  pack(seeds);
+  std::vector<std::optional<TrialResult>> results(open.size());
+  std::mutex mutex;
+  std::size_t written = 0;
+  {
+    // One thread is worth most to a whole trial; a single one may have them all.
+    const dem::ThreadLimit limit(open.size() > 1 ? 1 : threads_);
+    share_out(open.size(), threads_, [&](std::size_t k) {
+      if (stop_requested() != 0) return;
+      TrialResult result = run(open[k]);
+      const std::lock_guard<std::mutex> lock(mutex);
+      results[k] = std::move(result);
+      for (; written < open.size() && results[written]; ++written)
+        keep(open[written], *results[written]);
+    });
+  }
+  if (stop_requested() != 0) throw Stopped{stop_requested()};
+  std::vector<TrialResult> all;
+  for (const Trial &t : trials) {
+    all.push_back(known_.at(key_of(t)));
+    if (!all.back().good()) ++failed_;
+  }
+  return all;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,59 @@
+// The trials of a calibration: packings and results are kept in the output folder, so that none is made
+// twice.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/calibrate/trial.h"
+#include "apps/io/csv_writer.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/run_log.h"
+
+namespace platen::apps {
+
+struct Trial {
+  TrialKind kind = TrialKind::elastic;
+  unsigned long seed = 1; // of the packing
+  BondChoice choice;
+};
+
+class Trials {
+public:
+  // `resume`: trials.csv of the folder is read, rows that are whole count. Throws InputError where it is not
+  // such a table.
+  Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log);
+
+  // Results in the order of the trials. What trials.csv knows is taken from there; the rest runs, as many at
+  // a time as there are threads, and is written in the order of the trials as soon as it and all before it
+  // are done. Packings are made on the way. Throws Stopped after a signal.
+  std::vector<TrialResult> operator()(const std::vector<Trial> &trials);
+  const dem::Specimen &packing(unsigned long seed);
+  // Makes what packings are missing, several at a time.
+  void pack(const std::vector<unsigned long> &seeds);
+
+  long made() const { return made_; }     // here, not read
+  long failed() const { return failed_; } // of all that were asked for
+
+  struct Stopped {
+    int signal = 0;
+  };
+
+private:
+  TrialResult run(const Trial &trial) const;
+  void read();
+  void keep(const Trial &trial, const TrialResult &result);
+
+  const Scene &scene_;
+  OutputPaths paths_;
+  int threads_;
+  RunLog &log_;
+  std::map<unsigned long, dem::Specimen> packings_;
+  std::map<std::string, TrialResult> known_;
+  std::optional<CsvWriter> table_;
+  long made_ = 0, failed_ = 0;
+};
+
+} // namespace platen::apps
