@@ -15,6 +15,9 @@ namespace {
 
 constexpr int most_solves = 40; // the set of contacts settles within ten, or swings
 constexpr double rough = 1e-4;
+// After so many solves a sphere changes sides for a hundredth of the mean force only.
+constexpr int decided = 12;
+constexpr double hair = 0.01;
 
 // All spheres near both platens, and which of them are pressed.
 struct Contacts {
@@ -56,11 +59,20 @@ dem::StaticCase case_of(const Contacts &c) {
   return load;
 }
 
-// True where no sphere changed sides.
-bool update(Contacts &c, const dem::StaticState &state) {
+// True where no sphere changed sides. Where sets come round again, what is within `band` of the mean force
+// stays as it is.
+bool update(Contacts &c, const dem::StaticState &state, double band) {
+  std::vector<double> force(c.near.size());
+  double sum = 0;
+  std::size_t pressed = 0;
+  for (std::size_t k = 0; k < c.near.size(); ++k) {
+    force[k] = normal_force(c.near[k], state);
+    if (c.pressed[k] && force[k] > 0) sum += force[k], ++pressed;
+  }
+  const double undecided = pressed > 0 ? band * sum / static_cast<double>(pressed) : 0;
   bool settled = true;
   for (std::size_t k = 0; k < c.near.size(); ++k) {
-    const bool presses = c.glued || normal_force(c.near[k], state) > 0;
+    const bool presses = c.glued || force[k] > (c.pressed[k] ? -undecided : undecided);
     settled = settled && presses == c.pressed[k];
     c.pressed[k] = presses;
   }
@@ -104,7 +116,7 @@ StaticPress press_statically(Problem &problem, double strain, const dem::StaticS
       throw NumericsStopped(e.what());
     }
     iterations += state.iterations;
-    if (!update(contacts, state)) continue;
+    if (!update(contacts, state, solve > decided ? hair : 0)) continue;
     if (now.tolerance > settings.tolerance) {
       now.tolerance = settings.tolerance;
       continue;

@@ -174,7 +174,8 @@ void Calibration::tell_found(const Found &f, Json &s) {
                 {"stiffness_ratio", c.stiffness_ratio},
                 {"radius_multiplier", c.radius_multiplier},
                 {"bond_tensile_strength_pa", c.tensile_strength},
-                {"bond_shear_strength_pa", c.shear_strength}};
+                {"bond_shear_strength_pa", c.shear_strength},
+                {"moment_contribution", c.moment_contribution}};
   s["training"] = json_of(f.training);
   s["verification"] = json_of(f.unseen);
   const Measured &judged = f.unseen.young.count() > 0 ? f.unseen : f.training;
@@ -188,9 +189,9 @@ void Calibration::tell_found(const Found &f, Json &s) {
   log_.info(
       "found: bond modulus {:.5g} GPa, stiffness ratio {:.5g}, radius multiplier {:.5g}, tensile strength "
       "{:.5g} "
-      "MPa, shear strength {:.5g} MPa\n{}",
+      "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}\n{}",
       1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, table_of(scene_, f));
+      1e-6 * c.shear_strength, c.moment_contribution, table_of(scene_, f));
   for (const std::string &line : f.missed)
     log_.warning("{}", line);
 }
@@ -207,6 +208,7 @@ void Calibration::write_found(const Found &f) {
   set("Radius multiplier", c.radius_multiplier, "");
   set("Tensile strength", c.tensile_strength, " Pa");
   set("Shear strength", c.shear_strength, " Pa");
+  set("Moment contribution", c.moment_contribution, "");
   const Scene scene = read_scene(command_.scene, overrides, AppKind::calibrate);
   std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", scene_.name,
                                     version_line(), table_of(scene_, f));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace platen::apps {
 namespace {
@@ -16,6 +17,8 @@ constexpr double first_step = 1.4;
 // Where no run comes to a peak the bonds are too strong for the largest strain.
 constexpr double weaker = 0.5;
 constexpr int most_weaker = 4;
+// Logarithm of compressive over tensile strength, measured over wanted, that is told as missed.
+constexpr double out_of_reach = 0.05;
 
 bool wanted(double value) {
   return !std::isnan(value);
@@ -52,6 +55,15 @@ private:
   double missing(const Measured &m) const;
   void scale_strengths(const Measured &m);
   void set_ratio(double log_ratio);
+  double off(const Measured &m) const;
+  double largest_ratio() const;
+
+  struct Attempt {
+    double ratio, missing; // logarithms: of shear over tensile strength; measured over wanted
+    BondChoice choice;
+    Measured measured;
+  };
+  double next_ratio(const std::vector<Attempt> &all) const;
 
   const Scene &scene_;
   const Calibrate &c_;
@@ -135,8 +147,17 @@ void Search::find_modulus() {
   }
 }
 
+// Up to the largest ratio of the bond's strengths; beyond it, where shear decides nothing any more, moments
+// count less and less.
 void Search::set_ratio(double log_ratio) {
-  found_.choice.shear_strength = std::exp(log_ratio) * found_.choice.tensile_strength;
+  const double high = std::log(c_.strengths_high), beyond = std::max(0.0, log_ratio - high);
+  found_.choice.shear_strength = std::exp(std::min(log_ratio, high)) * found_.choice.tensile_strength;
+  const double own = scene_.bond.moment_contribution;
+  if (c_.moments_low < own)
+    found_.choice.moment_contribution = own + std::min(beyond, 1.0) * (c_.moments_low - own);
+}
+double Search::largest_ratio() const {
+  return std::log(c_.strengths_high) + (c_.moments_low < scene_.bond.moment_contribution ? 1 : 0);
 }
 
 // Logarithm of compressive over tensile strength, measured over wanted.
@@ -164,10 +185,10 @@ Measured Search::strengths_at(double log_ratio) {
     const bool all = (m.compressive.count() > 0 || !wanted(c_.compressive_strength)) &&
                      (m.tensile.count() > 0 || !wanted(c_.tensile_strength));
     log_.info(
-        "  trial {}: bond strengths {:.5g} MPa in tension, {:.5g} MPa in shear: {:.4g} MPa in compression, "
-        "{:.4g} MPa in tension",
+        "  trial {}: bond strengths {:.5g} MPa in tension, {:.5g} MPa in shear, moment contribution {:.4g}: "
+        "{:.4g} MPa in compression, {:.4g} MPa in tension",
         found_.strength_trials, 1e-6 * found_.choice.tensile_strength, 1e-6 * found_.choice.shear_strength,
-        1e-6 * m.compressive.mean(), 1e-6 * m.tensile.mean());
+        found_.choice.moment_contribution, 1e-6 * m.compressive.mean(), 1e-6 * m.tensile.mean());
     if (all) return m;
     found_.choice.tensile_strength *= weaker;
   }
@@ -175,72 +196,64 @@ Measured Search::strengths_at(double log_ratio) {
       "no run came to a peak; a larger Loading/Target strain, or weaker bonds to begin with, help");
 }
 
+// Of the larger of both.
+double Search::off(const Measured &m) const {
+  double largest = 0;
+  if (wanted(c_.compressive_strength))
+    largest = std::max(largest, std::abs(m.compressive.mean() / c_.compressive_strength - 1));
+  if (wanted(c_.tensile_strength))
+    largest = std::max(largest, std::abs(m.tensile.mean() / c_.tensile_strength - 1));
+  return largest;
+}
+
+// Secants in logarithms: with the best trial on the other side where there is one, else with the last but
+// one.
+double Search::next_ratio(const std::vector<Attempt> &all) const {
+  const Attempt &last = all.back();
+  const Attempt *other = all.size() > 1 ? &all[all.size() - 2] : nullptr;
+  double best = std::numeric_limits<double>::infinity();
+  for (const Attempt &a : all)
+    if (a.missing * last.missing < 0 && std::abs(a.missing) < best) other = &a, best = std::abs(a.missing);
+  const double step = std::log(first_step);
+  double next = last.ratio + (last.missing < 0 ? step : -step);
+  if (other != nullptr && other->missing != last.missing && other->ratio != last.ratio)
+    next =
+        std::clamp(last.ratio - last.missing * (other->ratio - last.ratio) / (other->missing - last.missing),
+                   last.ratio - 2 * step, last.ratio + 2 * step);
+  return std::clamp(next, std::log(c_.strengths_low), largest_ratio());
+}
+
 void Search::find_strengths() {
   const bool both = wanted(c_.compressive_strength) && wanted(c_.tensile_strength);
-  const double low = std::log(c_.strengths_low), high = std::log(c_.strengths_high);
-  double x = std::log(found_.choice.shear_strength / found_.choice.tensile_strength);
-  if (both) x = std::clamp(x, low, high);
-  Measured m = strengths_at(x);
-  // Secants in logarithms; once two trials lie on both sides, between them.
-  struct Point {
-    double x, f;
-  };
-  std::vector<Point> points;
-  if (both) points.push_back({x, missing(m)});
-  const auto off = [&](const Measured &now) {
-    double largest = 0;
-    if (wanted(c_.compressive_strength))
-      largest = std::max(largest, std::abs(now.compressive.mean() / c_.compressive_strength - 1));
-    if (wanted(c_.tensile_strength))
-      largest = std::max(largest, std::abs(now.tensile.mean() / c_.tensile_strength - 1));
-    return largest;
-  };
-  while (found_.strength_trials < c_.most_trials && off(m) > c_.tolerance) {
-    if (both && std::abs(points.back().f) > c_.tolerance) {
-      const Point &last = points.back();
-      const auto other = [&] {
-        const Point *best = nullptr;
-        for (const Point &p : points)
-          if (p.f * last.f < 0 && (best == nullptr || std::abs(p.f) < std::abs(best->f))) best = &p;
-        if (best == nullptr && points.size() > 1) best = &points[points.size() - 2];
-        return best;
-      }();
-      double next = last.x + (last.f < 0 ? 1 : -1) * std::log(first_step);
-      if (other != nullptr && other->f != last.f && other->x != last.x) {
-        next = last.x - last.f * (other->x - last.x) / (other->f - last.f);
-        const double reach = 2 * std::log(first_step);
-        next = std::clamp(next, last.x - reach, last.x + reach);
-      }
-      next = std::clamp(next, low, high);
-      const bool been =
-          std::any_of(points.begin(), points.end(), [&](const Point &p) { return p.x == next; });
-      if (been && (next == low || next == high)) break; // the end of the range
-      x = next;
+  double ratio = std::log(found_.choice.shear_strength / found_.choice.tensile_strength);
+  if (both) ratio = std::clamp(ratio, std::log(c_.strengths_low), largest_ratio());
+  std::vector<Attempt> all;
+  while (true) {
+    const Measured m = strengths_at(ratio);
+    all.push_back({ratio, both ? missing(m) : 0.0, found_.choice, m});
+    if (off(m) <= c_.tolerance || found_.strength_trials >= c_.most_trials) break;
+    if (both && std::abs(all.back().missing) > c_.tolerance) {
+      ratio = next_ratio(all);
+      if (std::any_of(all.begin(), all.end(), [&](const Attempt &a) { return a.ratio == ratio; })) break;
     }
     scale_strengths(m);
-    m = strengths_at(x);
-    if (both) points.push_back({x, missing(m)});
   }
-  if (both) {
-    // The best ratio of all that were tried.
-    const Point best = *std::min_element(points.begin(), points.end(), [](const Point &a, const Point &b) {
-      return std::abs(a.f) < std::abs(b.f);
-    });
-    if (best.x != x) {
-      set_ratio(best.x);
-      m = strengths_at(best.x);
-    }
-    if (std::abs(best.f) > 3 * c_.tolerance)
-      found_.missed.push_back(
-          fmt::format("compressive over tensile strength {:.4g} is out of reach in {} trials: the nearest is "
-                      "{:.4g}, at a shear "
-                      "strength of {:.4g} times the tensile strength of the bond (searched {:.4g} to {:.4g})",
-                      c_.compressive_strength / c_.tensile_strength, found_.strength_trials,
-                      c_.compressive_strength / c_.tensile_strength * std::exp(best.f), std::exp(best.x),
-                      c_.strengths_low, c_.strengths_high));
-  }
-  // The last touch needs no run: strengths are proportional.
-  scale_strengths(m);
+  const Attempt &best = *std::min_element(all.begin(), all.end(), [&](const Attempt &a, const Attempt &b) {
+    return both ? std::abs(a.missing) < std::abs(b.missing) : off(a.measured) < off(b.measured);
+  });
+  found_.choice = best.choice;
+  scale_strengths(best.measured); // the last touch needs no run: strengths are proportional
+  if (std::abs(best.missing) <= out_of_reach) return;
+  const double goal = c_.compressive_strength / c_.tensile_strength;
+  found_.missed.push_back(fmt::format(
+      "compressive over tensile strength {:.4g} was not reached in {} trials: the nearest is {:.4g}, at a "
+      "bond shear "
+      "strength of {:.4g} times the tensile one (searched from {:.4g} to {:.4g}) and a moment contribution "
+      "of {:.4g} "
+      "(down to {:.4g}); a larger Bond/Friction angle or Contact/Friction moves it too",
+      goal, found_.strength_trials, goal * std::exp(best.missing),
+      best.choice.shear_strength / best.choice.tensile_strength, c_.strengths_low, c_.strengths_high,
+      best.choice.moment_contribution, std::min(c_.moments_low, scene_.bond.moment_contribution)));
 }
 
 } // namespace

@@ -27,6 +27,7 @@ Scene chosen(const Scene &scene, const BondChoice &choice) {
   s.bond.poisson_ratio = choice.poisson_ratio;
   s.bond.tensile_strength = choice.tensile_strength;
   s.bond.shear_strength = choice.shear_strength;
+  s.bond.moment_contribution = choice.moment_contribution;
   s.effects.energy_ledger = s.effects.crack_log = false;
   return s;
 }
@@ -100,8 +101,8 @@ const char *word(TrialKind kind) {
 
 BondChoice choice_of(const Scene &scene) {
   const Bond &b = scene.bond;
-  return {b.modulus,       b.stiffness_ratio,  b.radius_multiplier,
-          b.poisson_ratio, b.tensile_strength, b.shear_strength};
+  return {b.modulus,          b.stiffness_ratio, b.radius_multiplier,  b.poisson_ratio,
+          b.tensile_strength, b.shear_strength,  b.moment_contribution};
 }
 
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {

@@ -12,6 +12,7 @@ namespace platen::apps {
 struct BondChoice {
   double modulus = 0, stiffness_ratio = 0, radius_multiplier = 1, poisson_ratio = 0; // Pa, 1, 1, 1
   double tensile_strength = 0, shear_strength = 0;                                   // Pa
+  double moment_contribution = 1;
 };
 BondChoice choice_of(const Scene &scene);
 

@@ -266,7 +266,8 @@ struct Calibrate { // platen-calibrate
   // Where the search may go.
   double ratio_low = 0.02, ratio_high = 1;          // shear over normal stiffness (parallel bond)
   double multiplier_low = 0.3, multiplier_high = 1; // radius multiplier (cohesive beam)
-  double strengths_low = 0.5, strengths_high = 12;  // shear over tensile strength of the bond
+  double moments_low = 0; // moment contribution, once the strengths are at their largest ratio
+  double strengths_low = 0.5, strengths_high = 6; // shear over tensile strength of the bond
 };
 
 struct Scene {

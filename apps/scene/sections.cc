@@ -437,6 +437,9 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search for Poisson's ratio (cohesive beam).");
   section.number("Largest radius multiplier", c.multiplier_high, above_up_to(0, 10),
                  "Search for Poisson's ratio (cohesive beam).");
+  section.number(
+      "Smallest moment contribution", c.moments_low, between(0, 1),
+      "Search for the ratio of the strengths, once shear over tensile strength is at its largest.");
   section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
                  "Search for the ratio of the strengths.");
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
