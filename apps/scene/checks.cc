@@ -30,6 +30,7 @@ public:
   void cell() const;
   void pair_test() const;
   void calibrate() const;
+  void bar_test() const;
   void notes();
 
 private:
@@ -330,6 +331,26 @@ void SceneCheck::calibrate() const {
                                              parameters_.at("Calibrate/Compressive strength").text + ".");
 }
 
+void SceneCheck::bar_test() const {
+  if (app_ != AppKind::bar) return;
+  const BarTest &bar = scene_.bar_test;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves a heap of grains, no bar. Allowed: parallel bond, cohesive beam.");
+  if (scene_.effects.gravity)
+    refuse("Effects/Gravity", "would load the bar before the test does. Allowed: off.");
+  const bool swings = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
+  const std::string damps = "would damp what is to swing freely. Allowed: 0, or Bar test/Method = static.";
+  if (swings && scene_.integration.damping > 0) refuse("Integration/Damping", damps);
+  if (swings && scene_.bond.damping > 0) refuse("Bond/Damping", damps);
+  if (bar.load == BarLoad::impact && bar.method == BarMethod::at_rest)
+    refuse("Bar test/Method", "leaves nothing of Bar test/Load = impact. Allowed: both, dynamic.");
+  const SpecimenSection &specimen = scene_.specimen;
+  if (given(specimen.sphere_radius) && given(specimen.height) &&
+      2 * (bar.end_depth + 2) * specimen.sphere_radius > specimen.height)
+    refuse("Bar test/End depth", "is too deep: the two ends leave no bar between them in Specimen/Height = " +
+                                     parameters_.at("Specimen/Height").text + ".");
+}
+
 void SceneCheck::note(const std::string &path, const std::string &why) {
   const Entry &entry = parameters_.at(path);
   if (!entry.changed()) return;
@@ -404,6 +425,17 @@ void SceneCheck::notes() {
   if (scene_.integration.scheme != Scheme::tchamwa_wielgosz)
     note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
+  if (app_ == AppKind::bar) {
+    for (const char *key : {"Specimen/Ends", "Specimen/Seat"})
+      note(key, "a bar is held by the spheres of its end");
+    for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Platens/Friction static"})
+      note(key, "a bar meets no platens");
+    if (scene_.bar_test.method == BarMethod::at_rest)
+      for (const char *key : {"Bar test/Periods", "Effects/Contact", "Effects/Tangential"})
+        note(key, "Bar test/Method = static");
+    if (scene_.bar_test.load != BarLoad::bending && scene_.bar_test.load != BarLoad::all)
+      note("Bar test/Bent along", "nothing is bent");
+  }
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
     for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})
       note(key, "Pair test/Particles = 2");
@@ -429,6 +461,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.cell();
   check.pair_test();
   check.calibrate();
+  check.bar_test();
   check.notes();
 }
 

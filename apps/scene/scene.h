@@ -270,6 +270,20 @@ struct Calibrate { // platen-calibrate
   double strengths_low = 0.5, strengths_high = 6; // shear over tensile strength of the bond
 };
 
+enum class BarLoad { all, tension, bending, torsion, impact, none };
+enum class BarMethod { both, at_rest, dynamic };
+enum class BarSide { x, y };
+
+struct BarTest {               // platen-bar
+  BarLoad load = BarLoad::all; // none: the moduli alone
+  BarMethod method = BarMethod::both;
+  BarSide side = BarSide::x; // the way in which the bar is bent
+  double strain = 1e-4;      // at the skin of the clamped end
+  double end_depth = 1;      // mean sphere radii
+  double periods = 10;       // recorded of each oscillation
+  bool bulk_moduli = true;
+};
+
 struct Scene {
   std::string name = "default"; // file name without its ending
   std::string path;             // as given on the command line
@@ -288,6 +302,7 @@ struct Scene {
   std::vector<Expectation> expect; // only those that the scene gives
   PairTest pair_test;
   Calibrate calibrate;
+  BarTest bar_test;
   std::vector<std::string> notes; // entries that were set and have no effect here, one line each
   std::shared_ptr<const Parameters> parameters; // the same entries as text
 };

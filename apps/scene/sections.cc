@@ -362,6 +362,21 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"cone_bottom/height_m", "m"},
     {"cone_bottom/half_angle_deg", "degree"},
     {"cone_bottom/volume_fraction", "1"},
+    {"bulk/youngs_modulus_pa", "Pa"},
+    {"bulk/poisson_ratio", "1"},
+    {"effective_radius_m", "m"},
+    {"density_kg_m3", "kg/m3"},
+    {"tension/static_error", "1"},
+    {"tension/dynamic_error", "1"},
+    {"bending/static_error", "1"},
+    {"bending/static_error_effective", "1"},
+    {"bending/dynamic_error", "1"},
+    {"bending/dynamic_error_effective", "1"},
+    {"torsion/static_error", "1"},
+    {"torsion/static_error_effective", "1"},
+    {"torsion/dynamic_error", "1"},
+    {"torsion/dynamic_error_effective", "1"},
+    {"impact/wave_error", "1"},
 };
 
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
@@ -446,6 +461,34 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search for the ratio of the strengths.");
 }
 
+void declare_bar_test(Parameters &parameters, BarTest &bar) {
+  Section section(parameters, "Bar test");
+  section.word<BarLoad>("Load", bar.load,
+                        {{"all", BarLoad::all},
+                         {"tension", BarLoad::tension},
+                         {"bending", BarLoad::bending},
+                         {"torsion", BarLoad::torsion},
+                         {"impact", BarLoad::impact},
+                         {"none", BarLoad::none}},
+                        {}, "What is done to a bar clamped at its lower end; none: its moduli alone.");
+  section.word<BarMethod>(
+      "Method", bar.method,
+      {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}}, {},
+      "Static: the bar at rest under the load. Dynamic: it is let go from there and swings; an impact is "
+      "dynamic.");
+  section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}}, {},
+                        "The way in which bending pushes the free end.");
+  section.number("Strain", bar.strain, above_up_to(0, 0.01),
+                 "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "
+                 "speed of the struck end over that of the wave.");
+  section.number("End depth", bar.end_depth, between(0.05, 10),
+                 "Spheres whose surface is within this many mean radii of an end plane are clamped, loaded "
+                 "or struck.");
+  section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.");
+  section.flag("Bulk moduli", bar.bulk_moduli,
+               "Measure the moduli of the interior too, under six strains of its skin.");
+}
+
 } // namespace
 
 void declare_scene(Parameters &parameters, Scene &scene) {
@@ -463,6 +506,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_expect(parameters, scene.expect);
   declare_pair_test(parameters, scene.pair_test);
   declare_calibrate(parameters, scene.calibrate);
+  declare_bar_test(parameters, scene.bar_test);
 }
 
 } // namespace platen::apps

@@ -1,0 +1,165 @@
+#include "apps/bar/bar.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "dem/measure/section.h"
+
+namespace platen::apps {
+namespace {
+
+using dem::Particles;
+using dem::Vector3;
+
+// Part of the length, about the middle, over which sections are measured.
+constexpr double measured_share = 0.5;
+
+BarEnd end_within(const Particles &p, double plane, double depth, int sign) {
+  BarEnd end;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth) {
+      end.rows.push_back(static_cast<int>(i));
+      end.z += p.reference_position[i].z;
+    }
+  if (end.rows.empty())
+    throw std::invalid_argument("no sphere lies within Bar test/End depth of an end of the bar");
+  end.z /= static_cast<double>(end.rows.size());
+  return end;
+}
+
+// Mean of the positive (sign 1) or negative side of what lies within `depth` of a flat wall.
+double mean_at_wall(const Particles &p, int axis, int sign, double half_width, double depth) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double x = sign * p.reference_position[i][axis];
+    if (half_width - x - p.radius[i] > depth) continue;
+    sum += x;
+    ++count;
+  }
+  return count > 0 ? sum / count : half_width;
+}
+
+Section bounding_section(const Particles &p, const dem::Shape &shape, double mean_radius, double depth) {
+  if (shape.kind == dem::ShapeKind::box)
+    return {false, 0,
+            2 * mean_radius + mean_at_wall(p, 0, 1, 0.5 * shape.width_x, depth) +
+                mean_at_wall(p, 0, -1, 0.5 * shape.width_x, depth),
+            2 * mean_radius + mean_at_wall(p, 1, 1, 0.5 * shape.width_y, depth) +
+                mean_at_wall(p, 1, -1, 0.5 * shape.width_y, depth)};
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double r = std::hypot(p.reference_position[i].x, p.reference_position[i].y);
+    if (shape.radius - r - p.radius[i] > depth) continue;
+    sum += r;
+    ++count;
+  }
+  return {true, count > 0 ? mean_radius + sum / count : shape.radius, 0, 0};
+}
+
+double own_inertia(const Particles &p, std::size_t i) { // over the mass
+  return p.has_rotation() ? 0.4 * p.radius[i] * p.radius[i] : 0;
+}
+
+// Shares of a sphere in the loads and motions of its end: its volume (the mass may be that of a clamp).
+double weight(const Particles &p, std::size_t i) {
+  return p.radius[i] * p.radius[i] * p.radius[i];
+}
+
+struct EndSums {
+  double weight = 0, turning = 0;
+  Vector3 middle;
+};
+EndSums sums_of(const Particles &p, const BarEnd &end) {
+  EndSums s;
+  for (const int row : end.rows) {
+    const std::size_t i = static_cast<std::size_t>(row);
+    s.weight += weight(p, i);
+    s.middle += weight(p, i) * p.reference_position[i];
+  }
+  s.middle *= 1 / s.weight;
+  for (const int row : end.rows) {
+    const std::size_t i = static_cast<std::size_t>(row);
+    const Vector3 r = p.reference_position[i] - s.middle;
+    s.turning += weight(p, i) * (r.x * r.x + r.y * r.y + own_inertia(p, i));
+  }
+  return s;
+}
+
+} // namespace
+
+BarGeometry measure_bar(const Particles &p, const dem::Bonds &bonds, const dem::Shape &shape, double depth,
+                        bool along_x) {
+  BarGeometry g;
+  g.along_x = along_x;
+  double mass = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    g.mean_radius += p.radius[i] / static_cast<double>(p.size());
+    mass += p.mass[i];
+  }
+  const double layer = depth * g.mean_radius;
+  g.low = end_within(p, 0, layer, -1);
+  g.high = end_within(p, shape.height, layer, 1);
+  g.bottom = g.low.z - g.mean_radius;
+  g.top = g.high.z + g.mean_radius;
+  g.bounding = bounding_section(p, shape, g.mean_radius, layer);
+  const double middle = 0.5 * (g.bottom + g.top), reach = 0.5 * measured_share * g.length();
+  const dem::Gyration force = dem::bond_gyration(p, bonds, middle - reach, middle + reach),
+                      inertia = dem::mass_gyration(p, middle - reach, middle + reach);
+  g.effective = section_of_gyration(g.bounding.round, force.xx, force.yy);
+  g.mass = section_of_gyration(g.bounding.round, inertia.xx, inertia.yy);
+  g.mass_per_length = mass / g.length();
+  return g;
+}
+
+void add_force(dem::StaticCase &load, const Particles &p, const BarEnd &end, const Vector3 &force) {
+  load.force.resize(p.size());
+  const EndSums s = sums_of(p, end);
+  for (const int row : end.rows)
+    load.force[static_cast<std::size_t>(row)] += weight(p, static_cast<std::size_t>(row)) / s.weight * force;
+}
+
+void add_torque(dem::StaticCase &load, const Particles &p, const BarEnd &end, double torque) {
+  load.force.resize(p.size());
+  load.torque.resize(p.size());
+  const EndSums s = sums_of(p, end);
+  for (const int row : end.rows) {
+    const std::size_t i = static_cast<std::size_t>(row);
+    const Vector3 r = p.reference_position[i] - s.middle;
+    const double share = torque * weight(p, i) / s.turning;
+    load.force[i] += share * Vector3{-r.y, r.x, 0};
+    load.torque[i] += share * Vector3{0, 0, own_inertia(p, i)};
+  }
+}
+
+EndMotion motion_of(const Particles &p, const BarEnd &end, const std::vector<Vector3> &displacement,
+                    const std::vector<Vector3> &turn) {
+  const EndSums s = sums_of(p, end);
+  EndMotion m;
+  for (const int row : end.rows)
+    m.moved +=
+        weight(p, static_cast<std::size_t>(row)) / s.weight * displacement[static_cast<std::size_t>(row)];
+  for (const int row : end.rows) {
+    const std::size_t i = static_cast<std::size_t>(row);
+    const Vector3 r = p.reference_position[i] - s.middle, &u = displacement[i];
+    m.twist += weight(p, i) / s.turning * (r.x * u.y - r.y * u.x + (turn.empty() ? 0 : own_inertia(p, i) * turn[i].z));
+  }
+  return m;
+}
+
+EndMotion motion_of(const Particles &p, const BarEnd &end) {
+  std::vector<Vector3> displacement(p.size()), turn(p.has_rotation() ? p.size() : 0);
+  for (const int row : end.rows) {
+    const std::size_t i = static_cast<std::size_t>(row);
+    displacement[i] = p.position[i] - p.reference_position[i];
+    if (p.has_rotation()) {
+      const dem::Quaternion &q = (*p.orientation)[i];
+      turn[i] = (q.w < 0 ? -2.0 : 2.0) * vector_part(q);
+    }
+  }
+  return motion_of(p, end, displacement, turn);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,187 @@
+#include "apps/bar/dynamic_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/units.h"
+#include "dem/measure/spectrum.h"
+#include "dem/parallel.h"
+#include "dem/stable_step.h"
+
+namespace platen::apps {
+namespace {
+
+using dem::Model;
+using dem::Particles;
+using dem::Vector3;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+// Of the clamped spheres: what pulls at them moves them by less than round-off.
+constexpr double clamp_mass = 1e15;
+// Half the thickness of the slice whose mean motion a station tells, in mean radii.
+constexpr double station = 2;
+constexpr double airy_third = 1.0 / 3; // the integral of Ai from 0 on
+
+double mean_along_z(const dem::Column<Vector3> &column, const std::vector<int> &rows) {
+  double sum = 0;
+  for (const int row : rows)
+    sum += column[static_cast<std::size_t>(row)].z;
+  return sum / static_cast<double>(rows.size());
+}
+
+struct Station {
+  std::vector<int> rows;
+  double z = 0; // m, mean of the centres
+  Station(const Particles &p, double at, double reach) {
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (std::abs(p.reference_position[i].z - at) <= reach) {
+        rows.push_back(static_cast<int>(i));
+        z += p.reference_position[i].z;
+      }
+    z /= static_cast<double>(rows.size());
+  }
+  double moved(const Particles &p) const { return mean_along_z(p.position, rows) - z; }
+};
+
+// Steps a model from a state that is set, and reads it.
+class Run {
+public:
+  Run(Model &model, const BarGeometry &bar)
+      : model_(model), bar_(bar),
+        quarter(model.particles, bar.top - 0.25 * bar.length(), station * bar.mean_radius),
+        half(model.particles, bar.top - 0.5 * bar.length(), station * bar.mean_radius) {
+    model.compute_forces(0);
+    model.end_step(0);
+    initial_ = kinetic_energy(model.particles) + energy_shares(model.particles, *model.bonds).total();
+  }
+  void step(double dt) {
+    model_.begin_step(dt);
+    model_.compute_forces(dt);
+    model_.end_step(dt);
+  }
+  EndMotion end() const { return motion_of(model_.particles, bar_.high); }
+  BarSample sample() const {
+    const Particles &p = model_.particles;
+    BarSample s;
+    s.time = model_.time;
+    s.end = end();
+    s.struck_velocity = mean_along_z(p.velocity, bar_.high.rows);
+    s.far_velocity = mean_along_z(p.velocity, bar_.low.rows);
+    s.quarter = quarter.moved(p);
+    s.half = half.moved(p);
+    s.kinetic = kinetic_energy(p);
+    s.initial_energy = initial_;
+    s.energy = energy_shares(p, *model_.bonds);
+    s.broken_tension = model_.broken_tension;
+    s.broken_shear = model_.broken_shear;
+    return s;
+  }
+
+private:
+  Model &model_;
+  const BarGeometry &bar_;
+  double initial_ = 0;
+
+public:
+  const Station quarter, half;
+};
+
+void clamp(Particles &p, const BarEnd &end) {
+  for (const int row : end.rows) {
+    p.mass[static_cast<std::size_t>(row)] *= clamp_mass;
+    if (p.has_rotation()) (*p.inertia)[static_cast<std::size_t>(row)] *= clamp_mass;
+  }
+}
+
+double along(const EndMotion &end, BarLoad load, bool along_x) {
+  if (load == BarLoad::tension) return end.moved.z;
+  if (load == BarLoad::torsion) return end.twist;
+  return along_x ? end.moved.x : end.moved.y;
+}
+
+// First time at which even samples of a displacement, starting at 0, pass `level`.
+double time_of(const std::vector<double> &moved, double level, double dt) {
+  for (std::size_t k = 1; k < moved.size(); ++k)
+    if (moved[k] >= level)
+      return dt * (static_cast<double>(k - 1) + (level - moved[k - 1]) / (moved[k] - moved[k - 1]));
+  return none;
+}
+
+} // namespace
+
+BarTime bar_time_step(const Scene &scene, const Model &model) {
+  dem::DashpotFractions dashpots;
+  dashpots.bonds = scene.bond.damping;
+  const dem::StableStep limit =
+      dem::stable_step(model.particles, model.bonds.get(), model.contacts.get(), {}, dashpots);
+  const double wanted = scene.integration.time_step;
+  if (wanted == 0) return {scene.integration.safety * limit.limit, limit.reason};
+  if (wanted > limit.limit) {
+    const std::string reason = "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
+    if (scene.parameters) scene.parameters->refuse("Integration/Time step", reason);
+    throw InputError("Integration/Time step " + reason);
+  }
+  return {wanted, "as the scene sets it"};
+}
+
+Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
+                   double expected, const Clocking &clocking, const TakeSample &take) {
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.position[i] = p.reference_position[i] + from.displacement[i];
+    if (p.has_rotation()) (*p.orientation)[i] = dem::rotation_quaternion(from.turn[i]);
+  }
+  clamp(p, bar.low);
+  Run run(model, bar);
+  Oscillation result;
+  std::vector<double> swing{along(run.end(), load, bar.along_x)};
+  result.stopped = !take(run.sample());
+  while (result.steps < clocking.steps && !result.stopped) {
+    run.step(clocking.step);
+    ++result.steps;
+    if (result.steps % clocking.every != 0) continue;
+    swing.push_back(along(run.end(), load, bar.along_x));
+    result.stopped = !take(run.sample());
+  }
+  result.frequency = dem::main_frequency(swing, clocking.step * static_cast<double>(clocking.every),
+                                         0.5 * expected, 2 * expected);
+  return result;
+}
+
+Impact strike(Model &model, const BarGeometry &bar, double velocity, double speed, const Clocking &clocking,
+              const TakeSample &take) {
+  Particles &p = model.particles;
+  double struck = 0; // kg
+  for (const int row : bar.high.rows) {
+    p.velocity[static_cast<std::size_t>(row)] = {0, 0, -velocity};
+    struck += p.mass[static_cast<std::size_t>(row)];
+  }
+  Run run(model, bar);
+  std::vector<double> quarter{0}, half{0}, away{0};
+  Impact result;
+  result.stopped = !take(run.sample());
+  while (result.steps < clocking.steps && !result.stopped) {
+    run.step(clocking.step);
+    ++result.steps;
+    quarter.push_back(-run.quarter.moved(p));
+    half.push_back(-run.half.moved(p));
+    away.push_back(bar.low.z - mean_along_z(p.position, bar.low.rows));
+    if (result.steps % clocking.every == 0) result.stopped = !take(run.sample());
+  }
+  for (int k = 0; k < 3; ++k) { // the level depends on the speed, weakly
+    const double left = struck * velocity / (bar.mass_per_length * speed);
+    result.quarter_time = time_of(quarter, airy_third * left, clocking.step);
+    result.half_time = time_of(half, airy_third * left, clocking.step);
+    result.far_time = time_of(away, airy_third * 2 * left, clocking.step);
+    result.speed_quarter_to_half =
+        (run.quarter.z - run.half.z) / (result.half_time - result.quarter_time);
+    result.speed_end_to_end = bar.length() / result.far_time;
+    if (!(result.speed_end_to_end > 0)) break;
+    speed = result.speed_end_to_end;
+  }
+  return result;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,66 @@
+// The bar in motion: let go from a load, or struck.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "apps/bar/bar.h"
+#include "apps/bar/static_test.h"
+#include "dem/measure/bond_energy.h"
+
+namespace platen::apps {
+
+// What is read of the bar in motion.
+struct BarSample {
+  double time = 0; // s, since it was let go or struck
+  EndMotion end;   // of the free (struck) end
+  double struck_velocity = 0, far_velocity = 0; // m/s along z, means of the two ends
+  double quarter = 0, half = 0; // m along z, means at a quarter and half of the length from the struck end
+  double kinetic = 0;           // J
+  double initial_energy = 0;    // J, kinetic and stored, when it was let go or struck
+  dem::EnergyShares energy;     // J
+  long broken_tension = 0, broken_shear = 0;
+};
+// Takes each sample that is written; returns false to stop the run.
+using TakeSample = std::function<bool(const BarSample &)>;
+
+struct BarTime {
+  double step = 0; // s
+  std::string reason;
+};
+// Safety times the limit, or Integration/Time step, which must not exceed the limit (throws InputError).
+BarTime bar_time_step(const Scene &scene, const dem::Model &model);
+
+struct Clocking {
+  double step = 0;     // s
+  long steps = 0;      // to make
+  long every = 1;      // steps from one sample to the next
+};
+
+struct Oscillation {
+  double frequency = 0; // 1/s
+  long steps = 0;       // made
+  bool stopped = false;
+};
+// Swings freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
+// heavy that it stays. Its main frequency is looked for between half and twice `expected` (1/s). Leaves the
+// model in motion.
+Oscillation let_go(dem::Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
+                   double expected, const Clocking &clocking, const TakeSample &take);
+
+struct Impact {
+  double quarter_time = 0, half_time = 0, far_time = 0; // s, of arrival; NaN where there was none
+  double speed_quarter_to_half = 0;                     // m/s
+  double speed_end_to_end = 0;                          // m/s
+  long steps = 0;
+  bool stopped = false;
+};
+// The free bar, its upper end struck: the spheres there move down at `velocity` (m/s) at time 0. Arrival is
+// the time at which the displacement has come to a third of what the pulse leaves behind, M v / (m c): waves
+// spread by dispersion, and to leading order the front is the integral of Airy's function, which is 1/3 where
+// the long waves are, whatever the dispersion and the distance. The far end moves twice as far. `speed` (m/s)
+// is a first guess of c.
+Impact strike(dem::Model &model, const BarGeometry &bar, double velocity, double speed,
+              const Clocking &clocking, const TakeSample &take);
+
+} // namespace platen::apps

@@ -1,0 +1,309 @@
+#include "apps/bar/run_bar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "apps/bar/summary.h"
+#include "apps/io/csv_writer.h"
+#include "apps/io/file.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/progress.h"
+#include "apps/io/run_log.h"
+#include "apps/io/stop_signal.h"
+#include "apps/run/expectations.h"
+#include "apps/run/history.h"
+#include "apps/run/model_setup.h"
+#include "apps/run/specimen_setup.h"
+#include "apps/scene/parameters.h"
+#include "apps/scene/version.h"
+#include "dem/parallel.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+// Unless the scene says how often.
+constexpr double samples_per_period = 64, samples_of_an_impact = 400;
+// How long an impact is followed, in passages of the wave through the bar.
+constexpr double passages = 1.5;
+
+std::vector<BarLoad> loads_of(BarLoad load) {
+  if (load == BarLoad::all) return {BarLoad::tension, BarLoad::bending, BarLoad::torsion};
+  if (load == BarLoad::impact || load == BarLoad::none) return {};
+  return {load};
+}
+
+double frequency_of(const Rod &rod, BarLoad load) {
+  if (load == BarLoad::tension) return rod.axial_frequency();
+  if (load == BarLoad::bending) return rod.bending_frequency_with_shear();
+  return rod.torsion_frequency();
+}
+
+long steps_between_samples(const Scene &scene, double step, double interval) {
+  const Interval &every = scene.output.every;
+  double steps = interval / step;
+  if (every.kind == Interval::Kind::steps) steps = every.value;
+  if (every.kind == Interval::Kind::time) steps = every.value / step;
+  return std::max(1L, static_cast<long>(steps));
+}
+
+std::vector<std::string> columns() {
+  std::vector<std::string> names = history_columns();
+  for (const char *own : {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s",
+                          "far_end_velocity_m_s", "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j",
+                          "torsion_energy_j"})
+    names.emplace_back(own);
+  return names;
+}
+
+// A bar knows no platens: their columns are not measured.
+Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
+  Sample c;
+  c.time = s.time;
+  for (double *unmeasured :
+       {&c.strain_platen, &c.strain_gauge, &c.lateral_strain, &c.volumetric_strain, &c.lateral_extremal,
+        &c.axial_extremal, &c.stress_top, &c.stress_bottom, &c.confining_pressure, &c.contact, &c.body, &c.damping,
+        &c.friction, &c.fracture, &c.boundary, &c.unbalanced, &c.platen_speed})
+    *unmeasured = none;
+  c.intact_bonds = static_cast<double>(bonds) - static_cast<double>(s.broken_tension + s.broken_shear);
+  c.broken_tension = static_cast<double>(s.broken_tension);
+  c.broken_shear = static_cast<double>(s.broken_shear);
+  c.kinetic = ledger ? s.kinetic : none;
+  c.bond = ledger ? s.energy.total() : none;
+  c.residual = ledger ? s.kinetic + s.energy.total() - s.initial_energy : none;
+  c.time_step = step;
+  return c;
+}
+
+class BarRun {
+public:
+  BarRun(const CommandLine &command, const Scene &scene)
+      : command_(command), scene_(scene), paths_(command.output),
+        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
+        specimen_(make_specimen(scene)), settings_(model_settings(scene)), model_(specimen_, settings_) {}
+
+  void measure();
+  std::string description() const;
+  int carry_out(FolderUse use, const std::vector<std::filesystem::path> &inputs);
+
+private:
+  void test_loads();
+  void test_impact();
+  bool dynamic() const { return scene_.bar_test.method != BarMethod::at_rest; }
+  bool strikes() const {
+    return dynamic() && (scene_.bar_test.load == BarLoad::impact || scene_.bar_test.load == BarLoad::all);
+  }
+  long steps_of(BarLoad load) const;
+  long steps_of_impact() const;
+  bool take(const BarSample &sample, BarLoad load);
+  void finish(const dem::Model &model);
+
+  const CommandLine &command_;
+  const Scene &scene_;
+  OutputPaths paths_;
+  RunLog log_;
+  dem::Specimen specimen_;
+  dem::ModelSettings settings_;
+  dem::Model model_; // at rest
+  BarResults results_;
+  std::unique_ptr<CsvWriter> history_;
+  std::unique_ptr<Progress> progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double setup_seconds_ = 0;
+  long planned_ = 0;
+  int signal_ = 0;
+};
+
+void BarRun::measure() {
+  if (!model_.bonds || model_.bonds->size() == 0)
+    throw InputError("error: no two spheres are near enough to be bonded: Bond/Gap decides.");
+  BarResults &r = results_;
+  r.particles = model_.particles.size();
+  r.bonds = model_.bonds->size();
+  r.packing_fraction = volume_of_spheres(specimen_) / specimen_.shape.volume();
+  r.bar = measure_bar(model_.particles, *model_.bonds, specimen_.shape, scene_.bar_test.end_depth,
+                      scene_.bar_test.side == BarSide::x);
+  r.pulled = pull_bar(model_, r.bar, specimen_.shape);
+  if (!(r.pulled.axial_rigidity > 0))
+    throw InputError("error: the specimen cannot be measured as a bar: the middle half of its length holds too "
+                     "few spheres to tell a strain, or does not hold together.");
+  r.bulk = {none, none, none};
+  if (dynamic()) r.time = bar_time_step(scene_, model_);
+  planned_ = strikes() ? steps_of_impact() : 0;
+  if (dynamic())
+    for (const BarLoad load : loads_of(scene_.bar_test.load))
+      planned_ += steps_of(load);
+}
+
+long BarRun::steps_of(BarLoad load) const {
+  return static_cast<long>(
+      std::ceil(scene_.bar_test.periods / (frequency_of(results_.swinging_rod(true), load) * results_.time.step)));
+}
+
+long BarRun::steps_of_impact() const {
+  return static_cast<long>(
+      std::ceil(passages * results_.bar.length() / (results_.rod(false).wave_speed() * results_.time.step)));
+}
+
+std::string BarRun::description() const {
+  const BarResults &r = results_;
+  const Section &b = r.bar.bounding;
+  std::string text = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+  text += fmt::format("\n  {} spheres of mean radius {:.4g} mm, {} bonds, packing fraction {:.4f}\n", r.particles,
+                      1e3 * r.bar.mean_radius, r.bonds, r.packing_fraction);
+  text += fmt::format("  length {:.4g} mm, ", 1e3 * r.bar.length());
+  text += b.round ? fmt::format("radius {:.4g} mm, effective {:.4g} mm", 1e3 * b.radius, 1e3 * r.bar.effective.radius)
+                  : fmt::format("widths {:.4g} x {:.4g} mm, effective {:.4g} x {:.4g} mm", 1e3 * b.width_x,
+                                1e3 * b.width_y, 1e3 * r.bar.effective.width_x, 1e3 * r.bar.effective.width_y);
+  text += fmt::format("; {} spheres clamped, {} loaded\n", r.bar.low.rows.size(), r.bar.high.rows.size());
+  if (planned_ > 0)
+    text += fmt::format("  {} steps of {:.4g} s ({})\n", planned_, r.time.step, r.time.reason);
+  return text;
+}
+
+bool BarRun::take(const BarSample &s, BarLoad load) {
+  const bool ledger = scene_.effects.energy_ledger;
+  std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger));
+  for (const CsvCell &own : std::initializer_list<CsvCell>{
+           word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity, s.far_velocity,
+           s.quarter, s.half, ledger ? s.energy.axial : none, ledger ? s.energy.bending : none,
+           ledger ? s.energy.torsion : none})
+    cells.push_back(own);
+  history_->row(cells);
+  if (s.initial_energy > 0)
+    results_.energy_residual = std::max(
+        results_.energy_residual, std::abs(s.kinetic + s.energy.total() - s.initial_energy) / s.initial_energy);
+  ProgressSample p;
+  const double made = static_cast<double>(results_.steps) + s.time / results_.time.step;
+  p.fraction = made / static_cast<double>(planned_);
+  p.step = static_cast<std::uint64_t>(made + 0.5);
+  p.time = s.time;
+  p.broken_bonds = s.broken_tension + s.broken_shear;
+  progress_->update(p);
+  signal_ = stop_requested();
+  return signal_ == 0;
+}
+
+void BarRun::finish(const dem::Model &model) {
+  results_.broken_tension += model.broken_tension;
+  results_.broken_shear += model.broken_shear;
+  for (std::size_t k = 0; k < results_.stage_seconds.size(); ++k)
+    results_.stage_seconds[k] += model.clock.seconds(static_cast<dem::Stage>(k));
+}
+
+void BarRun::test_loads() {
+  const BarTest &test = scene_.bar_test;
+  for (const BarLoad load : loads_of(test.load)) {
+    if (signal_ != 0) return;
+    LoadResult result;
+    result.load = load;
+    result.keeps_static = test.method != BarMethod::dynamic;
+    result.at_rest = load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
+    if (dynamic()) {
+      dem::Model swinging(specimen_, settings_);
+      const double expected = frequency_of(results_.swinging_rod(true), load);
+      Clocking clocking{results_.time.step, steps_of(load), 1};
+      clocking.every = steps_between_samples(scene_, clocking.step, 1 / (samples_per_period * expected));
+      result.swing = let_go(swinging, results_.bar, load, result.at_rest.state, expected, clocking,
+                            [&](const BarSample &s) { return take(s, load); });
+      results_.steps += result.swing->steps;
+      finish(swinging);
+    }
+    result.at_rest.state.displacement.clear();
+    result.at_rest.state.turn.clear();
+    results_.loads.push_back(std::move(result));
+  }
+}
+
+void BarRun::test_impact() {
+  if (!strikes() || signal_ != 0) return;
+  dem::Model struck(specimen_, settings_);
+  const double speed = results_.rod(false).wave_speed();
+  results_.struck_velocity = scene_.bar_test.strain * speed;
+  Clocking clocking{results_.time.step, steps_of_impact(), 1};
+  clocking.every = steps_between_samples(
+      scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
+  results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,
+                           [&](const BarSample &s) { return take(s, BarLoad::impact); });
+  results_.steps += results_.impact->steps;
+  finish(struck);
+}
+
+int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &inputs) {
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  };
+  BarCosts costs;
+  costs.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
+  costs.setup_seconds = seconds();
+  catch_stop_signals();
+  open_output_folder(paths_.folder, use, inputs);
+  log_.open(paths_.log(), false, {version_text(), command_.text, costs.threads});
+  log_.info("{}", description());
+  write_stream_aside(paths_.scene(), [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
+  history_ = std::make_unique<CsvWriter>(paths_.history(), columns());
+  progress_ = std::make_unique<Progress>(log_);
+  if (scene_.bar_test.bulk_moduli)
+    results_.bulk = bulk_moduli(model_, specimen_.shape, results_.bar.mean_radius);
+  test_loads();
+  test_impact();
+  progress_.reset();
+  costs.seconds = seconds();
+  if (results_.broken_tension + results_.broken_shear > 0)
+    log_.warning("{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
+                 "test/Strain keeps it whole",
+                 results_.broken_tension + results_.broken_shear);
+  const Json summary = summary_of(scene_, results_, costs, signal_ != 0 ? "stopped" : "done");
+  write_summary(paths_.summary(), summary);
+  log_.info("{}", report_of(results_));
+  if (signal_ != 0) {
+    log_.info("stopped by a signal; a bar test keeps no checkpoint");
+    return exit_status_of_signal(signal_);
+  }
+  log_.info("  {:.1f} s; results are in {}", costs.seconds, paths_.folder.string());
+  return tell_expectations(scene_, summary, log_);
+}
+
+} // namespace
+
+Rod BarResults::rod(bool effective) const {
+  Rod rod = rod_at_rest(bar, pulled.axial_rigidity, pulled.poisson_ratio, effective ? bar.effective : bar.bounding);
+  if (!effective) rod.mass_section = bar.bounding;
+  return rod;
+}
+
+Rod BarResults::swinging_rod(bool effective) const {
+  Rod swinging = rod(effective);
+  swinging.length = bar.top - bar.low.z;
+  return swinging;
+}
+
+const char *word(BarLoad load) {
+  constexpr const char *words[] = {"all", "tension", "bending", "torsion", "impact", "none"};
+  return words[static_cast<int>(load)];
+}
+
+int run_bar(const CommandLine &command, const Scene &scene) {
+  if (command.resume)
+    throw InputError("command line: --resume: a bar test takes minutes and keeps no checkpoint; run it anew");
+  const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
+  std::vector<std::filesystem::path> inputs{command.scene};
+  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
+  if (!command.dry_run) check_output_folder(command.output, use, inputs);
+  const dem::ThreadLimit limit(command.threads);
+  BarRun run(command, scene);
+  run.measure();
+  if (command.dry_run) {
+    fmt::print("{}", run.description());
+    return status_done;
+  }
+  return run.carry_out(use, inputs);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,9 @@
+# Sources of platen-bar but for its main, apps/platen_bar.cc; linked with platen_run.
+set(PLATEN_BAR_SOURCES
+  bar/bar.cc
+  bar/dynamic_test.cc
+  bar/moduli.cc
+  bar/run_bar.cc
+  bar/static_test.cc
+  bar/strength_of_materials.cc
+  bar/summary.cc)
