@@ -144,7 +144,8 @@ EndMotion motion_of(const Particles &p, const BarEnd &end, const std::vector<Vec
   for (const int row : end.rows) {
     const std::size_t i = static_cast<std::size_t>(row);
     const Vector3 r = p.reference_position[i] - s.middle, &u = displacement[i];
-    m.twist += weight(p, i) / s.turning * (r.x * u.y - r.y * u.x + (turn.empty() ? 0 : own_inertia(p, i) * turn[i].z));
+    m.twist += weight(p, i) / s.turning *
+               (r.x * u.y - r.y * u.x + (turn.empty() ? 0 : own_inertia(p, i) * turn[i].z));
   }
   return m;
 }

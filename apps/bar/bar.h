@@ -28,18 +28,19 @@ struct EndMotion {
 struct BarGeometry {
   BarEnd low, high;       // within the depth of the end planes
   double mean_radius = 0; // m, of all spheres
-  double bottom = 0, top = 0; // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
+  double bottom = 0,
+         top = 0; // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
   double length() const { return top - bottom; } // m
   Section bounding;                              // of the perfect bar
-  Section effective; // that carries forces (dem/measure/section.h); of the middle half of the length
-  Section mass;      // of inertia of rotation, likewise
+  Section effective;          // that carries forces (dem/measure/section.h); of the middle half of the length
+  Section mass;               // of inertia of rotation, likewise
   double mass_per_length = 0; // kg/m
   bool along_x = true;
 };
 
 // The perfect bar about a discrete one, after Andre et al. 2012, (12) and (13): length 2 R + mean z of the
-// upper end - mean z of the lower one (their (12) adds the two means), and a section that lies a mean radius R
-// outside the mean distance of the outermost centres, those within `depth` mean radii of the wall. Throws
+// upper end - mean z of the lower one (their (12) adds the two means), and a section that lies a mean radius
+// R outside the mean distance of the outermost centres, those within `depth` mean radii of the wall. Throws
 // std::invalid_argument where an end holds no sphere.
 BarGeometry measure_bar(const dem::Particles &particles, const dem::Bonds &bonds, const dem::Shape &shape,
                         double depth, bool along_x);

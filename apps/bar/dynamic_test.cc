@@ -22,7 +22,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double clamp_mass = 1e15;
 // Half the thickness of the slice whose mean motion a station tells, in mean radii.
 constexpr double station = 2;
-constexpr double airy_third = 1.0 / 3; // the integral of Ai from 0 on
+// How long pulses are smoothed, in passages of the wave: at the far end, which no other wave meets before
+// three passages, and on the way, where the reflected wave follows after one.
+constexpr double smoothing_at_end = 1.2, smoothing_on_the_way = 0.8;
 
 double mean_along_z(const dem::Column<Vector3> &column, const std::vector<int> &rows) {
   double sum = 0;
@@ -43,13 +45,15 @@ struct Station {
     z /= static_cast<double>(rows.size());
   }
   double moved(const Particles &p) const { return mean_along_z(p.position, rows) - z; }
+  double velocity(const Particles &p) const { return mean_along_z(p.velocity, rows); }
 };
 
 // Steps a model from a state that is set, and reads it.
 class Run {
 public:
   Run(Model &model, const BarGeometry &bar)
-      : model_(model), bar_(bar),
+      : model_(model),
+        bar_(bar),
         quarter(model.particles, bar.top - 0.25 * bar.length(), station * bar.mean_radius),
         half(model.particles, bar.top - 0.5 * bar.length(), station * bar.mean_radius) {
     model.compute_forces(0);
@@ -62,6 +66,16 @@ public:
     model_.end_step(dt);
   }
   EndMotion end() const { return motion_of(model_.particles, bar_.high); }
+  // Of the samples that were given away.
+  double energy_residual() const { return residual_; }
+  bool give(const TakeSample &take) {
+    const BarSample s = sample();
+    if (initial_ > 0)
+      residual_ = std::max(residual_, std::abs(s.kinetic + s.energy.total() - initial_) / initial_);
+    return take(s);
+  }
+
+private:
   BarSample sample() const {
     const Particles &p = model_.particles;
     BarSample s;
@@ -79,10 +93,9 @@ public:
     return s;
   }
 
-private:
   Model &model_;
   const BarGeometry &bar_;
-  double initial_ = 0;
+  double initial_ = 0, residual_ = 0;
 
 public:
   const Station quarter, half;
@@ -101,14 +114,6 @@ double along(const EndMotion &end, BarLoad load, bool along_x) {
   return along_x ? end.moved.x : end.moved.y;
 }
 
-// First time at which even samples of a displacement, starting at 0, pass `level`.
-double time_of(const std::vector<double> &moved, double level, double dt) {
-  for (std::size_t k = 1; k < moved.size(); ++k)
-    if (moved[k] >= level)
-      return dt * (static_cast<double>(k - 1) + (level - moved[k - 1]) / (moved[k] - moved[k - 1]));
-  return none;
-}
-
 } // namespace
 
 BarTime bar_time_step(const Scene &scene, const Model &model) {
@@ -119,7 +124,8 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   const double wanted = scene.integration.time_step;
   if (wanted == 0) return {scene.integration.safety * limit.limit, limit.reason};
   if (wanted > limit.limit) {
-    const std::string reason = "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
+    const std::string reason =
+        "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
     if (scene.parameters) scene.parameters->refuse("Integration/Time step", reason);
     throw InputError("Integration/Time step " + reason);
   }
@@ -137,50 +143,47 @@ Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem
   Run run(model, bar);
   Oscillation result;
   std::vector<double> swing{along(run.end(), load, bar.along_x)};
-  result.stopped = !take(run.sample());
+  result.stopped = !run.give(take);
   while (result.steps < clocking.steps && !result.stopped) {
     run.step(clocking.step);
     ++result.steps;
     if (result.steps % clocking.every != 0) continue;
     swing.push_back(along(run.end(), load, bar.along_x));
-    result.stopped = !take(run.sample());
+    result.stopped = !run.give(take);
   }
   result.frequency = dem::main_frequency(swing, clocking.step * static_cast<double>(clocking.every),
                                          0.5 * expected, 2 * expected);
+  result.energy_residual = run.energy_residual();
   return result;
 }
 
 Impact strike(Model &model, const BarGeometry &bar, double velocity, double speed, const Clocking &clocking,
               const TakeSample &take) {
   Particles &p = model.particles;
-  double struck = 0; // kg
-  for (const int row : bar.high.rows) {
+  for (const int row : bar.high.rows)
     p.velocity[static_cast<std::size_t>(row)] = {0, 0, -velocity};
-    struck += p.mass[static_cast<std::size_t>(row)];
-  }
   Run run(model, bar);
   std::vector<double> quarter{0}, half{0}, away{0};
   Impact result;
-  result.stopped = !take(run.sample());
+  result.stopped = !run.give(take);
   while (result.steps < clocking.steps && !result.stopped) {
     run.step(clocking.step);
     ++result.steps;
-    quarter.push_back(-run.quarter.moved(p));
-    half.push_back(-run.half.moved(p));
-    away.push_back(bar.low.z - mean_along_z(p.position, bar.low.rows));
-    if (result.steps % clocking.every == 0) result.stopped = !take(run.sample());
+    quarter.push_back(run.quarter.velocity(p));
+    half.push_back(run.half.velocity(p));
+    away.push_back(mean_along_z(p.velocity, bar.low.rows));
+    if (result.steps % clocking.every == 0) result.stopped = !run.give(take);
   }
-  for (int k = 0; k < 3; ++k) { // the level depends on the speed, weakly
-    const double left = struck * velocity / (bar.mass_per_length * speed);
-    result.quarter_time = time_of(quarter, airy_third * left, clocking.step);
-    result.half_time = time_of(half, airy_third * left, clocking.step);
-    result.far_time = time_of(away, airy_third * 2 * left, clocking.step);
-    result.speed_quarter_to_half =
-        (run.quarter.z - run.half.z) / (result.half_time - result.quarter_time);
-    result.speed_end_to_end = bar.length() / result.far_time;
-    if (!(result.speed_end_to_end > 0)) break;
-    speed = result.speed_end_to_end;
-  }
+  const double passage = bar.length() / speed;
+  const auto time = [&](const std::vector<double> &velocities, double smoothing, double way) {
+    return dem::passing_time(velocities, clocking.step, smoothing * passage, way / speed);
+  };
+  result.quarter_time = time(quarter, smoothing_on_the_way, bar.top - run.quarter.z);
+  result.half_time = time(half, smoothing_on_the_way, bar.top - run.half.z);
+  result.far_time = time(away, smoothing_at_end, bar.length());
+  result.speed_quarter_to_half = (run.quarter.z - run.half.z) / (result.half_time - result.quarter_time);
+  result.speed_end_to_end = bar.length() / result.far_time;
+  result.energy_residual = run.energy_residual();
   return result;
 }
 

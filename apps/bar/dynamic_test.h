@@ -12,8 +12,8 @@ namespace platen::apps {
 
 // What is read of the bar in motion.
 struct BarSample {
-  double time = 0; // s, since it was let go or struck
-  EndMotion end;   // of the free (struck) end
+  double time = 0;                              // s, since it was let go or struck
+  EndMotion end;                                // of the free (struck) end
   double struck_velocity = 0, far_velocity = 0; // m/s along z, means of the two ends
   double quarter = 0, half = 0; // m along z, means at a quarter and half of the length from the struck end
   double kinetic = 0;           // J
@@ -32,14 +32,15 @@ struct BarTime {
 BarTime bar_time_step(const Scene &scene, const dem::Model &model);
 
 struct Clocking {
-  double step = 0;     // s
-  long steps = 0;      // to make
-  long every = 1;      // steps from one sample to the next
+  double step = 0; // s
+  long steps = 0;  // to make
+  long every = 1;  // steps from one sample to the next
 };
 
 struct Oscillation {
-  double frequency = 0; // 1/s
-  long steps = 0;       // made
+  double frequency = 0;       // 1/s
+  double energy_residual = 0; // largest change of kinetic and stored energy, over what was there at first
+  long steps = 0;             // made
   bool stopped = false;
 };
 // Swings freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
@@ -49,17 +50,20 @@ Oscillation let_go(dem::Model &model, const BarGeometry &bar, BarLoad load, cons
                    double expected, const Clocking &clocking, const TakeSample &take);
 
 struct Impact {
-  double quarter_time = 0, half_time = 0, far_time = 0; // s, of arrival; NaN where there was none
+  double quarter_time = 0, half_time = 0, far_time = 0; // s, of passage; NaN where there was none
   double speed_quarter_to_half = 0;                     // m/s
   double speed_end_to_end = 0;                          // m/s
+  double energy_residual = 0;
   long steps = 0;
   bool stopped = false;
 };
-// The free bar, its upper end struck: the spheres there move down at `velocity` (m/s) at time 0. Arrival is
-// the time at which the displacement has come to a third of what the pulse leaves behind, M v / (m c): waves
-// spread by dispersion, and to leading order the front is the integral of Airy's function, which is 1/3 where
-// the long waves are, whatever the dispersion and the distance. The far end moves twice as far. `speed` (m/s)
-// is a first guess of c.
+// How long the bar has to be followed to tell its speed, in passages of the wave.
+constexpr double followed_passages = 2.4;
+// The free bar, its upper end struck: the spheres there move down at `velocity` (m/s) at time 0. Mean
+// velocities of the far end, and at a quarter and half of the length, tell when the pulse passes
+// (dem/measure/spectrum.h); those on the way are smoothed over a shorter time, for the reflected wave meets
+// them. With its reflection at the struck end the pulse starts at the end plane at time 0. `speed` (m/s) is a
+// first guess.
 Impact strike(dem::Model &model, const BarGeometry &bar, double velocity, double speed,
               const Clocking &clocking, const TakeSample &take);
 

@@ -30,8 +30,6 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Unless the scene says how often.
 constexpr double samples_per_period = 64, samples_of_an_impact = 400;
-// How long an impact is followed, in passages of the wave through the bar.
-constexpr double passages = 1.5;
 
 std::vector<BarLoad> loads_of(BarLoad load) {
   if (load == BarLoad::all) return {BarLoad::tension, BarLoad::bending, BarLoad::torsion};
@@ -55,9 +53,9 @@ long steps_between_samples(const Scene &scene, double step, double interval) {
 
 std::vector<std::string> columns() {
   std::vector<std::string> names = history_columns();
-  for (const char *own : {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s",
-                          "far_end_velocity_m_s", "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j",
-                          "torsion_energy_j"})
+  for (const char *own :
+       {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s", "far_end_velocity_m_s",
+        "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j", "torsion_energy_j"})
     names.emplace_back(own);
   return names;
 }
@@ -68,8 +66,8 @@ Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
   c.time = s.time;
   for (double *unmeasured :
        {&c.strain_platen, &c.strain_gauge, &c.lateral_strain, &c.volumetric_strain, &c.lateral_extremal,
-        &c.axial_extremal, &c.stress_top, &c.stress_bottom, &c.confining_pressure, &c.contact, &c.body, &c.damping,
-        &c.friction, &c.fracture, &c.boundary, &c.unbalanced, &c.platen_speed})
+        &c.axial_extremal, &c.stress_top, &c.stress_bottom, &c.confining_pressure, &c.contact, &c.body,
+        &c.damping, &c.friction, &c.fracture, &c.boundary, &c.unbalanced, &c.platen_speed})
     *unmeasured = none;
   c.intact_bonds = static_cast<double>(bonds) - static_cast<double>(s.broken_tension + s.broken_shear);
   c.broken_tension = static_cast<double>(s.broken_tension);
@@ -84,9 +82,13 @@ Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
 class BarRun {
 public:
   BarRun(const CommandLine &command, const Scene &scene)
-      : command_(command), scene_(scene), paths_(command.output),
+      : command_(command),
+        scene_(scene),
+        paths_(command.output),
         log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
-        specimen_(make_specimen(scene)), settings_(model_settings(scene)), model_(specimen_, settings_) {}
+        specimen_(make_specimen(scene)),
+        settings_(model_settings(scene)),
+        model_(specimen_, settings_) {}
 
   void measure();
   std::string description() const;
@@ -131,8 +133,9 @@ void BarRun::measure() {
                       scene_.bar_test.side == BarSide::x);
   r.pulled = pull_bar(model_, r.bar, specimen_.shape);
   if (!(r.pulled.axial_rigidity > 0))
-    throw InputError("error: the specimen cannot be measured as a bar: the middle half of its length holds too "
-                     "few spheres to tell a strain, or does not hold together.");
+    throw InputError(
+        "error: the specimen cannot be measured as a bar: the middle half of its length holds too "
+        "few spheres to tell a strain, or does not hold together.");
   r.bulk = {none, none, none};
   if (dynamic()) r.time = bar_time_step(scene_, model_);
   planned_ = strikes() ? steps_of_impact() : 0;
@@ -142,25 +145,27 @@ void BarRun::measure() {
 }
 
 long BarRun::steps_of(BarLoad load) const {
-  return static_cast<long>(
-      std::ceil(scene_.bar_test.periods / (frequency_of(results_.swinging_rod(true), load) * results_.time.step)));
+  return static_cast<long>(std::ceil(scene_.bar_test.periods /
+                                     (frequency_of(results_.swinging_rod(true), load) * results_.time.step)));
 }
 
 long BarRun::steps_of_impact() const {
-  return static_cast<long>(
-      std::ceil(passages * results_.bar.length() / (results_.rod(false).wave_speed() * results_.time.step)));
+  return static_cast<long>(std::ceil(followed_passages * results_.bar.length() /
+                                     (results_.rod(false).wave_speed() * results_.time.step)));
 }
 
 std::string BarRun::description() const {
   const BarResults &r = results_;
   const Section &b = r.bar.bounding;
   std::string text = scene_.general.title.empty() ? scene_.name : scene_.general.title;
-  text += fmt::format("\n  {} spheres of mean radius {:.4g} mm, {} bonds, packing fraction {:.4f}\n", r.particles,
-                      1e3 * r.bar.mean_radius, r.bonds, r.packing_fraction);
+  text += fmt::format("\n  {} spheres of mean radius {:.4g} mm, {} bonds, packing fraction {:.4f}\n",
+                      r.particles, 1e3 * r.bar.mean_radius, r.bonds, r.packing_fraction);
   text += fmt::format("  length {:.4g} mm, ", 1e3 * r.bar.length());
-  text += b.round ? fmt::format("radius {:.4g} mm, effective {:.4g} mm", 1e3 * b.radius, 1e3 * r.bar.effective.radius)
-                  : fmt::format("widths {:.4g} x {:.4g} mm, effective {:.4g} x {:.4g} mm", 1e3 * b.width_x,
-                                1e3 * b.width_y, 1e3 * r.bar.effective.width_x, 1e3 * r.bar.effective.width_y);
+  text +=
+      b.round
+          ? fmt::format("radius {:.4g} mm, effective {:.4g} mm", 1e3 * b.radius, 1e3 * r.bar.effective.radius)
+          : fmt::format("widths {:.4g} x {:.4g} mm, effective {:.4g} x {:.4g} mm", 1e3 * b.width_x,
+                        1e3 * b.width_y, 1e3 * r.bar.effective.width_x, 1e3 * r.bar.effective.width_y);
   text += fmt::format("; {} spheres clamped, {} loaded\n", r.bar.low.rows.size(), r.bar.high.rows.size());
   if (planned_ > 0)
     text += fmt::format("  {} steps of {:.4g} s ({})\n", planned_, r.time.step, r.time.reason);
@@ -171,14 +176,11 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
   const bool ledger = scene_.effects.energy_ledger;
   std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger));
   for (const CsvCell &own : std::initializer_list<CsvCell>{
-           word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity, s.far_velocity,
-           s.quarter, s.half, ledger ? s.energy.axial : none, ledger ? s.energy.bending : none,
-           ledger ? s.energy.torsion : none})
+           word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,
+           s.far_velocity, s.quarter, s.half, ledger ? s.energy.axial : none,
+           ledger ? s.energy.bending : none, ledger ? s.energy.torsion : none})
     cells.push_back(own);
   history_->row(cells);
-  if (s.initial_energy > 0)
-    results_.energy_residual = std::max(
-        results_.energy_residual, std::abs(s.kinetic + s.energy.total() - s.initial_energy) / s.initial_energy);
   ProgressSample p;
   const double made = static_cast<double>(results_.steps) + s.time / results_.time.step;
   p.fraction = made / static_cast<double>(planned_);
@@ -204,7 +206,8 @@ void BarRun::test_loads() {
     LoadResult result;
     result.load = load;
     result.keeps_static = test.method != BarMethod::dynamic;
-    result.at_rest = load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
+    result.at_rest =
+        load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
     if (dynamic()) {
       dem::Model swinging(specimen_, settings_);
       const double expected = frequency_of(results_.swinging_rod(true), load);
@@ -213,6 +216,7 @@ void BarRun::test_loads() {
       result.swing = let_go(swinging, results_.bar, load, result.at_rest.state, expected, clocking,
                             [&](const BarSample &s) { return take(s, load); });
       results_.steps += result.swing->steps;
+      results_.energy_residual = std::max(results_.energy_residual, result.swing->energy_residual);
       finish(swinging);
     }
     result.at_rest.state.displacement.clear();
@@ -232,6 +236,7 @@ void BarRun::test_impact() {
   results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,
                            [&](const BarSample &s) { return take(s, BarLoad::impact); });
   results_.steps += results_.impact->steps;
+  results_.energy_residual = std::max(results_.energy_residual, results_.impact->energy_residual);
   finish(struck);
 }
 
@@ -246,7 +251,8 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
   open_output_folder(paths_.folder, use, inputs);
   log_.open(paths_.log(), false, {version_text(), command_.text, costs.threads});
   log_.info("{}", description());
-  write_stream_aside(paths_.scene(), [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
+  write_stream_aside(paths_.scene(),
+                     [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
   history_ = std::make_unique<CsvWriter>(paths_.history(), columns());
   progress_ = std::make_unique<Progress>(log_);
   if (scene_.bar_test.bulk_moduli)
@@ -256,9 +262,10 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
   progress_.reset();
   costs.seconds = seconds();
   if (results_.broken_tension + results_.broken_shear > 0)
-    log_.warning("{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
-                 "test/Strain keeps it whole",
-                 results_.broken_tension + results_.broken_shear);
+    log_.warning(
+        "{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
+        "test/Strain keeps it whole",
+        results_.broken_tension + results_.broken_shear);
   const Json summary = summary_of(scene_, results_, costs, signal_ != 0 ? "stopped" : "done");
   write_summary(paths_.summary(), summary);
   log_.info("{}", report_of(results_));
@@ -273,7 +280,8 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
 } // namespace
 
 Rod BarResults::rod(bool effective) const {
-  Rod rod = rod_at_rest(bar, pulled.axial_rigidity, pulled.poisson_ratio, effective ? bar.effective : bar.bounding);
+  Rod rod =
+      rod_at_rest(bar, pulled.axial_rigidity, pulled.poisson_ratio, effective ? bar.effective : bar.bounding);
   if (!effective) rod.mass_section = bar.bounding;
   return rod;
 }

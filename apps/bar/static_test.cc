@@ -10,7 +10,12 @@ dem::Vector3 across(bool along_x) {
 } // namespace
 
 Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ratio, const Section &section) {
-  return {bar.high.z - bar.low.z, axial_rigidity, poisson_ratio, bar.mass_per_length, section, bar.mass,
+  return {bar.high.z - bar.low.z,
+          axial_rigidity,
+          poisson_ratio,
+          bar.mass_per_length,
+          section,
+          bar.mass,
           bar.along_x};
 }
 

@@ -9,9 +9,9 @@ struct Section {
   double radius = 0;               // m, round
   double width_x = 0, width_y = 0; // m, rectangular
 
-  double area() const;                    // m^2
+  double area() const;                      // m^2
   double second_moment(bool along_x) const; // m^4, of bending in the x direction, or in y
-  double polar_moment() const;            // m^4
+  double polar_moment() const;              // m^4
   // m^4: T = G J twist / length. Round: the polar moment; rectangular: Saint-Venant's series.
   double torsion_constant() const;
   double skin(bool along_x) const; // m, from the axis to the skin
@@ -24,13 +24,13 @@ Section section_of_gyration(bool round, double xx, double yy);
 // A bar with its end at 0 clamped, the other one free. Its rigidities may rest on another section than its
 // inertia of rotation.
 struct Rod {
-  double length = 0;           // m
-  double axial_rigidity = 0;   // N, E A
-  double poisson_ratio = 0;    // G = E / (2 (1 + nu))
-  double mass_per_length = 0;  // kg/m
-  Section section;             // that carries forces
-  Section mass_section;        // of inertia of rotation
-  bool along_x = true;         // the way in which it is bent
+  double length = 0;          // m
+  double axial_rigidity = 0;  // N, E A
+  double poisson_ratio = 0;   // G = E / (2 (1 + nu))
+  double mass_per_length = 0; // kg/m
+  Section section;            // that carries forces
+  Section mass_section;       // of inertia of rotation
+  bool along_x = true;        // the way in which it is bent
 
   double bending_rigidity() const; // N m^2, E I
   double shear_rigidity() const;   // N, kappa G A

@@ -62,6 +62,7 @@ void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
   if (!l.swing || l.swing->stopped) return;
   const Rod nominal = r.swinging_rod(false), effective = r.swinging_rod(true);
   const double f = l.swing->frequency;
+  s["energy_residual_relative"] = l.swing->energy_residual;
   s["frequency_hz"] = f;
   s["period_s"] = 1 / f;
   s["frequency_by_hand_hz"] = frequency_of(nominal, l.load);
@@ -77,6 +78,7 @@ void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
 Json impact_part(const BarResults &r) {
   const double by_hand = r.swinging_rod(false).wave_speed();
   Json s;
+  s["energy_residual_relative"] = r.impact->energy_residual;
   s["struck_velocity_m_s"] = r.struck_velocity;
   s["arrival_quarter_s"] = r.impact->quarter_time;
   s["arrival_half_s"] = r.impact->half_time;
@@ -121,7 +123,8 @@ Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, 
   s["threads"] = costs.threads;
   s["wall_seconds"] = costs.seconds;
   s["setup_seconds"] = costs.setup_seconds;
-  s["particle_steps_per_second"] = static_cast<double>(r.particles) * static_cast<double>(r.steps) / costs.seconds;
+  s["particle_steps_per_second"] =
+      static_cast<double>(r.particles) * static_cast<double>(r.steps) / costs.seconds;
   for (std::size_t k = 0; k < r.stage_seconds.size(); ++k)
     s["stage_seconds"][dem::stage_names[k]] = r.stage_seconds[k];
   s["peak_memory_bytes"] = peak_memory_bytes();
@@ -133,8 +136,9 @@ Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, 
   s["broken_tension"] = r.broken_tension;
   s["broken_shear"] = r.broken_shear;
   s["energy_residual_relative"] = r.steps > 0 ? r.energy_residual : none;
-  for (const char *unmeasured : {"kinetic_to_internal_max", "end_damage_top", "end_damage_bottom", "middle_damage",
-                                 "end_spread", "barrel_at_peak", "fragments", "cone_top", "cone_bottom"})
+  for (const char *unmeasured :
+       {"kinetic_to_internal_max", "end_damage_top", "end_damage_bottom", "middle_damage", "end_spread",
+        "barrel_at_peak", "fragments", "cone_top", "cone_bottom"})
     s[unmeasured] = none;
   s["mean_radius_m"] = r.bar.mean_radius;
   s["length_m"] = r.bar.length();
@@ -163,28 +167,33 @@ Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, 
 
 std::string report_of(const BarResults &r) {
   const Section &b = r.bar.bounding, &e = r.bar.effective;
-  std::string text =
-      fmt::format("  modulus {:.4g} GPa on the bounding section ({:.4g} cm2), {:.4g} GPa on the effective one "
-                  "({:.4g} cm2); Poisson ratio {:.4f}\n",
-                  1e-9 * r.pulled.axial_rigidity / b.area(), 1e4 * b.area(),
-                  1e-9 * r.pulled.axial_rigidity / e.area(), 1e4 * e.area(), r.pulled.poisson_ratio);
+  std::string text = fmt::format(
+      "  modulus {:.4g} GPa on the bounding section ({:.4g} cm2), {:.4g} GPa on the effective one "
+      "({:.4g} cm2); Poisson ratio {:.4f}\n",
+      1e-9 * r.pulled.axial_rigidity / b.area(), 1e4 * b.area(), 1e-9 * r.pulled.axial_rigidity / e.area(),
+      1e4 * e.area(), r.pulled.poisson_ratio);
   if (std::isfinite(r.bulk.youngs))
-    text += fmt::format("  bulk: modulus {:.4g} GPa, Poisson ratio {:.4f}\n", 1e-9 * r.bulk.youngs, r.bulk.poisson);
-  text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", "measured", "static", "effective", "dynamic", "effective");
+    text += fmt::format("  bulk: modulus {:.4g} GPa, Poisson ratio {:.4f}\n", 1e-9 * r.bulk.youngs,
+                        r.bulk.poisson);
+  text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", "measured", "static", "effective", "dynamic",
+                      "effective");
   for (const LoadResult &l : r.loads) {
     Json s = l.keeps_static ? static_part(r, l) : Json::object();
     add_dynamic(s, r, l);
-    const auto figure = [&](const char *key) { return percent(s.contains(key) ? s[key].get<double>() : none); };
+    const auto figure = [&](const char *key) {
+      return percent(s.contains(key) ? s[key].get<double>() : none);
+    };
     text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", word(l.load), figure("static_error"),
                         figure("static_error_effective"), figure("dynamic_error"),
                         figure("dynamic_error_effective"));
   }
   if (r.impact && !r.impact->stopped) {
     const Json s = impact_part(r);
-    text += fmt::format("  wave {:.1f} m/s, by hand {:.1f} m/s: {}; from a quarter to half {:.1f} m/s: {}\n",
-                        s["wave_speed_m_s"].get<double>(), s["wave_speed_by_hand_m_s"].get<double>(),
-                        percent(s["wave_error"].get<double>()), s["wave_speed_quarter_to_half_m_s"].get<double>(),
-                        percent(s["wave_error_quarter_to_half"].get<double>()));
+    text +=
+        fmt::format("  wave {:.1f} m/s, by hand {:.1f} m/s: {}; from a quarter to half {:.1f} m/s: {}\n",
+                    s["wave_speed_m_s"].get<double>(), s["wave_speed_by_hand_m_s"].get<double>(),
+                    percent(s["wave_error"].get<double>()), s["wave_speed_quarter_to_half_m_s"].get<double>(),
+                    percent(s["wave_error_quarter_to_half"].get<double>()));
   }
   return text;
 }

@@ -92,7 +92,8 @@ Tensor mean_stress(const Region &region, const Particles &p, const Bonds &b,
   const Sum sum = ordered_sum<Sum>(b.size(), [&](std::size_t first, std::size_t last) {
     Sum part;
     for (std::size_t row = first; row < last; ++row) {
-      const Vector3 &from = p.reference_position[static_cast<std::size_t>(b.first[row])], d = b.reference[row];
+      const Vector3 &from = p.reference_position[static_cast<std::size_t>(b.first[row])],
+                    d = b.reference[row];
       const double share = region.share_inside(from, from + d);
       if (share == 0) continue;
       const Vector3 force = small_force(b, row, small_strain(p, b, row, displacement, turn));

@@ -1,5 +1,6 @@
 #include "dem/measure/spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -39,7 +40,42 @@ private:
   std::vector<double> values_;
 };
 
+// Under a Hann window of n samples about each time k - (n - 1) / 2, from k = 0 on.
+std::vector<double> smoothed(const std::vector<double> &values, std::size_t n) {
+  std::vector<double> window(n), result(values.size());
+  for (std::size_t j = 0; j < n; ++j)
+    window[j] = 1 - std::cos(2 * pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (std::size_t j = 0; j < n && j <= k; ++j)
+      result[k] += window[j] * values[k - j];
+  return result;
+}
+
 } // namespace
+
+double passing_time(const std::vector<double> &velocity, double step, double smoothing, double expected) {
+  constexpr double reach = 0.6;   // of the smoothing, to either side
+  constexpr int corrections = 20; // of the guess; each leaves less than a fifth of the error
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t n = static_cast<std::size_t>(smoothing / step);
+  if (n < 2) return none;
+  const std::vector<double> smooth = smoothed(velocity, n);
+  const double shift = 0.5 * static_cast<double>(n - 1) * step;
+  double time = expected;
+  for (int correction = 0; correction < corrections; ++correction) {
+    double sum = 0, moment = 0;
+    for (std::size_t k = 0; k < smooth.size(); ++k) {
+      // Samples at the rim count by their share of the window, so that the time does not jump.
+      const double t = static_cast<double>(k) * step - shift, rim = reach * smoothing - std::abs(t - time);
+      const double share = std::min(1.0, std::max(0.0, rim / step + 0.5));
+      sum += share * smooth[k];
+      moment += share * smooth[k] * t;
+    }
+    time = moment / sum;
+  }
+  const double last = static_cast<double>(smooth.size()) * step - shift;
+  return time + reach * smoothing < last ? time : none;
+}
 
 double main_frequency(const std::vector<double> &samples, double step, double low, double high) {
   if (samples.size() < 8) return std::numeric_limits<double>::quiet_NaN();
