@@ -32,7 +32,8 @@ double response_of(const Rod &rod, BarLoad load, double size) {
   return rod.twist(size);
 }
 
-StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size) {
+StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
+                    const dem::StaticSettings &settings) {
   dem::StaticCase at_rest;
   for (const int row : bar.low.rows)
     at_rest.led.push_back({row, {}, {}});
@@ -41,7 +42,7 @@ StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad loa
   if (load == BarLoad::torsion) add_torque(at_rest, model.particles, bar.high, size);
   StaticTest test;
   test.load = size;
-  test.state = solve_static(model.particles, *model.bonds, at_rest);
+  test.state = solve_static(model.particles, *model.bonds, at_rest, settings);
   test.energy = energy_shares(model.particles, *model.bonds, test.state.displacement, test.state.turn);
   const EndMotion end = motion_of(model.particles, bar.high, test.state.displacement, test.state.turn);
   test.measured = load == BarLoad::tension   ? end.moved.z

@@ -22,6 +22,8 @@ double load_of_strain(const Rod &rod, BarLoad load, double strain);
 // What strength of materials says of it: m, rad; bending with shear.
 double response_of(const Rod &rod, BarLoad load, double size);
 
-StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size);
+// Throws dem::NoEquilibrium.
+StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
+                    const dem::StaticSettings &settings = {});
 
 } // namespace platen::apps

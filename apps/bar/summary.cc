@@ -175,8 +175,9 @@ std::string report_of(const BarResults &r) {
   if (std::isfinite(r.bulk.youngs))
     text += fmt::format("  bulk: modulus {:.4g} GPa, Poisson ratio {:.4f}\n", 1e-9 * r.bulk.youngs,
                         r.bulk.poisson);
-  text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", "measured", "static", "effective", "dynamic",
-                      "effective");
+  if (!r.loads.empty())
+    text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", "measured", "static", "effective", "dynamic",
+                        "effective");
   for (const LoadResult &l : r.loads) {
     Json s = l.keeps_static ? static_part(r, l) : Json::object();
     add_dynamic(s, r, l);

@@ -430,9 +430,10 @@ void SceneCheck::notes() {
       note(key, "a bar is held by the spheres of its end");
     for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Platens/Friction static"})
       note(key, "a bar meets no platens");
-    if (scene_.bar_test.method == BarMethod::at_rest)
-      for (const char *key : {"Bar test/Periods", "Effects/Contact", "Effects/Tangential"})
-        note(key, "Bar test/Method = static");
+    if (scene_.bar_test.method == BarMethod::at_rest) {
+      note("Bar test/Periods", "Bar test/Method = static");
+      if (effects.contact != ContactKind::none) note("Effects/Contact", "Bar test/Method = static");
+    }
     if (scene_.bar_test.load != BarLoad::bending && scene_.bar_test.load != BarLoad::all)
       note("Bar test/Bent along", "nothing is bent");
   }
