@@ -37,12 +37,6 @@ std::vector<BarLoad> loads_of(BarLoad load) {
   return {load};
 }
 
-double frequency_of(const Rod &rod, BarLoad load) {
-  if (load == BarLoad::tension) return rod.axial_frequency();
-  if (load == BarLoad::bending) return rod.bending_frequency_with_shear();
-  return rod.torsion_frequency();
-}
-
 long steps_between_samples(const Scene &scene, double step, double interval) {
   const Interval &every = scene.output.every;
   double steps = interval / step;
@@ -95,6 +89,10 @@ public:
   int carry_out(FolderUse use, const std::vector<std::filesystem::path> &inputs);
 
 private:
+  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
+    if (scene_.parameters) scene_.parameters->refuse(path, reason);
+    throw InputError(path + " " + reason);
+  }
   void test_loads();
   void test_impact();
   bool dynamic() const { return scene_.bar_test.method != BarMethod::at_rest; }
@@ -123,8 +121,7 @@ private:
 };
 
 void BarRun::measure() {
-  if (!model_.bonds || model_.bonds->size() == 0)
-    throw InputError("error: no two spheres are near enough to be bonded: Bond/Gap decides.");
+  if (model_.bonds->size() == 0) refuse("Bond/Gap", "bonds no two spheres of this specimen.");
   BarResults &r = results_;
   r.particles = model_.particles.size();
   r.bonds = model_.bonds->size();
@@ -133,9 +130,9 @@ void BarRun::measure() {
                       scene_.bar_test.side == BarSide::x);
   r.pulled = pull_bar(model_, r.bar, specimen_.shape);
   if (!(r.pulled.axial_rigidity > 0))
-    throw InputError(
-        "error: the specimen cannot be measured as a bar: the middle half of its length holds too "
-        "few spheres to tell a strain, or does not hold together.");
+    refuse("Specimen/Height",
+           "leaves too few spheres in the middle half of the bar to tell a strain, or the "
+           "spheres do not hold together.");
   r.bulk = {none, none, none};
   if (dynamic()) r.time = bar_time_step(scene_, model_);
   planned_ = strikes() ? steps_of_impact() : 0;
@@ -175,6 +172,7 @@ std::string BarRun::description() const {
 bool BarRun::take(const BarSample &s, BarLoad load) {
   const bool ledger = scene_.effects.energy_ledger;
   std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger));
+  cells.back() = none; // grain contacts, not counted
   for (const CsvCell &own : std::initializer_list<CsvCell>{
            word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,
            s.far_velocity, s.quarter, s.half, ledger ? s.energy.axial : none,

@@ -32,6 +32,12 @@ double response_of(const Rod &rod, BarLoad load, double size) {
   return rod.twist(size);
 }
 
+double frequency_of(const Rod &rod, BarLoad load) {
+  if (load == BarLoad::tension) return rod.axial_frequency();
+  if (load == BarLoad::bending) return rod.bending_frequency_with_shear();
+  return rod.torsion_frequency();
+}
+
 StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
                     const dem::StaticSettings &settings) {
   dem::StaticCase at_rest;

@@ -21,6 +21,8 @@ Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ra
 double load_of_strain(const Rod &rod, BarLoad load, double strain);
 // What strength of materials says of it: m, rad; bending with shear.
 double response_of(const Rod &rod, BarLoad load, double size);
+// Its lowest frequency in that motion, 1/s; bending with shear.
+double frequency_of(const Rod &rod, BarLoad load);
 
 // Throws dem::NoEquilibrium.
 StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,

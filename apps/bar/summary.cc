@@ -23,12 +23,6 @@ void add_section(Json &s, const std::string &name, const Section &section) {
   }
 }
 
-double frequency_of(const Rod &rod, BarLoad load) {
-  if (load == BarLoad::tension) return rod.axial_frequency();
-  if (load == BarLoad::bending) return rod.bending_frequency_with_shear();
-  return rod.torsion_frequency();
-}
-
 Json static_part(const BarResults &r, const LoadResult &l) {
   const StaticTest &t = l.at_rest;
   const bool turns = l.load == BarLoad::torsion;

@@ -430,6 +430,8 @@ void SceneCheck::notes() {
       note(key, "a bar is held by the spheres of its end");
     for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Platens/Friction static"})
       note(key, "a bar meets no platens");
+    note("Output/Fields every", "platen-bar writes no frames");
+    note("Checkpoint/Every", "platen-bar writes no checkpoints");
     if (scene_.bar_test.method == BarMethod::at_rest) {
       note("Bar test/Periods", "Bar test/Method = static");
       if (effects.contact != ContactKind::none) note("Effects/Contact", "Bar test/Method = static");
