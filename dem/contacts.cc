@@ -8,6 +8,7 @@
 #include "dem/laws/linear_contact.h"
 #include "dem/laws/rotating_plane.h"
 #include "dem/parallel.h"
+#include "dem/phases.h"
 
 namespace platen::dem {
 namespace {
@@ -104,8 +105,7 @@ void Contacts::carry_rows(const Particles &particles) {
     first[n] = pairs[n].first;
     second[n] = pairs[n].second;
     rest_distance[n] = search_.rest_distance(pairs[n], particles);
-    coefficient[n] =
-        settings_.coefficient(particles.radius[pairs[n].first], particles.radius[pairs[n].second], layout_);
+    coefficient[n] = coefficient_of(particles, pairs[n].first, pairs[n].second);
     if (tangential_stiffness != nullptr)
       (*tangential_stiffness)[n] = settings_.tangential_ratio * coefficient[n];
   }
@@ -125,7 +125,7 @@ std::size_t Contacts::row_of(IndexPair pair) const {
 
 void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt) {
   for (BrokenBond &b : broken) {
-    const double ri = p.radius[b.first], rj = p.radius[b.second], c = settings_.coefficient(ri, rj, layout_);
+    const double ri = p.radius[b.first], rj = p.radius[b.second], c = coefficient_of(p, b.first, b.second);
     const double length = norm(p.position[b.second] - p.position[b.first]);
     double rest = std::min(ri + rj, b.rest_length);
     // The contact must not hold more than the bond did.
@@ -186,8 +186,15 @@ Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
   return (kept / b.last.shear_force) * Vector3{b.last.shear.x, b.last.shear.y, b.last.shear.z};
 }
 
-ContactStiffness Contacts::stiffness_bound(double ri, double rj, double approach) const {
-  const double c = settings_.coefficient(ri, rj, layout_);
+double Contacts::coefficient_of(const Particles &p, int i, int j) const {
+  const double c = settings_.coefficient(p.radius[i], p.radius[j], layout_);
+  if (settings_.normal == NormalContact::hertz || settings_.stiffness_rule != StiffnessRule::bond_multiple)
+    return c;
+  return c * settings_.modulus_factors[static_cast<std::size_t>(aggregates_of_pair(p, i, j))];
+}
+
+ContactStiffness Contacts::stiffness_bound(const Particles &p, int i, int j, double approach) const {
+  const double ri = p.radius[i], rj = p.radius[j], c = coefficient_of(p, i, j);
   const bool linear = settings_.normal == NormalContact::linear;
   const double normal_stiffness =
       linear ? LinearContact::stiffness(c, approach)

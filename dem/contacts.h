@@ -1,6 +1,7 @@
 // Contacts between unbonded spheres: linear or Hertz-Mindlin, with Coulomb friction and rolling resistance.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct ContactSettings {
   double restitution = 1;                                          // Hertz law
   double young_modulus = std::numeric_limits<double>::quiet_NaN(); // Pa, of the grains (Hertz, bulk fraction)
   double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
+
+  // Of bond multiples, by the spheres of the aggregate in a pair (dem/phases.h).
+  std::array<double, 3> modulus_factors{1, 1, 1};
 
   // Linear: k_n, N/m. Hertz: 4/3 E* sqrt(R*), N/m^1.5.
   double coefficient(double ri, double rj, const BondLayout &layout) const;
@@ -84,7 +88,7 @@ public:
   std::size_t touching_count() const;
   // Stiffness of a pair that overlaps by `approach` (m), or soon will: Hertz' law, which has none at
   // touching, is taken at 0.2 % of the smaller radius at least.
-  ContactStiffness stiffness_bound(double ri, double rj, double approach) const;
+  ContactStiffness stiffness_bound(const Particles &particles, int first, int second, double approach) const;
 
   // After the table has been loaded from a checkpoint.
   void restored() { blocks_current_ = false; }
@@ -128,6 +132,7 @@ private:
   template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
   Loop choose(const LoopChoice &choice);
   void carry_rows(const Particles &particles);
+  double coefficient_of(const Particles &particles, int first, int second) const;
   double stored_energy(std::size_t k) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
   Vector3 keep_shear(std::size_t k, double pressing, BrokenBond &broken);

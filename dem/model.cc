@@ -31,7 +31,8 @@ const ModelSettings &checked(const ModelSettings &s) {
   require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
   require_compiled(s.crack_log, compiled::crack_log, "crack log");
   require_compiled(s.dissipation > 1, compiled::dissipative_scheme, "dissipative scheme");
-  require_compiled(s.strength_scatter.has_value(), compiled::strength_factors, "strength factors");
+  require_compiled(s.strength_scatter || (s.phases && s.phases->scatters()), compiled::strength_factors,
+                   "strength factors");
   if (!s.contact) return s;
   const ContactSettings &c = *s.contact;
   require_compiled(c.normal == NormalContact::hertz, compiled::hertz, "hertz contact");
@@ -46,6 +47,15 @@ ModelSettings completed(const Specimen &specimen, const ModelSettings &settings)
   ModelSettings s = settings;
   if (s.bond_layout.area_factor == 0) s.bond_layout.area_factor = packing_factor(specimen, s.bond_layout);
   return s;
+}
+
+// Contacts between grains of two phases follow their bonds.
+ContactSettings contact_settings(const ModelSettings &s) {
+  ContactSettings contact = *s.contact;
+  if (s.phases)
+    for (std::size_t k = 0; k < contact.modulus_factors.size(); ++k)
+      contact.modulus_factors[k] = s.phases->factors()[k].modulus;
+  return contact;
 }
 
 } // namespace
@@ -67,11 +77,13 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
       integrator_{settings.rotation,      settings.local_damping,   settings.gravity,
                   settings.energy_ledger, settings.instruction_set, settings.dissipation} {
   if (settings.dissipation > 1) particles.add_excess();
+  if (settings.phases) mark_phases(particles, *settings.phases);
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
+  if (bonds && settings.phases) apply_phases(*bonds, particles, *settings.phases);
   if (bonds && settings.strength_scatter) scatter_strengths(*bonds, *settings.strength_scatter);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
-    contacts = std::make_unique<Contacts>(particles, *settings.contact, settings_.bond_layout,
+    contacts = std::make_unique<Contacts>(particles, contact_settings(settings), settings_.bond_layout,
                                           settings.energy_ledger);
 }
 

@@ -11,6 +11,7 @@
 #include "dem/integrator.h"
 #include "dem/loop.h"
 #include "dem/particles.h"
+#include "dem/phases.h"
 #include "dem/stable_step.h"
 #include "dem/stages.h"
 #include "dem/strength_scatter.h"
@@ -36,6 +37,7 @@ struct ModelSettings {
   double dissipation = 1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
   DensityOf density_of = DensityOf::grains;
   std::optional<StrengthScatter> strength_scatter; // none: all bonds are as strong
+  std::optional<Phases> phases;                    // none: all grains are alike
 };
 
 // Density of the grains before mass scaling, kg/m^3: of a solid, such that all spheres together weigh what

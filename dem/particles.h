@@ -27,6 +27,7 @@ struct Particles {
   Column<Vector3> *angular_velocity = nullptr; // rad/s, global axes
   Column<Vector3> *torque = nullptr;           // N m, about the centre, global axes
   Column<double> *inertia = nullptr;           // kg m^2, 2/5 m R^2
+  Column<int> *phase = nullptr;                // Phase; only with phases
   // Only with a dissipative scheme: what the drift had above the half-step values; the second with rotation.
   Column<Vector3> *excess_velocity = nullptr, *excess_spin = nullptr; // m/s, rad/s
 

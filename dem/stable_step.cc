@@ -110,7 +110,7 @@ private:
       if (s.axial == 0.0) continue;
       const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
       const ContactStiffness after = contacts != nullptr
-                                         ? contacts->stiffness_bound(p_.radius[i], p_.radius[j], 0.0)
+                                         ? contacts->stiffness_bound(p_, b.first[k], b.second[k], 0.0)
                                          : ContactStiffness{};
       springs_.push_back({i, j, b.lever[k], std::max(s.axial, after.normal),
                           std::max(s.shear, after.tangential), s.bending, s.twisting});
@@ -120,7 +120,7 @@ private:
   void add_contacts(const Contacts &c) {
     for (std::size_t k = 0; k < c.table.size(); ++k) {
       const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-      const ContactStiffness stiffness = c.stiffness_bound(p_.radius[i], p_.radius[j], c.overlap[k]);
+      const ContactStiffness stiffness = c.stiffness_bound(p_, c.first[k], c.second[k], c.overlap[k]);
       springs_.push_back(
           {i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness.normal, stiffness.tangential, 0, 0});
     }

@@ -30,7 +30,7 @@ off() {
     gravity) echo "Effects/Gravity = off" ;;
     energy_ledger) echo "Effects/Energy ledger = off" ;;
     crack_log) echo "Effects/Crack log = off" ;;
-    strength_factors) echo "Bond/Strength scatter = none" ;;
+    strength_factors) echo "Bond/Strength scatter = none;Phases/By = none" ;;
     dissipative_scheme) echo "Integration/Scheme = velocity verlet" ;;
     all)
       for effect in "${all[@]}"; do [[ $effect == rolling ]] || off "$effect"; done | paste -sd ';'

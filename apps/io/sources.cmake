@@ -2,6 +2,7 @@
 # VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem and the header apps/scene/errors.h.
 set(PLATEN_IO_SOURCES
   io/file.cc
+  io/id_list.cc
   io/checkpoint_writer.cc
   io/checkpoint_reader.cc
   io/checkpoint_folder.cc

@@ -64,6 +64,7 @@ void FieldSeries::write_specimen(const coupling::Problem &problem) {
                             {"velocity", vectors(p.velocity)},
                             {"stress", std::move(stress), 9},
                             {"id", std::vector<int>(p.id.begin(), p.id.end())}};
+  if (p.phase != nullptr) fields.push_back({"phase", std::vector<int>(p.phase->begin(), p.phase->end())});
   if (p.has_rotation()) {
     // As a rotation vector, rad.
     std::vector<dem::Vector3> rotation(n);

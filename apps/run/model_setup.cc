@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/io/id_list.h"
 #include "apps/scene/parameters.h"
 #include "dem/effects.h"
 
@@ -110,6 +111,15 @@ dem::ContactSettings contact_settings(const Scene &scene) {
   return to;
 }
 
+dem::Phases phases(const PhasesSection &from) {
+  dem::Phases to;
+  if (from.by == PhasesBy::radius) to.radius_above = from.radius_above;
+  if (from.by == PhasesBy::file) to.aggregate_ids = read_id_list(from.file);
+  to.aggregate = {from.aggregate_modulus, from.aggregate_strength};
+  to.interface = {from.interface_modulus, from.interface_strength};
+  return to;
+}
+
 // A build may leave effects out; a scene that calls for one is refused at its entry.
 void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
   const auto check = [&](bool wanted, bool compiled, const char *entry, const char *allowed) {
@@ -127,6 +137,7 @@ void refuse_left_out(const Scene &scene, const dem::ModelSettings &to) {
   check(to.bond_dashpot > 0, bond_dashpots, "Bond/Damping", "0");
   check(to.local_damping > 0, local_damping, "Integration/Damping", "0");
   check(to.strength_scatter.has_value(), strength_factors, "Bond/Strength scatter", "none");
+  check(to.phases && to.phases->scatters(), strength_factors, "Phases/By", "none, or strength factors of 1");
   check(to.dissipation > 1, dissipative_scheme, "Integration/Scheme", "velocity verlet");
   if (!to.contact) return;
   const dem::ContactSettings &c = *to.contact;
@@ -160,6 +171,7 @@ dem::ModelSettings model_settings(const Scene &scene) {
     to.bond_layout.interaction_range = scene.bond.interaction_range;
   to.energy_ledger = scene.effects.energy_ledger;
   to.crack_log = scene.effects.crack_log;
+  if (scene.phases.by != PhasesBy::none) to.phases = phases(scene.phases);
   if (scene.effects.bond != BondKind::none && scene.bond.strength_scatter == Scatter::weibull)
     to.strength_scatter = dem::StrengthScatter{scene.bond.weibull_modulus, scene.general.seed};
   if (scene.effects.bond != BondKind::none) to.bond = bond_parameters(scene.bond, scene.effects);

@@ -114,6 +114,7 @@ int run_pack(const CommandLine &command, const Scene &scene) {
     throw InputError("command line: --resume: a packing has nothing to resume; leave it out");
   std::vector<std::filesystem::path> inputs{command.scene};
   if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
+  if (!scene.phases.file.empty()) inputs.emplace_back(scene.phases.file);
   const OutputPaths paths(command.output);
   if (!command.dry_run) check_output_folder(paths.folder, use, inputs);
   if (command.dry_run) {

@@ -41,6 +41,7 @@ std::vector<Effect> effects(const Scene &s) {
           {s.integration.scheme == Scheme::tchamwa_wielgosz && s.integration.dissipation > 1,
            "dissipative scheme"},
           {bonded && s.bond.damping > 0, "bond dashpots"},
+          {bonded && s.phases.by != PhasesBy::none, "phases"},
           {bonded && s.bond.strength_scatter != Scatter::none, "scattered strengths"},
           {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
            "contact dashpots"},

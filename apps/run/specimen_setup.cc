@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/io/id_list.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
@@ -95,7 +96,31 @@ dem::Shape specimen_shape(const Scene &scene) {
                : dem::box(specimen.width_x, specimen.width_y, specimen.height);
 }
 
-dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth) {
+namespace {
+
+// The phases of the scene fit this specimen: none is empty, and every id is a sphere's.
+void check_phases(const Scene &scene, const dem::Specimen &specimen) {
+  const PhasesSection &phases = scene.phases;
+  if (phases.by == PhasesBy::radius && (dem::largest_radius(specimen) <= phases.radius_above ||
+                                        dem::smallest_radius(specimen) > phases.radius_above))
+    refuse(scene, "Phases/Radius above",
+           "leaves one phase empty: the radii are " + shortest_text(dem::smallest_radius(specimen)) +
+               " ... " + shortest_text(dem::largest_radius(specimen)) + " m.");
+  if (phases.by != PhasesBy::file) return;
+  const std::vector<int> ids = read_id_list(phases.file);
+  for (const int id : ids)
+    if (static_cast<std::size_t>(id) >= specimen.size())
+      refuse(scene, "Phases/File",
+             "names sphere " + std::to_string(id) + ", but the specimen has " +
+                 std::to_string(specimen.size()) + ". Allowed: 0 ... " + std::to_string(specimen.size() - 1) +
+                 ".");
+  if (ids.empty() || ids.size() == specimen.size())
+    refuse(
+        scene, "Phases/File",
+        ids.empty() ? "names no sphere: the aggregate is empty." : "names all spheres: the matrix is empty.");
+}
+
+dem::Specimen place_spheres(const Scene &scene, dem::GrowthReport *growth) {
   const SpecimenSection &specimen = scene.specimen;
   if (specimen.packing == PackingKind::file) return read_specimen(scene);
   const dem::Shape shape = specimen_shape(scene);
@@ -109,6 +134,14 @@ dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth) {
   const bool equal = specimen.radius_distribution == RadiusDistribution::equal;
   return dem::random_close_packing(shape, specimen.sphere_radius, equal ? 0.0 : specimen.radius_spread,
                                    scene.general.seed, growth);
+}
+
+} // namespace
+
+dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth) {
+  dem::Specimen specimen = place_spheres(scene, growth);
+  check_phases(scene, specimen);
+  return specimen;
 }
 
 } // namespace platen::apps

@@ -22,6 +22,7 @@ public:
   void effects() const;
   void bond() const;
   void compression() const;
+  void phases() const;
   void contact() const;
   void platens() const;
   void loading() const;
@@ -45,7 +46,7 @@ private:
   void need(const std::string &path, double value, const std::string &why) const {
     if (!given(value)) refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
   }
-  void file_packing() const;
+  void readable(const std::string &path, const std::string &file, const std::string &why) const;
   void cross_section() const;
   void spheres_fit() const;
   void friction(const std::string &name, const PlatenSide &side) const;
@@ -57,12 +58,11 @@ private:
   AppKind app_;
 };
 
-void SceneCheck::file_packing() const {
-  const SpecimenSection &specimen = scene_.specimen;
-  if (specimen.file.empty()) refuse("Specimen/File", "is not set: Packing = file takes the spheres from it.");
+void SceneCheck::readable(const std::string &path, const std::string &file, const std::string &why) const {
+  if (file.empty()) refuse(path, "is not set: " + why);
   std::error_code failure;
-  if (std::filesystem::is_directory(specimen.file, failure) || !std::ifstream(specimen.file))
-    refuse("Specimen/File", "cannot be read (looked for " + specimen.file + ").");
+  if (std::filesystem::is_directory(file, failure) || !std::ifstream(file))
+    refuse(path, "cannot be read (looked for " + file + ").");
 }
 
 void SceneCheck::cross_section() const {
@@ -114,7 +114,7 @@ void SceneCheck::specimen() const {
   if (!packs()) return;
   cross_section();
   if (specimen.packing == PackingKind::file) {
-    file_packing();
+    readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");
   } else {
     const std::string why = "the specimen is to be packed.";
     const bool rectangular =
@@ -192,6 +192,19 @@ void SceneCheck::compression() const {
   if (!std::is_sorted(slopes.begin(), slopes.end()))
     refuse("Bond/Compression slopes",
            "descends: compression would grow stiffer again. Allowed: ascending numbers.");
+}
+
+void SceneCheck::phases() const {
+  const PhasesSection &phases = scene_.phases;
+  if (phases.by == PhasesBy::none) return;
+  if (app_ == AppKind::bonds)
+    refuse("Phases/By", "needs a packed specimen, of which platen-bonds has none. Allowed: none.");
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Phases/By", "tells bonds apart, but Effects/Bond = none. Allowed: none.");
+  if (phases.by == PhasesBy::radius)
+    need("Phases/Radius above", phases.radius_above, "Phases/By = radius takes it.");
+  if (phases.by == PhasesBy::file)
+    readable("Phases/File", phases.file, "Phases/By = file takes the ids from it.");
 }
 
 void SceneCheck::contact() const {
@@ -392,6 +405,12 @@ void SceneCheck::notes() {
   if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
   if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
   bond_notes();
+  if (scene_.phases.by != PhasesBy::radius) note("Phases/Radius above", "Phases/By is not radius");
+  if (scene_.phases.by != PhasesBy::file) note("Phases/File", "Phases/By is not file");
+  if (scene_.phases.by == PhasesBy::none)
+    for (const char *key : {"Phases/Aggregate modulus factor", "Phases/Aggregate strength factor",
+                            "Phases/Interface modulus factor", "Phases/Interface strength factor"})
+      note(key, "Phases/By = none");
   if (scene_.bond.strength_scatter == Scatter::none)
     note("Bond/Weibull modulus", "Bond/Strength scatter = none");
   else if (scene_.bond.tensile_strength == 0 && scene_.bond.shear_strength == 0)
@@ -456,6 +475,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.specimen();
   check.effects();
   check.bond();
+  check.phases();
   check.contact();
   check.splitting();
   check.platens();

@@ -24,6 +24,7 @@ void inherit(Scene &scene, const Parameters &parameters) {
   if (pair.moduli.empty() && !std::isnan(scene.bond.modulus)) pair.moduli = {scene.bond.modulus};
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.stiffness_ratio};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
+  scene.phases.file = resolved_path(parameters.at("Phases/File"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
 }

@@ -133,6 +133,16 @@ struct Bond {
   double weibull_modulus = not_given; // m; strength_scatter = weibull
 };
 
+enum class PhasesBy { none, radius, file };
+
+struct PhasesSection { // aggregates in a matrix
+  PhasesBy by = PhasesBy::none;
+  double radius_above = not_given;                      // m; by = radius
+  std::string file;                                     // by = file; resolved against the folder of the scene
+  double aggregate_modulus = 1, aggregate_strength = 1; // of bonds, over those of the matrix
+  double interface_modulus = 1, interface_strength = 1;
+};
+
 struct Contact {
   double friction = 0.5;
   Stiffness stiffness;           // linear contact
@@ -292,6 +302,7 @@ struct Scene {
   Material material;
   Effects effects;
   Bond bond;
+  PhasesSection phases;
   Contact contact;
   Platens platens;
   Sleeve sleeve;

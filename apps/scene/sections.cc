@@ -168,6 +168,27 @@ void declare_bond(Parameters &parameters, Bond &bond) {
   declare_interface(section, bond);
 }
 
+void declare_phases(Parameters &parameters, PhasesSection &phases) {
+  Section section(parameters, "Phases");
+  section.word<PhasesBy>("By", phases.by,
+                         {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
+                         {}, "What tells the spheres of the aggregate from those of the matrix.");
+  section.quantity("Radius above", phases.radius_above, "m", above(0),
+                   "Larger spheres are aggregate (By = radius).");
+  section.file("File", phases.file, "Ids of the spheres that are aggregate, one a line (By = file).");
+  const auto factor = [&](const char *key, double &value, const char *meaning) {
+    section.number(key, value, {0, 1e3, false, true}, meaning);
+  };
+  factor("Aggregate modulus factor", phases.aggregate_modulus,
+         "Modulus of bonds between two spheres of the aggregate, over Bond/Modulus.");
+  factor("Aggregate strength factor", phases.aggregate_strength,
+         "Both strengths of bonds between two spheres of the aggregate, over those of Bond.");
+  factor("Interface modulus factor", phases.interface_modulus,
+         "Modulus of bonds between a sphere of the aggregate and one of the matrix, over Bond/Modulus.");
+  factor("Interface strength factor", phases.interface_strength,
+         "Both strengths of bonds between aggregate and matrix, over those of Bond.");
+}
+
 void declare_contact(Parameters &parameters, Contact &contact) {
   Section section(parameters, "Contact");
   section.number("Friction", contact.friction, between(0, 5), "Coefficient of friction between grains.");
@@ -497,6 +518,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_material(parameters, scene.material);
   declare_effects(parameters, scene.effects);
   declare_bond(parameters, scene.bond);
+  declare_phases(parameters, scene.phases);
   declare_contact(parameters, scene.contact);
   declare_platens(parameters, scene.platens);
   declare_sleeve(parameters, scene.sleeve);

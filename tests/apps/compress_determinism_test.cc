@@ -85,15 +85,16 @@ TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
 
 TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
   // What crushed.prm leaves out: a servo, Hertz contacts with rolling, seats, gravity, scaled masses, a
-  // dissipative scheme, bonds of unlike strength.
+  // dissipative scheme, bonds of unlike strength, phases.
   std::vector<std::string> effects;
-  for (const char *entry :
-       {"Platens/Top/Control = stress", "Platens/Top/Stress = 40 MPa", "Loading/Ramp = 0.2 ms",
-        "Loading/Hold = 0.05 ms", "Effects/Contact = hertz",
-        "Effects/Tangential = coulomb with rolling resistance", "Contact/Rolling friction = 0.1",
-        "Effects/Gravity = on", "Specimen/Seat = on", "Integration/Mass scaling = 2",
-        "Integration/Scheme = tchamwa wielgosz", "Integration/Dissipation = 1.2",
-        "Bond/Strength scatter = weibull", "Bond/Weibull modulus = 6"})
+  for (const char *entry : {"Platens/Top/Control = stress", "Platens/Top/Stress = 40 MPa",
+                            "Loading/Ramp = 0.2 ms", "Loading/Hold = 0.05 ms", "Effects/Contact = hertz",
+                            "Effects/Tangential = coulomb with rolling resistance",
+                            "Contact/Rolling friction = 0.1", "Effects/Gravity = on", "Specimen/Seat = on",
+                            "Integration/Mass scaling = 2", "Integration/Scheme = tchamwa wielgosz",
+                            "Integration/Dissipation = 1.2", "Bond/Strength scatter = weibull",
+                            "Bond/Weibull modulus = 6", "Phases/By = radius", "Phases/Radius above = 0.9 mm",
+                            "Phases/Interface modulus factor = 0.7", "Phases/Aggregate strength factor = 2"})
     effects.insert(effects.end(), {"-s", entry});
   const auto with = [&](std::vector<std::string> options) {
     options.insert(options.end(), effects.begin(), effects.end());
@@ -101,7 +102,7 @@ TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
   };
   crush("whole", "1", effects);
   for (const char *effect : {"hertz contact", "rolling resistance", "gravity", "seats", "mass scaling",
-                             "dissipative scheme", "scattered strengths"})
+                             "dissipative scheme", "scattered strengths", "phases"})
     EXPECT_TRUE(contains(summary_in(folder_ / "whole")["effects"].dump(), effect)) << effect;
   EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 500);
   EXPECT_EQ(stop_at("stopped", 60, SIGTERM, with({"-t", "2"})), 143);

@@ -14,6 +14,13 @@ protected:
   static bool has(const nlohmann::json &words, const std::string &word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   }
+  fs::path first_frame(const std::string &run) const {
+    fs::path first;
+    for (const auto &file : fs::directory_iterator(folder_ / run / "frames"))
+      if (contains(file.path().filename().string(), "specimen") && (first.empty() || file.path() < first))
+        first = file.path();
+    return first;
+  }
   std::vector<std::vector<std::string>> history(const std::string &name) const {
     std::istringstream file(content_of(folder_ / name / "history.csv"));
     std::vector<std::vector<std::string>> rows;
@@ -52,6 +59,34 @@ TEST_F(EffectsOff, ledger_and_log_only_watch) {
       ASSERT_EQ(b[row][c], energy ? "nan" : a[row][c]) << column << " in row " << row;
   }
   EXPECT_EQ(energies, 10u);
+}
+
+// Large grains held by a weak interface; the scene's list and its threshold say the same.
+TEST_F(EffectsOff, phases_show_in_frames_and_strength) {
+  const std::vector<std::string> short_run{"Output/Fields = on", "Loading/Target strain = 0.004"};
+  const nlohmann::json plain = crush("plain", short_run);
+  std::vector<std::string> entries = short_run;
+  entries.insert(entries.end(),
+                 {"Phases/By = radius", "Phases/Radius above = 0.9 mm", "Phases/Aggregate modulus factor = 2",
+                  "Phases/Interface strength factor = 0.5"});
+  const nlohmann::json mixed = crush("mixed", entries);
+  EXPECT_TRUE(has(plain["effects_off"], "phases"));
+  EXPECT_TRUE(has(mixed["effects"], "phases"));
+  const auto frame = [&](const char *run) { return content_of(first_frame(run)); };
+  EXPECT_FALSE(contains(frame("plain"), "Name=\"phase\""));
+  EXPECT_TRUE(contains(frame("mixed"), "Name=\"phase\""));
+  EXPECT_LT(mixed["strength_pa"].get<double>(), 0.95 * plain["strength_pa"].get<double>());
+  EXPECT_LT(mixed["energy_residual_relative"], 0.02);
+  // The same spheres by their ids.
+  std::istringstream spheres(content_of(folder_ / "mixed/specimen.csv"));
+  std::string line, list;
+  for (int id = -2; std::getline(spheres, line); ++id) // two lines of header
+    if (id >= 0 && std::stod(line.substr(line.rfind(',') + 1)) > 0.9e-3) list += std::to_string(id) + "\n";
+  put(folder_ / "large.txt", list);
+  entries[2] = "Phases/By = file";
+  entries[3] = "Phases/File = " + (folder_ / "large.txt").string();
+  crush("listed", entries);
+  EXPECT_EQ(content_of(folder_ / "listed/history.csv"), content_of(folder_ / "mixed/history.csv"));
 }
 
 TEST_F(EffectsOff, moments_cost_columns_of_no_bond_but_strength_of_all) {

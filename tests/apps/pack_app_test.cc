@@ -98,6 +98,36 @@ TEST_F(PackApp, tells_how_heavy_grains_make_a_solid) {
               2201, 2201e-12);
 }
 
+TEST_F(PackApp, phases_have_to_fit_the_spheres) {
+  const auto refusal = [&](const Words &overrides) -> std::string {
+    try {
+      make_specimen(scene("small.prm", overrides));
+    } catch (const InputError &error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto listed = [&](const std::string &ids) {
+    write("ids.txt", ids);
+    return refusal({"Phases/By = file", "Phases/File = " + (folder / "ids.txt").string()});
+  };
+  const std::size_t spheres = make_specimen(scene("small.prm")).size();
+  const std::string last = std::to_string(spheres - 1), count = std::to_string(spheres);
+  EXPECT_EQ(listed("0\n" + last + "\n"), "");
+  EXPECT_NE(listed("0\n" + count + "\n").find("names sphere " + count), std::string::npos);
+  EXPECT_NE(listed("0\n" + count + "\n").find("Allowed: 0 ... " + last), std::string::npos);
+  EXPECT_NE(listed("# none\n").find("names no sphere"), std::string::npos);
+  EXPECT_NE(listed("1\nx\n").find("ids.txt:2: error"), std::string::npos);
+  // All radii are 1 mm.
+  for (const char *radius : {"0.9 mm", "1.1 mm"})
+    EXPECT_NE(refusal({"Phases/By = radius", std::string("Phases/Radius above = ") + radius})
+                  .find("leaves one phase empty"),
+              std::string::npos)
+        << radius;
+  EXPECT_EQ(refusal({"Phases/By = radius", "Phases/Radius above = 1 mm", "Specimen/Radius spread = 0.2"}),
+            "");
+}
+
 TEST_F(PackApp, the_same_seed_gives_the_same_file) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
   ASSERT_EQ(run(scene("small.prm"), "b"), status_done);

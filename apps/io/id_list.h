@@ -1,0 +1,14 @@
+// Files that name particles by their ids, one a line.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace platen::apps {
+
+// The numbers of the file in its order: whole, not negative, one a line; empty lines and what follows a "#"
+// are passed over. Throws InputError, naming file and line, where the file cannot be read, a line holds
+// something else, or a number comes twice.
+std::vector<int> read_id_list(const std::filesystem::path &path);
+
+} // namespace platen::apps

@@ -1,0 +1,42 @@
+#include "dem/phases.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "dem/bonds.h"
+#include "dem/particles.h"
+
+namespace platen::dem {
+
+void mark_phases(Particles &p, const Phases &phases) {
+  std::vector<int> ids = phases.aggregate_ids;
+  std::sort(ids.begin(), ids.end());
+  if (!ids.empty() && (ids.front() < 0 || ids.back() >= static_cast<int>(p.size())))
+    throw std::invalid_argument("phases: there is no particle " +
+                                std::to_string(ids.front() < 0 ? ids.front() : ids.back()));
+  p.phase = &p.table.add<int>("phase", "1");
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const bool aggregate =
+        p.radius[i] > phases.radius_above || std::binary_search(ids.begin(), ids.end(), p.id[i]);
+    (*p.phase)[i] = static_cast<int>(aggregate ? Phase::aggregate : Phase::matrix);
+  }
+}
+
+int aggregates_of_pair(const Particles &p, int first, int second) {
+  if (p.phase == nullptr) return 0;
+  return (*p.phase)[static_cast<std::size_t>(first)] + (*p.phase)[static_cast<std::size_t>(second)];
+}
+
+void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases) {
+  const std::array<PhaseFactors, 3> factors = phases.factors();
+  if (phases.scatters()) bonds.add_strength_factor();
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    const PhaseFactors &f =
+        factors[static_cast<std::size_t>(aggregates_of_pair(particles, bonds.first[k], bonds.second[k]))];
+    bonds.normal_stiffness[k] *= f.modulus;
+    if (bonds.strength_factor != nullptr) (*bonds.strength_factor)[k] *= f.strength;
+  }
+}
+
+} // namespace platen::dem
