@@ -31,6 +31,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
+#include "dem/measure/bond_stress.h"
 #include "dem/parallel.h"
 #include "fem/threads.h"
 
@@ -118,6 +119,7 @@ private:
   bool finished() const;
   bool by_time() const; // the run ends after a time (hydrostatic: or a little later), not at a strain
   double end_time() const;
+  void write_bond_stress() const;
   void save_summary(const std::string &status);
   RunCosts costs() const;
 
@@ -396,6 +398,20 @@ void Test::save_summary(const std::string &status) {
   write_summary(paths_.summary(), summary_of_run(status, scene_, *problem_, results_, costs()));
 }
 
+// What bonds bear against their direction, and over the axial stress, as the run has left it (Onate et al.
+// 2015, figure 11).
+void Test::write_bond_stress() const {
+  constexpr int classes = 9;
+  const double axial = 0.5 * (problem_->stress_top() + problem_->stress_bottom());
+  CsvWriter table(paths_.bond_stress(), {"angle_low_deg", "angle_high_deg", "bonds", "pressed_bonds",
+                                         "mean_stress_pa", "mean_pressed_stress_pa", "pressed_over_axial"});
+  constexpr double degree = 3.14159265358979323846 / 180;
+  for (const dem::DirectionClass &c :
+       dem::bond_stress_by_direction(problem_->model.particles, *problem_->model.bonds, classes))
+    table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,
+               c.mean_pressed / axial});
+}
+
 int Test::run() {
   if (command_.dry_run) {
     fmt::print("{}{}", description(), cost_estimate(*problem_, expected_steps_));
@@ -414,6 +430,7 @@ int Test::run() {
                                          : "no checkpoint had been written"));
   }
   results_.finish(*problem_);
+  if (problem_->model.bonds) write_bond_stress();
   if (fields_) fields_->write(*problem_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));

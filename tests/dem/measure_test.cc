@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "dem/measure/bond_stress.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
@@ -195,6 +196,25 @@ TEST(measure, a_barrel_is_told_from_a_column) {
   EXPECT_NEAR(end_spread(column), 1, .05);
   EXPECT_LT(barrel(barrelled), .3);
   EXPECT_LT(end_spread(barrelled), .35);
+}
+
+// Squeezed by a strain e along z alone, a bond of touching spheres at an angle t to the horizontal bears
+// G_b e sin^2 t.
+TEST(measure, bonds_bear_by_their_direction) {
+  Model model(small_cylinder(), bonded());
+  Particles &p = model.particles;
+  constexpr double strain = 1e-6;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.position[i].z *= 1 - strain;
+  int bonds = 0;
+  for (const DirectionClass &c : bond_stress_by_direction(p, *model.bonds, 6)) {
+    ASSERT_GT(c.bonds, 10);
+    EXPECT_GE(c.mean, modulus * strain * std::pow(std::sin(c.low), 2) - 1);
+    EXPECT_LE(c.mean, modulus * strain * std::pow(std::sin(c.high), 2) + 1);
+    EXPECT_GE(c.mean_pressed, c.mean - 1);
+    bonds += c.bonds;
+  }
+  EXPECT_EQ(bonds, static_cast<int>(model.bonds->size()));
 }
 
 TEST(measure, pieces_are_what_bonds_hold_together) {

@@ -1,0 +1,72 @@
+"""Table of the runs of run.sh beside experiment and paper (Onate et al. 2015). Usage: table.py FOLDER"""
+import csv
+import json
+import pathlib
+import sys
+
+folder = pathlib.Path(sys.argv[1])
+# Figures that the paper prints as numbers: experiment, the paper's model (MPa).
+published = {
+    "concrete_ucs": ("32.8-38", ""),
+    "concrete_brazilian": ("3", ""),
+    "shale_ucs": ("50", "48"),
+    "shale_brazilian": ("5.0", "5.4"),
+    "cement_ucs": ("17", ""),
+    "cement_brazilian": ("2.9", "3.0"),
+}
+
+
+def summary(name):
+    path = folder / name / "summary.json"
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def history(name):
+    with open(folder / name / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [{key: float(value) for key, value in row.items()} for row in rows]
+
+
+def number(value, scale=1.0, digits=2):
+    return "-" if value is None else f"{value * scale:.{digits}f}"
+
+
+names = sorted(path.parent.name for path in folder.glob("*/summary.json"))
+print("| test | spheres | strength MPa | experiment, paper | strain at peak % | E GPa, nu | broken t, s of bonds | residual | seconds |")
+print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+for name in names:
+    s = summary(name)
+    experiment, model = published.get(name, ("", ""))
+    print(
+        f"| {name} | {s['particles']} | {number(s['strength_pa'], 1e-6)} | {experiment}{', ' if model else ''}{model} | "
+        f"{number(s['strain_at_peak_platen'], 100)} | {number(s['youngs_modulus_gauge_pa'], 1e-9, 1)}, "
+        f"{number(s['poisson_ratio'], 1, 3)} | {s['broken_tension']}, {s['broken_shear']} of {s['bonds']} | "
+        f"{number(s['energy_residual_relative'], 1, 5)} | {s['wall_seconds']:.0f} |"
+    )
+
+print("\nOne set of limits for all pressures (8.5, 9, 11 MPa) against the paper's set for each:")
+for psi in (500, 1000, 2000, 4000):
+    fitted, one = summary(f"cement_{psi}psi"), summary(f"cement_{psi}psi_one_set")
+    if fitted and one:
+        a, b = fitted["strength_pa"], one["strength_pa"]
+        print(f"  {psi} psi: {a * 1e-6:.1f} MPa fitted, {b * 1e-6:.1f} MPa with one set, {100 * (b / a - 1):+.1f} %")
+
+if summary("cement_500psi"):
+    print("\nCement at 500 psi, broken interfaces by axial strain:")
+    rows = history("cement_500psi")
+    for strain in (0.0128, 0.0155, 0.018, 0.02):
+        near = min(rows, key=lambda row: abs(row["axial_strain_platen"] - strain))
+        print(f"  {100 * near['axial_strain_platen']:.2f} %: {near['broken_tension'] + near['broken_shear']:.0f}")
+
+if summary("cement_uniaxial_strain"):
+    # Where the difference of axial and lateral stress leaves the line through 1 and 4 MPa by a tenth.
+    rows = [(r["axial_strain_platen"], 0.5 * (r["axial_stress_top_pa"] + r["axial_stress_bottom_pa"]), r["confining_pressure_pa"])
+            for r in history("cement_uniaxial_strain")]
+    line = [(e, a - p) for e, a, p in rows if 1e6 < a - p < 4e6]
+    if len(line) > 1:
+        slope = (line[-1][1] - line[0][1]) / (line[-1][0] - line[0][0])
+        for e, a, p in rows:
+            straight = line[0][1] + slope * (e - line[0][0])
+            if a - p > 4e6 and a - p < 0.9 * straight:
+                print(f"\nCement, uniaxial strain: leaves its line at {a * 1e-6:.1f} MPa axial, {(a - p) * 1e-6:.1f} MPa difference (experiment about 10 MPa)")
+                break
