@@ -172,7 +172,7 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.energy_ledger = scene.effects.energy_ledger;
   to.crack_log = scene.effects.crack_log;
   if (scene.phases.by != PhasesBy::none) to.phases = phases(scene.phases);
-  if (scene.effects.bond != BondKind::none && scene.bond.strength_scatter == Scatter::weibull)
+  if (scene.effects.bond != BondKind::none && scene.bond.strength_scatter == StrengthScatter::weibull)
     to.strength_scatter = dem::StrengthScatter{scene.bond.weibull_modulus, scene.general.seed};
   if (scene.effects.bond != BondKind::none) to.bond = bond_parameters(scene.bond, scene.effects);
   if (scene.effects.contact != ContactKind::none) to.contact = contact_settings(scene);

@@ -42,7 +42,7 @@ std::vector<Effect> effects(const Scene &s) {
            "dissipative scheme"},
           {bonded && s.bond.damping > 0, "bond dashpots"},
           {bonded && s.phases.by != PhasesBy::none, "phases"},
-          {bonded && s.bond.strength_scatter != Scatter::none, "scattered strengths"},
+          {bonded && s.bond.strength_scatter != StrengthScatter::none, "scattered strengths"},
           {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
            "contact dashpots"},
           {s.platens.damping > 0, "platen dashpots"},

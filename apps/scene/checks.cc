@@ -167,9 +167,9 @@ void SceneCheck::bond() const {
            "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
                ": a bare number is metres. Did you mean \"" + shortest_text(bond.gap.value) + " R_min\"?");
   compression();
-  if (bond.strength_scatter != Scatter::none && app_ == AppKind::bonds)
+  if (bond.strength_scatter != StrengthScatter::none && app_ == AppKind::bonds)
     refuse("Bond/Strength scatter", "leaves no bond of a known strength to test. Allowed: none.");
-  if (bond.strength_scatter == Scatter::weibull)
+  if (bond.strength_scatter == StrengthScatter::weibull)
     need("Bond/Weibull modulus", bond.weibull_modulus, "Bond/Strength scatter = weibull takes it.");
   const bool needed = scene_.effects.bond != BondKind::none && app_ != AppKind::pack &&
                       app_ != AppKind::report &&
@@ -411,7 +411,7 @@ void SceneCheck::notes() {
     for (const char *key : {"Phases/Aggregate modulus factor", "Phases/Aggregate strength factor",
                             "Phases/Interface modulus factor", "Phases/Interface strength factor"})
       note(key, "Phases/By = none");
-  if (scene_.bond.strength_scatter == Scatter::none)
+  if (scene_.bond.strength_scatter == StrengthScatter::none)
     note("Bond/Weibull modulus", "Bond/Strength scatter = none");
   else if (scene_.bond.tensile_strength == 0 && scene_.bond.shear_strength == 0)
     note("Bond/Strength scatter", "both strengths are infinite");

@@ -102,7 +102,7 @@ struct Effects {
 
 enum class RadiusRule { minimum, mean, harmonic, given };
 enum class FailureLine { uncoupled, coupled };
-enum class Scatter { none, weibull };
+enum class StrengthScatter { none, weibull };
 
 struct Bond {
   double modulus = not_given;     // Pa
@@ -129,7 +129,7 @@ struct Bond {
   std::vector<double> compression_limits; // Pa, LCS1..3
   std::vector<double> compression_slopes; // YRC1..3
   FailureLine failure_line = FailureLine::uncoupled;
-  Scatter strength_scatter = Scatter::none;
+  StrengthScatter strength_scatter = StrengthScatter::none;
   double weibull_modulus = not_given; // m; strength_scatter = weibull
 };
 

@@ -160,9 +160,9 @@ void declare_bond(Parameters &parameters, Bond &bond) {
       "Pairs with at most this distance between their surfaces are bonded; R_min is the smaller radius.");
   section.number("Damping", bond.damping, between(0, 1),
                  "Dashpot of the bond, fraction of critical damping.");
-  section.word<Scatter>("Strength scatter", bond.strength_scatter,
-                        {{"none", Scatter::none}, {"weibull", Scatter::weibull}}, {},
-                        "Weibull: a random factor of mean 1 multiplies both strengths of each bond.");
+  section.word<StrengthScatter>("Strength scatter", bond.strength_scatter,
+                                {{"none", StrengthScatter::none}, {"weibull", StrengthScatter::weibull}}, {},
+                                "Weibull: a random factor of mean 1 multiplies both strengths of each bond.");
   section.number("Weibull modulus", bond.weibull_modulus, between(0.5, 1000),
                  "Of the factors (Strength scatter = weibull): the larger, the less scatter.");
   declare_interface(section, bond);
