@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "dem/measure/fragments.h"
 #include "dem/measure/section.h"
 
 namespace platen::apps {
@@ -15,15 +16,16 @@ using dem::Vector3;
 // Part of the length, about the middle, over which sections are measured.
 constexpr double measured_share = 0.5;
 
-BarEnd end_within(const Particles &p, double plane, double depth, int sign) {
+BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double plane, double depth,
+                  int sign) {
   BarEnd end;
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth) {
+    if (in_piece[i] && sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth) {
       end.rows.push_back(static_cast<int>(i));
       end.z += p.reference_position[i].z;
     }
   if (end.rows.empty())
-    throw std::invalid_argument("no sphere lies within Bar test/End depth of an end of the bar");
+    throw std::invalid_argument("no bonded sphere lies within Bar test/End depth of an end of the bar");
   end.z /= static_cast<double>(end.rows.size());
   return end;
 }
@@ -95,13 +97,18 @@ BarGeometry measure_bar(const Particles &p, const dem::Bonds &bonds, const dem::
   BarGeometry g;
   g.along_x = along_x;
   double mass = 0;
+  const dem::Fragments pieces = dem::find_fragments(p, &bonds);
   for (std::size_t i = 0; i < p.size(); ++i) {
     g.mean_radius += p.radius[i] / static_cast<double>(p.size());
-    mass += p.mass[i];
+    g.in_piece.push_back(pieces.of_particle[i] == 0);
+    if (g.in_piece[i])
+      mass += p.mass[i];
+    else
+      ++g.loose;
   }
   const double layer = depth * g.mean_radius;
-  g.low = end_within(p, 0, layer, -1);
-  g.high = end_within(p, shape.height, layer, 1);
+  g.low = end_within(p, g.in_piece, 0, layer, -1);
+  g.high = end_within(p, g.in_piece, shape.height, layer, 1);
   g.bottom = g.low.z - g.mean_radius;
   g.top = g.high.z + g.mean_radius;
   g.bounding = bounding_section(p, shape, g.mean_radius, layer);

@@ -24,10 +24,13 @@ struct EndMotion {
   double twist = 0;
 };
 
-// How the bar is cut into parts, once it is packed.
+// How the bar is cut into parts, once it is packed. Spheres that hang together with the rest by no bond
+// (loose in their cages) are no part of it: they carry nothing and stay where they are.
 struct BarGeometry {
-  BarEnd low, high;       // within the depth of the end planes
-  double mean_radius = 0; // m, of all spheres
+  std::vector<char> in_piece; // of each row: whether it belongs to the largest bonded piece
+  std::size_t loose = 0;      // spheres that do not
+  BarEnd low, high;           // within the depth of the end planes
+  double mean_radius = 0;     // m, of all spheres
   double bottom = 0,
          top = 0; // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
   double length() const { return top - bottom; } // m

@@ -36,9 +36,10 @@ double mean_along_z(const dem::Column<Vector3> &column, const std::vector<int> &
 struct Station {
   std::vector<int> rows;
   double z = 0; // m, mean of the centres
-  Station(const Particles &p, double at, double reach) {
+  Station(const Particles &p, const BarGeometry &bar, double at) {
+    const double reach = station * bar.mean_radius;
     for (std::size_t i = 0; i < p.size(); ++i)
-      if (std::abs(p.reference_position[i].z - at) <= reach) {
+      if (bar.in_piece[i] && std::abs(p.reference_position[i].z - at) <= reach) {
         rows.push_back(static_cast<int>(i));
         z += p.reference_position[i].z;
       }
@@ -54,8 +55,8 @@ public:
   Run(Model &model, const BarGeometry &bar)
       : model_(model),
         bar_(bar),
-        quarter(model.particles, bar.top - 0.25 * bar.length(), station * bar.mean_radius),
-        half(model.particles, bar.top - 0.5 * bar.length(), station * bar.mean_radius) {
+        quarter(model.particles, bar, bar.top - 0.25 * bar.length()),
+        half(model.particles, bar, bar.top - 0.5 * bar.length()) {
     model.compute_forces(0);
     model.end_step(0);
     initial_ = kinetic_energy(model.particles) + energy_shares(model.particles, *model.bonds).total();

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "dem/measure/gauge.h"
 #include "dem/stable_step.h"
 
 namespace platen::apps {
@@ -69,12 +68,14 @@ BarModuli pull_bar(const dem::Model &model, const BarGeometry &bar, const dem::S
   double force = 0;
   for (const int row : bar.high.rows)
     force += stiffness * (stretch - state.displacement[static_cast<std::size_t>(row)].z);
-  const dem::GaugeStrain strain =
-      dem::Gauge(model.particles, shape).strain_of(model.particles, state.displacement);
-  return {force / strain.axial, -strain.lateral() / strain.axial};
+  dem::Region middle{shape, 0.25 * shape.height};
+  middle.shape.height *= 0.5;
+  const dem::Tensor strain = mean_strain(middle, model.particles, state.displacement, bar.in_piece);
+  return {force / strain[2][2], -0.5 * (strain[0][0] + strain[1][1]) / strain[2][2]};
 }
 
-dem::Moduli bulk_moduli(const dem::Model &model, const dem::Shape &shape, double mean_radius) {
+dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const dem::Shape &shape) {
+  const double mean_radius = bar.mean_radius;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const dem::Region region = inside(shape, region_margin * mean_radius);
   const bool round = shape.kind == dem::ShapeKind::cylinder;
@@ -92,7 +93,7 @@ dem::Moduli bulk_moduli(const dem::Model &model, const dem::Shape &shape, double
       if (wall_clearance(shape, p.reference_position[i]) - p.radius[i] <= skin_depth * mean_radius)
         load.led.push_back({static_cast<int>(i), product(e, p.reference_position[i]), {}});
     const dem::StaticState state = solve_static(p, *model.bonds, load);
-    strain[k] = mean_strain(region, p, state.displacement);
+    strain[k] = mean_strain(region, p, state.displacement, bar.in_piece);
     stress[k] = mean_stress(region, p, *model.bonds, state.displacement, state.turn);
   }
   return dem::isotropic_moduli(strain, stress);

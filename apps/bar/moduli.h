@@ -19,6 +19,6 @@ BarModuli pull_bar(const dem::Model &model, const BarGeometry &bar, const dem::S
 // outside it do not enter.
 constexpr double skin_depth = 1, region_margin = 5;
 // NaN where the specimen is too thin to have such a region.
-dem::Moduli bulk_moduli(const dem::Model &model, const dem::Shape &shape, double mean_radius);
+dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const dem::Shape &shape);
 
 } // namespace platen::apps

@@ -253,8 +253,7 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
                      [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
   history_ = std::make_unique<CsvWriter>(paths_.history(), columns());
   progress_ = std::make_unique<Progress>(log_);
-  if (scene_.bar_test.bulk_moduli)
-    results_.bulk = bulk_moduli(model_, specimen_.shape, results_.bar.mean_radius);
+  if (scene_.bar_test.bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
   test_loads();
   test_impact();
   progress_.reset();

@@ -136,6 +136,7 @@ Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, 
     s[unmeasured] = none;
   s["mean_radius_m"] = r.bar.mean_radius;
   s["length_m"] = r.bar.length();
+  s["loose_spheres"] = r.bar.loose;
   s["clamped_spheres"] = r.bar.low.rows.size();
   s["loaded_spheres"] = r.bar.high.rows.size();
   add_section(s, "bounding", r.bar.bounding);

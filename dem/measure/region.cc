@@ -110,12 +110,13 @@ Tensor mean_stress(const Region &region, const Particles &p, const Bonds &b,
   return stress;
 }
 
-Tensor mean_strain(const Region &region, const Particles &p, const std::vector<Vector3> &displacement) {
+Tensor mean_strain(const Region &region, const Particles &p, const std::vector<Vector3> &displacement,
+                   const std::vector<char> &counted) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
   std::vector<std::size_t> rows;
   const auto eigen = [](const Vector3 &v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!region.holds(p.reference_position[i])) continue;
+    if (!region.holds(p.reference_position[i]) || (!counted.empty() && !counted[i])) continue;
     rows.push_back(i);
     centre += eigen(p.reference_position[i]);
     mean += eigen(displacement[i]);

@@ -28,9 +28,10 @@ Tensor mean_stress(const Region &region, const Particles &particles, const Bonds
                    const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 
 // Symmetric part of the best-fit gradient of displacement on reference position over the particles with their
-// centres inside; not numbers where they are too few.
-Tensor mean_strain(const Region &region, const Particles &particles,
-                   const std::vector<Vector3> &displacement);
+// centres inside; not numbers where they are too few. `counted` says of each row whether it is looked at, for
+// loose spheres stay behind; empty: all are.
+Tensor mean_strain(const Region &region, const Particles &particles, const std::vector<Vector3> &displacement,
+                   const std::vector<char> &counted = {});
 
 // Isotropic moduli that are nearest to six pairs of strain and stress that span all strains: stiffness C from
 // stress = C strain, then its mean over all directions (Voigt). `anisotropy`: largest difference of a

@@ -212,6 +212,21 @@ TEST_F(LongChain, carries_a_pulse_at_the_speed_of_long_waves) {
   EXPECT_EQ(samples, 1 + clocking.steps / 50);
 }
 
+// A sphere that touches nothing, at the loaded end: neither clamped, loaded nor counted.
+TEST_F(Chain, does_not_notice_a_loose_sphere) {
+  dem::Specimen with = spheres(joints + 1);
+  with.centre.push_back({5 * radius, 0, (2 * joints + 1) * radius});
+  with.radius.push_back(radius);
+  const dem::Model loose(with, beams());
+  const BarGeometry same = measure_bar(loose.particles, *loose.bonds, with.shape, .5, true);
+  EXPECT_EQ(same.loose, 1u);
+  EXPECT_EQ(same.high.rows.size(), 1u);
+  EXPECT_DOUBLE_EQ(same.mass_per_length, bar.mass_per_length);
+  const double size = load_of_strain(rod, BarLoad::tension, 1e-4);
+  EXPECT_NEAR(load_bar(loose, same, BarLoad::tension, size).measured, rod.stretch(size),
+              1e-6 * rod.stretch(size));
+}
+
 TEST_F(Chain, stops_when_it_is_told_to) {
   const StaticTest test = load_bar(model, bar, BarLoad::tension, 1);
   int samples = 0;

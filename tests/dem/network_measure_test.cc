@@ -135,6 +135,13 @@ TEST(network, a_uniform_strain_is_found_whatever_turns_with_it) {
     displacement[i] += cross(Vector3{1e-3, 2e-3, -4e-3}, x);
   }
   const Tensor e = mean_strain({box(6 * radius, 6 * radius, 7 * radius), radius}, p, displacement);
+  std::vector<char> counted(p.size(), 1);
+  std::vector<Vector3> behind = displacement;
+  for (std::size_t i = 0; i < p.size(); i += 9)
+    counted[i] = 0, behind[i] = {};
+  const Region region{box(6 * radius, 6 * radius, 7 * radius), radius};
+  EXPECT_NEAR(mean_strain(region, p, behind, counted)[2][2], 3e-4, 1e-12);
+  EXPECT_GT(std::abs(mean_strain(region, p, behind)[2][2] - 3e-4), 1e-6);
   const double expected[3][3] = {{1e-4, 2.5e-5, 0}, {2.5e-5, -2e-4, 5e-6}, {0, 5e-6, 3e-4}};
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 3; ++c)
