@@ -9,6 +9,8 @@
 #include "apps/io/specimen_csv.h"
 #include "coupling/static_press.h"
 #include "dem/parallel.h"
+#include "dem/statics/network.h"
+#include "static_ml.h"
 #include "step_scene.h"
 
 namespace {
@@ -20,6 +22,36 @@ double seconds_of(const Work &work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// One solve with every sphere near the platens held, by our multigrid and by ML.
+void compare_with_ml(coupling::Problem &problem) {
+  const dem::Particles &p = problem.model.particles;
+  const dem::Bonds &bonds = *problem.model.bonds;
+  dem::StaticCase load;
+  for (const bool top : {false, true})
+    for (const dem::GroundSpring &s : problem.springs_at(top))
+      load.supports.push_back({s, {0, 0, top ? -1e-6 : 1e-6}});
+  dem::StaticState ours;
+  const double seconds = seconds_of([&] { ours = dem::solve_static(p, bonds, load); });
+
+  auto a = dem::statics::assemble<6>(
+      p.size(), bonds, [&](std::size_t row) { return dem::statics::material_stiffness<6>(p, bonds, row); });
+  std::vector<double> right(6 * p.size(), 0.0);
+  for (const dem::Support &s : load.supports) {
+    const std::size_t i = static_cast<std::size_t>(s.spring.particle);
+    for (std::size_t k = a.begin[i]; k < a.begin[i + 1]; ++k)
+      if (static_cast<std::size_t>(a.column[k]) == i) dem::statics::add_support<6>(p, s.spring, a.at(k));
+    dem::statics::add_support_load<6>(p, s.spring, s.moved, &right[6 * i]);
+  }
+  const bench::MlSolution ml = bench::solve_by_ml(a, {p.position.begin(), p.position.end()},
+                                                  {p.radius.begin(), p.radius.end()}, right, 1e-8);
+  double difference = 0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    difference = std::max(difference, std::abs(ml.x[6 * i + 2] - ours.displacement[i].z));
+  std::printf(
+      "one solve: %.3g s (%d iterations); ML %.3g s + %.3g s (%d iterations); largest difference %.1e m\n",
+      seconds, ours.iterations, ml.setup_seconds, ml.solve_seconds, ml.iterations, difference);
 }
 
 } // namespace
@@ -36,12 +68,15 @@ int main(int argc, char **argv) {
   app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
   app.add_option("--law", law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
   app.add_option("--specimen", read, "a packing from this file instead")->check(CLI::ExistingFile);
+  bool ml = false;
+  app.add_flag("--ml", ml, "compare a solve with Trilinos ML");
   CLI11_PARSE(app, argc, argv);
 
   const dem::ThreadLimit limit(threads);
   coupling::Problem problem(
       read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen,
       bench::elastic_press(law));
+  if (ml) compare_with_ml(problem);
   std::vector<double> still, step;
   coupling::StaticPress p;
   constexpr long timed = 100;
