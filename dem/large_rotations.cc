@@ -15,6 +15,7 @@ constexpr int most_halves = 6;    // of an iteration that makes the residual lar
 constexpr double linear_tolerance = 1e-8;
 constexpr int most_linear = 2000;
 constexpr double growth = 1.5; // of load steps that converge
+constexpr double position_digits = 4 * 2.2e-16;
 
 Vector3 vector(const Triple<double> &a) {
   return {a.x, a.y, a.z};
@@ -89,7 +90,7 @@ private:
     std::vector<double> r(6 * p_.size());
     double now = residual(share, r);
     for (int it = 0; it < settings_.most_iterations; ++it) {
-      if (now <= settings_.tolerance) return true;
+      if (now <= settings_.tolerance + round_off_) return true;
       if (!std::isfinite(now)) return false;
       const std::vector<Place> before = state();
       const std::vector<double> x = correction(r);
@@ -108,7 +109,7 @@ private:
       }
       ++result_.iterations;
     }
-    return now <= settings_.tolerance;
+    return now <= settings_.tolerance + round_off_;
   }
 
   void move(const std::vector<double> &x, double factor) {
@@ -128,9 +129,11 @@ private:
       const Vector3 t = torque / p_.radius[i];
       to[0] += force.x, to[1] += force.y, to[2] += force.z, to[3] += t.x, to[4] += t.y, to[5] += t.z;
     };
-    double loads = 0, bonds = 0;
+    double loads = 0, bonds = 0, noise = 0;
     for (std::size_t k = 0; k < b_.size(); ++k) {
       if (b_.stiffness(k).axial == 0) continue;
+      const double blur = b_.stiffness(k).axial * norm(p_.position[static_cast<std::size_t>(b_.first[k])]);
+      noise += blur * blur;
       const BondResponse<double> a = b_.response(k, p_);
       add(static_cast<std::size_t>(b_.first[k]), vector(a.force), vector(a.torque_i));
       add(static_cast<std::size_t>(b_.second[k]), -vector(a.force), vector(a.torque_j));
@@ -150,6 +153,7 @@ private:
     for (const double a : r)
       sum += a * a;
     const double scale = std::max(loads, bonds);
+    round_off_ = scale > 0 ? position_digits * std::sqrt(noise / scale) : 0;
     return result_.residual = scale > 0 ? std::sqrt(sum / scale) : (sum > 0 ? 1.0 : 0.0);
   }
 
@@ -202,6 +206,7 @@ private:
   std::vector<char> held_;
   std::vector<Place> start_;
   LargeResult result_;
+  double round_off_ = 0; // of the residual, by that of positions
 };
 
 } // namespace
