@@ -46,7 +46,7 @@ long steps_between_samples(const Scene &scene, double step, double interval) {
 }
 
 std::vector<std::string> columns() {
-  std::vector<std::string> names = history_columns();
+  std::vector<std::string> names = history_columns({});
   for (const char *own :
        {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s", "far_end_velocity_m_s",
         "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j", "torsion_energy_j"})
@@ -171,8 +171,8 @@ std::string BarRun::description() const {
 
 bool BarRun::take(const BarSample &s, BarLoad load) {
   const bool ledger = scene_.effects.energy_ledger;
-  std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger));
-  cells.back() = none; // grain contacts, not counted
+  std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger), {});
+  cells[cells.size() - 2] = none; // grain contacts, not counted
   for (const CsvCell &own : std::initializer_list<CsvCell>{
            word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,
            s.far_velocity, s.quarter, s.half, ledger ? s.energy.axial : none,
