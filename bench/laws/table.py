@@ -8,8 +8,9 @@ folder = pathlib.Path(sys.argv[1])
 laws = ("parallel_bond", "cohesive_beam", "elasto_damage_plastic")
 
 
-def summaries(pattern):
-    return [json.loads((path / "summary.json").read_text()) for path in sorted(folder.glob(pattern)) if (path / "summary.json").exists()]
+def summaries(law, pulled):
+    folders = (path for path in sorted(folder.glob(f"{law}_*")) if path.name.endswith("_tension") == pulled)
+    return [json.loads((path / "summary.json").read_text()) for path in folders if (path / "summary.json").exists()]
 
 
 def figure(all_of, key, scale=1.0, digits=2):
@@ -22,8 +23,8 @@ def figure(all_of, key, scale=1.0, digits=2):
 
 print("| | " + " | ".join(law.replace("_", " ") for law in laws) + " |")
 print("| --- | --- | --- | --- |")
-pressed = {law: summaries(f"{law}_[0-9]*[0-9]") for law in laws}
-pulled = {law: summaries(f"{law}_[0-9]*_tension") for law in laws}
+pressed = {law: summaries(law, False) for law in laws}
+pulled = {law: summaries(law, True) for law in laws}
 rows = [
     ("bonds", pressed, "bonds", 1, 0),
     ("compressive strength, MPa", pressed, "strength_pa", 1e-6, 1),
