@@ -4,7 +4,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
 #include <Epetra_Map.h>
-#include <Epetra_SerialComm.h>
+#include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
 #include <ml_MultiLevelPreconditioner.h>
 #include <Teuchos_ParameterList.hpp>
@@ -39,9 +39,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<dem::Vector3> &place,
                        const std::vector<double> &length, const std::vector<double> &right,
                        double tolerance) {
+  // Trilinos is built for MPI and does not go without.
+  struct Mpi {
+    Mpi() { MPI_Init(nullptr, nullptr); }
+    ~Mpi() { MPI_Finalize(); }
+  };
+  static const Mpi mpi;
   MlSolution s;
   auto start = std::chrono::steady_clock::now();
-  Epetra_SerialComm one;
+  Epetra_MpiComm one(MPI_COMM_SELF);
   const Epetra_Map map(static_cast<int>(right.size()), 0, one);
   std::vector<int> counts(right.size());
   for (std::size_t i = 0; i < a.rows(); ++i)

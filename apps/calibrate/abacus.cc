@@ -43,6 +43,7 @@ std::vector<BondChoice> combinations(const Scene &scene) {
 
 Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, RunLog &log) {
   const std::vector<BondChoice> choices = combinations(scene);
+  const bool beams = scene.effects.bond == BondKind::cohesive_beam;
   const bool linear = scene.platens.stiffness.kind != Stiffness::Kind::absolute;
   const std::vector<unsigned long> seeds = training_seeds(scene);
   std::vector<Trial> asked;
@@ -59,25 +60,27 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");
   for (std::size_t k = 0; k < choices.size(); ++k) {
     const BondChoice &c = choices[k];
+    const double ratio = beams ? not_given : c.stiffness_ratio,
+                 bond_poisson = beams ? c.poisson_ratio : not_given;
     Scatter young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
       const double scale = linear ? c.modulus / scene.bond.modulus : 1.0;
       const dem::NetworkModuli b = bounds_of(scene, trials.packing(seeds[s]), c);
-      table.row({seeds[s], c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
-                 scale * r.young_modulus, scale * r.platen_modulus, r.poisson_ratio, b.young_voigt,
-                 b.poisson_voigt, b.young_reuss, b.poisson_reuss});
+      table.row({seeds[s], c.modulus, ratio, c.radius_multiplier, bond_poisson, scale * r.young_modulus,
+                 scale * r.platen_modulus, r.poisson_ratio, b.young_voigt, b.poisson_voigt, b.young_reuss,
+                 b.poisson_reuss});
       if (r.good()) young.add(scale * r.young_modulus), poisson.add(r.poisson_ratio);
       voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
     }
     log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",
-             1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio, 1e-9 * young.mean(),
+             1e-9 * c.modulus, ratio, c.radius_multiplier, bond_poisson, 1e-9 * young.mean(),
              1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(), voigt_poisson.mean());
     Json row;
     row["bond_modulus_pa"] = c.modulus;
-    row["stiffness_ratio"] = c.stiffness_ratio;
+    row["stiffness_ratio"] = ratio;
     row["radius_multiplier"] = c.radius_multiplier;
-    row["bond_poisson_ratio"] = c.poisson_ratio;
+    row["bond_poisson_ratio"] = bond_poisson;
     row["youngs_modulus_gauge_pa"] = young.mean();
     row["poisson_ratio"] = poisson.mean();
     rows.push_back(row);

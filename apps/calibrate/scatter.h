@@ -13,12 +13,14 @@ public:
   void add(double value) { values_.push_back(value); }
   std::size_t count() const { return values_.size(); }
   double mean() const { // NaN of nothing
+    if (values_.empty()) return not_given;
     double sum = 0;
     for (const double v : values_)
       sum += v;
     return sum / static_cast<double>(values_.size());
   }
   double deviation() const { // of a single one; NaN of fewer than two
+    if (values_.size() < 2) return not_given;
     double squares = 0;
     const double m = mean();
     for (const double v : values_)
