@@ -73,7 +73,7 @@ bool is_output_name(const fs::path &relative) {
       "((scene|found)(\\.part)?\\.prm|(history|cracks|bond_stress|specimen|study|costs|trials|abacus|packing_"
       "[0-9]+)(\\."
       "part)?\\.csv"
-      "|summary(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
+      "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
       "|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
   static const std::regex frame("(specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu");
   const std::string name = relative.filename().string();

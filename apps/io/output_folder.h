@@ -23,7 +23,9 @@ struct OutputPaths {
   std::filesystem::path specimen_vtu() const { return folder / "specimen.vtu"; }
   std::filesystem::path bond_stress() const { return folder / "bond_stress.csv"; }
   std::filesystem::path study() const { return folder / "study.csv"; }
+  std::filesystem::path study_json() const { return folder / "study.json"; }
   std::filesystem::path costs() const { return folder / "costs.csv"; }
+  std::filesystem::path runs() const { return folder / "runs"; } // of a study: an output folder for each
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
   // series: specimen, bonds, platens, sleeve or contacts.
   std::filesystem::path series(const std::string &series) const { return folder / (series + ".pvd"); }

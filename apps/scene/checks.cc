@@ -32,6 +32,7 @@ public:
   void pair_test() const;
   void calibrate() const;
   void bar_test() const;
+  void study() const;
   void notes();
 
 private:
@@ -364,6 +365,35 @@ void SceneCheck::bar_test() const {
                                      parameters_.at("Specimen/Height").text + ".");
 }
 
+// What a list of the study stands for must be there to be varied, and vary: each value once.
+void SceneCheck::study() const {
+  if (app_ != AppKind::study) return;
+  const Study &study = scene_.study;
+  const auto once = [&](const std::string &path, std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto twice = std::adjacent_find(values.begin(), values.end());
+    if (twice != values.end()) refuse(path, "holds " + shortest_text(*twice) + " twice. Allowed: each once.");
+  };
+  once("Study/Sphere radius list", study.sphere_radii);
+  once("Study/Radius multiplier list", study.radius_multipliers);
+  once("Study/Radius spread list", study.radius_spreads);
+  once("Study/Axial rate list", study.axial_rates);
+  for (const bool relative : {true, false}) {
+    std::vector<double> gaps;
+    for (const Gap &gap : study.gaps)
+      if (gap.relative == relative) gaps.push_back(gap.value);
+    once("Study/Gap list", gaps);
+  }
+  if (!study.domains.empty() && scene_.specimen.shape != SpecimenShape::cylinder)
+    refuse("Study/Domain list", "holds cylinders, but Specimen/Shape = " +
+                                    parameters_.at("Specimen/Shape").text + ". Allowed: Shape = cylinder.");
+  if (study.seeds > 1 && scene_.specimen.packing == PackingKind::file &&
+      scene_.bond.strength_scatter == Scatter::none)
+    refuse("Study/Seeds",
+           "would repeat one run: with Specimen/Packing = file and Bond/Strength scatter = none nothing is "
+           "drawn. Allowed: 1.");
+}
+
 void SceneCheck::note(const std::string &path, const std::string &why) {
   const Entry &entry = parameters_.at(path);
   if (!entry.changed()) return;
@@ -485,6 +515,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.pair_test();
   check.calibrate();
   check.bar_test();
+  check.study();
   check.notes();
 }
 

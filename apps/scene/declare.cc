@@ -70,6 +70,16 @@ void Section::list(const std::string &key, std::vector<double> &to, const std::s
           [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
 }
 
+void Section::gaps(const std::string &key, std::vector<Gap> &to, const std::string &documentation) {
+  declare(key, "", "", "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more",
+          documentation, [&to](const std::string &text) { to = read_gaps(text); });
+}
+
+void Section::domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation) {
+  declare(key, "", "m", "pairs with commas between them, each \"72 mm x 22.5 mm\"", documentation,
+          [&to](const std::string &text) { to = read_domains(text); });
+}
+
 void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                           const std::string &documentation) {
   declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {

@@ -40,6 +40,8 @@ public:
   void stiffness(const std::string &key, Stiffness &to, bool bulk_allowed, const std::string &documentation);
   void list(const std::string &key, std::vector<double> &to, const std::string &si_unit, const Range &range,
             const std::string &documentation);
+  void gaps(const std::string &key, std::vector<Gap> &to, const std::string &documentation);
+  void domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation);
   // A range for a number of summary.json; what is given is kept in `to`, once for each key.
   void expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                    const std::string &documentation);

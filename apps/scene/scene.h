@@ -294,6 +294,19 @@ struct BarTest {               // platen-bar
   bool bulk_moduli = true;
 };
 
+struct DomainSize {              // of a cylinder
+  double height = 0, radius = 0; // m
+};
+
+struct Study {                      // platen-study; a list that is empty leaves the scene's own value
+  int seeds = 5;                    // runs of each case: Scene/Seed and those after it
+  std::vector<double> sphere_radii; // m; size
+  std::vector<DomainSize> domains;  // size; at the scene's sphere radius
+  std::vector<Gap> gaps;            // packing
+  std::vector<double> radius_multipliers, radius_spreads; // packing
+  std::vector<double> axial_rates;                        // m/s; rate
+};
+
 struct Scene {
   std::string name = "default"; // file name without its ending
   std::string path;             // as given on the command line
@@ -314,6 +327,7 @@ struct Scene {
   PairTest pair_test;
   Calibrate calibrate;
   BarTest bar_test;
+  Study study;
   std::vector<std::string> notes; // entries that were set and have no effect here, one line each
   std::shared_ptr<const Parameters> parameters; // the same entries as text
 };

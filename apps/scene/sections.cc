@@ -510,6 +510,23 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
                "Measure the moduli of the interior too, under six strains of its skin.");
 }
 
+void declare_study(Parameters &parameters, Study &study) {
+  Section section(parameters, "Study");
+  section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
+  section.list("Sphere radius list", study.sphere_radii, "m", above(0),
+               "Study of size: mean radii, in place of Specimen/Sphere radius. With Domain list empty too: "
+               "0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
+  section.domains("Domain list", study.domains,
+                  "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
+  section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");
+  section.list("Radius multiplier list", study.radius_multipliers, "1", above_up_to(0, 10),
+               "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
+  section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
+               "Study of the packing, in place of Specimen/Radius spread.");
+  section.list("Axial rate list", study.axial_rates, "m/s", above(0),
+               "Study of the rate, in place of Loading/Axial rate.");
+}
+
 } // namespace
 
 void declare_scene(Parameters &parameters, Scene &scene) {
@@ -529,6 +546,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_pair_test(parameters, scene.pair_test);
   declare_calibrate(parameters, scene.calibrate);
   declare_bar_test(parameters, scene.bar_test);
+  declare_study(parameters, scene.study);
 }
 
 } // namespace platen::apps

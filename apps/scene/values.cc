@@ -14,6 +14,25 @@ void check(double value, const Range &range) {
   if (!range.holds(value)) throw ValueError("is out of range");
 }
 
+// What stands between commas, each piece read by read(piece); "" is no piece.
+template <class Value, class Read>
+std::vector<Value> read_items(const std::string &text, const Read &read) {
+  std::vector<Value> values;
+  if (text.empty()) return values;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', first), text.size());
+    const std::string item = tidy(text.substr(first, comma - first));
+    try {
+      if (item.empty()) throw ValueError("is empty");
+      values.push_back(read(item));
+    } catch (const ValueError &error) {
+      throw ValueError("holds an item, \"" + item + "\", that " + error.what());
+    }
+    first = comma + 1;
+  }
+  return values;
+}
+
 } // namespace
 
 std::string Range::text() const {
@@ -77,20 +96,23 @@ Stiffness read_stiffness(const std::string &text, bool bulk_allowed) {
 }
 
 std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range) {
-  std::vector<double> values;
-  if (text.empty()) return values;
-  for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', first), text.size());
-    const std::string item = tidy(text.substr(first, comma - first));
-    try {
-      if (item.empty()) throw ValueError("is empty");
-      values.push_back(read_quantity(item, si_unit, range));
-    } catch (const ValueError &error) {
-      throw ValueError("holds an item, \"" + item + "\", that " + error.what());
-    }
-    first = comma + 1;
-  }
-  return values;
+  return read_items<double>(text,
+                            [&](const std::string &item) { return read_quantity(item, si_unit, range); });
+}
+
+std::vector<Gap> read_gaps(const std::string &text) {
+  return read_items<Gap>(text, read_gap);
+}
+
+std::vector<DomainSize> read_domains(const std::string &text) {
+  return read_items<DomainSize>(text, [](const std::string &item) -> DomainSize {
+    const std::string between_both = " x ";
+    const std::size_t sign = item.find(between_both);
+    if (sign == std::string::npos) throw ValueError("is no pair: \"height x radius\" is");
+    const std::string height = item.substr(0, sign), radius = item.substr(sign + between_both.size());
+    if (height.empty() || radius.empty()) throw ValueError("is half a pair");
+    return {read_quantity(height, "m", above(0)), read_quantity(radius, "m", above(0))};
+  });
 }
 
 Expectation read_expectation(const std::string &text, const std::string &si_unit) {

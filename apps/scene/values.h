@@ -60,6 +60,10 @@ Gap read_gap(const std::string &text);
 Stiffness read_stiffness(const std::string &text, bool bulk_allowed);
 // "1 GPa, 2 GPa"; "" is no number.
 std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range);
+// "0.05 R_min, 0.1 mm"; "" is no gap.
+std::vector<Gap> read_gaps(const std::string &text);
+// "72 mm x 22.5 mm, 65 mm x 20 mm": heights and radii; "" is none.
+std::vector<DomainSize> read_domains(const std::string &text);
 // "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
 // The place of a word in `words`; `not_yet` are words that this version knows and cannot do.

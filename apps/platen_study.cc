@@ -1,0 +1,13 @@
+// platen-study: sweeps what a result may depend on, each case on several seeds.
+#include "apps/study/run_study.h"
+
+int main(int argc, char **argv) {
+  using namespace platen::apps;
+  AppDescription app;
+  app.kind = AppKind::study;
+  app.name = "platen-study";
+  app.purpose =
+      "Runs platen-compress over sizes, packings or rates, each on several seeds, and tables the results.";
+  app.kinds = study_kinds();
+  return run_app(argc, argv, app, run_study);
+}

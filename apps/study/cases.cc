@@ -1,0 +1,163 @@
+#include "apps/study/cases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/scene/errors.h"
+#include "apps/scene/parameters.h"
+#include "apps/scene/units.h"
+#include "apps/scene/values.h"
+
+namespace platen::apps {
+namespace {
+
+// Table 14 of Tannu 2017, on a cylinder of 80 mm x 25 mm.
+const std::vector<double> radii_of_the_thesis{0.0005, 0.00075, 0.001, 0.00125}; // m
+
+std::string set(const std::string &path, double value, const std::string &unit) {
+  return path + " = " + shortest_text(value) + (unit.empty() ? "" : " " + unit);
+}
+
+// The list, or the one value that the scene has.
+template <class Value>
+std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
+  return list.empty() ? std::vector<Value>{own} : list;
+}
+
+void add(StudyPlan &plan, StudyCase one) {
+  const bool known = std::any_of(plan.cases.begin(), plan.cases.end(),
+                                 [&](const StudyCase &other) { return other.name == one.name; });
+  if (!known) plan.cases.push_back(std::move(one)); // the same by two lists: runs once
+}
+
+StudyPlan plan_size(const Scene &scene) {
+  const SpecimenSection &s = scene.specimen;
+  const Study &study = scene.study;
+  if (s.packing == PackingKind::file)
+    scene.parameters->refuse("Specimen/Packing",
+                             "has one size: a study of it packs its own. Allowed: advancing front, "
+                             "random close.");
+  StudyPlan plan;
+  plan.varied = {"sphere_radius_m", "height_m", "radius_m"};
+  const bool nothing_given = study.sphere_radii.empty() && study.domains.empty();
+  const std::vector<double> radii =
+      nothing_given ? radii_of_the_thesis : or_own(study.sphere_radii, s.sphere_radius);
+  for (const double radius : radii)
+    add(plan, {"sphere_radius_" + shortest_text(radius),
+               {radius, s.height, s.radius},
+               {set("Specimen/Sphere radius", radius, "m")}});
+  for (const DomainSize &d : study.domains) {
+    const bool own = d.height == s.height && d.radius == s.radius;
+    const std::string name = "sphere_radius_" + shortest_text(s.sphere_radius),
+                      size = "_height_" + shortest_text(d.height) + "_radius_" + shortest_text(d.radius);
+    add(plan, {own ? name : name + size,
+               {s.sphere_radius, d.height, d.radius},
+               {set("Specimen/Sphere radius", s.sphere_radius, "m"), set("Specimen/Height", d.height, "m"),
+                set("Specimen/Radius", d.radius, "m")}});
+  }
+  return plan;
+}
+
+StudyPlan plan_packing(const Scene &scene) {
+  const Study &study = scene.study;
+  const bool none = scene.effects.bond == BondKind::none;
+  const Parameters &p = *scene.parameters;
+  if (study.gaps.empty() && study.radius_multipliers.empty() && study.radius_spreads.empty())
+    p.refuse("Study/Gap list",
+             "is not set, nor are Radius multiplier list and Radius spread list: nothing is varied. "
+             "Allowed: at least one of them.");
+  if (!study.gaps.empty() && (none || scene.effects.bond == BondKind::elasto_damage_plastic))
+    p.refuse("Study/Gap list", "has no effect: Effects/Bond = " + p.at("Effects/Bond").text +
+                                   ". Allowed: parallel bond, cohesive beam.");
+  if (!study.radius_multipliers.empty() && none)
+    p.refuse("Study/Radius multiplier list", "has no effect: Effects/Bond = none.");
+  if (!study.radius_spreads.empty() && scene.specimen.packing == PackingKind::file)
+    p.refuse("Study/Radius spread list", "has no effect: Specimen/Packing = file.");
+  StudyPlan plan;
+  plan.varied = {"gap_over_radius", "gap_m", "radius_multiplier", "radius_spread"};
+  for (const double spread : or_own(study.radius_spreads, scene.specimen.radius_spread))
+    for (const double multiplier : or_own(study.radius_multipliers, scene.bond.radius_multiplier))
+      for (const Gap &gap : or_own(study.gaps, scene.bond.gap)) {
+        StudyCase one;
+        one.name = "gap_" + shortest_text(gap.value) + (gap.relative ? "" : "_m") + "_multiplier_" +
+                   shortest_text(multiplier) + "_spread_" + shortest_text(spread);
+        one.labels = {gap.relative ? gap.value : not_given, gap.relative ? not_given : gap.value, multiplier,
+                      spread};
+        // What is not varied stays as the scene says it, even where that has no effect.
+        if (!study.gaps.empty()) one.overrides.push_back("Bond/Gap = " + text_of(gap));
+        if (!study.radius_multipliers.empty())
+          one.overrides.push_back(set("Bond/Radius multiplier", multiplier, ""));
+        if (!study.radius_spreads.empty()) one.overrides.push_back(set("Specimen/Radius spread", spread, ""));
+        add(plan, one);
+      }
+  return plan;
+}
+
+StudyPlan plan_rate(const Scene &scene) {
+  if (scene.study.axial_rates.empty())
+    scene.parameters->refuse("Study/Axial rate list",
+                             "is not set: nothing is varied. Allowed: speeds with commas between them.");
+  if (scene.loading.hydrostatic() || scene.platens.top_control == PlatenControl::stress)
+    scene.parameters->refuse("Study/Axial rate list", "needs platens that are driven by motion.");
+  StudyPlan plan;
+  plan.varied = {"axial_rate_m_s"};
+  for (const double rate : scene.study.axial_rates)
+    add(plan, {"rate_" + shortest_text(rate), {rate}, {set("Loading/Axial rate", rate, "m/s")}});
+  return plan;
+}
+
+StudyPlan plan_of(StudyKind kind, const Scene &scene) {
+  switch (kind) {
+    case StudyKind::packing:
+      return plan_packing(scene);
+    case StudyKind::rate:
+      return plan_rate(scene);
+    case StudyKind::size:
+      break;
+  }
+  return plan_size(scene);
+}
+
+} // namespace
+
+const char *word(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::packing:
+      return "packing";
+    case StudyKind::rate:
+      return "rate";
+    case StudyKind::size:
+      break;
+  }
+  return "size";
+}
+
+const std::vector<StudyKind> &known_study_kinds() {
+  static const std::vector<StudyKind> kinds{StudyKind::size, StudyKind::packing, StudyKind::rate};
+  return kinds;
+}
+
+std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
+                                      const std::vector<std::string> &overrides) {
+  std::vector<std::string> all = overrides;
+  all.insert(all.end(), of.overrides.begin(), of.overrides.end());
+  all.push_back("Scene/Seed = " + std::to_string(seed));
+  return all;
+}
+
+StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
+  StudyPlan plan = plan_of(kind, scene);
+  plan.kind = kind;
+  for (int k = 0; k < scene.study.seeds; ++k)
+    plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
+  for (const StudyCase &one : plan.cases)
+    try {
+      read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
+    } catch (const InputError &error) {
+      throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
+                       ", which cannot be run:\n" + error.what());
+    }
+  return plan;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,38 @@
+// What a study runs: cases, each a set of entries that differ from the scene, and seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene.h"
+
+namespace platen::apps {
+
+enum class StudyKind { size, packing, rate };
+
+struct StudyCase {
+  std::string name;                   // of folders and tables: "sphere_radius_0.001"
+  std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
+  std::vector<std::string> overrides; // "Section/Key = value"
+};
+
+struct StudyPlan {
+  StudyKind kind = StudyKind::size;
+  std::vector<std::string> varied; // columns that tell the cases apart
+  std::vector<StudyCase> cases;    // in the order in which they run; no two the same
+  std::vector<unsigned long> seeds;
+};
+
+const char *word(StudyKind kind);
+// The kinds that this version has.
+const std::vector<StudyKind> &known_study_kinds();
+
+// Throws InputError where the scene leaves a kind nothing to vary, or where a case is a scene that
+// platen-compress would refuse; `overrides` are those of the command line.
+StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides);
+
+// All that makes one run of a case from the scene: the command line's, the case's and the seed.
+std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
+                                      const std::vector<std::string> &overrides);
+
+} // namespace platen::apps

@@ -1,0 +1,35 @@
+// A program run beside this one, which it outlives neither unnoticed nor unasked.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace platen::apps {
+
+// A started program: no input, its standard error kept in memory. It stands in a process group of its own, so
+// that Ctrl-C reaches it only through send(), and is sent SIGTERM where this process dies.
+class Process {
+public:
+  enum class Output { dropped, ours }; // what becomes of its standard output
+  // Program and arguments, no shell, in the working folder of this process. Throws OutputError where the
+  // system has no process to give.
+  explicit Process(const std::vector<std::string> &command, Output output = Output::dropped);
+  ~Process(); // asks a program that still runs to end, and waits for it
+  Process(Process &&other) noexcept;
+  Process &operator=(Process &&) = delete;
+
+  bool running(); // until it has ended and its status is known
+  void send(int signal) const;
+  // Once it does not run: exit status, or minus the number of the signal that ended it.
+  int status() const { return status_; }
+  // Once it does not run: the end of what it wrote to standard error.
+  std::string errors() const;
+
+private:
+  pid_t id_ = -1; // -1: nothing runs
+  int status_ = 0, errors_ = -1;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,244 @@
+#include "apps/study/run_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "apps/io/file.h"
+#include "apps/io/machine.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/run_log.h"
+#include "apps/io/stop_signal.h"
+#include "apps/io/summary.h"
+#include "apps/run/problem_setup.h"
+#include "apps/scene/expect.h"
+#include "apps/scene/values.h"
+#include "apps/scene/version.h"
+#include "apps/study/cases.h"
+#include "apps/study/process.h"
+#include "apps/study/runs.h"
+#include "apps/study/tables.h"
+#include "dem/parallel.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string content_of(const fs::path &path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string text_of(const Scene &scene, const fs::path &folder) {
+  std::ostringstream text;
+  write_scene(scene, folder.string(), text);
+  return text.str();
+}
+
+StudyKind kind_of(const std::string &given) {
+  std::vector<std::string> words;
+  for (const StudyKind kind : known_study_kinds()) {
+    if (given == word(kind)) return kind;
+    words.emplace_back(word(kind));
+  }
+  throw InputError("command line: error: KIND = " + given +
+                   " is not available in this version. Allowed: " + joined(words) + ".");
+}
+
+class StudyApp {
+public:
+  StudyApp(const CommandLine &command, const Scene &scene)
+      : command_(command),
+        scene_(scene),
+        plan_(plan_study(kind_of(command.kind), scene, command.overrides)),
+        paths_(command.output),
+        runs_(runs_of(plan_, command.scene, command.overrides, paths_)),
+        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)) {}
+
+  int run();
+
+private:
+  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  std::string description() const;
+  int tell_costs() const;
+  void open();
+  void open_anew();
+  void require_same_study() const;
+  void keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome);
+  int finish(const StudyTables &tables);
+
+  const CommandLine &command_;
+  const Scene &scene_;
+  StudyPlan plan_;
+  Clock::time_point start_ = Clock::now();
+  OutputPaths paths_;
+  std::vector<StudyRun> runs_;
+  RunLog log_;
+  std::vector<std::string> missed_; // of what the scene expects of each run
+};
+
+std::string StudyApp::description() const {
+  std::string text =
+      fmt::format("{}\n  study of {}: {} cases on seeds {} to {}, {} runs, {} at a time\n",
+                  scene_.general.title.empty() ? scene_.name : scene_.general.title, word(plan_.kind),
+                  plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(), threads());
+  for (const StudyCase &one : plan_.cases) {
+    text += "  " + one.name + ":";
+    for (const std::string &entry : one.overrides)
+      text += (&entry == &one.overrides.front() ? " " : ", ") + entry;
+    text += '\n';
+  }
+  return text;
+}
+
+// --dry-run: what platen-compress says of the first run of each case.
+int StudyApp::tell_costs() const {
+  fmt::print("{}", description());
+  for (std::size_t k = 0; k < runs_.size(); k += plan_.seeds.size()) {
+    fmt::print("\n{}\n", runs_[k].name);
+    std::fflush(stdout);
+    std::vector<std::string> command = runs_[k].command;
+    command.emplace_back("--dry-run");
+    Process process(command, Process::Output::ours);
+    while (process.running())
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (process.status() == status_bad_input) throw InputError(runs_[k].name + ": " + process.errors());
+    if (process.status() != status_done) throw std::runtime_error(runs_[k].name + ": " + process.errors());
+  }
+  return status_done;
+}
+
+void StudyApp::require_same_study() const {
+  if (content_of(paths_.scene()) != text_of(scene_, paths_.folder))
+    throw InputError(paths_.scene().string() +
+                     ": error: is another scene than the one given, or the folder holds no study; resume "
+                     "with the scene as it was, or leave out --resume");
+  const Json before = Json::parse(content_of(paths_.study_json()), nullptr, false);
+  const std::string kind = before.is_object() ? before.value("kind", "") : "";
+  if (kind != word(plan_.kind))
+    throw InputError(paths_.study_json().string() +
+                     ": error: " + (kind.empty() ? "is not of a study" : "is of a study of " + kind) +
+                     "; resume with the KIND as it was, or leave out --resume");
+}
+
+void StudyApp::open_anew() {
+  std::vector<fs::path> inputs{command_.scene};
+  if (!scene_.specimen.file.empty()) inputs.emplace_back(scene_.specimen.file);
+  if (!scene_.phases.file.empty()) inputs.emplace_back(scene_.phases.file);
+  const FolderUse use = command_.overwrite ? FolderUse::overwrite : FolderUse::fresh;
+  check_output_folder(paths_.folder, use, inputs);
+  std::error_code none;
+  for (const auto &entry : fs::directory_iterator(paths_.runs(), none)) {
+    if (!entry.is_directory()) continue;
+    if (!command_.overwrite)
+      throw FolderError(
+          fmt::format("output folder {}: holds runs of an earlier study ({}); choose another "
+                      "folder with --output, or replace them with --overwrite",
+                      paths_.folder.string(), entry.path().filename().string()));
+    open_output_folder(entry.path(), FolderUse::overwrite, inputs);
+    fs::remove(entry.path(), none); // only where nothing of the user's is left in it
+  }
+  open_output_folder(paths_.folder, use, inputs);
+  create_folder(paths_.runs());
+  write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
+  write_summary(paths_.study_json(), Json{{"kind", word(plan_.kind)}, {"status", "running"}});
+}
+
+void StudyApp::open() {
+  if (command_.resume)
+    require_same_study();
+  else
+    open_anew();
+  log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
+}
+
+void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome) {
+  const StudyRun &run = runs_[k];
+  tables.add(run, outcome);
+  const std::string head = fmt::format("  {} of {}  {}", k + 1, runs_.size(), run.name);
+  if (!outcome.done) {
+    log_.warning("{}: failed, {}", head, outcome.reason);
+    return;
+  }
+  const auto number = [&](const char *key, double unit) {
+    const auto found = outcome.summary.find(key);
+    return found != outcome.summary.end() && found->is_number() ? found->get<double>() / unit : not_given;
+  };
+  log_.info("{}: {:.4g} MPa, {:.0f} s{}", head, number("strength_pa", 1e6), number("wall_seconds", 1),
+            outcome.kept ? ", kept" : "");
+  for (const std::string &line : check_expectations(scene_, outcome.summary).failed) {
+    missed_.push_back(run.name + ": " + line);
+    log_.error("expected: {}", missed_.back());
+  }
+}
+
+int StudyApp::finish(const StudyTables &tables) {
+  const bool any = tables.failed() < static_cast<int>(runs_.size());
+  Json study;
+  study["kind"] = word(plan_.kind);
+  study["status"] = any ? "done" : "failed";
+  study["varied"] = plan_.varied;
+  study["seeds"] = plan_.seeds;
+  study["runs"] = runs_.size();
+  study["failed_runs"] = tables.failed();
+  study["cases"] = tables.cases();
+  write_summary(paths_.study_json(), study);
+  Json s;
+  s["status"] = study["status"];
+  s["app"] = "platen-study";
+  s["scene"] = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+  s["version"] = version_line();
+  s["effects"] = effects_on(scene_);
+  s.update(study);
+  s["missed"] = missed_;
+  s["threads"] = threads();
+  s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
+  s["peak_memory_bytes"] = peak_memory_bytes();
+  write_summary(paths_.summary(), s);
+  log_.info("{}", tables.text());
+  if (tables.failed() > 0) log_.warning("{} of {} runs failed", tables.failed(), runs_.size());
+  log_.info("results are in {}", paths_.folder.string());
+  if (!any) {
+    log_.error("no run came to its end");
+    return status_numerics;
+  }
+  return missed_.empty() ? status_done : status_check_failed;
+}
+
+int StudyApp::run() {
+  if (command_.dry_run) return tell_costs();
+  catch_stop_signals();
+  open();
+  log_.info("{}", description());
+  StudyTables tables(plan_, paths_);
+  try {
+    carry_out(runs_, threads(), log_,
+              [&](std::size_t k, const RunOutcome &outcome) { keep(tables, k, outcome); });
+  } catch (const StudyStopped &stopped) {
+    log_.info("stopped by a signal; go on with: platen-study {} {} -o {} --resume", command_.kind,
+              command_.scene, command_.output);
+    return exit_status_of_signal(stopped.signal);
+  }
+  return finish(tables);
+}
+
+} // namespace
+
+std::vector<std::string> study_kinds() {
+  return {"friction", "slenderness", "size", "packing", "rate", "accuracy"};
+}
+
+int run_study(const CommandLine &command, const Scene &scene) {
+  return StudyApp(command, scene).run();
+}
+
+} // namespace platen::apps

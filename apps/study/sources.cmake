@@ -1,0 +1,7 @@
+# Sources of platen-study but for its main, apps/platen_study.cc; linked with platen_run.
+set(PLATEN_STUDY_SOURCES
+  study/cases.cc
+  study/process.cc
+  study/run_study.cc
+  study/runs.cc
+  study/tables.cc)

@@ -1,0 +1,219 @@
+#include "apps/study/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::apps {
+namespace {
+
+// Numbers of summary.json that do not depend on the machine's speed.
+const std::vector<std::string> figures{"particles",
+                                       "bonds",
+                                       "packing_fraction",
+                                       "coordination_number",
+                                       "strength_pa",
+                                       "strain_at_peak_platen",
+                                       "strain_at_peak_gauge",
+                                       "youngs_modulus_gauge_pa",
+                                       "youngs_modulus_platen_pa",
+                                       "poisson_ratio",
+                                       "broken_tension",
+                                       "broken_shear",
+                                       "end_damage_top",
+                                       "end_damage_bottom",
+                                       "middle_damage",
+                                       "end_spread",
+                                       "kinetic_to_internal_max",
+                                       "wave_crossings_to_peak",
+                                       "energy_residual_relative"};
+// And those that do.
+const std::vector<std::string> costs{"steps", "wall_seconds", "setup_seconds", "particle_steps_per_second",
+                                     "peak_memory_bytes"};
+
+std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std::string> &numbers) {
+  std::vector<std::string> columns{"kind", "case"};
+  columns.insert(columns.end(), plan.varied.begin(), plan.varied.end());
+  columns.insert(columns.end(), {"seed", "status"});
+  columns.insert(columns.end(), numbers.begin(), numbers.end());
+  return columns;
+}
+
+double number_in(const Json &summary, const std::string &key) {
+  const auto found = summary.find(key);
+  return found != summary.end() && found->is_number() ? found->get<double>() : not_given;
+}
+
+Json json_of(const SeedStatistics &s) {
+  return {{"mean", s.mean()}, {"deviation", s.deviation()}, {"runs", s.count()}};
+}
+
+// How a varied column is shown.
+struct Shown {
+  const char *column, *head;
+  double unit;
+};
+constexpr Shown shown[] = {{"sphere_radius_m", "sphere, mm", 1e-3},
+                           {"height_m", "height, mm", 1e-3},
+                           {"radius_m", "radius, mm", 1e-3},
+                           {"gap_over_radius", "gap/R", 1},
+                           {"gap_m", "gap, mm", 1e-3},
+                           {"radius_multiplier", "multiplier", 1},
+                           {"radius_spread", "spread", 1},
+                           {"axial_rate_m_s", "rate, m/s", 1}};
+
+struct Column {
+  const char *key, *head;
+  double unit;
+};
+constexpr Column printed[] = {{"particles", "spheres", 1},
+                              {"packing_fraction", "packing", 1},
+                              {"coordination_number", "neighbours", 1},
+                              {"strength_pa", "strength, MPa", 1e6},
+                              {"strain_at_peak_platen", "strain, 1e-3", 1e-3},
+                              {"youngs_modulus_gauge_pa", "E, GPa", 1e9},
+                              {"poisson_ratio", "nu", 1},
+                              {"kinetic_to_internal_max", "kinetic", 1}};
+
+std::string text_of(const SeedStatistics &s, double unit) {
+  if (s.count() == 0) return "-";
+  if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
+  return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
+}
+
+// Columns as wide as what stands in them.
+std::string aligned(const std::vector<std::vector<std::string>> &rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto &row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k)
+      widths[k] = std::max(widths[k], row[k].size());
+  std::string text;
+  for (const auto &row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      text += fmt::format("  {:>{}}", row[k], widths[k]);
+    text += '\n';
+  }
+  return text;
+}
+
+} // namespace
+
+void SeedStatistics::add(double value) {
+  if (!std::isnan(value)) values_.push_back(value);
+}
+
+double SeedStatistics::mean() const {
+  double sum = 0;
+  for (const double v : values_)
+    sum += v;
+  return sum / static_cast<double>(values_.size());
+}
+
+double SeedStatistics::deviation() const {
+  if (values_.size() < 2) return not_given;
+  double squares = 0;
+  const double m = mean();
+  for (const double v : values_)
+    squares += (v - m) * (v - m);
+  return std::sqrt(squares / (static_cast<double>(values_.size()) - 1));
+}
+
+StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
+    : plan_(plan),
+      study_(paths.study(), columns_of(plan, figures)),
+      costs_(paths.costs(), columns_of(plan, costs)),
+      cases_(plan.cases.size()) {
+  for (OfCase &of : cases_)
+    of.figures.resize(figures.size());
+}
+
+void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
+  const StudyCase &of = plan_.cases[run.of];
+  OfCase &sums = cases_[run.of];
+  std::vector<CsvCell> cells{word(plan_.kind), of.name};
+  cells.insert(cells.end(), of.labels.begin(), of.labels.end());
+  cells.insert(cells.end(), {run.seed, outcome.done ? "done" : "failed"});
+  std::vector<CsvCell> cost_cells = cells;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const double value = number_in(outcome.summary, figures[k]);
+    cells.emplace_back(value);
+    sums.figures[k].add(value);
+  }
+  for (const std::string &key : costs)
+    cost_cells.emplace_back(number_in(outcome.summary, key));
+  study_.row(cells);
+  costs_.row(cost_cells);
+  sums.seconds.add(number_in(outcome.summary, "wall_seconds"));
+  sums.bytes.add(number_in(outcome.summary, "peak_memory_bytes"));
+  ++sums.runs;
+  if (!outcome.done) ++sums.failed;
+}
+
+int StudyTables::failed() const {
+  int sum = 0;
+  for (const OfCase &of : cases_)
+    sum += of.failed;
+  return sum;
+}
+
+const SeedStatistics &StudyTables::figure(const OfCase &of, const std::string &key) const {
+  return of
+      .figures[static_cast<std::size_t>(std::find(figures.begin(), figures.end(), key) - figures.begin())];
+}
+
+Json StudyTables::cases() const {
+  Json all = Json::array();
+  for (std::size_t c = 0; c < cases_.size(); ++c) {
+    Json one;
+    one["name"] = plan_.cases[c].name;
+    for (std::size_t k = 0; k < plan_.varied.size(); ++k)
+      one[plan_.varied[k]] = plan_.cases[c].labels[k];
+    one["overrides"] = plan_.cases[c].overrides;
+    one["runs"] = cases_[c].runs;
+    one["failed"] = cases_[c].failed;
+    for (std::size_t k = 0; k < figures.size(); ++k)
+      one[figures[k]] = json_of(cases_[c].figures[k]);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::string StudyTables::text() const {
+  std::vector<const Shown *> labels;
+  std::vector<std::size_t> places; // of a label in the case
+  for (std::size_t k = 0; k < plan_.varied.size(); ++k) {
+    const bool any = std::any_of(plan_.cases.begin(), plan_.cases.end(),
+                                 [&](const StudyCase &c) { return !std::isnan(c.labels[k]); });
+    const auto *found = std::find_if(std::begin(shown), std::end(shown),
+                                     [&](const Shown &s) { return plan_.varied[k] == s.column; });
+    if (!any || found == std::end(shown)) continue;
+    labels.push_back(found);
+    places.push_back(k);
+  }
+  std::vector<std::vector<std::string>> rows(1);
+  for (const Shown *label : labels)
+    rows[0].emplace_back(label->head);
+  rows[0].emplace_back("runs");
+  for (const Column &column : printed)
+    rows[0].emplace_back(column.head);
+  rows[0].insert(rows[0].end(), {"seconds", "MB"});
+  for (std::size_t c = 0; c < cases_.size(); ++c) {
+    const OfCase &of = cases_[c];
+    std::vector<std::string> row;
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      const double value = plan_.cases[c].labels[places[k]] / labels[k]->unit;
+      row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
+    }
+    row.push_back(of.failed == 0 ? std::to_string(of.runs)
+                                 : fmt::format("{} of {}", of.runs - of.failed, of.runs));
+    for (const Column &column : printed)
+      row.push_back(text_of(figure(of, column.key), column.unit));
+    row.push_back(text_of(of.seconds, 1));
+    row.push_back(of.bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * of.bytes.mean()) : "-");
+    rows.push_back(std::move(row));
+  }
+  return aligned(rows) + "  mean +- standard deviation over the seeds\n";
+}
+
+} // namespace platen::apps

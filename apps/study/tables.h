@@ -1,0 +1,54 @@
+// What a study leaves: a row for each run, means and scatter for each case.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/io/csv_writer.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/summary.h"
+#include "apps/study/cases.h"
+#include "apps/study/runs.h"
+
+namespace platen::apps {
+
+// Of what was measured; a number that is NaN does not count.
+class SeedStatistics {
+public:
+  void add(double value);
+  std::size_t count() const { return values_.size(); }
+  double mean() const;      // NaN of nothing
+  double deviation() const; // sample standard deviation; NaN of fewer than two
+
+private:
+  std::vector<double> values_;
+};
+
+class StudyTables {
+public:
+  // Begins study.csv and costs.csv anew: they follow from the folders of the runs.
+  StudyTables(const StudyPlan &plan, const OutputPaths &paths);
+
+  // Rows of a run, in the order of the runs.
+  void add(const StudyRun &run, const RunOutcome &outcome);
+
+  int failed() const; // runs
+  // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
+  Json cases() const;
+  // For the screen, with what a run of each case cost.
+  std::string text() const;
+
+private:
+  struct OfCase {
+    int runs = 0, failed = 0;
+    std::vector<SeedStatistics> figures;
+    SeedStatistics seconds, bytes;
+  };
+  const SeedStatistics &figure(const OfCase &of, const std::string &key) const;
+
+  const StudyPlan &plan_;
+  CsvWriter study_, costs_;
+  std::vector<OfCase> cases_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,321 @@
+// platen-study as a user runs it, on specimens of a hundred spheres; and what it plans.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "apps/io_folder.h"
+#include "apps/program.h"
+#include "apps/scene/errors.h"
+#include "apps/study/cases.h"
+#include "apps/study/tables.h"
+
+namespace platen::apps::testing {
+namespace {
+
+std::vector<std::string> words_in(const fs::path &csv, const std::string &name) {
+  std::istringstream rows(content_of(csv));
+  std::vector<std::string> words;
+  std::size_t column = 0;
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream cells(row);
+    std::vector<std::string> parts;
+    for (std::string part; std::getline(cells, part, ',');)
+      parts.push_back(part);
+    if (words.empty())
+      column = static_cast<std::size_t>(std::find(parts.begin(), parts.end(), name) - parts.begin());
+    words.push_back(column < parts.size() ? parts[column] : "");
+  }
+  if (!words.empty()) words.erase(words.begin());
+  return words;
+}
+
+class Study : public ScratchFolder {
+protected:
+  std::vector<std::string> command(const std::string &name, const std::vector<std::string> &options,
+                                   const std::string &kind = "size") const {
+    std::vector<std::string> all{PLATEN_STUDY_PROGRAM, kind, test_scene("study.prm"), "-o", name, "-t", "1"};
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+  }
+  Outcome run(const std::string &name, const std::vector<std::string> &options,
+              const std::string &kind = "size") const {
+    Outcome outcome;
+    outcome.status = Program(command(name, options, kind), folder_).wait();
+    outcome.out = content_of(folder_ / "out.txt");
+    outcome.error = content_of(folder_ / "error.txt");
+    return outcome;
+  }
+  std::string table(const std::string &name) const { return content_of(folder_ / name / "study.csv"); }
+  nlohmann::json json(const std::string &name) const {
+    return nlohmann::json::parse(content_of(folder_ / name / "study.json"));
+  }
+};
+
+TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
+  const Outcome outcome = run("a", {});
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  const fs::path csv = folder_ / "a/study.csv";
+  const std::vector<double> strength = column_of(csv, "strength_pa"), seed = column_of(csv, "seed"),
+                            radius = column_of(csv, "sphere_radius_m"), spheres = column_of(csv, "particles");
+  ASSERT_EQ(strength.size(), 4u);
+  EXPECT_EQ(radius, (std::vector<double>{0.002, 0.002, 0.0014, 0.0014}));
+  EXPECT_EQ(seed, (std::vector<double>{3, 4, 3, 4})); // crushed.prm has seed 3
+  const auto cases = json("a")["cases"];
+  ASSERT_EQ(cases.size(), 2u);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double a = strength[2 * c], b = strength[2 * c + 1], mean = (a + b) / 2;
+    EXPECT_NE(a, b); // seeds differ
+    EXPECT_NEAR(cases[c]["strength_pa"]["mean"].get<double>(), mean, 1e-12 * mean);
+    // Of two numbers the sample deviation is their distance over the root of two.
+    EXPECT_NEAR(cases[c]["strength_pa"]["deviation"].get<double>(), std::abs(a - b) / std::sqrt(2.0),
+                1e-12 * mean);
+    EXPECT_EQ(cases[c]["strength_pa"]["runs"], 2);
+    for (std::size_t s = 0; s < 2; ++s) {
+      const auto summary = summary_in(
+          folder_ / "a/runs" / (cases[c]["name"].get<std::string>() + "_seed_" + std::to_string(3 + s)));
+      EXPECT_EQ(summary["strength_pa"].get<double>(), strength[2 * c + s]);
+      EXPECT_EQ(summary["threads"], 1);
+    }
+  }
+  // Spheres fill the same cylinder: their number goes as the cube of the radius, less what walls take (a
+  // tenth).
+  EXPECT_NEAR(spheres[2] / spheres[0], std::pow(2 / 1.4, 3), 0.25 * std::pow(2 / 1.4, 3));
+  EXPECT_EQ(lines_in(folder_ / "a/costs.csv"), 5);
+  for (const double seconds : column_of(folder_ / "a/costs.csv", "wall_seconds"))
+    EXPECT_GT(seconds, 0);
+  EXPECT_TRUE(contains(outcome.out, " +- ")) << outcome.out;
+  EXPECT_EQ(summary_in(folder_ / "a")["failed_runs"], 0);
+}
+
+TEST_F(Study, the_number_of_runs_at_a_time_changes_no_byte) {
+  ASSERT_EQ(run("one", {"--quiet"}).status, 0);
+  ASSERT_EQ(run("two", {"--quiet", "-t", "3"}).status, 2); // -t twice
+  ASSERT_EQ(
+      Program({PLATEN_STUDY_PROGRAM, "size", test_scene("study.prm"), "-o", "three", "-t", "3", "--quiet"},
+              folder_)
+          .wait(),
+      0);
+  EXPECT_EQ(table("one"), table("three"));
+  EXPECT_EQ(content_of(folder_ / "one/study.json"), content_of(folder_ / "three/study.json"));
+}
+
+// A run of its own on the way: fine enough to be met before it ends.
+const std::vector<std::string> slow{"--quiet", "-s", "Study/Sphere radius list = 2 mm, 0.9 mm"};
+const char *const met = "sphere_radius_0.0009_seed_3";
+
+std::vector<std::string> with(std::vector<std::string> options, const std::string &option) {
+  options.push_back(option);
+  return options;
+}
+
+TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
+  ASSERT_EQ(run("whole", slow).status, 0);
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const std::string name = "stopped_" + std::to_string(signal);
+    Program program(command(name, slow), folder_);
+    const fs::path inner = folder_ / name / "runs" / met;
+    ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }))
+        << content_of(folder_ / "error.txt");
+    program.send(signal);
+    EXPECT_EQ(program.wait(), 128 + signal);
+    EXPECT_EQ(summary_in(inner)["status"], "stopped");
+    EXPECT_FALSE(fs::exists(folder_ / name / "summary.json"));
+    EXPECT_EQ(lines_in(folder_ / name / "study.csv"), 3); // both runs of the first case
+    const Outcome rest = run(name, with(slow, "--resume"));
+    EXPECT_EQ(rest.status, 0) << rest.error;
+    EXPECT_TRUE(contains(content_of(inner / "run.log"), "resumed at step"));
+    EXPECT_EQ(table(name), table("whole"));
+    EXPECT_EQ(content_of(folder_ / name / "study.json"), content_of(folder_ / "whole/study.json"));
+    EXPECT_TRUE(contains(content_of(folder_ / name / "run.log"), "kept"));
+  }
+}
+
+TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
+  ASSERT_EQ(run("whole", slow).status, 0);
+  Program program(command("killed", slow), folder_);
+  const fs::path inner = folder_ / "killed/runs" / met;
+  ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }));
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait(), -SIGKILL);
+  // The run that was under way stops on its own, and says so.
+  for (int tenths = 0; tenths < 100 && !fs::exists(inner / "summary.json"); ++tenths)
+    usleep(100000);
+  ASSERT_EQ(summary_in(inner)["status"], "stopped");
+  const Outcome rest = run("killed", with(slow, "--resume"));
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  EXPECT_EQ(table("killed"), table("whole"));
+}
+
+TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {
+  ASSERT_EQ(run("a", {"--quiet"}).status, 0);
+  const std::string before = table("a");
+  const fs::path one = folder_ / "a/runs/sphere_radius_0.002_seed_4";
+  fs::remove(one / "summary.json");
+  for (const auto &file : fs::directory_iterator(one / "checkpoint"))
+    put(file.path(), "no checkpoint");
+  const Outcome rest = run("a", {"--resume"});
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  EXPECT_TRUE(contains(rest.error, "starts anew")) << rest.error;
+  EXPECT_EQ(table("a"), before);
+}
+
+TEST_F(Study, a_case_that_fails_is_told_and_survived) {
+  // One step for all: above the limit of the smaller spheres, found when their run is set up.
+  const Outcome outcome = run("a", {"-s", "Integration/Time step = 4e-7 s"});
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_TRUE(contains(outcome.error, "2 of 4 runs failed")) << outcome.error;
+  EXPECT_TRUE(contains(outcome.error, "Integration/Time step")) << outcome.error;
+  EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"),
+            (std::vector<std::string>{"done", "done", "failed", "failed"}));
+  const std::vector<double> strength = column_of(folder_ / "a/study.csv", "strength_pa");
+  EXPECT_GT(strength[1], 0);
+  EXPECT_TRUE(std::isnan(strength[2]));
+  EXPECT_EQ(json("a")["cases"][1]["failed"], 2);
+  EXPECT_EQ(json("a")["cases"][1]["strength_pa"]["runs"], 0);
+  EXPECT_TRUE(json("a")["cases"][1]["strength_pa"]["mean"].is_null());
+  // Nothing left at all is no success.
+  EXPECT_EQ(
+      run("b", {"-s", "Integration/Time step = 4e-7 s", "-s", "Study/Sphere radius list = 1.4 mm"}).status,
+      3);
+}
+
+TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {
+  const Outcome outcome = run("a", {"-s", "Expect/particles = ... 150"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.error, "sphere_radius_0.0014_seed_3")) << outcome.error;
+  EXPECT_FALSE(contains(outcome.error, "sphere_radius_0.002_seed")) << outcome.error;
+  EXPECT_EQ(summary_in(folder_ / "a")["missed"].size(), 2u);
+}
+
+TEST_F(Study, a_faster_test_is_less_quasi_static) {
+  const Outcome outcome =
+      run("a", {"--quiet", "-s", "Study/Axial rate list = 0.2 m/s, 2 m/s", "-s", "Study/Seeds = 1"}, "rate");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  const fs::path csv = folder_ / "a/study.csv";
+  EXPECT_EQ(column_of(csv, "axial_rate_m_s"), (std::vector<double>{0.2, 2}));
+  const std::vector<double> kinetic = column_of(csv, "kinetic_to_internal_max"),
+                            crossings = column_of(csv, "wave_crossings_to_peak");
+  EXPECT_GT(kinetic[1], 10 * kinetic[0]);
+  EXPECT_GT(crossings[0], 4 * crossings[1]);
+}
+
+TEST_F(Study, thicker_bonds_and_more_of_them_are_stiffer) {
+  const Outcome outcome = run("a",
+                              {"--quiet", "-s", "Study/Gap list = 0.02 R_min, 0.15 R_min", "-s",
+                               "Study/Radius multiplier list = 0.7, 1", "-s", "Study/Seeds = 1"},
+                              "packing");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  const fs::path csv = folder_ / "a/study.csv";
+  EXPECT_EQ(column_of(csv, "gap_over_radius"), (std::vector<double>{0.02, 0.15, 0.02, 0.15}));
+  EXPECT_EQ(column_of(csv, "radius_multiplier"), (std::vector<double>{0.7, 0.7, 1, 1}));
+  const std::vector<double> bonds = column_of(csv, "bonds"),
+                            young = column_of(csv, "youngs_modulus_gauge_pa");
+  EXPECT_GT(bonds[1], bonds[0]);
+  EXPECT_EQ(bonds[0], bonds[2]); // the same packing
+  EXPECT_GT(young[1], young[0]);
+  EXPECT_GT(young[2], young[0]);
+}
+
+TEST_F(Study, faults_are_refused_before_anything_is_written) {
+  const auto refused = [&](const std::vector<std::string> &options, const std::string &kind,
+                           const std::string &says) {
+    const Outcome outcome = run("a", options, kind);
+    EXPECT_EQ(outcome.status, 2) << says;
+    EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
+    EXPECT_FALSE(fs::exists(folder_ / "a"));
+  };
+  refused({}, "friction", "KIND = friction is not available in this version. Allowed: size, packing, rate.");
+  refused({}, "sizes", "Did you mean \"size\"?");
+  refused({}, "rate", "Study/Axial rate list is not set");
+  refused({}, "packing", "Study/Gap list is not set");
+  refused({"-s", "Study/Sphere radius list = 1 mm, 0.001"}, "size", "twice");
+  refused({"-s", "Study/Sphere radius list = 1 mm,"}, "size", "is empty");
+  refused({"-s", "Study/Sphere radius list = 30 mm"}, "size", "sphere_radius_0.03, which cannot be run");
+  refused({"-s", "Study/Domain list = 20 mm"}, "size", "is no pair");
+  refused({"-s", "Study/Domain list = 20 mm x 5 s"}, "size", "20 mm x 5 s");
+  refused({"-s", "Study/Seeds = 0"}, "size", "Study/Seeds");
+  refused({"-s", "Scene/Seed = 4294967295"}, "size", "Scene/Seed");
+  refused({"-s", "Specimen/Shape = box", "-s", "Specimen/Radius =", "-s", "Specimen/Width x = 20 mm", "-s",
+           "Specimen/Width y = 20 mm", "-s", "Study/Domain list = 20 mm x 5 mm"},
+          "size", "holds cylinders");
+  refused({"--resume"}, "size", "holds no study");
+}
+
+TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
+  const std::vector<std::string> quick{"--quiet",         "-s", "Study/Axial rate list = 1 m/s",  "-s",
+                                       "Study/Seeds = 1", "-s", "Study/Sphere radius list = 2 mm"};
+  ASSERT_EQ(run("a", quick).status, 0);
+  const std::string before = table("a");
+  const Outcome kind = run("a", with(quick, "--resume"), "rate");
+  EXPECT_EQ(kind.status, 2);
+  EXPECT_TRUE(contains(kind.error, "is of a study of size")) << kind.error;
+  EXPECT_EQ(run("a", {"--resume"}).status, 2);
+  EXPECT_EQ(run("a", quick).status, 2);
+  EXPECT_EQ(table("a"), before);
+  fs::remove_all(folder_ / "b");
+  fs::create_directory(folder_ / "b");
+  fs::rename(folder_ / "a/runs", folder_ / "b/runs");
+  EXPECT_EQ(run("b", quick).status, 2); // runs of who knows what
+  put(folder_ / "b/runs/notes/of_the_user.txt", "kept");
+  ASSERT_EQ(run("b", with(quick, "--overwrite"), "rate").status, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "b/runs/sphere_radius_0.002_seed_3"));
+  EXPECT_TRUE(fs::exists(folder_ / "b/runs/rate_1_seed_3/summary.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "b/runs/notes/of_the_user.txt"));
+}
+
+TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
+  const Outcome outcome = run("a", {"--dry-run"});
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_TRUE(contains(outcome.out, "2 cases on seeds 3 to 4, 4 runs")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "sphere_radius_0.0014_seed_3\n")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "time step")) << outcome.out;
+  EXPECT_FALSE(fs::exists(folder_ / "a"));
+}
+
+Scene scene_with(const std::vector<std::string> &entries) {
+  return read_scene(test_scene("study.prm"), entries, AppKind::study);
+}
+
+TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
+  const std::vector<std::string> entries{"Specimen/Height = 80 mm", "Specimen/Radius = 25 mm",
+                                         "Specimen/Sphere radius = 1 mm",
+                                         "Study/Sphere radius list = 0.5 mm, 0.75 mm, 1 mm, 1.25 mm",
+                                         "Study/Domain list = 80 mm x 25 mm, 72 mm x 22.5 mm, 65 mm x 20 mm"};
+  const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
+  ASSERT_EQ(plan.cases.size(), 6u); // 80 mm x 25 mm at 1 mm stands in both lists
+  EXPECT_EQ(plan.cases[2].name, "sphere_radius_0.001");
+  EXPECT_EQ(plan.cases[4].name, "sphere_radius_0.001_height_0.072_radius_0.0225");
+  EXPECT_EQ(plan.cases[4].labels, (std::vector<double>{0.001, 0.072, 0.0225}));
+  const Scene last =
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[5], 9, entries), AppKind::compress);
+  EXPECT_EQ(last.specimen.height, 0.065);
+  EXPECT_EQ(last.specimen.radius, 0.02);
+  EXPECT_EQ(last.specimen.sphere_radius, 0.001);
+  EXPECT_EQ(last.general.seed, 9u);
+}
+
+TEST(StudyPlan, without_lists_the_sizes_are_those_of_the_thesis) {
+  const std::vector<std::string> entries{"Study/Sphere radius list ="};
+  const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
+  ASSERT_EQ(plan.cases.size(), 4u);
+  EXPECT_EQ(plan.cases[0].labels[0], 0.0005);
+  EXPECT_EQ(plan.cases[3].labels[0], 0.00125);
+}
+
+TEST(SeedStatistics, a_number_that_was_not_measured_does_not_count) {
+  SeedStatistics s;
+  for (const double value : {2.0, std::nan(""), 4.0, 9.0})
+    s.add(value);
+  EXPECT_EQ(s.count(), 3u);
+  EXPECT_DOUBLE_EQ(s.mean(), 5);
+  EXPECT_DOUBLE_EQ(s.deviation(), std::sqrt(13.0)); // (9 + 1 + 16) / 2
+  SeedStatistics one;
+  one.add(7);
+  EXPECT_TRUE(std::isnan(one.deviation()));
+  EXPECT_TRUE(std::isnan(SeedStatistics().mean()));
+}
+
+} // namespace
+} // namespace platen::apps::testing
