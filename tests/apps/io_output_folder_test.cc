@@ -20,10 +20,11 @@ protected:
   // One file under every name that the apps write, taken from what names them.
   void write_run() const {
     const OutputPaths paths(output_);
-    for (const fs::path &file : {paths.scene(), paths.history(), paths.cracks(), paths.summary(), paths.log(),
-                                 paths.specimen_csv(), paths.specimen_vtu(), paths.study(), paths.costs(),
-                                 paths.checkpoints() / "step_000000000007.platen",
-                                 paths.checkpoints() / "step_000000000008.part.platen"})
+    for (const fs::path &file :
+         {paths.scene(), paths.history(), paths.cracks(), paths.summary(), paths.log(), paths.specimen_csv(),
+          paths.specimen_vtu(), paths.study(), paths.study_json(), paths.costs(),
+          paths.checkpoints() / "step_000000000007.platen",
+          paths.checkpoints() / "step_000000000008.part.platen"})
       put(file, "run");
     for (const char *series : {"specimen", "bonds", "platens", "sleeve", "contacts"}) {
       put(paths.series(series), "run");
