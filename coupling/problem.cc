@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "coupling/bending.h"
 #include "dem/measure/moduli.h"
 #include "dem/parallel.h"
 #include "fem/grids.h"
@@ -32,9 +33,50 @@ double platen_plane(const dem::Specimen &s, bool top, Ends ends) {
   return z;
 }
 
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+void require_bar(const dem::Shape &shape, const ProblemSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (settings.ends != Ends::ground)
+    throw BadSetup("Specimen/Ends", "would let a bar rock on its outermost spheres. Allowed: ground.");
+  if (shape.kind != dem::ShapeKind::box)
+    throw BadSetup("Loading/Test", "bends bars of rectangular section. Allowed: Specimen/Shape = box, bar.");
+  if (!(p.strip_width > 0))
+    throw BadSetup("Platens/Strip width", "has to be given: a bar is bent by strips. Allowed: > 0 m.");
+  if (!(p.span > p.strip_width))
+    throw BadSetup("Platens/Span",
+                   "leaves no gap between the lower strips. Allowed: above Platens/Strip "
+                   "width, " +
+                       text_of(p.strip_width) + " m.");
+  if (p.span + p.strip_width > shape.width_x)
+    throw BadSetup("Platens/Span", "is too long for a bar of " + text_of(shape.width_x) +
+                                       " m: the lower strips have to lie under it. Allowed: up to " +
+                                       text_of(shape.width_x - p.strip_width) + " m.");
+}
+
+Strips bending_strips(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const PlatenSettings &p = settings.platens;
+  require_bar(s.shape, settings);
+  Strips strips;
+  strips.middles = top ? std::vector<double>{0} : std::vector<double>{-0.5 * p.span, 0.5 * p.span};
+  strips.width = p.strip_width;
+  strips.length = p.overhang * s.shape.width_y;
+  strips.z_low =
+      top ? platen_plane(s, true, settings.ends) : platen_plane(s, false, settings.ends) - p.thickness;
+  strips.thickness = p.thickness;
+  strips.elements_across = p.elements_across;
+  strips.presses_from_above = top;
+  return strips;
+}
+
 fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  if (p.span > 0) return make_grid(bending_strips(s, settings, top));
   if (s.shape.kind == dem::ShapeKind::cylinder)
     return fem::make_grid(
         fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2});
@@ -80,12 +122,6 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
   return c;
 }
 
-std::string text_of(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
 }
@@ -101,6 +137,8 @@ constexpr double gain_of_cell = 10, crossings_ahead = 9;
 constexpr double settled_share = 0.01, patience = 2;
 // The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
 constexpr double servo_reserve = 10;
+// A bar is loaded within this many of its own periods where nothing else is said.
+constexpr double swings_of_ramp = 2;
 // Areas of the skin are looked at in every step that is a multiple of this.
 constexpr long steps_between_skins = 400;
 
@@ -130,11 +168,19 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
                      "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen that reaches "
                      "its end planes.");
   }
+  for (const bool above : {true, false})
+    if (bent() && !each_meets_a_sphere(bending_strips(specimen, settings, above), specimen,
+                                       settings.end_layer * dem::mean_radius(specimen)))
+      throw BadSetup(
+          "Platens/Strip width",
+          "leaves a strip without a sphere. Allowed: wider strips, or a deeper Specimen/End layer.");
   voigt_modulus_ = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
   grain_density_ = dem::grain_density(specimen, settings.model.density, settings.model.density_of);
   const double density = grain_density_ * settings.model.mass_scaling * packing_fraction_;
   wave_crossing_ = voigt_modulus_ > 0 ? shape_.height * std::sqrt(density / voigt_modulus_) : 0.0;
-  ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp : 10 * wave_crossing_;
+  ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp
+          : bent()                  ? swings_of_ramp * swing()
+                                    : 10 * wave_crossing_;
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
   if (settings.loading.cell) start_cell(*settings.loading.cell);
@@ -249,7 +295,7 @@ void Problem::set_platen_speeds() {
   if (servo_ && (confining || loading.servo)) {
     const double wanted =
         (confining ? start * loading.cell->pressure + lead_of_cell(middle) : start * loading.top_stress) *
-        shape_.cross_section();
+        nominal_area();
     top.set_velocity(
         {0, 0, -servo_->velocity(wanted, reaction_top_, top_layer.servo_load(model.particles), time_step_)});
     bottom.set_velocity({0, 0, 0});
@@ -417,10 +463,18 @@ double Problem::closure_strain() const {
   return (bottom.displacement()[2] - top.displacement()[2]) / shape_.height;
 }
 double Problem::stress_top() const {
-  return reaction_top_ / shape_.cross_section();
+  return reaction_top_ / nominal_area();
 }
 double Problem::stress_bottom() const {
-  return -reaction_bottom_ / shape_.cross_section();
+  return -reaction_bottom_ / nominal_area();
+}
+double Problem::midspan_moment() const {
+  const double middle = 0.5 * (end_planes().low + end_planes().high);
+  return coupling::midspan_moment(top, middle) + coupling::midspan_moment(bottom, middle);
+}
+double Problem::swing() const {
+  const double slenderness = settings_.platens.span / shape_.height;
+  return 2 / pi * std::sqrt(12.0) * slenderness * slenderness * wave_crossing_;
 }
 double Problem::platen_speed() const {
   return bottom.velocity()[2] - top.velocity()[2];

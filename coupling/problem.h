@@ -12,6 +12,7 @@
 #include "coupling/servo.h"
 #include "dem/confinement.h"
 #include "dem/lateral_wall.h"
+#include "dem/measure/bending.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
@@ -46,7 +47,8 @@ struct PlatenSettings {
   double stiffness_absolute = 0; // ... or N/m where positive
   double tangential_ratio = 0.8;
   double damping = 0.2;   // fraction of critical
-  double strip_width = 0; // m, of strips that press a disc; 0: as wide as the platens
+  double strip_width = 0; // m, of strips that press a disc or bend a bar; 0: as wide as the platens
+  double span = 0;        // m, between the middles of two lower strips that a bar along x is bent on; 0: none
   double overhang = 1.2;  // platen half-width over the specimen's
   double thickness = 0;   // m
   int elements_across = 8;
@@ -130,12 +132,19 @@ public:
   const dem::LateralWall *wall() const { return wall_.get(); }   // null without a wall
   dem::Confinement *confinement() { return confinement_.get(); } // null without a pressure on the skin
   const dem::Confinement *confinement() const { return confinement_.get(); }
+  // A bar between one strip above and two below.
+  bool bent() const { return settings_.platens.span > 0; }
+  dem::ThreePoints three_points() const { return {settings_.platens.span, shape_.width_y, shape_.height}; }
+  double swing() const; // s, first period of the bar on its supports: slender, with the Voigt modulus
+  double midspan_moment() const;     // N m, positive where it pulls the lower side; of a bent bar
   dem::EndPlanes end_planes() const; // where the platens' faces are now
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
   double closure_strain() const;                    // platen to platen, over the height
-  double stress_top() const, stress_bottom() const; // Pa, nominal area
-  double platen_speed() const;                      // m/s, closure speed now
+  double stress_top() const, stress_bottom() const; // Pa, load over nominal_area()
+  // m^2: the cross-section; of a bent bar what makes the load its nominal flexural stress.
+  double nominal_area() const { return bent() ? three_points().nominal_area() : shape_.cross_section(); }
+  double platen_speed() const; // m/s, closure speed now
   dem::EnergyLedger energy() const;
   double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
 

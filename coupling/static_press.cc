@@ -88,7 +88,7 @@ StaticPress measured(const Problem &problem, const Contacts &c, const dem::Stati
     const bool top = k >= c.first_of_top;
     ++(top ? p.closed_top : p.closed_bottom);
     const double up = normal_force(c.near[k], state) * c.near[k].spring.normal.z;
-    p.stress += 0.5 * (top ? -up : up) / problem.shape().cross_section();
+    p.stress += 0.5 * (top ? -up : up) / problem.nominal_area();
   }
   dem::Gauge gauge(problem.model.particles, problem.shape());
   const dem::GaugeStrain s = gauge.strain_of(problem.model.particles, state.displacement);

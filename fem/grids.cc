@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -125,6 +126,60 @@ Grid make_grid(const BoxPlate &plate) {
   dealii::GridGenerator::subdivided_hyper_rectangle(
       *grid, {count(0), count(1), count(2)}, dealii::Point<3>(plate.low[0], plate.low[1], plate.low[2]),
       dealii::Point<3>(plate.high[0], plate.high[1], plate.high[2]), true);
+  return grid;
+}
+
+namespace {
+
+bool touch(const BoxPlate &a, const BoxPlate &b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
+  return true;
+}
+
+// How far outside a box a point lies along the axis that says most, m; 0 inside.
+double outside(const BoxPlate &box, const dealii::Point<3> &p) {
+  double most = 0;
+  for (unsigned int k = 0; k < 3; ++k)
+    most = std::max({most, box.low[k] - p[k], p[k] - box.high[k]});
+  return most;
+}
+
+// The side of a box that a face of its grid lies in, numbered as BoxPlate's are.
+unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
+  unsigned int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned int side = 0; side < 6; ++side) {
+    const std::size_t k = side / 2;
+    const double distance = std::abs(middle[side / 2] - (side % 2 == 0 ? box.low[k] : box.high[k]));
+    if (distance < least) least = distance, nearest = side;
+  }
+  return nearest;
+}
+
+} // namespace
+
+Grid make_grid(const std::vector<BoxPlate> &boxes) {
+  require(!boxes.empty(), "there are no boxes");
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      require(!touch(boxes[k], boxes[other]), "two boxes of one grid touch");
+  std::vector<Grid> parts;
+  std::vector<const dealii::Triangulation<3> *> all;
+  for (const BoxPlate &box : boxes) {
+    parts.push_back(make_grid(box));
+    all.push_back(parts.back().get());
+  }
+  auto grid = std::make_shared<dealii::Triangulation<3>>();
+  dealii::GridGenerator::merge_triangulations(all, *grid, 0.0);
+  for (const auto &face : grid->active_face_iterators()) {
+    if (!face->at_boundary()) continue;
+    const dealii::Point<3> middle = face->center();
+    const auto nearer = [&](const BoxPlate &a, const BoxPlate &b) {
+      return outside(a, middle) < outside(b, middle);
+    };
+    face->set_boundary_id(side_of(*std::min_element(boxes.begin(), boxes.end(), nearer), middle));
+  }
   return grid;
 }
 

@@ -41,6 +41,9 @@ struct BoxPlate {
 // Both throw std::invalid_argument, naming the entry, where a size is not positive or a count too small.
 Grid make_grid(const CylinderPlate &plate);
 Grid make_grid(const BoxPlate &plate);
+// Boxes that do not touch, in one grid: strips of one rigid tool. Each has its own sides and ends by number.
+// Throws std::invalid_argument as above, and where there are none or two touch.
+Grid make_grid(const std::vector<BoxPlate> &boxes);
 
 // The boundary of a grid as a surface of quadrilaterals.
 struct GridSurface {

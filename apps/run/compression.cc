@@ -153,6 +153,7 @@ dem::Specimen placed(const Scene &scene, Pressed pressed) {
       refuse("states a box, which cannot be laid on its rim. Allowed: a cylinder, a disc.");
     return dem::laid_down(made);
   }
+  if (scene.loading.bending() && scene.specimen.shape == SpecimenShape::bar) return dem::laid_along_x(made);
   if (made.shape.kind == dem::ShapeKind::disc)
     refuse("states a disc that lies on its rim, for platen-brazilian. Allowed: a cylinder, a box.");
   return made;
@@ -169,7 +170,7 @@ Test::Test(const CommandLine &command, const Scene &scene, Pressed pressed)
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension),
-      columns_{scene.loading.cell(), pressed == Pressed::across_axis} {
+      columns_{scene.loading.cell(), pressed == Pressed::across_axis, scene.loading.bending()} {
   fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
@@ -184,6 +185,7 @@ Test::Test(const CommandLine &command, const Scene &scene, Pressed pressed)
                                      : placed(scene, pressed);
   try {
     problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
+    sampler_ = std::make_unique<Sampler>(*problem_);
   } catch (const coupling::BadSetup &e) {
     if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
     throw InputError(e.entry() + " " + e.what());
@@ -194,7 +196,6 @@ Test::Test(const CommandLine &command, const Scene &scene, Pressed pressed)
           : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
                 scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
   expected_steps_ = std::max(1.0, seconds / problem_->time_step());
-  sampler_ = std::make_unique<Sampler>(*problem_);
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint

@@ -1,5 +1,7 @@
 #include "apps/run/history.h"
 
+#include <stdexcept>
+
 namespace platen::apps {
 
 std::vector<std::string> history_columns(const ExtraColumns &extra) {
@@ -32,6 +34,7 @@ std::vector<std::string> history_columns(const ExtraColumns &extra) {
                                    "plastic_work_j"};
   if (extra.confined) columns.emplace_back("deviator_pa");
   if (extra.disc) columns.emplace_back("opening_m");
+  if (extra.bent) columns.insert(columns.end(), {"deflection_m", "midspan_moment_n_m"});
   return columns;
 }
 
@@ -66,6 +69,7 @@ std::vector<CsvCell> history_row(const Sample &s, const ExtraColumns &extra) {
                            s.plastic};
   if (extra.confined) row.emplace_back(s.deviator());
   if (extra.disc) row.emplace_back(s.opening);
+  if (extra.bent) row.insert(row.end(), {s.deflection, s.midspan_moment});
   return row;
 }
 
@@ -73,6 +77,13 @@ Sampler::Sampler(const coupling::Problem &problem)
     : gauge_(problem.model.particles, problem.shape()), pairs_(problem.model.particles, problem.shape()) {
   if (problem.shape().kind == dem::ShapeKind::disc)
     opening_.emplace(problem.model.particles, problem.shape());
+  if (!problem.bent()) return;
+  try {
+    deflection_.emplace(problem.model.particles, problem.shape(), problem.three_points().span);
+  } catch (const std::invalid_argument &e) {
+    throw coupling::BadSetup("Specimen/Sphere radius",
+                             std::string("is too large for a deflection: ") + e.what() + ".");
+  }
 }
 
 Sample Sampler::operator()(const coupling::Problem &problem) const {
@@ -108,6 +119,10 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.platen_speed = problem.platen_speed();
   s.time_step = problem.time_step();
   if (opening_) s.opening = (*opening_)(model.particles);
+  if (deflection_) {
+    s.deflection = (*deflection_)(model.particles);
+    s.midspan_moment = problem.midspan_moment();
+  }
   s.cycling = problem.cycling() ? 1.0 : 0.0;
   s.axial_stage = problem.axial_stage() ? 1.0 : 0.0;
   s.touching = model.contacts ? static_cast<double>(model.contacts->touching_count()) : 0.0;

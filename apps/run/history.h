@@ -8,6 +8,7 @@
 #include "apps/io/csv_writer.h"
 #include "coupling/problem.h"
 #include "dem/energy.h"
+#include "dem/measure/bending.h"
 #include "dem/measure/gauge.h"
 #include "dem/measure/split.h"
 
@@ -25,15 +26,17 @@ struct Sample {
   double cell_pressure = 0;                        // Pa, of a cell alone
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
-         plastic = 0;      // J
-  double residual = 0;     // J
-  double unbalanced = 0;   // 1
-  double platen_speed = 0; // m/s
-  double time_step = 0;    // s
-  double touching = 0;     // grain contacts
-  double opening = 0;      // m, of a disc across its loaded diameter
-  double cycling = 0;      // 1 from a turn of the platens until its strain has been reached again
-  double axial_stage = 1;  // 0 while a cell's pressure rises and stands alone
+         plastic = 0;        // J
+  double residual = 0;       // J
+  double unbalanced = 0;     // 1
+  double platen_speed = 0;   // m/s
+  double time_step = 0;      // s
+  double touching = 0;       // grain contacts
+  double opening = 0;        // m, of a disc across its loaded diameter
+  double deflection = 0;     // m, of a bent bar
+  double midspan_moment = 0; // N m, of a bent bar
+  double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
+  double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
   double deviator() const { return stress() - cell_pressure; }         // Pa
@@ -44,6 +47,7 @@ struct Sample {
 struct ExtraColumns {
   bool confined = false; // deviator_pa
   bool disc = false;     // opening_m
+  bool bent = false;     // deflection_m, midspan_moment_n_m
 };
 std::vector<std::string> history_columns(const ExtraColumns &extra);
 std::vector<CsvCell> history_row(const Sample &sample, const ExtraColumns &extra);
@@ -51,6 +55,7 @@ std::vector<CsvCell> history_row(const Sample &sample, const ExtraColumns &extra
 // Measures a problem; the gauges remember its reference state.
 class Sampler {
 public:
+  // Throws coupling::BadSetup where a bar has too few spheres for its deflection to be measured.
   explicit Sampler(const coupling::Problem &problem);
   Sample operator()(const coupling::Problem &problem) const;
 
@@ -58,6 +63,7 @@ private:
   dem::Gauge gauge_;
   dem::ExtremalPairs pairs_;
   std::optional<dem::DiscOpening> opening_;
+  std::optional<dem::Deflection> deflection_;
 };
 
 } // namespace platen::apps

@@ -100,6 +100,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.platens.tangential_ratio = from.tangential_ratio;
   to.platens.damping = from.damping;
   to.platens.strip_width = from.strip_width;
+  if (scene.loading.bending()) to.platens.span = from.span;
   to.platens.overhang = from.overhang;
   to.platens.thickness = from.thickness;
   to.platens.elements_across = from.elements_across;

@@ -99,6 +99,12 @@ double Results::strain_at_peak_gauge() const {
 double Results::opening_at_peak() const {
   return peak_ > 0 ? samples_[peak_row()].opening : not_measured;
 }
+double Results::deflection_at_peak() const {
+  return peak_ > 0 ? samples_[peak_row()].deflection : not_measured;
+}
+double Results::midspan_moment_at_peak() const {
+  return peak_ > 0 ? samples_[peak_row()].midspan_moment : not_measured;
+}
 double Results::time_at_peak() const {
   return peak_ > 0 ? samples_[peak_row()].time : not_measured;
 }
@@ -126,6 +132,10 @@ double Results::youngs_modulus_gauge() const {
 double Results::youngs_modulus_platen() const {
   const Crossing c = ascending(modulus_share);
   return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_platen)) : not_measured;
+}
+double Results::stress_per_deflection() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? modulus_share * peak_ / gained(c, &Sample::deflection) : not_measured;
 }
 double Results::lateral_over_axial() const {
   const Crossing c = ascending(modulus_share);

@@ -47,7 +47,11 @@ public:
   double energy_residual_relative() const;
   double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
   double opening_at_peak() const;         // m, of a disc
-  double time_at_peak() const;            // s
+  double deflection_at_peak() const;      // m, of a bent bar
+  double midspan_moment_at_peak() const;  // N m, of a bent bar
+  // Flexural stress over deflection, secant at 40 % of the strength; Pa/m.
+  double stress_per_deflection() const;
+  double time_at_peak() const; // s
 
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
   const Pattern &last_pattern() const { return last_; }

@@ -8,6 +8,7 @@
 #include "apps/io/machine.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/version.h"
+#include "dem/measure/bending.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/split.h"
 
@@ -44,6 +45,8 @@ const char *word_of(LoadingTest test) {
       return "hydrostatic";
     case LoadingTest::uniaxial_strain:
       return "uniaxial strain";
+    case LoadingTest::three_point_bending:
+      return "three point bending";
     case LoadingTest::compression:
       break;
   }
@@ -62,15 +65,20 @@ void add_cell(Json &to, const coupling::Problem &problem, const Results &results
   to["confinement_work_j"] = skin->work();
 }
 
+// What a test says nothing of.
+void withdraw_moduli(Json &to) {
+  for (const char *key :
+       {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"})
+    to[key] = nullptr;
+}
+
 // Between a stiff wall neither Young's modulus nor Poisson's ratio is measured, but these.
 void add_wall(Json &to, const coupling::Problem &problem, const Results &results) {
   if (problem.wall() == nullptr) return;
   to["wall_seats"] = problem.wall()->seats();
   to["constrained_modulus_pa"] = results.youngs_modulus_gauge();
   to["lateral_over_axial_stress"] = results.lateral_over_axial();
-  for (const char *key :
-       {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"})
-    to[key] = nullptr;
+  withdraw_moduli(to);
 }
 
 // Of a disc: strength is 2 P / (pi D t); Young's modulus is not measured.
@@ -78,15 +86,45 @@ void add_disc(Json &to, const coupling::Problem &problem, const Results &results
   if (problem.shape().kind != dem::ShapeKind::disc) return;
   to["failure_load_n"] = results.strength() * problem.shape().cross_section();
   to["opening_at_peak_m"] = results.opening_at_peak();
-  for (const char *key :
-       {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"})
-    to[key] = nullptr;
+  withdraw_moduli(to);
   if (!problem.model.bonds) return;
   const dem::SplitPattern p =
       dem::split_pattern(problem.model.particles, *problem.model.bonds, problem.shape());
   to["cracks_on_loaded_diameter"] = p.on_diameter;
   to["cracks_in_middle_of_diameter"] = p.in_middle;
   to["first_cracks_in_middle_of_diameter"] = p.first_in_middle;
+}
+
+// Poisson's ratio of the share of shear in a deflection, which a bent bar does not tell: between 0.1 and 0.3
+// the share changes by a sixth.
+constexpr double assumed_poisson_ratio = 0.2;
+
+double flexural_modulus(const coupling::Problem &problem, const Results &results) {
+  const dem::ThreePoints bar = problem.three_points();
+  return results.stress_per_deflection() * bar.deflection(1, 1, assumed_poisson_ratio);
+}
+
+double moment_over_nominal(const coupling::Problem &problem, const Results &results) {
+  const double load = results.strength() * problem.nominal_area();
+  return results.midspan_moment_at_peak() / (0.25 * load * problem.three_points().span);
+}
+
+double swings_to_peak(const coupling::Problem &problem, const Results &results) {
+  return problem.swing() > 0 ? results.time_at_peak() / problem.swing() : not_measured;
+}
+
+// Of a bent bar: stresses are 3 P L / (2 b d^2); what is true of the moduli is in the deflection.
+void add_bar(Json &to, const coupling::Problem &problem, const Results &results) {
+  if (!problem.bent()) return;
+  to["failure_load_n"] = results.strength() * problem.nominal_area();
+  to["deflection_at_peak_m"] = results.deflection_at_peak();
+  to["flexural_modulus_pa"] = flexural_modulus(problem, results);
+  to["shear_over_bending_deflection"] = problem.three_points().shear_share(assumed_poisson_ratio);
+  to["moment_over_nominal"] = moment_over_nominal(problem, results);
+  to["swings_to_peak"] = swings_to_peak(problem, results);
+  to["cracks_near_midspan"] =
+      dem::broken_near_midspan(problem.model.particles, *problem.model.bonds, problem.shape().height);
+  withdraw_moduli(to);
 }
 
 } // namespace
@@ -146,6 +184,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   add_cell(s, problem, results);
   add_wall(s, problem, results);
   add_disc(s, problem, results);
+  add_bar(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
@@ -162,65 +201,108 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   return s;
 }
 
+namespace {
+
+// Lines for the screen, of what has been measured.
+class Report {
+public:
+  template <class... Numbers>
+  void line(const char *what, const char *format, Numbers... numbers) {
+    if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
+    text_ += fmt::format("  {:<36}{}\n", what, fmt::format(fmt::runtime(format), numbers...));
+  }
+  const std::string &text() const { return text_; }
+
+private:
+  std::string text_;
+};
+
+void report_strength(Report &report, const Scene &scene, const coupling::Problem &problem,
+                     const Results &results) {
+  const bool disc = problem.shape().kind == dem::ShapeKind::disc,
+             tension = scene.loading.test == LoadingTest::tension;
+  if (disc || problem.bent())
+    report.line("load at failure", "{:.2f} kN", results.strength() * problem.nominal_area() / 1e3);
+  report.line(disc             ? "splitting strength, 2P/(pi D t)"
+              : problem.bent() ? "flexural strength, 3PL/(2bd^2)"
+              : tension        ? "tensile strength"
+                               : "compressive strength",
+              "{:.2f} MPa", results.strength() / 1e6);
+  if (problem.confinement() != nullptr) {
+    report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
+    report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
+  }
+}
+
+void report_stiffness(Report &report, const coupling::Problem &problem, const Results &results) {
+  if (problem.bent()) {
+    report.line("deflection at peak", "{:.2f} um", 1e6 * results.deflection_at_peak());
+    report.line("flexural modulus", "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
+                flexural_modulus(problem, results) / 1e9,
+                problem.three_points().shear_share(assumed_poisson_ratio));
+    report.line("moment at mid-span over PL/4", "{:.3f}", moment_over_nominal(problem, results));
+    return;
+  }
+  report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),
+              results.strain_at_peak_gauge());
+  if (problem.shape().kind == dem::ShapeKind::disc) return;
+  const bool walled = problem.wall() != nullptr;
+  report.line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
+              "{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
+              results.youngs_modulus_platen() / 1e9);
+  if (walled)
+    report.line("lateral over axial stress", "{:.3f}", results.lateral_over_axial());
+  else
+    report.line("Poisson's ratio", "{:.3f}", results.poisson_ratio());
+}
+
+void report_damage(Report &report, const Scene &scene, const coupling::Problem &problem,
+                   const Results &results) {
+  const dem::Model &model = problem.model;
+  report.line("broken bonds (tension, shear)", "{}, {} of {}",
+              model.broken(dem::BondState::broken_in_tension), model.broken(dem::BondState::broken_in_shear),
+              model.bonds ? model.bonds->initial_count() : 0);
+  if (problem.bent()) {
+    report.line("cracks within d/2 of mid-span", "{:.2f}",
+                dem::broken_near_midspan(model.particles, *model.bonds, problem.shape().height));
+    return;
+  }
+  if (problem.shape().kind == dem::ShapeKind::disc) {
+    if (!model.bonds) return;
+    const dem::SplitPattern s = dem::split_pattern(model.particles, *model.bonds, problem.shape());
+    report.line("cracks on the loaded diameter", "{:.2f}, of the first twenty in its middle half {:.2f}",
+                s.on_diameter, s.first_in_middle);
+    return;
+  }
+  const Pattern &p = results.pattern();
+  if (std::isnan(p.strain) || scene.loading.test == LoadingTest::tension) return;
+  report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top,
+              p.end_bottom, p.middle);
+  report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak());
+}
+
+} // namespace
+
 std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
                           const RunCosts &costs) {
-  const bool tension = scene.loading.test == LoadingTest::tension;
-  const Pattern &p = results.pattern();
-  std::string text;
-  const auto line = [&](const std::string &what, const std::string &value) {
-    text += fmt::format("  {:<36}{}\n", what, value);
-  };
-  const bool disc = problem.shape().kind == dem::ShapeKind::disc;
-  if (disc)
-    line("load at failure",
-         fmt::format("{:.2f} kN", results.strength() * problem.shape().cross_section() / 1e3));
-  line(disc      ? "splitting strength, 2P/(pi D t)"
-       : tension ? "tensile strength"
-                 : "compressive strength",
-       fmt::format("{:.2f} MPa", results.strength() / 1e6));
-  if (problem.confinement() != nullptr) {
-    line("largest deviator", fmt::format("{:.2f} MPa", results.deviator_strength() / 1e6));
-    line("bulk modulus", fmt::format("{:.2f} GPa", results.bulk_modulus() / 1e9));
-  }
-  line("strain at peak (platen, gauge)",
-       fmt::format("{:.5f}, {:.5f}", results.strain_at_peak_platen(), results.strain_at_peak_gauge()));
-  const bool walled = problem.wall() != nullptr;
-  if (!disc) {
-    line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
-         fmt::format("{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
-                     results.youngs_modulus_platen() / 1e9));
-    if (walled)
-      line("lateral over axial stress", fmt::format("{:.3f}", results.lateral_over_axial()));
-    else
-      line("Poisson's ratio", fmt::format("{:.3f}", results.poisson_ratio()));
-  }
-  line("broken bonds (tension, shear)",
-       fmt::format("{}, {} of {}", problem.model.broken(dem::BondState::broken_in_tension),
-                   problem.model.broken(dem::BondState::broken_in_shear),
-                   problem.model.bonds ? problem.model.bonds->initial_count() : 0));
-  if (disc && problem.model.bonds) {
-    const dem::SplitPattern s =
-        dem::split_pattern(problem.model.particles, *problem.model.bonds, problem.shape());
-    line("cracks on the loaded diameter", fmt::format("{:.2f}, of the first twenty in its middle half {:.2f}",
-                                                      s.on_diameter, s.first_in_middle));
-  }
-  if (!std::isnan(p.strain) && !tension && !disc) {
-    line("damage at 0.8 of the peak, after it",
-         fmt::format("top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top, p.end_bottom, p.middle));
-    line("end spread, barrel at peak", fmt::format("{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak()));
-  }
-  line("energy residual over work", fmt::format("{:.2e}", results.energy_residual_relative()));
-  line("kinetic over internal, to peak", fmt::format("{:.2e}", results.kinetic_to_internal_max()));
+  Report report;
+  report_strength(report, scene, problem, results);
+  report_stiffness(report, problem, results);
+  report_damage(report, scene, problem, results);
+  report.line("energy residual over work", "{:.2e}", results.energy_residual_relative());
+  report.line("kinetic over internal, to peak", "{:.2e}", results.kinetic_to_internal_max());
   const double crossings = crossings_to_peak(problem, results);
-  line("wave crossings to the peak",
-       fmt::format("{:.0f}{}", crossings, crossings < 100 ? " (fast: 120 are advised)" : ""));
-  line("steps, seconds",
-       fmt::format("{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
-                   problem.model.bonds && costs.step_seconds > 0
-                       ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *
-                             static_cast<double>(costs.steps_here) / costs.step_seconds
-                       : 0.0));
-  return text;
+  if (problem.bent())
+    report.line("swings of the bar to the peak", "{:.1f}", swings_to_peak(problem, results));
+  else
+    report.line("wave crossings to the peak", crossings < 100 ? "{:.0f} (fast: 120 are advised)" : "{:.0f}",
+                crossings);
+  report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
+              problem.model.bonds && costs.step_seconds > 0
+                  ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *
+                        static_cast<double>(costs.steps_here) / costs.step_seconds
+                  : 0.0);
+  return report.text();
 }
 
 } // namespace platen::apps

@@ -27,6 +27,7 @@ public:
   void platens() const;
   void loading() const;
   void splitting() const;
+  void bending() const;
   void cycles() const;
   void cell() const;
   void pair_test() const;
@@ -265,6 +266,28 @@ void SceneCheck::splitting() const {
     refuse("Loading/Confinement", "does not go with platen-brazilian. Allowed: none.");
 }
 
+// What of it the packed shape decides, a file's too, is left to the problem.
+void SceneCheck::bending() const {
+  if (!loads() || !scene_.loading.bending()) return;
+  const Platens &platens = scene_.platens;
+  const SpecimenSection &specimen = scene_.specimen;
+  const std::string with = "does not go with Loading/Test = three point bending. Allowed: ";
+  if (app_ != AppKind::compress && app_ != AppKind::study)
+    refuse("Loading/Test", "bends bars: for platen-compress.");
+  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.round();
+  if (round && specimen.packing != PackingKind::file)
+    refuse("Specimen/Shape", with + "box, rectangular bar.");
+  if (specimen.ends != EndsKind::ground) refuse("Specimen/Ends", with + "ground.");
+  need("Platens/Span", platens.span, "a bar needs its supports.");
+  if (platens.strip_width == 0)
+    refuse("Platens/Strip width", "is not set: a bar is bent by strips. Allowed: > 0 m.");
+  if (platens.attachment == Attachment::glued) refuse("Platens/Attachment", with + "contact.");
+  if (platens.top_control == PlatenControl::stress) refuse("Platens/Top/Control", with + "motion.");
+  if (scene_.loading.confinement != ConfinementKind::none) refuse("Loading/Confinement", with + "none.");
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves a heap of grains, no bar to bend. Allowed: any other.");
+}
+
 void SceneCheck::cycles() const {
   const Loading &loading = scene_.loading;
   if (loading.unload_at.empty()) return;
@@ -465,7 +488,9 @@ void SceneCheck::notes() {
   if (!scene_.loading.cell())
     for (const char *key : {"Loading/Confining ramp", "Loading/Confinement area"})
       note(key, "Loading/Confinement is not particles");
-  if (app_ != AppKind::brazilian) note("Platens/Strip width", "only platen-brazilian has strips");
+  if (!scene_.loading.bending()) note("Platens/Span", "Loading/Test is not three point bending");
+  if (app_ != AppKind::brazilian && !scene_.loading.bending())
+    note("Platens/Strip width", "only platen-brazilian and three point bending have strips");
   if (!scene_.loading.walled()) note("Loading/Wall stiffness", "Loading/Test is not uniaxial strain");
   if (scene_.loading.unload_at.empty()) note("Loading/Unload to", "Loading/Unload at is empty");
   if (scene_.loading.hydrostatic())
@@ -508,6 +533,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.phases();
   check.contact();
   check.splitting();
+  check.bending();
   check.platens();
   check.loading();
   check.cycles();

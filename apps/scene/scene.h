@@ -170,7 +170,8 @@ struct Platens {
   Stiffness stiffness;           // of_bond (of the mean bond) or absolute
   double tangential_ratio = 0.8; // tangential over normal penalty stiffness
   double damping = 0.2;          // fraction of critical
-  double strip_width = 0;        // m, platen-brazilian; 0: as wide as the platens
+  double strip_width = 0;        // m, platen-brazilian, bending; 0: as wide as the platens
+  double span = not_given;       // m, test = three_point_bending
   double overhang = 1.2;         // platen half-width over that of the specimen
   double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
   int elements_across = 8;
@@ -186,7 +187,7 @@ struct Sleeve {
   double poisson_ratio = not_given;
 };
 
-enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain };
+enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain, three_point_bending };
 enum class ConfinementKind { none, particles, sleeve };
 enum class ConfinementArea { voronoi, sphere };
 
@@ -208,6 +209,7 @@ struct Loading {
 
   bool cell() const { return confinement == ConfinementKind::particles; }
   bool walled() const { return test == LoadingTest::uniaxial_strain; }
+  bool bending() const { return test == LoadingTest::three_point_bending; }
   bool hydrostatic() const { return test == LoadingTest::hydrostatic; }
 };
 

@@ -28,7 +28,8 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
        {"disc", SpecimenShape::disc}},
       {},
       "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular; a disc (Radius, Height) "
-      "is laid on its rim by platen-brazilian.");
+      "is laid on its rim by platen-brazilian. Test = three point bending bends a box that is long along x, "
+      "or lays a rectangular bar down along x with its x up.");
   section.quantity("Radius", specimen.radius, "m", above(0), "Radius of a cylinder or round bar.");
   section.quantity("Height", specimen.height, "m", above(0), "Extent along z.");
   section.quantity("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
@@ -232,7 +233,10 @@ void declare_platens(Parameters &parameters, Platens &platens) {
                  "Half-width of the platens over that of the specimen.");
   section.quantity(
       "Strip width", platens.strip_width, "m", at_least(0),
-      "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens.");
+      "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens. "
+      "Test = three point bending: of the strip above the bar and the two below.");
+  section.quantity("Span", platens.span, "m", above(0),
+                   "Distance of the middles of the two lower strips (Test = three point bending).");
   section.quantity("Thickness", platens.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
   section.integer("Elements across", platens.elements_across, 1, 1000, "Finite elements across a platen.");
   section.quantity("Density", platens.density, "kg/m3", above(0), "Density of the platens.");
@@ -267,11 +271,13 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       {{"compression", LoadingTest::compression},
        {"tension", LoadingTest::tension},
        {"hydrostatic", LoadingTest::hydrostatic},
-       {"uniaxial strain", LoadingTest::uniaxial_strain}},
+       {"uniaxial strain", LoadingTest::uniaxial_strain},
+       {"three point bending", LoadingTest::three_point_bending}},
       {},
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
       "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
-      "holds the lateral surface.");
+      "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
+      "along x, two below.");
   section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
                    "Speed of closure (tension: of opening).");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");

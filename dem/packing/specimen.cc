@@ -117,6 +117,17 @@ Specimen laid_down(const Specimen &standing) {
   return lying;
 }
 
+Specimen laid_along_x(const Specimen &standing) {
+  if (standing.shape.kind != ShapeKind::box) return standing;
+  const Shape &was = standing.shape;
+  Specimen lying = standing;
+  lying.shape = box(was.height, was.width_y, was.width_x);
+  // A quarter turn about y, (x, y, z) to (-z, y, x), and shifts.
+  for (Vector3 &c : lying.centre)
+    c = {0.5 * was.height - c.z, c.y, c.x + 0.5 * was.width_x};
+  return lying;
+}
+
 double lateral_perimeter(const Shape &shape) {
   return shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
                                            : 2 * (shape.width_x + shape.width_y);

@@ -54,6 +54,10 @@ struct Specimen {
 // A standing cylinder laid on its rim; other shapes stay as they are.
 Specimen laid_down(const Specimen &specimen);
 
+// A bar that was packed along z laid down along x: what was x is up, y stays. Only boxes; others stay as they
+// are.
+Specimen laid_along_x(const Specimen &specimen);
+
 struct BoundingBox {
   Vector3 low, high; // m
 };

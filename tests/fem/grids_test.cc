@@ -15,6 +15,8 @@ constexpr double pi = 3.14159265358979323846;
 
 std::vector<std::pair<const char *, Grid>> plates() {
   return {{"box", make_grid(BoxPlate{{-1, -2, 0.5}, {3, 1, 0.75}, {4, 3, 2}})},
+          {"strips", make_grid(std::vector<BoxPlate>{{{-3, -2, 0.5}, {-2, 1, 0.75}, {2, 3, 2}},
+                                                     {{2.1, -2, 0.5}, {3, 1, 0.75}, {1, 3, 2}}})},
           {"small disc", make_grid(CylinderPlate{0.03, 0.01, -0.01, 3, 1})},
           {"disc", make_grid(CylinderPlate{0.03, 0.01, -0.01, 14, 3})}};
 }
@@ -112,6 +114,29 @@ TEST(grids, sizes_that_make_no_plate_are_refused) {
   EXPECT_THROW(make_grid(CylinderPlate{1, 0.1, 0, 8, 0}), std::invalid_argument);
   EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 0, 1}, {1, 1, 1}}), std::invalid_argument);
   EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 0, 1}}), std::invalid_argument);
+}
+
+// Each strip keeps the area and the numbers of all of its sides.
+TEST(grids, strips_in_one_grid_have_the_sides_of_each) {
+  const std::vector<BoxPlate> boxes{{{-3.1, -1, 0.1}, {-2.7, 1, 0.3}, {3, 4, 2}},
+                                    {{2.7, -1, 0.1}, {3.1, 1, 0.3}, {3, 4, 2}}};
+  const Grid grid = make_grid(boxes);
+  const SurfaceMesh both = extract_surface(grid).surface;
+  std::map<int, double> area;
+  for (std::size_t f = 0; f < both.faces.size(); ++f)
+    area[both.face_tags[f]] += norm(face_area_vector(both, f));
+  const std::map<int, double> expected{{0, 0.8},  {1, 0.8},           {2, 0.16},
+                                       {3, 0.16}, {low_end_tag, 1.6}, {high_end_tag, 1.6}};
+  ASSERT_EQ(area.size(), expected.size());
+  for (const auto &[tag, size] : expected)
+    EXPECT_NEAR(area[tag], size, 1e-12) << tag;
+  const VolumeMoments m = volume_moments(grid);
+  EXPECT_NEAR(m.volume, 2 * 0.4 * 2 * 0.2, 1e-12);
+  EXPECT_NEAR(m.centroid[0], 0, 1e-12);
+  // Steiner: two boxes of .16 m^3 at 2.9 m, and their own width^2 / 12.
+  EXPECT_NEAR(m.second[0], 0.32 * (2.9 * 2.9 + 0.4 * 0.4 / 12), 1e-12);
+  EXPECT_THROW(make_grid(std::vector<BoxPlate>{}), std::invalid_argument);
+  EXPECT_THROW(make_grid(std::vector<BoxPlate>{boxes[0], boxes[0]}), std::invalid_argument);
 }
 
 TEST(surface_mesh, a_face_without_area_is_named) {

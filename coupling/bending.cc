@@ -1,0 +1,43 @@
+#include "coupling/bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::coupling {
+
+fem::Grid make_grid(const Strips &s) {
+  std::vector<fem::BoxPlate> boxes;
+  for (const double x : s.middles)
+    boxes.push_back({{x - 0.5 * s.width, -0.5 * s.length, s.z_low},
+                     {x + 0.5 * s.width, 0.5 * s.length, s.z_low + s.thickness},
+                     {s.elements_across, s.elements_across, 2}});
+  return fem::make_grid(boxes);
+}
+
+bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth) {
+  const auto meets = [&](double middle) {
+    for (std::size_t i = 0; i < specimen.size(); ++i) {
+      const dem::Vector3 &c = specimen.centre[i];
+      const double r = specimen.radius[i];
+      const double gap =
+          strips.presses_from_above ? strips.z_low - c.z - r : c.z - r - strips.z_low - strips.thickness;
+      if (gap <= depth && std::abs(c.x - middle) <= 0.5 * strips.width) return true;
+    }
+    return false;
+  };
+  return std::all_of(strips.middles.begin(), strips.middles.end(), meets);
+}
+
+double midspan_moment(const fem::Body &body, double z) {
+  const fem::SurfaceMesh &surface = body.surface();
+  double sum = 0;
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    const fem::Point &load = body.contact_load(static_cast<int>(v)), &x = surface.vertices[v];
+    // Force on the bar: -load. A push up at |x| pulls the lower side, as does a pull outwards below z.
+    const double outwards = std::copysign(1.0, x[0]) * load[0];
+    sum += -load[2] * std::abs(x[0]) - outwards * (z - x[2]);
+  }
+  return 0.5 * sum;
+}
+
+} // namespace platen::coupling

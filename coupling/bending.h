@@ -1,0 +1,29 @@
+// The strips between which a bar along x is bent, and the moment that they make in its middle.
+#pragma once
+
+#include <vector>
+
+#include "dem/packing/specimen.h"
+#include "fem/body.h"
+
+namespace platen::coupling {
+
+// Boxes along y, all alike, that make up one rigid body.
+struct Strips {
+  std::vector<double> middles;     // m, x
+  double width = 0;                // m, along x
+  double length = 0;               // m, along y, about y = 0
+  double z_low = 0, thickness = 0; // m
+  int elements_across = 8;         // along x and along y
+  bool presses_from_above = false; // its lower face meets the bar, else its upper one
+};
+fem::Grid make_grid(const Strips &strips);
+
+// Each strip has a sphere of the specimen within `depth` (m) of its face.
+bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth);
+
+// What the forces of one body on the bar add to its bending moment at x = 0, about the height z (m), N m:
+// the mean of what those left of it and those right of it say. Positive where it pulls the lower side.
+double midspan_moment(const fem::Body &body, double z);
+
+} // namespace platen::coupling
