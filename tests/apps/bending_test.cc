@@ -1,0 +1,186 @@
+// Three-point bending: a bar between strips bends as beam theory says, and breaks in the middle.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cmath>
+
+#include "apps/io_folder.h"
+#include "apps/program.h"
+#include "coupling/problem.h"
+#include "coupling/static_press.h"
+#include "dem/packing/growth.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class Bending : public ScratchFolder {
+protected:
+  std::vector<std::string> arguments(const std::string &name, const std::vector<std::string> &entries,
+                                     const std::vector<std::string> &options = {}) const {
+    std::vector<std::string> all{test_scene("bent.prm"), "-o", name};
+    for (const std::string &entry : entries)
+      all.insert(all.end(), {"-s", entry});
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+  }
+  nlohmann::json bend(const std::string &name, const std::vector<std::string> &entries,
+                      const std::vector<std::string> &options = {"--quiet"}) {
+    const Outcome outcome = run_compress(arguments(name, entries, options), folder_);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    screen_ = outcome.out;
+    return summary_in(folder_ / name);
+  }
+  std::vector<double> column(const std::string &name, const std::string &column) const {
+    return column_of(folder_ / name / "history.csv", column);
+  }
+  std::string screen_;
+};
+
+TEST_F(Bending, a_bar_breaks_in_the_middle) {
+  const nlohmann::json s = bend("bar", {}, {});
+  EXPECT_EQ(s["test"], "three point bending");
+  const double load = s["failure_load_n"], strength = s["strength_pa"];
+  EXPECT_NEAR(strength / (1.5 * load * 36e-3 / (12e-3 * 144e-6)), 1, 1e-6); // 3 P L / (2 b d^2)
+  // Six spheres deep: above the 4 to 5 MPa that such bonds bear in direct tension, and below three times
+  // that.
+  EXPECT_GT(strength, 5e6);
+  EXPECT_LT(strength, 15e6);
+  // A third of the span, a quarter of the bar.
+  EXPECT_GT(s["cracks_near_midspan"], 0.8);
+  EXPECT_GT(s["broken_tension"], 2 * s["broken_shear"].get<int>());
+  EXPECT_GE(s["fragments"], 2);
+  EXPECT_LT(s["energy_residual_relative"], 0.02);
+  EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
+  const auto top = column("bar", "axial_stress_top_pa"), sag = column("bar", "deflection_m"),
+             moment = column("bar", "midspan_moment_n_m");
+  EXPECT_NEAR(*std::max_element(top.begin(), top.end()) / strength, 1, 0.05);
+  EXPECT_GT(sag.back(), 3 * s["deflection_at_peak_m"].get<double>()); // the halves fold
+  EXPECT_NEAR(s["moment_over_nominal"].get<double>(), 1, 0.15);
+  EXPECT_LT(*std::max_element(moment.begin(), moment.end()), 1.2 * 0.25 * load * 36e-3);
+  EXPECT_TRUE(contains(screen_, "flexural strength")) << screen_;
+  EXPECT_FALSE(contains(screen_, "nan")) << screen_;
+}
+
+TEST_F(Bending, a_bar_packed_upright_is_laid_down) {
+  const nlohmann::json s = bend("laid", {"Specimen/Shape = bar", "Specimen/Width x = 12 mm",
+                                         "Specimen/Height = 48 mm", "Loading/Target strain = 0.0002"});
+  EXPECT_GT(s["deflection_at_peak_m"], 0);
+  EXPECT_TRUE(contains(content_of(folder_ / "laid/specimen.csv").substr(0, 300), "48")); // along x
+  // What was laid down is a box, and read as one.
+  bend("box",
+       {"Loading/Target strain = 0.0002", "Specimen/Packing = file", "Specimen/File = laid/specimen.csv"});
+  for (const char *file : {"specimen.csv", "history.csv"})
+    EXPECT_EQ(content_of(folder_ / "laid" / file), content_of(folder_ / "box" / file)) << file;
+}
+
+// Threads, a stop before the peak and another behind it.
+TEST_F(Bending, threads_and_stops_change_no_byte) {
+  bend("whole", {}, {"--quiet", "-t", "1"});
+  const auto whole = results_in(folder_ / "whole");
+  bend("two", {}, {"--quiet", "-t", "2"});
+  EXPECT_EQ(difference(whole, results_in(folder_ / "two")), "");
+  const long rows = lines_in(folder_ / "whole/history.csv");
+  std::vector<std::string> options{"--quiet", "-t", "2"};
+  for (const long at : {rows / 4, 3 * rows / 4}) {
+    Program program(compress_command(arguments("stopped", {}, options)), folder_);
+    EXPECT_TRUE(program.wait_until([&] { return lines_in(folder_ / "stopped/history.csv") >= at; }));
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait(), 143);
+    options = {"--quiet", "-t", "1", "--resume"};
+  }
+  const nlohmann::json s = bend("stopped", {}, options), before = summary_in(folder_ / "whole");
+  EXPECT_EQ(difference(whole, results_in(folder_ / "stopped")), "");
+  for (const char *key : {"strength_pa", "deflection_at_peak_m", "flexural_modulus_pa", "moment_over_nominal",
+                          "cracks_near_midspan", "energy_residual_relative"})
+    EXPECT_EQ(s[key], before[key]) << key;
+}
+
+TEST_F(Bending, what_cannot_be_bent_is_refused) {
+  const auto refuse = [&](const std::vector<std::string> &entries, const std::string &says) {
+    const Outcome outcome = run_compress(arguments("no", entries), folder_);
+    EXPECT_EQ(outcome.status, 2) << says;
+    EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
+    EXPECT_FALSE(fs::exists(folder_ / "no"));
+  };
+  refuse({"Platens/Span = 46 mm"}, "Platens/Span = 46 mm is too long for a bar of 0.048 m");
+  refuse({"Platens/Span = 2 mm"}, "leaves no gap between the lower strips");
+  refuse({"Platens/Strip width = 0"}, "Platens/Strip width");
+  refuse({"Platens/Attachment = glued"}, "Platens/Attachment = glued does not go with");
+  refuse({"Specimen/Ends = as packed"}, "Specimen/Ends = as packed does not go with");
+  refuse({"Platens/Strip width = 0.01 mm"}, "leaves a strip without a sphere");
+}
+
+// The same bar stood on end and pressed gives its modulus; then it is bent on two spans.
+TEST(bending, an_elastic_bar_bends_like_a_beam) {
+  const double length = 60e-3, side = 12e-3;
+  const dem::Specimen standing = dem::random_close_packing(dem::box(side, side, length), 0.9e-3, 0.25, 3);
+  coupling::ProblemSettings settings;
+  settings.model.bond_layout.modulus = 36e9;
+  settings.model.bond_layout.gap = 0.05;
+  dem::ParallelBond::Parameters bond;
+  bond.stiffness_ratio = 0.4;
+  settings.model.bond = bond;
+  settings.model.local_damping = 0.5;
+  settings.ends = coupling::Ends::ground;
+  settings.end_layer = 0.5;
+  settings.platens.thickness = 2e-3;
+  coupling::Problem pressed(standing, settings);
+  const coupling::StaticPress press = coupling::press_statically(pressed, 1e-5);
+  const double e = press.youngs_modulus(), nu = press.poisson_ratio();
+
+  settings.platens.strip_width = 3e-3;
+  settings.loading.rate = 0.02;
+  const auto bent = [&](double span) {
+    settings.platens.span = span;
+    coupling::Problem problem(dem::laid_along_x(standing), settings);
+    const dem::Deflection deflection(problem.model.particles, problem.shape(), span);
+    const double enough = 2e-4 * span * span / side / 6; // m; a strain of 2e-4 at the skin
+    while (deflection(problem.model.particles) < enough)
+      problem.advance(16);
+    const double stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+    const double sag = deflection(problem.model.particles);
+    const double nominal = 0.25 * stress * problem.nominal_area() * span;
+    std::printf("span %g: E %g nu %g sag %g theory %g ratio %g moment %g shear %g balance %g %g\n", span, e,
+                nu, sag, problem.three_points().deflection(stress, e, nu),
+                sag / problem.three_points().deflection(stress, e, nu), problem.midspan_moment() / nominal,
+                problem.three_points().shear_share(nu), problem.stress_top(), problem.stress_bottom());
+    return sag / problem.three_points().deflection(stress, e, nu);
+  };
+  const double near = bent(36e-3), far = bent(54e-3);
+  EXPECT_NEAR(near, 1, 0.2);
+  EXPECT_NEAR(far, 1, 0.2);
+  EXPECT_NEAR(far / near, 1, 0.05);
+}
+
+// The same box by other tests.
+TEST_F(Bending, a_box_is_pulled_by_glued_ends) {
+  const nlohmann::json s =
+      bend("pulled",
+           {"Loading/Test = tension", "Platens/Attachment = glued", "Specimen/Width x = 12 mm",
+            "Specimen/Height = 24 mm", "Loading/Target strain = 0.002"},
+           {});
+  EXPECT_EQ(s["test"], "tension");
+  // Direct tension of such bonds: 5 MPa of large specimens, less of a few spheres pulled fast or slow.
+  EXPECT_GT(s["strength_pa"], 3e6);
+  EXPECT_LT(s["strength_pa"], 8e6);
+  EXPECT_NEAR(s["youngs_modulus_gauge_pa"].get<double>() / 23e9, 1, 0.2);
+  EXPECT_GE(s["fragments"], 2);
+  EXPECT_LT(s["energy_residual_relative"], 0.02);
+  EXPECT_TRUE(contains(screen_, "tensile strength")) << screen_;
+  EXPECT_FALSE(contains(screen_, "nan")) << screen_;
+}
+
+TEST_F(Bending, a_hydrostatic_run_does_not_tell_what_it_has_not_measured) {
+  const nlohmann::json s = bend("alike",
+                                {"Loading/Test = hydrostatic", "Loading/Confinement = particles",
+                                 "Loading/Confining pressure = 2 MPa", "Specimen/Width x = 12 mm"},
+                                {});
+  EXPECT_GT(s["bulk_modulus_pa"], 0);
+  EXPECT_TRUE(s["strength_pa"].is_null());
+  EXPECT_TRUE(contains(screen_, "bulk modulus")) << screen_;
+  for (const char *unsaid : {"nan", "compressive strength", "Young's modulus"})
+    EXPECT_FALSE(contains(screen_, unsaid)) << screen_;
+}
+
+} // namespace
+} // namespace platen::apps::testing
