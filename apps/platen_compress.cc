@@ -1,4 +1,4 @@
-// platen-compress: crushes or pulls a bonded specimen between two platens.
+// platen-compress: crushes, pulls or bends a bonded specimen between two platens.
 #include "apps/run/compression.h"
 
 int main(int argc, char **argv) {
@@ -6,6 +6,6 @@ int main(int argc, char **argv) {
   AppDescription app;
   app.kind = AppKind::compress;
   app.name = "platen-compress";
-  app.purpose = "Crushes, or pulls by glued ends, a specimen of bonded spheres between two platens.";
+  app.purpose = "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens.";
   return run_app(argc, argv, app, run_compression);
 }

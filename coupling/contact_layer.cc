@@ -14,6 +14,9 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// One minus the cosine of a normal that counts as upright.
+constexpr double aslant = 1e-9;
+
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("surface contact: " + what);
 }
@@ -88,7 +91,8 @@ void ContactLayer::seat(int particle, double offset) {
   search_.forget();
 }
 
-int ContactLayer::seat_within(const dem::Particles &particles, const fem::Body &body, double depth) {
+int ContactLayer::seat_within(const dem::Particles &particles, const fem::Body &body, double depth,
+                              bool upright) {
   std::vector<double> reach(particles.size());
   for (std::size_t i = 0; i < reach.size(); ++i)
     reach[i] = particles.radius[i] + depth;
@@ -97,9 +101,9 @@ int ContactLayer::seat_within(const dem::Particles &particles, const fem::Body &
   const std::vector<int> near = search_.particles();
   for (std::size_t k = 0; k < near.size(); ++k) {
     const std::size_t i = index(near[k]);
-    const double gap =
-        search_.closest(body.surface(), k, particles.position[i]).distance - particles.radius[i];
-    if (gap > depth) continue;
+    const SurfacePoint meets = search_.closest(body.surface(), k, particles.position[i]);
+    const double gap = meets.distance - particles.radius[i];
+    if (gap > depth || (upright && std::abs(meets.normal.z) < 1 - aslant)) continue;
     seat(near[k], gap);
     ++count;
   }

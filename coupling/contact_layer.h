@@ -70,7 +70,9 @@ public:
   void seat(int particle, double offset);
   // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
   // sawn flush with the surface. Returns how many.
-  int seat_within(const dem::Particles &particles, const fem::Body &body, double depth);
+  // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
+  // beside its edge would be seated aslant, and wedge.
+  int seat_within(const dem::Particles &particles, const fem::Body &body, double depth, bool upright = false);
   int seats() const;
 
   // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)

@@ -161,8 +161,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   packing_fraction_ = solid / shape_.volume();
   if (settings.ends == Ends::ground || settings.platens.glued) {
     const double depth = settings.end_layer * dem::mean_radius(specimen);
-    const int seats = std::min(top_layer.seat_within(model.particles, top, depth),
-                               bottom_layer.seat_within(model.particles, bottom, depth));
+    const int seats = std::min(top_layer.seat_within(model.particles, top, depth, bent()),
+                               bottom_layer.seat_within(model.particles, bottom, depth, bent()));
     if (seats == 0)
       throw BadSetup("Specimen/End layer",
                      "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen that reaches "
