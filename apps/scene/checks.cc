@@ -411,7 +411,7 @@ void SceneCheck::study() const {
     refuse("Study/Domain list", "holds cylinders, but Specimen/Shape = " +
                                     parameters_.at("Specimen/Shape").text + ". Allowed: Shape = cylinder.");
   if (study.seeds > 1 && scene_.specimen.packing == PackingKind::file &&
-      scene_.bond.strength_scatter == Scatter::none)
+      scene_.bond.strength_scatter == StrengthScatter::none)
     refuse("Study/Seeds",
            "would repeat one run: with Specimen/Packing = file and Bond/Strength scatter = none nothing is "
            "drawn. Allowed: 1.");

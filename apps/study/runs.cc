@@ -34,7 +34,7 @@ bool has_checkpoint(const fs::path &folder) {
   return !fs::is_empty(OutputPaths(folder).checkpoints(), ignored) && !ignored;
 }
 
-bool exists(const fs::path &path) {
+bool is_there(const fs::path &path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
@@ -88,7 +88,7 @@ void Crew::start(std::size_t k, bool may_resume) {
   std::vector<std::string> command = run.command;
   if (resumes)
     command.emplace_back("--resume");
-  else if (exists(run.folder))
+  else if (is_there(run.folder))
     command.emplace_back("--overwrite");
   log_.detail("{}: {}", run.name, resumes ? "goes on from its checkpoint" : "starts");
   active_.push_back({k, Process(command), resumes});
