@@ -1,5 +1,7 @@
 #include "apps/study/cases.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,11 @@ const std::vector<double> radii_of_the_thesis{0.0005, 0.00075, 0.001, 0.00125}; 
 
 std::string set(const std::string &path, double value, const std::string &unit) {
   return path + " = " + shortest_text(value) + (unit.empty() ? "" : " " + unit);
+}
+
+// For a name: without the last bit that a unit's conversion may leave (0.9 mm is 0.0009000000000000001 m).
+std::string in_name(double value) {
+  return fmt::format("{:.12g}", value);
 }
 
 // The list, or the one value that the scene has.
@@ -43,13 +50,13 @@ StudyPlan plan_size(const Scene &scene) {
   const std::vector<double> radii =
       nothing_given ? radii_of_the_thesis : or_own(study.sphere_radii, s.sphere_radius);
   for (const double radius : radii)
-    add(plan, {"sphere_radius_" + shortest_text(radius),
+    add(plan, {"sphere_radius_" + in_name(radius),
                {radius, s.height, s.radius},
                {set("Specimen/Sphere radius", radius, "m")}});
   for (const DomainSize &d : study.domains) {
     const bool own = d.height == s.height && d.radius == s.radius;
-    const std::string name = "sphere_radius_" + shortest_text(s.sphere_radius),
-                      size = "_height_" + shortest_text(d.height) + "_radius_" + shortest_text(d.radius);
+    const std::string name = "sphere_radius_" + in_name(s.sphere_radius),
+                      size = "_height_" + in_name(d.height) + "_radius_" + in_name(d.radius);
     add(plan, {own ? name : name + size,
                {s.sphere_radius, d.height, d.radius},
                {set("Specimen/Sphere radius", s.sphere_radius, "m"), set("Specimen/Height", d.height, "m"),
@@ -79,8 +86,8 @@ StudyPlan plan_packing(const Scene &scene) {
     for (const double multiplier : or_own(study.radius_multipliers, scene.bond.radius_multiplier))
       for (const Gap &gap : or_own(study.gaps, scene.bond.gap)) {
         StudyCase one;
-        one.name = "gap_" + shortest_text(gap.value) + (gap.relative ? "" : "_m") + "_multiplier_" +
-                   shortest_text(multiplier) + "_spread_" + shortest_text(spread);
+        one.name = "gap_" + in_name(gap.value) + (gap.relative ? "" : "_m") + "_multiplier_" +
+                   in_name(multiplier) + "_spread_" + in_name(spread);
         one.labels = {gap.relative ? gap.value : not_given, gap.relative ? not_given : gap.value, multiplier,
                       spread};
         // What is not varied stays as the scene says it, even where that has no effect.
@@ -102,7 +109,7 @@ StudyPlan plan_rate(const Scene &scene) {
   StudyPlan plan;
   plan.varied = {"axial_rate_m_s"};
   for (const double rate : scene.study.axial_rates)
-    add(plan, {"rate_" + shortest_text(rate), {rate}, {set("Loading/Axial rate", rate, "m/s")}});
+    add(plan, {"rate_" + in_name(rate), {rate}, {set("Loading/Axial rate", rate, "m/s")}});
   return plan;
 }
 
