@@ -40,7 +40,7 @@ while read -r psi pressure limits; do
   run "cement_${psi}psi" platen-compress onate_cement_triaxial "Loading/Confining pressure = $pressure MPa" \
     "Bond/Compression limits = $limits"
   run "cement_${psi}psi_one_set" platen-compress onate_cement_triaxial "Loading/Confining pressure = $pressure MPa" \
-    "Bond/Compression limits = 8.5 MPa, 9 MPa, 11 MPa"
+    "Bond/Compression limits = 8.5 MPa, 9 MPa, 11 MPa" "Loading/Target strain = 0.08" # the cell alone closes by 3 %
 done <<'PRESSURES'
 500 3.447 9.5 MPa, 11 MPa, 13 MPa
 1000 6.895 10 MPa, 11 MPa, 14 MPa

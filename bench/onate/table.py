@@ -49,6 +49,9 @@ for psi in (500, 1000, 2000, 4000):
     fitted, one = summary(f"cement_{psi}psi"), summary(f"cement_{psi}psi_one_set")
     if fitted and one:
         a, b = fitted["strength_pa"], one["strength_pa"]
+        if a is None or b is None:
+            print(f"  {psi} psi: no strength measured")
+            continue
         print(f"  {psi} psi: {a * 1e-6:.1f} MPa fitted, {b * 1e-6:.1f} MPa with one set, {100 * (b / a - 1):+.1f} %")
 
 if summary("cement_500psi"):
