@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # The laboratory tests of Onate et al. 2015 with the paper's parameters: cement, concrete, shale. Ends with the table of
-# table.py. Runs that are whole are not made again.
-# Usage: bench/onate/run.sh BUILD FOLDER [SEED]
+# table.py. Runs that are whole are not made again. `scalars` leaves the curves under cell pressure out: what the paper
+# gives as single figures, for several seeds (seeds.py FOLDER ... makes mean and scatter of them).
+# Usage: bench/onate/run.sh BUILD FOLDER [SEED [all | scalars]]
 set -euo pipefail
-[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED]" >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED [all | scalars]]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 scenes=$here/../../scenes
 apps=$1/apps
 folder=$2
 seed=${3:-1}
+what=${4:-all}
+[ "$what" = all ] || [ "$what" = scalars ] || { echo "$0: all or scalars, not $what" >&2; exit 2; }
 mkdir -p "$folder"
 
 # run NAME APP SCENE [ENTRY ...]
@@ -25,16 +28,20 @@ run() {
 
 run concrete_ucs platen-compress onate_concrete
 run concrete_brazilian platen-brazilian onate_concrete_brazilian
-run concrete_4.5MPa platen-compress onate_concrete_triaxial "Loading/Confining pressure = 4.5 MPa"
-run concrete_9MPa platen-compress onate_concrete_triaxial
-run concrete_60MPa platen-compress onate_concrete_triaxial "Loading/Confining pressure = 60 MPa" "Loading/Target strain = 0.04"
-run concrete_40MPa_cycled platen-compress onate_concrete_triaxial "Loading/Confining pressure = 40 MPa" \
-  "Specimen/Sphere radius = 6 mm" "Loading/Unload at = 0.01, 0.02" "Loading/Unload to = 0.5"
 run shale_ucs platen-compress onate_shale
 run shale_brazilian platen-brazilian onate_shale_brazilian
 run cement_ucs platen-compress onate_cement
 run cement_brazilian platen-brazilian onate_cement_brazilian
 run cement_uniaxial_strain platen-compress onate_cement_uniaxial_strain
+if [ "$what" = scalars ]; then
+  python3 "$here/table.py" "$folder"
+  exit
+fi
+run concrete_4.5MPa platen-compress onate_concrete_triaxial "Loading/Confining pressure = 4.5 MPa"
+run concrete_9MPa platen-compress onate_concrete_triaxial
+run concrete_60MPa platen-compress onate_concrete_triaxial "Loading/Confining pressure = 60 MPa" "Loading/Target strain = 0.04"
+run concrete_40MPa_cycled platen-compress onate_concrete_triaxial "Loading/Confining pressure = 40 MPa" \
+  "Specimen/Sphere radius = 6 mm" "Loading/Unload at = 0.01, 0.02" "Loading/Unload to = 0.5"
 # Limits of compression as the paper fits them to each pressure, then those of the unconfined test at all.
 while read -r psi pressure limits; do
   run "cement_${psi}psi" platen-compress onate_cement_triaxial "Loading/Confining pressure = $pressure MPa" \

@@ -4,6 +4,8 @@ import json
 import pathlib
 import sys
 
+import onate_limit
+
 folder = pathlib.Path(sys.argv[1])
 # Figures that the paper prints as numbers: experiment, the paper's model (MPa).
 published = {
@@ -61,15 +63,7 @@ if summary("cement_500psi"):
         near = min(rows, key=lambda row: abs(row["axial_strain_platen"] - strain))
         print(f"  {100 * near['axial_strain_platen']:.2f} %: {near['broken_tension'] + near['broken_shear']:.0f}")
 
-if summary("cement_uniaxial_strain"):
-    # Where the difference of axial and lateral stress leaves the line through 1 and 4 MPa by a tenth.
-    rows = [(r["axial_strain_platen"], 0.5 * (r["axial_stress_top_pa"] + r["axial_stress_bottom_pa"]), r["confining_pressure_pa"])
-            for r in history("cement_uniaxial_strain")]
-    line = [(e, a - p) for e, a, p in rows if 1e6 < a - p < 4e6]
-    if len(line) > 1:
-        slope = (line[-1][1] - line[0][1]) / (line[-1][0] - line[0][0])
-        for e, a, p in rows:
-            straight = line[0][1] + slope * (e - line[0][0])
-            if a - p > 4e6 and a - p < 0.9 * straight:
-                print(f"\nCement, uniaxial strain: leaves its line at {a * 1e-6:.1f} MPa axial, {(a - p) * 1e-6:.1f} MPa difference (experiment about 10 MPa)")
-                break
+limit = onate_limit.of(folder / "cement_uniaxial_strain")
+if limit:
+    axial, difference = limit
+    print(f"\nCement, uniaxial strain: leaves its line at {axial * 1e-6:.1f} MPa axial, {difference * 1e-6:.1f} MPa difference (experiment about 10 MPa)")
