@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 std::size_t cell_of(const DensityMap &map, const Place &place) {
-  const double r = std::hypot(place.x, place.y) / map.radius,
+  const double r = (map.is_plane ? std::abs(place.x) : std::hypot(place.x, place.y)) / map.radius,
                z = (place.z - map.bottom) / (map.top - map.bottom);
   const int column = std::clamp(static_cast<int>(r * map.columns), 0, map.columns - 1);
   const int row = std::clamp(static_cast<int>(std::floor(z * map.rows)), 0, map.rows - 1);
@@ -82,9 +82,11 @@ DensityMap crack_density(const std::vector<Crack> &cracks, const std::vector<Pla
   // A box reaches to its corners; its map goes to the half width only, corners are counted in the outermost
   // column.
   map.radius = extent.half_width;
+  map.is_plane = extent.is_plane();
   map.bottom = extent.bottom;
   map.top = extent.top;
   map.columns = 8;
+  if (map.is_plane) map.columns = 12;
   map.rows = std::clamp(static_cast<int>(std::lround(map.columns * extent.height() / map.radius)), 4, 64);
   map.values.assign(static_cast<std::size_t>(map.columns * map.rows), 0.0);
   map.is_share = !bonds.empty();
@@ -94,11 +96,12 @@ DensityMap crack_density(const std::vector<Crack> &cracks, const std::vector<Pla
     places.push_back(crack.place);
   const std::vector<double> broken = counts(map, places), initial = counts(map, bonds);
   constexpr double least_bonds = 5; // fewer tell nothing about a share
-  const double ring = pi * std::pow(map.radius / map.columns, 2) * extent.height() / map.rows;
+  const double high = extent.height() / map.rows, wide = map.radius / map.columns;
   for (std::size_t k = 0; k < map.values.size(); ++k) {
     const double column = static_cast<double>(k % static_cast<std::size_t>(map.columns));
     if (!map.is_share)
-      map.values[k] = broken[k] / (ring * (2 * column + 1));
+      map.values[k] = broken[k] / (high * (map.is_plane ? 4 * extent.half_depth * wide
+                                                        : pi * wide * wide * (2 * column + 1)));
     else
       map.values[k] =
           initial[k] >= least_bonds ? broken[k] / initial[k] : std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,5 @@
-// Where bonds broke: a map over distance from the axis and height.
+// Where bonds broke: a map over distance from the axis (discs and long bars: from the middle plane) and
+// height.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +32,9 @@ std::vector<Crack> cracks_until(const CsvTable &cracks, double time, const Spher
 std::vector<Place> bond_midpoints(const Frame &frame);
 
 struct DensityMap {
-  int columns = 0, rows = 0;  // over r in [0, radius], over z in [bottom, top]
+  int columns = 0, rows = 0;  // over r or |x| in [0, radius], over z in [bottom, top]
   double radius = 0;          // m
+  bool is_plane = false;      // |x|, distance from the plane x = 0; else r, from the axis
   double bottom = 0, top = 0; // m
   bool is_share = false;      // broken / initial bonds of the cell; else breaks per cubic metre
   std::vector<double> values; // row by row from the bottom; NaN where a cell has too few bonds to say

@@ -70,19 +70,30 @@ void add_outline(vtkRenderer *renderer, const Extent &extent) {
     for (const auto &point : path)
       lines->InsertCellPoint(points->InsertNextPoint(point.data()));
   };
-  const double w = extent.half_width;
-  for (const double z : {extent.bottom, extent.top}) {
-    std::vector<std::array<double, 3>> rim{{w, 0, z}};
-    constexpr int segments = 48;
-    for (int k = 1; k < segments && extent.is_round; ++k)
-      rim.push_back({w * std::cos(pi * k / segments), -w * std::sin(pi * k / segments), z});
-    if (!extent.is_round) rim.insert(rim.end(), {{w, -w, z}, {-w, -w, z}});
-    rim.push_back({-w, 0, z});
-    rim.push_back({w, 0, z});
-    line(rim);
+  const double w = extent.half_width, d = extent.half_depth;
+  constexpr int segments = 48;
+  if (extent.form == Extent::Form::disc) {
+    const double middle = 0.5 * (extent.bottom + extent.top), h = 0.5 * extent.height();
+    for (const double y : {0.0, -d}) {
+      std::vector<std::array<double, 3>> rim;
+      for (int k = 0; k <= 2 * segments; ++k)
+        rim.push_back({w * std::cos(pi * k / segments), y, middle + h * std::sin(pi * k / segments)});
+      line(rim);
+    }
+  } else {
+    for (const double z : {extent.bottom, extent.top}) {
+      std::vector<std::array<double, 3>> rim{{w, 0, z}};
+      const bool is_round = extent.form == Extent::Form::cylinder;
+      for (int k = 1; k < segments && is_round; ++k)
+        rim.push_back({w * std::cos(pi * k / segments), -w * std::sin(pi * k / segments), z});
+      if (!is_round) rim.insert(rim.end(), {{w, -d, z}, {-w, -d, z}});
+      rim.push_back({-w, 0, z});
+      rim.push_back({w, 0, z});
+      line(rim);
+    }
+    for (const double x : {-w, w})
+      line({{x, 0, extent.bottom}, {x, 0, extent.top}});
   }
-  for (const double x : {-w, w})
-    line({{x, 0, extent.bottom}, {x, 0, extent.top}});
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(lines);

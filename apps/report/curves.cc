@@ -71,6 +71,7 @@ constexpr LedgerLine ledger[] = {
     {"body_energy_j", "elastic, platens and sleeve", colours::green, Stroke::solid},
     {"kinetic_energy_j", "kinetic", colours::purple, Stroke::solid},
     {"fracture_work_j", "broken bonds", colours::vermilion, Stroke::dashed},
+    {"plastic_work_j", "crushed interfaces", colours::purple, Stroke::dashed},
     {"friction_work_j", "friction", colours::orange, Stroke::dashed},
     {"damping_work_j", "damping", colours::grey, Stroke::dashed},
     {"energy_residual_j", "residual (error of the ledger)", colours::green, Stroke::dashed},

@@ -138,20 +138,28 @@ Spheres read_spheres(const Frame &frame) {
 
 Extent extent_of(const Spheres &spheres) {
   Extent extent;
-  double reach = 0, half_x = 0, half_y = 0; // of the spheres' skins: from the axis, along x, along y
   extent.bottom = extent.top = spheres.size() > 0 ? spheres.z0[0] : 0;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
     const double r = spheres.radius[k];
-    reach = std::max(reach, std::hypot(spheres.x0[k], spheres.y0[k]) + r);
-    half_x = std::max(half_x, std::abs(spheres.x0[k]) + r);
-    half_y = std::max(half_y, std::abs(spheres.y0[k]) + r);
+    extent.half_width = std::max(extent.half_width, std::abs(spheres.x0[k]) + r);
+    extent.half_depth = std::max(extent.half_depth, std::abs(spheres.y0[k]) + r);
     extent.bottom = std::min(extent.bottom, spheres.z0[k] - r);
     extent.top = std::max(extent.top, spheres.z0[k] + r);
   }
-  // In a box the corners are filled: the reach is up to sqrt(2) half widths, in a cylinder it is one.
+  double round = 0, disc = 0; // of the spheres' skins: from the axis along z, and along y
+  const double middle = 0.5 * (extent.bottom + extent.top);
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    round = std::max(round, std::hypot(spheres.x0[k], spheres.y0[k]) + spheres.radius[k]);
+    disc = std::max(disc, std::hypot(spheres.x0[k], spheres.z0[k] - middle) + spheres.radius[k]);
+  }
+  // In a box the corners are filled: the reach is up to sqrt(2) half widths, in a circle it is one.
   constexpr double corner_reach = 1.15;
-  extent.half_width = std::max(half_x, half_y);
-  extent.is_round = reach < corner_reach * extent.half_width;
+  const auto is_circle = [&](double reach, double a, double b) {
+    return reach < corner_reach * std::min(a, b) && std::max(a, b) < corner_reach * std::min(a, b);
+  };
+  if (!is_circle(round, extent.half_width, extent.half_depth))
+    extent.form =
+        is_circle(disc, extent.half_width, 0.5 * extent.height()) ? Extent::Form::disc : Extent::Form::box;
   return extent;
 }
 

@@ -48,10 +48,15 @@ Spheres read_spheres(const Frame &frame);
 
 // Size of the specimen as it was before the test, skin included.
 struct Extent {
-  bool is_round = true;       // a cylinder; else a box
-  double half_width = 0;      // m, cylinder radius, or half the larger side of the box
+  enum class Form { cylinder, box, disc }; // a disc lies with its axis along y and is pressed across it
+  Form form = Form::cylinder;
+  double half_width = 0;      // m, along x
   double bottom = 0, top = 0; // m
+  double half_depth = 0;      // m, along y
   double height() const { return top - bottom; }
+  // Neither round nor square seen from above: what happens in it goes by the distance from the middle plane
+  // x = 0, not from the axis.
+  bool is_plane() const { return form == Form::disc || (form == Form::box && half_width > 1.5 * half_depth); }
 };
 Extent extent_of(const Spheres &spheres);
 

@@ -71,7 +71,9 @@ void save_heat_map(const std::string &title, const std::string &subtitle, const 
   item->AddPlot(plot);
   set_axis(item->GetAxis(vtkAxis::BOTTOM), {-mm_radius, mm_radius}, 4, Sign::dropped);
   set_axis(item->GetAxis(vtkAxis::LEFT), {0, mm_height}, 8);
-  add_axis_titles(canvas, area, "Distance from the axis (mm)", "Height (mm)");
+  add_axis_titles(canvas, area,
+                  map.is_plane ? "Distance from the middle plane (mm)" : "Distance from the axis (mm)",
+                  "Height (mm)");
   add_chart_scene(canvas, {item});
   add_colour_bar(canvas, colouring, 1 - (right - 60.0 + 0.5 * spare) / width);
   canvas.add_head(title, subtitle);

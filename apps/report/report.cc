@@ -54,7 +54,10 @@ void draw_one_run(const Run &run, const fs::path &folder, std::vector<Picture> &
   draw_crack_density(
       run, before_test,
       next(drawn, folder, "crack_density.png",
-           "Broken bonds over height and distance from the axis; the left half mirrors the right."));
+           extent.is_plane()
+               ? "Broken bonds over height and distance from the middle plane; the left half mirrors the "
+                 "right."
+               : "Broken bonds over height and distance from the axis; the left half mirrors the right."));
 }
 
 } // namespace

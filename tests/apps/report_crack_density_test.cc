@@ -13,7 +13,8 @@ namespace platen::apps::report {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-const Extent cylinder{true, 0.025, 0.0, 0.1};
+const Extent cylinder{Extent::Form::cylinder, 0.025, 0.0, 0.1, 0.025};
+const Extent disc{Extent::Form::disc, 0.025, 0.0, 0.05, 0.01};
 
 TEST(ReportCrackDensity, the_density_times_the_volume_gives_back_every_crack) {
   std::mt19937 random(3);
@@ -42,6 +43,23 @@ TEST(ReportCrackDensity, a_ring_of_cracks_lies_in_its_ring_whatever_the_angle) {
     filled += value > 0 ? 1 : 0;
   EXPECT_EQ(filled, 1);
   EXPECT_GT(map.at(static_cast<int>(0.016 / 0.025 * map.columns), static_cast<int>(0.7 * map.rows)), 0);
+}
+
+TEST(ReportCrackDensity, a_disc_counts_by_the_distance_from_its_loaded_diameter) {
+  // A split through the whole thickness lies in the innermost column, wherever along the axis of the disc.
+  std::vector<Crack> cracks;
+  for (int k = -9; k <= 9; ++k)
+    cracks.push_back({{0.0005, 0.001 * k, 0.025}, 1, 0, 0, 1e-6, true});
+  const DensityMap map = crack_density(cracks, {}, disc);
+  EXPECT_TRUE(map.is_plane);
+  double sum = 0;
+  for (int row = 0; row < map.rows; ++row)
+    sum += map.at(0, row) * 2 * map.radius / map.columns * 2 * disc.half_depth * (map.top - map.bottom) /
+           map.rows;
+  EXPECT_NEAR(sum, 19, 1e-9);
+  for (int column = 1; column < map.columns; ++column)
+    for (int row = 0; row < map.rows; ++row)
+      EXPECT_EQ(map.at(column, row), 0);
 }
 
 TEST(ReportCrackDensity, the_share_is_one_where_all_bonds_broke_and_unknown_where_there_are_few) {

@@ -49,10 +49,27 @@ TEST(ReportSpecimen, a_cylinder_is_told_from_a_box_by_its_corners) {
       add_sphere(box, {x, y, 0.05}, {x, y, 0.05});
       if (std::hypot(x, y) <= 0.02) add_sphere(cylinder, {x, y, 0.05}, {x, y, 0.05});
     }
-  EXPECT_TRUE(extent_of(cylinder).is_round);
-  EXPECT_FALSE(extent_of(box).is_round);
+  EXPECT_EQ(extent_of(cylinder).form, Extent::Form::cylinder);
+  EXPECT_EQ(extent_of(box).form, Extent::Form::box);
+  EXPECT_FALSE(extent_of(box).is_plane());
   EXPECT_NEAR(extent_of(box).half_width, 0.021, 1e-12); // centres reach to 0.02, skins one radius further
   EXPECT_NEAR(extent_of(box).height(), 0.002, 1e-12);
+}
+
+TEST(ReportSpecimen, a_disc_lies_on_its_rim_and_a_bar_is_longer_than_deep) {
+  Spheres disc, bar;
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -10; j <= 10; ++j)
+      for (int k = -2; k <= 2; ++k) {
+        const double x = 0.002 * i, z = 0.002 * j, y = 0.002 * k;
+        if (std::hypot(x, z) <= 0.02) add_sphere(disc, {x, y, 0.02 + z}, {x, y, 0.02 + z});
+        if (std::abs(j) <= 2) add_sphere(bar, {x, y, 0.004 + z}, {x, y, 0.004 + z});
+      }
+  EXPECT_EQ(extent_of(disc).form, Extent::Form::disc);
+  EXPECT_NEAR(extent_of(disc).half_depth, 0.005, 1e-12);
+  EXPECT_TRUE(extent_of(disc).is_plane());
+  EXPECT_EQ(extent_of(bar).form, Extent::Form::box);
+  EXPECT_TRUE(extent_of(bar).is_plane());
 }
 
 TEST(ReportSpecimen, one_splinter_does_not_take_the_colours_from_the_rest) {
