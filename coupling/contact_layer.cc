@@ -43,7 +43,7 @@ std::size_t index(int row) {
 
 } // namespace
 
-ContactLayer::ContactLayer(const dem::Particles &particles, const fem::Body &body,
+ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
                            const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness)
     : parameters_(parameters),
       particle_stiffness_(particle_stiffness),
@@ -91,7 +91,7 @@ void ContactLayer::seat(int particle, double offset) {
   search_.forget();
 }
 
-int ContactLayer::seat_within(const dem::Particles &particles, const fem::Body &body, double depth,
+int ContactLayer::seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
                               bool upright) {
   std::vector<double> reach(particles.size());
   for (std::size_t i = 0; i < reach.size(); ++i)
@@ -132,7 +132,7 @@ void ContactLayer::moved(double distance) {
   travelled_ += distance;
 }
 
-void ContactLayer::update_search(const dem::Particles &particles, const fem::Body &body) {
+void ContactLayer::update_search(const dem::Particles &particles, const fem::LoadedSurface &body) {
   if (!search_.stale()) return;
   std::vector<double> reach(particles.radius.begin(), particles.radius.end());
   for (std::size_t k = 0; k < table_.size(); ++k)
@@ -141,7 +141,7 @@ void ContactLayer::update_search(const dem::Particles &particles, const fem::Bod
   set_rows(search_.particles());
 }
 
-void ContactLayer::make_list(const dem::Particles &particles, const fem::Body &body) {
+void ContactLayer::make_list(const dem::Particles &particles, const fem::LoadedSurface &body) {
   search_.forget();
   update_search(particles, body);
 }
@@ -176,7 +176,7 @@ std::size_t ContactLayer::bytes() const {
 }
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,
-                                                            const fem::Body &body) const {
+                                                            const fem::LoadedSurface &body) const {
   std::vector<dem::GroundSpring> springs;
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];

@@ -21,7 +21,7 @@
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "dem/table.h"
-#include "fem/body.h"
+#include "fem/loaded_surface.h"
 
 namespace platen::coupling {
 
@@ -61,8 +61,8 @@ class ContactLayer {
 public:
   // Throws std::invalid_argument, naming the entry, where a parameter is out of range. `particle_stiffness`
   // (N/m, one per particle row) replaces the single value; it must outlive the layer.
-  ContactLayer(const dem::Particles &particles, const fem::Body &body, const SurfaceContact &parameters,
-               const dem::Column<double> *particle_stiffness = nullptr);
+  ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
+               const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness = nullptr);
   ~ContactLayer();
 
   // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
@@ -72,7 +72,8 @@ public:
   // sawn flush with the surface. Returns how many.
   // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
   // beside its edge would be seated aslant, and wedge.
-  int seat_within(const dem::Particles &particles, const fem::Body &body, double depth, bool upright = false);
+  int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
+                  bool upright = false);
   int seats() const;
 
   // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)
@@ -82,30 +83,31 @@ public:
 
   // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it
   // before asking for springs or stiffness ahead of the first step.
-  void update_search(const dem::Particles &particles, const fem::Body &body);
+  void update_search(const dem::Particles &particles, const fem::LoadedSurface &body);
   // The same in any case.
-  void make_list(const dem::Particles &particles, const fem::Body &body);
+  void make_list(const dem::Particles &particles, const fem::LoadedSurface &body);
 
   // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
   // by the step dt (s) that the drift made. Reads position, velocity, radius, mass (angular_velocity); writes
   // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
-  void add_forces(dem::Particles &particles, fem::Body &body, double dt);
+  void add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt);
 
   // The stage in three pieces, for who has other work for threads that wait. What has to be looked at, in how
   // many parts:
-  std::size_t prepare(const dem::Particles &particles, const fem::Body &body);
+  std::size_t prepare(const dem::Particles &particles, const fem::LoadedSurface &body);
   // the forces of one part, in any order and on any thread, from particles and body as they are then; writes
   // nothing but the layer's own rows;
-  void compute_part(const dem::Particles &particles, const fem::Body &body, double dt, std::size_t part);
+  void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+                    std::size_t part);
   // and then, once, what particles and body get of them.
-  void give_forces(dem::Particles &particles, fem::Body &body);
+  void give_forces(dem::Particles &particles, fem::LoadedSurface &body);
 
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const;              // ascending particle rows
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
   // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
   // elsewhere.
-  std::vector<double> vertex_slip(const fem::Body &body) const;
+  std::vector<double> vertex_slip(const fem::LoadedSurface &body) const;
 
   // Since the start (J).
   double friction_work = 0; // lost to sliding, including rocking seats
@@ -113,7 +115,8 @@ public:
   std::size_t closed = 0;   // contacts in the last add_forces; a checkpoint saves it with the works
 
   // Springs of all particles near the surface, for the stable step.
-  std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles, const fem::Body &body) const;
+  std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
+                                                const fem::LoadedSurface &body) const;
   // What a servo pushes against: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
 
@@ -164,7 +167,7 @@ private:
   double stiffness(int particle) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
-  void row_force(const dem::Particles &particles, const fem::Body &body, std::size_t row, double dt,
+  void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
   void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);

@@ -55,19 +55,19 @@ void ContactLayer::find_due_rows() {
   contacts_.resize(due_.size());
 }
 
-void ContactLayer::add_forces(dem::Particles &particles, fem::Body &body, double dt) {
+void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
   const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
   dem::run_loops(dem::loop_of(prepare(particles, body), part));
   give_forces(particles, body);
 }
 
-std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::Body &body) {
+std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::LoadedSurface &body) {
   update_search(particles, body);
   find_due_rows();
   return dem::number_of_blocks(due_.size(), rows_per_part);
 }
 
-void ContactLayer::compute_part(const dem::Particles &particles, const fem::Body &body, double dt,
+void ContactLayer::compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                                 std::size_t part) {
   const std::size_t last = std::min(due_.size(), (part + 1) * rows_per_part);
   for (std::size_t k = part * rows_per_part; k < last; ++k) {
@@ -98,7 +98,7 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
 
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
 // by row: rows that are passed over may differ from run to run, sums may not.
-void ContactLayer::give_forces(dem::Particles &particles, fem::Body &body) {
+void ContactLayer::give_forces(dem::Particles &particles, fem::LoadedSurface &body) {
   dem::for_each(loads_.size(), [&](std::size_t k) {
     const RowLoad &load = loads_[k];
     if (load.particle < 0) return;
@@ -140,7 +140,7 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
 }
 
 // Reads the row's history and writes nothing but its own result.
-void ContactLayer::row_force(const dem::Particles &particles, const fem::Body &body, std::size_t row,
+void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row,
                              double dt, RowForce &result) {
   const std::size_t i = static_cast<std::size_t>(particle_[row]);
   result = RowForce{};
@@ -241,7 +241,7 @@ std::vector<ActiveContact> ContactLayer::contacts() const {
   return active;
 }
 
-std::vector<double> ContactLayer::vertex_slip(const fem::Body &body) const {
+std::vector<double> ContactLayer::vertex_slip(const fem::LoadedSurface &body) const {
   std::vector<double> sum(body.surface().vertices.size()), weight(sum.size());
   for (std::size_t k = 0; k < loads_.size(); ++k) {
     if (loads_[k].particle < 0) continue;

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "coupling/surface_search.h"
-#include "fem/body.h"
+#include "fem/loaded_surface.h"
 
 namespace platen::coupling {
 
@@ -23,9 +23,10 @@ SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint
 dem::Vector3 face_rotation(const fem::SurfaceMesh &surface, int face);
 
 // Puts a force (N), acting on the body at a point of the face, on the corners by the point's weights.
-void apply_force(fem::Body &body, int face, const std::array<double, 4> &weights, const dem::Vector3 &force);
+void apply_force(fem::LoadedSurface &body, int face, const std::array<double, 4> &weights,
+                 const dem::Vector3 &force);
 
 // Puts a moment (N m) on the corners as forces without a sum: the transpose of face_rotation.
-void apply_moment(fem::Body &body, int face, const dem::Vector3 &moment);
+void apply_moment(fem::LoadedSurface &body, int face, const dem::Vector3 &moment);
 
 } // namespace platen::coupling

@@ -55,14 +55,10 @@ Body::Body(Grid grid, const Material &material, BodyKind kind)
   require(material.young_modulus > 0, "Young's modulus must be positive");
   require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5, "Poisson ratio must lie in (-1, 0.5)");
   GridSurface extracted = extract_surface(grid_);
-  surface_ = std::move(extracted.surface);
+  set_surface(std::move(extracted.surface));
   grid_vertex_ = std::move(extracted.grid_vertex);
-  const std::vector<int> empty = zero_area_faces(surface_);
-  require(empty.empty(), "surface face " + (empty.empty() ? "" : std::to_string(empty[0])) + " has no area");
   reference_vertices_ = surface_.vertices;
   surface_.only_shifted = true;
-  load_.assign(surface_.vertices.size(), Point{});
-  is_loaded_.assign(surface_.vertices.size(), 0);
 
   const VolumeMoments m = volume_moments(grid_);
   volume_ = m.volume;
@@ -111,35 +107,6 @@ double Body::largest_move(double dt) const {
     for (const Point &v : reference_vertices_)
       reach = std::max(reach, norm(v - reference_centre_));
   return std::abs(dt) * (norm(velocity_) + norm(angular_velocity_) * reach);
-}
-
-void Body::clear_loads() {
-  for (const int v : loaded_) {
-    load_[static_cast<std::size_t>(v)] = Point{};
-    is_loaded_[static_cast<std::size_t>(v)] = 0;
-  }
-  loaded_.clear();
-}
-
-Point Body::total_force() const {
-  Point sum{};
-  for (const int v : loaded_)
-    sum = sum + contact_load(v);
-  return sum;
-}
-
-Point Body::moment(const Point &about) const {
-  Point sum{};
-  for (const int v : loaded_)
-    sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
-  return sum;
-}
-
-double Body::load_power() const {
-  double sum = 0;
-  for (const int v : loaded_)
-    sum += dot(contact_load(v), surface_.velocities[static_cast<std::size_t>(v)]);
-  return sum;
 }
 
 double Body::kinetic_energy() const {

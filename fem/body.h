@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fem/grids.h"
-#include "fem/surface_mesh.h"
+#include "fem/loaded_surface.h"
 
 namespace platen::fem {
 
@@ -20,7 +20,7 @@ struct Material {
 
 enum class BodyKind { rigid };
 
-class Body {
+class Body : public LoadedSurface {
 public:
   // Throws std::invalid_argument where a constant is out of range or a surface face has no area (naming the
   // face).
@@ -28,7 +28,6 @@ public:
 
   BodyKind kind() const { return kind_; }
   const Material &material() const { return material_; }
-  const SurfaceMesh &surface() const { return surface_; }
   double volume() const { return volume_; }                   // m^3
   double mass() const { return material_.density * volume_; } // kg
 
@@ -47,19 +46,6 @@ public:
   // Bound on how far any vertex moves in a drift over dt (m).
   double largest_move(double dt) const;
 
-  // Loads on the surface (N), accumulated in the order of the calls.
-  void clear_loads();
-  void add_surface_force(int vertex, const Point &force) {
-    const std::size_t v = static_cast<std::size_t>(vertex);
-    if (!is_loaded_[v]) loaded_.push_back(vertex);
-    is_loaded_[v] = 1;
-    load_[v] = load_[v] + force;
-  }
-  const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
-  Point total_force() const;              // N
-  Point moment(const Point &about) const; // N m
-  double load_power() const; // W, sum of load . vertex velocity: what the particles do to the body
-
   double kinetic_energy() const;  // J
   double internal_energy() const; // J; a rigid body stores none
   double stable_step() const;     // s; infinite for a rigid body
@@ -68,16 +54,6 @@ public:
   std::vector<double> state() const;
   // Throws std::invalid_argument where the numbers are not those of a body with this surface.
   void set_state(const std::vector<double> &numbers);
-
-  // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
-  // that it is pressed on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the
-  // load.
-  struct Traction {
-    double pressure = 0; // Pa, positive when pressed
-    Point shear{};       // Pa, along the side
-    Point area{};        // m^2 times outward normal
-  };
-  std::vector<Traction> contact_tractions() const;
 
   // Writes the grid where it is now as VTU (binary, zlib) with point data displacement (m), contact_pressure
   // and contact_shear (Pa, as contact_tractions) and slip (m; one value per surface vertex, or an empty
@@ -91,7 +67,6 @@ private:
   Grid grid_;
   Material material_;
   BodyKind kind_;
-  SurfaceMesh surface_;
   std::vector<Point> reference_vertices_; // m, of the surface
   std::vector<int> grid_vertex_;          // of each surface vertex
   double volume_ = 0;
@@ -100,9 +75,6 @@ private:
 
   Point displacement_{}, velocity_{}, angular_velocity_{};
   std::array<double, 4> rotation_{1, 0, 0, 0};
-  std::vector<Point> load_;
-  std::vector<int> loaded_;     // vertices with a load, in the order of their first one
-  std::vector<char> is_loaded_; // one per vertex
 };
 
 } // namespace platen::fem

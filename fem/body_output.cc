@@ -8,57 +8,12 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
-#include <map>
 #include <ostream>
 #include <stdexcept>
 
 #include "fem/body.h"
 
 namespace platen::fem {
-namespace {
-
-// Areas that belong to each vertex (m^2 times normal), one entry per side that the vertex lies on: a vertex
-// on the rim of a plate is loaded on one side of it, and only that side's area carries the load.
-std::vector<std::map<int, Point>> tributary_areas(const SurfaceMesh &surface) {
-  std::vector<std::map<int, Point>> areas(surface.vertices.size());
-  for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    for (const int v : surface.faces[f]) {
-      Point &area = areas[static_cast<std::size_t>(v)][surface.face_tags[f]];
-      area = area + 0.25 * face_area_vector(surface, f);
-    }
-  return areas;
-}
-
-// The side that the load presses on most squarely carries it.
-Body::Traction traction(const std::map<int, Point> &sides, const Point &load) {
-  Body::Traction result;
-  bool found = false;
-  double best = 0;
-  for (const auto &[tag, area] : sides) {
-    const double size = norm(area);
-    if (size <= 0) continue;
-    const Point normal = (1.0 / size) * area;
-    const double pressing = -dot(load, normal);
-    if (found && pressing <= best) continue;
-    found = true;
-    best = pressing;
-    result.pressure = pressing / size;
-    result.shear = (1.0 / size) * (load + pressing * normal);
-    result.area = area;
-  }
-  return result;
-}
-
-} // namespace
-
-std::vector<Body::Traction> Body::contact_tractions() const {
-  const auto areas = tributary_areas(surface_);
-  std::vector<Traction> tractions(areas.size());
-  for (std::size_t v = 0; v < areas.size(); ++v)
-    tractions[v] = traction(areas[v], load_[v]);
-  return tractions;
-}
-
 void Body::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
   if (!slip.empty() && slip.size() != load_.size())
     throw std::invalid_argument("body: slip must have one value per surface vertex");

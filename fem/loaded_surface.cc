@@ -1,0 +1,92 @@
+#include "fem/loaded_surface.h"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace platen::fem {
+namespace {
+
+// Areas that belong to each vertex (m^2 times normal), one entry per side that the vertex lies on: a vertex
+// on the rim of a plate is loaded on one side of it, and only that side's area carries the load.
+std::vector<std::map<int, Point>> tributary_areas(const SurfaceMesh &surface) {
+  std::vector<std::map<int, Point>> areas(surface.vertices.size());
+  for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    for (const int v : surface.faces[f]) {
+      Point &area = areas[static_cast<std::size_t>(v)][surface.face_tags[f]];
+      area = area + 0.25 * face_area_vector(surface, f);
+    }
+  return areas;
+}
+
+// The side that the load presses on most squarely carries it.
+LoadedSurface::Traction traction(const std::map<int, Point> &sides, const Point &load) {
+  LoadedSurface::Traction result;
+  bool found = false;
+  double best = 0;
+  for (const auto &[tag, area] : sides) {
+    const double size = norm(area);
+    if (size <= 0) continue;
+    const Point normal = (1.0 / size) * area;
+    const double pressing = -dot(load, normal);
+    if (found && pressing <= best) continue;
+    found = true;
+    best = pressing;
+    result.pressure = pressing / size;
+    result.shear = (1.0 / size) * (load + pressing * normal);
+    result.area = area;
+  }
+  return result;
+}
+
+} // namespace
+
+void LoadedSurface::set_surface(SurfaceMesh surface) {
+  const std::vector<int> empty = zero_area_faces(surface);
+  if (!empty.empty())
+    throw std::invalid_argument("body: surface face " + std::to_string(empty[0]) + " has no area");
+  surface_ = std::move(surface);
+  load_.assign(surface_.vertices.size(), Point{});
+  is_loaded_.assign(surface_.vertices.size(), 0);
+  loaded_.clear();
+}
+
+void LoadedSurface::clear_loads() {
+  for (const int v : loaded_) {
+    load_[static_cast<std::size_t>(v)] = Point{};
+    is_loaded_[static_cast<std::size_t>(v)] = 0;
+  }
+  loaded_.clear();
+}
+
+Point LoadedSurface::total_force() const {
+  Point sum{};
+  for (const int v : loaded_)
+    sum = sum + contact_load(v);
+  return sum;
+}
+
+Point LoadedSurface::moment(const Point &about) const {
+  Point sum{};
+  for (const int v : loaded_)
+    sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
+  return sum;
+}
+
+double LoadedSurface::load_power() const {
+  double sum = 0;
+  for (const int v : loaded_)
+    sum += dot(contact_load(v), surface_.velocities[static_cast<std::size_t>(v)]);
+  return sum;
+}
+
+std::vector<LoadedSurface::Traction> LoadedSurface::contact_tractions() const {
+  const auto areas = tributary_areas(surface_);
+  std::vector<Traction> tractions(areas.size());
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    tractions[v] = traction(areas[v], load_[v]);
+  return tractions;
+}
+
+} // namespace platen::fem

@@ -1,0 +1,51 @@
+// The outer surface of a body with loads on its vertices: what the contact layer needs of a body, whatever is
+// inside.
+#pragma once
+
+#include <vector>
+
+#include "fem/surface_mesh.h"
+
+namespace platen::fem {
+
+class LoadedSurface {
+public:
+  const SurfaceMesh &surface() const { return surface_; }
+
+  // Loads on the surface (N), accumulated in the order of the calls.
+  void clear_loads();
+  void add_surface_force(int vertex, const Point &force) {
+    const std::size_t v = static_cast<std::size_t>(vertex);
+    if (!is_loaded_[v]) loaded_.push_back(vertex);
+    is_loaded_[v] = 1;
+    load_[v] = load_[v] + force;
+  }
+  const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
+  const std::vector<int> &loaded_vertices() const { return loaded_; } // in the order of their first load
+  Point total_force() const;                                          // N
+  Point moment(const Point &about) const;                             // N m
+  double load_power() const; // W, sum of load . vertex velocity: what the particles do to the body
+
+  // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
+  // that it is pressed on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the
+  // load.
+  struct Traction {
+    double pressure = 0; // Pa, positive when pressed
+    Point shear{};       // Pa, along the side
+    Point area{};        // m^2 times outward normal
+  };
+  std::vector<Traction> contact_tractions() const;
+
+protected:
+  LoadedSurface() = default;
+  // Takes the surface and starts without loads. Throws std::invalid_argument where a face has no area (naming
+  // it).
+  void set_surface(SurfaceMesh surface);
+
+  SurfaceMesh surface_;
+  std::vector<Point> load_;     // N, one per vertex
+  std::vector<int> loaded_;     // vertices with a load, in the order of their first one
+  std::vector<char> is_loaded_; // one per vertex
+};
+
+} // namespace platen::fem
