@@ -5,6 +5,7 @@
 
 #include "coupling/contact_layer.h"
 #include "dem/packing/specimen.h"
+#include "fem/body.h"
 #include "fem/grids.h"
 
 namespace platen::coupling {
