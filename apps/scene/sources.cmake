@@ -5,6 +5,11 @@ set(PLATEN_SCENE_SOURCES
   scene/parameters.cc
   scene/declare.cc
   scene/sections.cc
+  scene/sections_apps.cc
+  scene/sections_bond.cc
+  scene/sections_expect.cc
+  scene/sections_loading.cc
+  scene/sections_specimen.cc
   scene/file_text.cc
   scene/prm_file.cc
   scene/json_file.cc

@@ -1,0 +1,29 @@
+// The table of everything that a scene file may say, by sections; each is bound to its struct of the scene.
+#pragma once
+
+#include <vector>
+
+#include "apps/scene/declare.h"
+#include "apps/scene/scene.h"
+
+namespace platen::apps {
+
+void declare_general(Parameters &parameters, General &general);
+void declare_specimen(Parameters &parameters, SpecimenSection &specimen);
+void declare_material(Parameters &parameters, Material &material);
+void declare_effects(Parameters &parameters, Effects &effects);
+void declare_bond(Parameters &parameters, Bond &bond);
+void declare_phases(Parameters &parameters, PhasesSection &phases);
+void declare_contact(Parameters &parameters, Contact &contact);
+void declare_platens(Parameters &parameters, Platens &platens);
+void declare_sleeve(Parameters &parameters, Sleeve &sleeve);
+void declare_loading(Parameters &parameters, Loading &loading);
+void declare_integration(Parameters &parameters, Integration &integration);
+void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint);
+void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
+void declare_pair_test(Parameters &parameters, PairTest &pair);
+void declare_calibrate(Parameters &parameters, Calibrate &c);
+void declare_bar_test(Parameters &parameters, BarTest &bar);
+void declare_study(Parameters &parameters, Study &study);
+
+} // namespace platen::apps

@@ -1,0 +1,126 @@
+// Sections that one app each reads.
+#include "apps/scene/sections.h"
+
+namespace platen::apps {
+
+void declare_pair_test(Parameters &parameters, PairTest &pair) {
+  Section section(parameters, "Pair test");
+  section.integer("Particles", pair.particles, 2, 3, "Two in a row, or three as a pyramid.");
+  section.word<PairPath>("Path", pair.path,
+                         {{"tension", PairPath::tension},
+                          {"compression", PairPath::compression},
+                          {"shear", PairPath::shear},
+                          {"bending", PairPath::bending},
+                          {"twisting", PairPath::twisting},
+                          {"cyclic", PairPath::cyclic}},
+                         {}, "How the upper particle is moved against the lower ones.");
+  section.word<PairPlate>("Plate", pair.plate,
+                          {{"frictionless", PairPlate::frictionless},
+                           {"rolling", PairPlate::rolling},
+                           {"sticking", PairPlate::sticking}},
+                          {}, "Three particles: what the lower two stand on.");
+  section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
+  section.quantity("Force", pair.force, "N", above(0), "Largest force.");
+  section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
+  section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
+  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", between(0, 5),
+               "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
+  section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
+}
+
+void declare_calibrate(Parameters &parameters, Calibrate &c) {
+  Section section(parameters, "Calibrate");
+  section.word<CalibrateMode>(
+      "Mode", c.mode,
+      {{"bounds", CalibrateMode::bounds},
+       {"abacus", CalibrateMode::abacus},
+       {"search", CalibrateMode::search}},
+      {}, "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+  section.quantity("Young modulus", c.young_modulus, "Pa", above(0),
+                   "Wanted of the specimen's middle; may be left out.");
+  section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
+                 "Wanted of the specimen's middle; may be left out.");
+  section.quantity("Compressive strength", c.compressive_strength, "Pa", above(0),
+                   "Wanted between the platens of the scene; may be left out.");
+  section.quantity("Tensile strength", c.tensile_strength, "Pa", above(0),
+                   "Wanted between glued ends; may be left out.");
+  section.integer("Seeds", c.seeds, 1, 1000, "Packings to calibrate on: Scene/Seed and those after it.");
+  section.integer("Verification seeds", c.verification_seeds, 0, 1000,
+                  "Packings after those, on which what was found is judged.");
+  section.number("Strain", c.strain, above_up_to(0, 0.01), "Closure over height in the static solves.");
+  section.quantity("Tension rate", c.tension_rate, "m/s", above(0),
+                   "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
+                   "tensile over compressive strength (a tenth where one is not wanted).");
+  section.integer("Most trials", c.most_trials, 1, 1000, "Sets of strengths that are tried.");
+  section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
+                 "Relative difference of the strengths that ends the search.");
+  section.list("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
+  section.list("Stiffness ratio list", c.stiffness_ratios, "1", between(0, 5),
+               "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
+  section.list("Radius multiplier list", c.radius_multipliers, "1", above_up_to(0, 10),
+               "Abacus; empty: Bond/Radius multiplier.");
+  section.list("Poisson ratio list", c.poisson_ratios, "1", between_open(-1, 0.5),
+               "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
+  section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
+                 "Search for Poisson's ratio (parallel bond).");
+  section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
+                 "Search for Poisson's ratio (parallel bond).");
+  section.number("Smallest radius multiplier", c.multiplier_low, above_up_to(0, 10),
+                 "Search for Poisson's ratio (cohesive beam).");
+  section.number("Largest radius multiplier", c.multiplier_high, above_up_to(0, 10),
+                 "Search for Poisson's ratio (cohesive beam).");
+  section.number(
+      "Smallest moment contribution", c.moments_low, between(0, 1),
+      "Search for the ratio of the strengths, once shear over tensile strength is at its largest.");
+  section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
+                 "Search for the ratio of the strengths.");
+  section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
+                 "Search for the ratio of the strengths.");
+}
+
+void declare_bar_test(Parameters &parameters, BarTest &bar) {
+  Section section(parameters, "Bar test");
+  section.word<BarLoad>("Load", bar.load,
+                        {{"all", BarLoad::all},
+                         {"tension", BarLoad::tension},
+                         {"bending", BarLoad::bending},
+                         {"torsion", BarLoad::torsion},
+                         {"impact", BarLoad::impact},
+                         {"none", BarLoad::none}},
+                        {}, "What is done to a bar clamped at its lower end; none: its moduli alone.");
+  section.word<BarMethod>(
+      "Method", bar.method,
+      {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}}, {},
+      "Static: the bar at rest under the load. Dynamic: it is let go from there and swings; an impact is "
+      "dynamic.");
+  section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}}, {},
+                        "The way in which bending pushes the free end.");
+  section.number("Strain", bar.strain, above_up_to(0, 0.01),
+                 "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "
+                 "speed of the struck end over that of the wave.");
+  section.number("End depth", bar.end_depth, between(0.05, 10),
+                 "Spheres whose surface is within this many mean radii of an end plane are clamped, loaded "
+                 "or struck.");
+  section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.");
+  section.flag("Bulk moduli", bar.bulk_moduli,
+               "Measure the moduli of the interior too, under six strains of its skin.");
+}
+
+void declare_study(Parameters &parameters, Study &study) {
+  Section section(parameters, "Study");
+  section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
+  section.list("Sphere radius list", study.sphere_radii, "m", above(0),
+               "Study of size: mean radii, in place of Specimen/Sphere radius. With Domain list empty too: "
+               "0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
+  section.domains("Domain list", study.domains,
+                  "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
+  section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");
+  section.list("Radius multiplier list", study.radius_multipliers, "1", above_up_to(0, 10),
+               "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
+  section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
+               "Study of the packing, in place of Specimen/Radius spread.");
+  section.list("Axial rate list", study.axial_rates, "m/s", above(0),
+               "Study of the rate, in place of Loading/Axial rate.");
+}
+
+} // namespace platen::apps

@@ -1,0 +1,79 @@
+// Numbers of summary.json that a scene may state beforehand.
+#include "apps/scene/sections.h"
+
+namespace platen::apps {
+namespace {
+
+struct ExpectedNumber {
+  const char *key;  // of summary.json; a member of an object after "/"
+  const char *unit; // of the number in summary.json
+};
+
+constexpr ExpectedNumber expected_numbers[] = {
+    {"particles", "1"},
+    {"bonds", "1"},
+    {"coordination_number", "1"},
+    {"packing_fraction", "1"},
+    {"grain_density_kg_m3", "kg/m3"},
+    {"steps", "1"},
+    {"time_step_s", "s"},
+    {"strength_pa", "Pa"},
+    {"strain_at_peak_platen", "1"},
+    {"strain_at_peak_gauge", "1"},
+    {"youngs_modulus_gauge_pa", "Pa"},
+    {"youngs_modulus_platen_pa", "Pa"},
+    {"deviator_strength_pa", "Pa"},
+    {"bulk_modulus_pa", "Pa"},
+    {"constrained_modulus_pa", "Pa"},
+    {"failure_load_n", "N"},
+    {"cracks_on_loaded_diameter", "1"},
+    {"first_cracks_in_middle_of_diameter", "1"},
+    {"deflection_at_peak_m", "m"},
+    {"flexural_modulus_pa", "Pa"},
+    {"moment_over_nominal", "1"},
+    {"cracks_near_midspan", "1"},
+    {"lateral_over_axial_stress", "1"},
+    {"poisson_ratio", "1"},
+    {"broken_tension", "1"},
+    {"broken_shear", "1"},
+    {"energy_residual_relative", "1"},
+    {"kinetic_to_internal_max", "1"},
+    {"end_damage_top", "1"},
+    {"end_damage_bottom", "1"},
+    {"middle_damage", "1"},
+    {"end_spread", "1"},
+    {"barrel_at_peak", "1"},
+    {"fragments", "1"},
+    {"cone_top/height_m", "m"},
+    {"cone_top/half_angle_deg", "degree"},
+    {"cone_top/volume_fraction", "1"},
+    {"cone_bottom/height_m", "m"},
+    {"cone_bottom/half_angle_deg", "degree"},
+    {"cone_bottom/volume_fraction", "1"},
+    {"bulk/youngs_modulus_pa", "Pa"},
+    {"bulk/poisson_ratio", "1"},
+    {"effective_radius_m", "m"},
+    {"density_kg_m3", "kg/m3"},
+    {"tension/static_error", "1"},
+    {"tension/dynamic_error", "1"},
+    {"bending/static_error", "1"},
+    {"bending/static_error_effective", "1"},
+    {"bending/dynamic_error", "1"},
+    {"bending/dynamic_error_effective", "1"},
+    {"torsion/static_error", "1"},
+    {"torsion/static_error_effective", "1"},
+    {"torsion/dynamic_error", "1"},
+    {"torsion/dynamic_error_effective", "1"},
+    {"impact/wave_error", "1"},
+};
+
+} // namespace
+
+void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
+  Section section(parameters, "Expect");
+  for (const ExpectedNumber &number : expected_numbers)
+    section.expectation(number.key, expect, number.unit,
+                        "Range of the number in summary.json, one side may be left out; empty: not checked.");
+}
+
+} // namespace platen::apps

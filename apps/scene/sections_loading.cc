@@ -1,0 +1,116 @@
+// What the specimen meets: platens, sleeve and loading.
+#include "apps/scene/sections.h"
+
+namespace platen::apps {
+namespace {
+
+void declare_side(Parameters &parameters, const std::string &name, PlatenSide &side) {
+  Section section(parameters, name);
+  section.number("Friction static", side.friction_static, between(0, 5),
+                 "As Platens/Friction static where not given.");
+  section.number("Friction dynamic", side.friction_dynamic, between(0, 5),
+                 "As Platens/Friction dynamic where not given.");
+}
+
+} // namespace
+
+void declare_platens(Parameters &parameters, Platens &platens) {
+  Section section(parameters, "Platens");
+  section.word<PlatenKind>("Kind", platens.kind,
+                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}},
+                           {"deformable"}, "Rigid bodies, or elastic ones by finite elements.");
+  section.number("Friction static", platens.friction_static, between(0, 5),
+                 "Coefficient of friction of grains on both platens while they stick.");
+  section.number("Friction dynamic", platens.friction_dynamic, between(0, 5),
+                 "The same while they slide; as the static one where not given.");
+  section.stiffness("Stiffness", platens.stiffness, false,
+                    "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
+  section.number("Tangential ratio", platens.tangential_ratio, between(0, 5),
+                 "Tangential over normal penalty stiffness.");
+  section.number("Damping", platens.damping, between(0, 1),
+                 "Fraction of critical damping of grains on platens.");
+  section.number("Overhang", platens.overhang, between(1, 10),
+                 "Half-width of the platens over that of the specimen.");
+  section.quantity(
+      "Strip width", platens.strip_width, "m", at_least(0),
+      "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens. "
+      "Test = three point bending: of the strip above the bar and the two below.");
+  section.quantity("Span", platens.span, "m", above(0),
+                   "Distance of the middles of the two lower strips (Test = three point bending).");
+  section.quantity("Thickness", platens.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
+  section.integer("Elements across", platens.elements_across, 1, 1000, "Finite elements across a platen.");
+  section.quantity("Density", platens.density, "kg/m3", above(0), "Density of the platens.");
+  section.quantity("Young modulus", platens.young_modulus, "Pa", above(0), "Young modulus of the platens.");
+  section.number("Poisson ratio", platens.poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of the platens.");
+  section.word<Attachment>("Attachment", platens.attachment,
+                           {{"contact", Attachment::contact}, {"glued", Attachment::glued}}, {},
+                           "Glued: the end grains are held by the platens, in tension too.");
+  declare_side(parameters, "Platens/Top", platens.top);
+  Section top(parameters, "Platens/Top");
+  top.word<PlatenControl>("Control", platens.top_control,
+                          {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}}, {},
+                          "What is prescribed on the top platen.");
+  top.quantity("Stress", platens.top_stress, "Pa", at_least(0), "Pressing stress (Control = stress).");
+  declare_side(parameters, "Platens/Bottom", platens.bottom);
+}
+
+void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
+  Section section(parameters, "Sleeve");
+  section.quantity("Thickness", sleeve.thickness, "m", above(0),
+                   "Wall of the sleeve (Confinement = sleeve).");
+  section.quantity("Modulus", sleeve.modulus, "Pa", above(0), "Young modulus of the sleeve.");
+  section.number("Poisson ratio", sleeve.poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of the sleeve.");
+}
+
+void declare_loading(Parameters &parameters, Loading &loading) {
+  Section section(parameters, "Loading");
+  section.word<LoadingTest>(
+      "Test", loading.test,
+      {{"compression", LoadingTest::compression},
+       {"tension", LoadingTest::tension},
+       {"hydrostatic", LoadingTest::hydrostatic},
+       {"uniaxial strain", LoadingTest::uniaxial_strain},
+       {"three point bending", LoadingTest::three_point_bending}},
+      {},
+      "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
+      "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
+      "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
+      "along x, two below.");
+  section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
+                   "Speed of closure (tension: of opening).");
+  section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
+  section.quantity(
+      "Hold", loading.hold, "s", at_least(0),
+      "How long the stress of Platens/Top/Control = stress is held after the ramp; with Confinement: "
+      "how long its pressure stands on all sides before the platens move on.");
+  section.number("Target strain", loading.target_strain, above_up_to(0, 1),
+                 "Closure over height at which the run is over.");
+  section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
+                 "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
+  section.word<ConfinementKind>(
+      "Confinement", loading.confinement,
+      {{"none", ConfinementKind::none},
+       {"particles", ConfinementKind::particles},
+       {"sleeve", ConfinementKind::sleeve}},
+      {"sleeve"}, "How the lateral surface is pressed; particles: by forces on those of the surface.");
+  section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0),
+                   "Lateral pressure, and that on the platens while it rises.");
+  section.quantity("Confining ramp", loading.confining_ramp, "s", at_least(0),
+                   "Time in which the pressure rises smoothly; 0: chosen by the app.");
+  section.number("Wall stiffness", loading.wall_stiffness, above_up_to(0, 1000),
+                 "Of each sphere at the wall, as a multiple of the mean bond's (Test = uniaxial strain).");
+  section.list("Unload at", loading.unload_at, "1", above_up_to(0, 1),
+               "Closures over height, ascending, at which the platens turn round; empty: never.");
+  section.number(
+      "Unload to", loading.unload_to, between(0, 0.95),
+      "Share of the axial stress at the turn (less a confining pressure) at which they load again.");
+  section.word<ConfinementArea>(
+      "Confinement area", loading.confinement_area,
+      {{"voronoi", ConfinementArea::voronoi}, {"sphere", ConfinementArea::sphere}}, {},
+      "What the pressure acts on (Confinement = particles): each sphere's part of the deformed surface, or "
+      "pi R^2 of each lateral sphere.");
+}
+
+} // namespace platen::apps
