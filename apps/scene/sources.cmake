@@ -15,6 +15,11 @@ set(PLATEN_SCENE_SOURCES
   scene/json_file.cc
   scene/parameter_writer.cc
   scene/checks.cc
+  scene/checks_apps.cc
+  scene/checks_bond.cc
+  scene/checks_loading.cc
+  scene/checks_notes.cc
+  scene/checks_specimen.cc
   scene/scene.cc
   scene/expect.cc
   scene/command_line.cc

@@ -1,0 +1,109 @@
+// Sections that one app each reads.
+#include "apps/scene/scene_check.h"
+
+#include <algorithm>
+
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+
+void SceneCheck::pair_test() const {
+  if (app_ != AppKind::bonds) return;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
+  if (scene_.effects.bond == BondKind::elasto_damage_plastic)
+    refuse("Effects/Bond",
+           "yields and softens: platen-bonds brings bonds to rest by swinging, which such a "
+           "bond would remember. Allowed: parallel bond, cohesive beam.");
+  if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
+    refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
+}
+
+void SceneCheck::calibrate() const {
+  if (app_ != AppKind::calibrate) return;
+  const Calibrate &c = scene_.calibrate;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
+  if (scene_.platens.top_control == PlatenControl::stress)
+    refuse("Platens/Top/Control", "is not for calibration: platens are moved. Allowed: motion.");
+  const auto ascending = [&](double low, double high, const std::string &path) {
+    if (low >= high)
+      refuse("Calibrate/Smallest " + path,
+             "is not below Calibrate/Largest " + path + ", " + shortest_text(high) + ".");
+  };
+  ascending(c.ratio_low, c.ratio_high, "stiffness ratio");
+  ascending(c.multiplier_low, c.multiplier_high, "radius multiplier");
+  ascending(c.strengths_low, c.strengths_high, "shear over tensile strength");
+  const bool beam = scene_.effects.bond == BondKind::cohesive_beam;
+  if (beam && !c.stiffness_ratios.empty())
+    refuse("Calibrate/Stiffness ratio list", "is for parallel bonds: a beam has the ratio of its section.");
+  if (!beam && !c.poisson_ratios.empty())
+    refuse("Calibrate/Poisson ratio list", "is for beams: Effects/Bond = parallel bond has none.");
+  if (c.mode != CalibrateMode::search) return;
+  const bool strengths = given(c.compressive_strength) || given(c.tensile_strength);
+  if (!strengths && !given(c.young_modulus) && !given(c.poisson_ratio))
+    refuse("Calibrate/Mode",
+           "has nothing to search for. Allowed: bounds, abacus, or a wanted Young modulus, Poisson ratio or "
+           "strength.");
+  if (!strengths) return;
+  need("Loading/Axial rate", scene_.loading.axial_rate, "the platens have to move.");
+  if (scene_.bond.tensile_strength == 0)
+    refuse("Bond/Tensile strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
+  if (scene_.bond.shear_strength == 0)
+    refuse("Bond/Shear strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
+  if (given(c.compressive_strength) && given(c.tensile_strength) &&
+      c.compressive_strength <= c.tensile_strength)
+    refuse("Calibrate/Tensile strength", "is not below Calibrate/Compressive strength = " +
+                                             parameters_.at("Calibrate/Compressive strength").text + ".");
+}
+
+void SceneCheck::bar_test() const {
+  if (app_ != AppKind::bar) return;
+  const BarTest &bar = scene_.bar_test;
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves a heap of grains, no bar. Allowed: parallel bond, cohesive beam.");
+  if (scene_.effects.gravity)
+    refuse("Effects/Gravity", "would load the bar before the test does. Allowed: off.");
+  const bool swings = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
+  const std::string damps = "would damp what is to swing freely. Allowed: 0, or Bar test/Method = static.";
+  if (swings && scene_.integration.damping > 0) refuse("Integration/Damping", damps);
+  if (swings && scene_.bond.damping > 0) refuse("Bond/Damping", damps);
+  if (bar.load == BarLoad::impact && bar.method == BarMethod::at_rest)
+    refuse("Bar test/Method", "leaves nothing of Bar test/Load = impact. Allowed: both, dynamic.");
+  const SpecimenSection &specimen = scene_.specimen;
+  if (given(specimen.sphere_radius) && given(specimen.height) &&
+      2 * (bar.end_depth + 2) * specimen.sphere_radius > specimen.height)
+    refuse("Bar test/End depth", "is too deep: the two ends leave no bar between them in Specimen/Height = " +
+                                     parameters_.at("Specimen/Height").text + ".");
+}
+
+// What a list of the study stands for must be there to be varied, and vary: each value once.
+void SceneCheck::study() const {
+  if (app_ != AppKind::study) return;
+  const Study &study = scene_.study;
+  const auto once = [&](const std::string &path, std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto twice = std::adjacent_find(values.begin(), values.end());
+    if (twice != values.end()) refuse(path, "holds " + shortest_text(*twice) + " twice. Allowed: each once.");
+  };
+  once("Study/Sphere radius list", study.sphere_radii);
+  once("Study/Radius multiplier list", study.radius_multipliers);
+  once("Study/Radius spread list", study.radius_spreads);
+  once("Study/Axial rate list", study.axial_rates);
+  for (const bool relative : {true, false}) {
+    std::vector<double> gaps;
+    for (const Gap &gap : study.gaps)
+      if (gap.relative == relative) gaps.push_back(gap.value);
+    once("Study/Gap list", gaps);
+  }
+  if (!study.domains.empty() && scene_.specimen.shape != SpecimenShape::cylinder)
+    refuse("Study/Domain list", "holds cylinders, but Specimen/Shape = " +
+                                    parameters_.at("Specimen/Shape").text + ". Allowed: Shape = cylinder.");
+  if (study.seeds > 1 && scene_.specimen.packing == PackingKind::file &&
+      scene_.bond.strength_scatter == StrengthScatter::none)
+    refuse("Study/Seeds",
+           "would repeat one run: with Specimen/Packing = file and Bond/Strength scatter = none nothing is "
+           "drawn. Allowed: 1.");
+}
+
+} // namespace platen::apps

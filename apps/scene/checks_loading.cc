@@ -1,0 +1,106 @@
+// Platens, and what is done with them.
+#include "apps/scene/scene_check.h"
+
+#include <algorithm>
+
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+
+void SceneCheck::friction(const std::string &name, const PlatenSide &side) const {
+  if (side.friction_dynamic <= side.friction_static) return;
+  const std::string own = "Platens/" + name + "/Friction dynamic", common = "Platens/Friction dynamic";
+  const std::string blamed = parameters_.at(own).changed() ? own : common;
+  refuse(blamed, "is above the static friction, " + shortest_text(side.friction_static) + ", of the " +
+                     (name == "Top" ? "top" : "bottom") + " platen. Allowed: 0 ... " +
+                     shortest_text(side.friction_static) + ".");
+}
+
+void SceneCheck::platens() const {
+  const Platens &platens = scene_.platens;
+  friction("Top", platens.top);
+  friction("Bottom", platens.bottom);
+  const bool tension = scene_.loading.test == LoadingTest::tension,
+             glued = platens.attachment == Attachment::glued;
+  if (loads() && tension && !glued)
+    refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
+  const bool stress = platens.top_control == PlatenControl::stress;
+  if (stress && platens.top_stress == 0) refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
+  if (stress && scene_.loading.ramp == 0)
+    refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
+  if (stress && tension)
+    refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
+}
+
+void SceneCheck::loading() const {
+  const Loading &loading = scene_.loading;
+  if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic())
+    need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
+  if (loading.confining_pressure > 0 && loading.confinement == ConfinementKind::none)
+    refuse("Loading/Confining pressure", "needs Loading/Confinement other than none.");
+  for (const char *key : {"Sleeve/Thickness", "Sleeve/Modulus", "Sleeve/Poisson ratio"})
+    if (parameters_.at(key).changed() && loading.confinement != ConfinementKind::sleeve)
+      refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
+}
+
+void SceneCheck::splitting() const {
+  if (app_ != AppKind::brazilian) return;
+  if (scene_.loading.test != LoadingTest::compression)
+    refuse("Loading/Test", "does not go with platen-brazilian. Allowed: compression.");
+  if (scene_.loading.confinement != ConfinementKind::none)
+    refuse("Loading/Confinement", "does not go with platen-brazilian. Allowed: none.");
+}
+
+// What of it the packed shape decides, a file's too, is left to the problem.
+void SceneCheck::bending() const {
+  if (!loads() || !scene_.loading.bending()) return;
+  const Platens &platens = scene_.platens;
+  const SpecimenSection &specimen = scene_.specimen;
+  const std::string with = "does not go with Loading/Test = three point bending. Allowed: ";
+  if (app_ != AppKind::compress && app_ != AppKind::study)
+    refuse("Loading/Test", "bends bars: for platen-compress.");
+  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.round();
+  if (round && specimen.packing != PackingKind::file)
+    refuse("Specimen/Shape", with + "box, rectangular bar.");
+  if (specimen.ends != EndsKind::ground) refuse("Specimen/Ends", with + "ground.");
+  need("Platens/Span", platens.span, "a bar needs its supports.");
+  if (platens.strip_width == 0)
+    refuse("Platens/Strip width", "is not set: a bar is bent by strips. Allowed: > 0 m.");
+  if (platens.attachment == Attachment::glued) refuse("Platens/Attachment", with + "contact.");
+  if (platens.top_control == PlatenControl::stress) refuse("Platens/Top/Control", with + "motion.");
+  if (scene_.loading.confinement != ConfinementKind::none) refuse("Loading/Confinement", with + "none.");
+  if (scene_.effects.bond == BondKind::none)
+    refuse("Effects/Bond", "leaves a heap of grains, no bar to bend. Allowed: any other.");
+}
+
+void SceneCheck::cycles() const {
+  const Loading &loading = scene_.loading;
+  if (loading.unload_at.empty()) return;
+  if (!std::is_sorted(loading.unload_at.begin(), loading.unload_at.end()))
+    refuse("Loading/Unload at", "does not ascend.");
+  if (loading.unload_at.back() >= loading.target_strain)
+    refuse("Loading/Unload at",
+           "goes beyond Loading/Target strain = " + parameters_.at("Loading/Target strain").text + ".");
+  if (loading.hydrostatic() || scene_.platens.top_control == PlatenControl::stress)
+    refuse("Loading/Unload at", "needs platens that are driven by motion.");
+}
+
+void SceneCheck::cell() const {
+  const Loading &loading = scene_.loading;
+  if (loading.walled() && loading.confinement != ConfinementKind::none)
+    refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
+  if (loading.hydrostatic() && !loading.cell())
+    refuse("Loading/Test", "needs Loading/Confinement = particles: the lateral surface is pressed too.");
+  if (!loading.cell()) return;
+  if (loads() && !(loading.confining_pressure > 0))
+    refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
+  if (loads() && scene_.effects.bond == BondKind::none)
+    refuse("Loading/Confinement",
+           "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
+  if (scene_.platens.top_control == PlatenControl::stress)
+    refuse("Platens/Top/Control",
+           "does not go with Loading/Confinement = particles: the pressure holds the "
+           "platen at first, then it moves. Allowed: motion.");
+}
+
+} // namespace platen::apps

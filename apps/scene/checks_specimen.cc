@@ -1,0 +1,99 @@
+// Specimen and effects.
+#include "apps/scene/scene_check.h"
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+
+void SceneCheck::cross_section() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  const bool width = given(specimen.width_x) || given(specimen.width_y);
+  const bool disc = specimen.shape == SpecimenShape::disc;
+  if (disc && app_ != AppKind::brazilian && app_ != AppKind::pack)
+    refuse("Specimen/Shape", "lies on its rim, for platen-brazilian. Allowed: cylinder, box, bar.");
+  if (app_ == AppKind::brazilian && !disc && specimen.shape != SpecimenShape::cylinder)
+    refuse("Specimen/Shape", "cannot be laid on its rim. Allowed: disc, cylinder.");
+  const std::string which = given(specimen.width_x) ? "Specimen/Width x" : "Specimen/Width y";
+  if ((disc || specimen.shape == SpecimenShape::cylinder) && width)
+    refuse(which, "contradicts Specimen/Shape = " + parameters_.at("Specimen/Shape").text + ".");
+  if (specimen.shape == SpecimenShape::box && specimen.round())
+    refuse("Specimen/Radius", "contradicts Specimen/Shape = box. Allowed: Width x and Width y.");
+  if (specimen.shape == SpecimenShape::bar && specimen.round() && width)
+    refuse(which, "contradicts Specimen/Radius: a bar is round or rectangular. Allowed: one of them.");
+}
+
+void SceneCheck::spheres_fit() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  const bool uniform = specimen.radius_distribution == RadiusDistribution::uniform;
+  const double largest = specimen.sphere_radius * (1 + (uniform ? 0.5 * specimen.radius_spread : 0));
+  const auto check = [&](double extent, const std::string &path) {
+    if (2 * largest > extent)
+      refuse("Specimen/Sphere radius", "is too large: spheres of up to " + shortest_text(2 * largest) +
+                                           " m across do not fit into " + path + " = " +
+                                           parameters_.at(path).text + ".");
+  };
+  if (specimen.round()) check(2 * specimen.radius, "Specimen/Radius");
+  if (given(specimen.width_x)) check(specimen.width_x, "Specimen/Width x");
+  if (given(specimen.width_y)) check(specimen.width_y, "Specimen/Width y");
+  if (given(specimen.height)) check(specimen.height, "Specimen/Height");
+}
+
+void SceneCheck::specimen() const {
+  const SpecimenSection &specimen = scene_.specimen;
+  if (app_ == AppKind::bonds)
+    need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
+  if (app_ == AppKind::bonds && scene_.material.density_of == DensityOf::solid)
+    refuse("Material/Density of",
+           "needs a packed specimen, of which platen-bonds has none. Allowed: grains.");
+  if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusDistribution::uniform)
+    refuse("Specimen/Radius spread", "needs Specimen/Radius distribution = uniform.");
+  if (specimen.seat && specimen.ends != EndsKind::ground)
+    refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
+  if (specimen.seat && !scene_.effects.rotation)
+    refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
+  if (!packs()) return;
+  cross_section();
+  if (specimen.packing == PackingKind::file) {
+    readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");
+  } else {
+    const std::string why = "the specimen is to be packed.";
+    const bool rectangular =
+        specimen.shape == SpecimenShape::box ||
+        (specimen.shape == SpecimenShape::bar && !specimen.round() && given(specimen.width_x));
+    if (rectangular || given(specimen.width_y)) {
+      need("Specimen/Width x", specimen.width_x, why);
+      need("Specimen/Width y", specimen.width_y, why);
+    } else {
+      need("Specimen/Radius", specimen.radius, why);
+    }
+    need("Specimen/Height", specimen.height, why);
+    need("Specimen/Sphere radius", specimen.sphere_radius, why);
+  }
+  if (!given(specimen.sphere_radius)) return;
+  spheres_fit();
+  const bool rim = app_ == AppKind::brazilian;
+  const double extent = rim ? 2 * specimen.radius : specimen.height;
+  if (specimen.ends == EndsKind::ground && given(extent) &&
+      2 * specimen.end_layer * specimen.sphere_radius > extent)
+    refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/" +
+                                     std::string(rim ? "Radius" : "Height") + " = " +
+                                     parameters_.at(rim ? "Specimen/Radius" : "Specimen/Height").text + ".");
+}
+
+void SceneCheck::effects() const {
+  const Effects &effects = scene_.effects;
+  const bool rolling = effects.tangential == TangentialKind::coulomb_with_rolling_resistance;
+  if (rolling && !effects.rotation) refuse("Effects/Tangential", "needs Effects/Rotation = on.");
+  if (rolling && effects.contact == ContactKind::none)
+    refuse("Effects/Tangential", "needs a contact to roll on. Allowed: Effects/Contact = linear, hertz.");
+  if (effects.bond == BondKind::cohesive_beam) {
+    const std::string instead = "beams bend and twist. Allowed: on, or Effects/Bond = parallel bond.";
+    if (!effects.rotation)
+      refuse("Effects/Rotation", "does not go with Effects/Bond = cohesive beam: " + instead);
+    if (!effects.bond_moments)
+      refuse("Effects/Bond moments", "does not go with Effects/Bond = cohesive beam: " + instead);
+  }
+  if (effects.bond == BondKind::none && effects.contact == ContactKind::none && app_ != AppKind::pack)
+    refuse("Effects/Contact", "leaves nothing that acts between grains, because Effects/Bond = none too.");
+}
+
+} // namespace platen::apps

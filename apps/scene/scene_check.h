@@ -1,0 +1,69 @@
+// The checks of a scene, section by section; each throws InputError for the first contradiction.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/scene.h"
+
+namespace platen::apps {
+
+inline bool given(double value) {
+  return !std::isnan(value);
+}
+
+class SceneCheck {
+public:
+  SceneCheck(Scene &scene, const Parameters &parameters, AppKind app)
+      : scene_(scene), parameters_(parameters), app_(app) {}
+
+  void specimen() const;
+  void effects() const;
+  void bond() const;
+  void compression() const;
+  void phases() const;
+  void contact() const;
+  void platens() const;
+  void loading() const;
+  void splitting() const;
+  void bending() const;
+  void cycles() const;
+  void cell() const;
+  void pair_test() const;
+  void calibrate() const;
+  void bar_test() const;
+  void study() const;
+  void notes();
+
+private:
+  bool packs() const { return app_ != AppKind::bonds && app_ != AppKind::report; }
+  bool loads() const {
+    return app_ == AppKind::compress || app_ == AppKind::brazilian || app_ == AppKind::calibrate ||
+           app_ == AppKind::study;
+  }
+  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
+    parameters_.refuse(path, reason);
+  }
+  void need(const std::string &path, double value, const std::string &why) const {
+    if (!given(value)) refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
+  }
+  void readable(const std::string &path, const std::string &file, const std::string &why) const;
+  void cross_section() const;
+  void spheres_fit() const;
+  void friction(const std::string &name, const PlatenSide &side) const;
+  void note(const std::string &path, const std::string &why);
+  void specimen_notes();
+  void bond_notes();
+  void phases_notes();
+  void strength_notes();
+  void contact_notes();
+  void loading_notes();
+  void bar_notes();
+
+  Scene &scene_;
+  const Parameters &parameters_;
+  AppKind app_;
+};
+
+} // namespace platen::apps
