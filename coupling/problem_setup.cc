@@ -1,0 +1,167 @@
+// A problem at its start: platens against the specimen, layers, ramps and what holds the lateral surface.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/bending.h"
+#include "coupling/problem.h"
+#include "coupling/text_of.h"
+#include "dem/measure/moduli.h"
+#include "fem/grids.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+// Margin of the platens' particle lists, in mean radii.
+constexpr double surface_skin = 0.3;
+// Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
+// hard specimen.
+constexpr double servo_gain = 5;
+// A bar is loaded within this many of its own periods where nothing else is said.
+constexpr double swings_of_ramp = 2;
+
+// As packed, a platen meets the outermost sphere; ground, it lies in the end plane.
+double platen_plane(const dem::Specimen &s, bool top, Ends ends) {
+  if (ends == Ends::ground) return top ? s.shape.height : 0.0;
+  double z = top ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.size(); ++i)
+    z = top ? std::max(z, s.centre[i].z + s.radius[i]) : std::min(z, s.centre[i].z - s.radius[i]);
+  return z;
+}
+
+void require_bar(const dem::Shape &shape, const ProblemSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (settings.ends != Ends::ground)
+    throw BadSetup("Specimen/Ends", "would let a bar rock on its outermost spheres. Allowed: ground.");
+  if (shape.kind != dem::ShapeKind::box)
+    throw BadSetup("Loading/Test", "bends bars of rectangular section. Allowed: Specimen/Shape = box, bar.");
+  if (!(p.strip_width > 0))
+    throw BadSetup("Platens/Strip width", "has to be given: a bar is bent by strips. Allowed: > 0 m.");
+  if (!(p.span > p.strip_width))
+    throw BadSetup("Platens/Span",
+                   "leaves no gap between the lower strips. Allowed: above Platens/Strip "
+                   "width, " +
+                       text_of(p.strip_width) + " m.");
+  if (p.span + p.strip_width > shape.width_x)
+    throw BadSetup("Platens/Span", "is too long for a bar of " + text_of(shape.width_x) +
+                                       " m: the lower strips have to lie under it. Allowed: up to " +
+                                       text_of(shape.width_x - p.strip_width) + " m.");
+}
+
+Strips bending_strips(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const PlatenSettings &p = settings.platens;
+  require_bar(s.shape, settings);
+  Strips strips;
+  strips.middles = top ? std::vector<double>{0} : std::vector<double>{-0.5 * p.span, 0.5 * p.span};
+  strips.width = p.strip_width;
+  strips.length = p.overhang * s.shape.width_y;
+  strips.z_low =
+      top ? platen_plane(s, true, settings.ends) : platen_plane(s, false, settings.ends) - p.thickness;
+  strips.thickness = p.thickness;
+  strips.elements_across = p.elements_across;
+  strips.presses_from_above = top;
+  return strips;
+}
+
+fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const PlatenSettings &p = settings.platens;
+  const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  if (p.span > 0) return make_grid(bending_strips(s, settings, top));
+  if (s.shape.kind == dem::ShapeKind::cylinder)
+    return fem::make_grid(
+        fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2});
+  const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
+  const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
+               y = 0.5 * p.overhang * s.shape.width_y;
+  return fem::make_grid(
+      fem::BoxPlate{{-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}});
+}
+
+// Without bonds the stiffness that a bond would have still measures the grains; N/m.
+double mean_bond_stiffness(const dem::Model &model) {
+  double sum = 0;
+  if (model.bonds && model.bonds->size() > 0) {
+    const dem::Bonds &b = *model.bonds;
+    for (std::size_t k = 0; k < b.size(); ++k)
+      sum += pi * b.bond_radius[k] * b.bond_radius[k] * b.normal_stiffness[k];
+    return sum / static_cast<double>(b.size());
+  }
+  for (const double r : model.particles.radius)
+    sum += model.settings().bond_layout.axial_stiffness(r, r);
+  return sum / static_cast<double>(std::max<std::size_t>(model.particles.size(), 1));
+}
+
+double platen_stiffness(const dem::Model &model, const ProblemSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (p.stiffness_absolute > 0) return p.stiffness_absolute;
+  return p.stiffness_of_bond * mean_bond_stiffness(model);
+}
+
+SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
+                              const ProblemSettings &settings, const PlatenSide &side) {
+  const PlatenSettings &p = settings.platens;
+  SurfaceContact c;
+  c.particle_stiffness = platen_stiffness(model, settings);
+  c.tangential_ratio = p.tangential_ratio;
+  c.friction_static = side.friction_static;
+  c.friction_dynamic = side.friction_dynamic;
+  c.damping = p.damping;
+  c.attachment = p.glued ? Attachment::glued : Attachment::free;
+  c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;
+  c.skin = surface_skin * dem::mean_radius(s);
+  return c;
+}
+
+} // namespace
+
+Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
+    : model(specimen, settings.model),
+      top(platen_grid(specimen, settings, true), settings.platens.material),
+      bottom(platen_grid(specimen, settings, false), settings.platens.material),
+      top_layer(model.particles, top, layer_settings(model, specimen, settings, settings.platens.top)),
+      bottom_layer(model.particles, bottom,
+                   layer_settings(model, specimen, settings, settings.platens.bottom)),
+      settings_(settings),
+      shape_(specimen.shape),
+      bottom_plane_(platen_plane(specimen, false, settings.ends)),
+      top_plane_(platen_plane(specimen, true, settings.ends)) {
+  double solid = 0;
+  for (const double r : specimen.radius)
+    solid += 4.0 / 3.0 * pi * r * r * r;
+  packing_fraction_ = solid / shape_.volume();
+  if (settings.ends == Ends::ground || settings.platens.glued) {
+    const double depth = settings.end_layer * dem::mean_radius(specimen);
+    const int seats = std::min(top_layer.seat_within(model.particles, top, depth, bent()),
+                               bottom_layer.seat_within(model.particles, bottom, depth, bent()));
+    if (seats == 0)
+      throw BadSetup("Specimen/End layer",
+                     "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen that reaches "
+                     "its end planes.");
+  }
+  for (const bool above : {true, false})
+    if (bent() && !each_meets_a_sphere(bending_strips(specimen, settings, above), specimen,
+                                       settings.end_layer * dem::mean_radius(specimen)))
+      throw BadSetup(
+          "Platens/Strip width",
+          "leaves a strip without a sphere. Allowed: wider strips, or a deeper Specimen/End layer.");
+  voigt_modulus_ = model.bonds ? dem::network_moduli(*model.bonds, shape_.volume()).young_voigt : 0.0;
+  grain_density_ = dem::grain_density(specimen, settings.model.density, settings.model.density_of);
+  const double density = grain_density_ * settings.model.mass_scaling * packing_fraction_;
+  wave_crossing_ = voigt_modulus_ > 0 ? shape_.height * std::sqrt(density / voigt_modulus_) : 0.0;
+  ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp
+          : bent()                  ? swings_of_ramp * swing()
+                                    : 10 * wave_crossing_;
+  if (settings.loading.servo)
+    servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
+  if (settings.loading.cell) start_cell(*settings.loading.cell);
+  if (settings.loading.wall_stiffness > 0)
+    wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,
+                                               settings.loading.wall_stiffness * mean_bond_stiffness(model),
+                                               settings.loading.wall_layer * dem::mean_radius(specimen));
+  // Pairs that are about to touch count in the first step too.
+  if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
+  choose_step(true);
+}
+
+} // namespace platen::coupling

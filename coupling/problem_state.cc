@@ -1,0 +1,76 @@
+// What a checkpoint keeps of a problem.
+#include <stdexcept>
+
+#include "coupling/problem.h"
+
+namespace platen::coupling {
+
+std::vector<double> Problem::numbers() const {
+  std::vector<double> all{servo_ ? servo_->state()[0] : 0.0,
+                          model.time,
+                          time_step_,
+                          static_cast<double>(steps_),
+                          static_cast<double>(near_at_choice_),
+                          boundary_work_,
+                          reaction_top_,
+                          reaction_bottom_,
+                          model.works.damping,
+                          model.works.fracture,
+                          model.works.weight,
+                          static_cast<double>(model.broken_tension),
+                          static_cast<double>(model.broken_shear),
+                          model.contacts ? model.contacts->friction_work : 0.0,
+                          model.contacts ? model.contacts->damping_work : 0.0,
+                          top_layer.friction_work,
+                          top_layer.damping_work,
+                          bottom_layer.friction_work,
+                          bottom_layer.damping_work,
+                          static_cast<double>(top_layer.closed),
+                          static_cast<double>(bottom_layer.closed)};
+  if (!settings_.loading.unload_at.empty())
+    all.insert(all.end(), {cycle_.direction, cycle_.speed, cycle_.turns, cycle_.strain, cycle_.stress});
+  if (confinement_) {
+    all.push_back(cell_end_);
+    const std::vector<double> more = confinement_->numbers();
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+void Problem::set_numbers(const std::vector<double> &n) {
+  if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
+  if (confinement_) {
+    const auto own = static_cast<std::ptrdiff_t>(confinement_->numbers().size());
+    cell_end_ = *(n.end() - own - 1);
+    confinement_->set_numbers({n.end() - own, n.end()});
+  }
+  if (!settings_.loading.unload_at.empty()) cycle_ = {n[21], n[22], n[23], n[24], n[25]};
+  if (servo_) servo_->set_state({n[0]});
+  model.time = n[1];
+  time_step_ = n[2];
+  steps_ = static_cast<long>(n[3]);
+  near_at_choice_ = static_cast<std::size_t>(n[4]);
+  boundary_work_ = n[5];
+  reaction_top_ = n[6];
+  reaction_bottom_ = n[7];
+  model.works = {n[8], n[9], n[10]};
+  model.broken_tension = static_cast<long>(n[11]);
+  model.broken_shear = static_cast<long>(n[12]);
+  if (model.contacts) model.contacts->friction_work = n[13], model.contacts->damping_work = n[14];
+  top_layer.friction_work = n[15];
+  top_layer.damping_work = n[16];
+  bottom_layer.friction_work = n[17];
+  bottom_layer.damping_work = n[18];
+  top_layer.closed = static_cast<std::size_t>(n[19]);
+  bottom_layer.closed = static_cast<std::size_t>(n[20]);
+}
+
+void Problem::restored() {
+  top_layer.restored();
+  bottom_layer.restored();
+  if (wall_) wall_->forget();
+  if (model.bonds) model.bonds->restored();
+  if (model.contacts) model.contacts->restored();
+}
+
+} // namespace platen::coupling
