@@ -1,5 +1,8 @@
 set(PLATEN_RUN_SOURCES
   run/compression.cc
+  run/compression_files.cc
+  run/compression_schedule.cc
+  run/compression_setup.cc
   run/estimate.cc
   run/expectations.cc
   run/fields.cc

@@ -1,0 +1,82 @@
+// One test between platens: its set-up, its schedule, its files.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/io/csv_writer.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/progress.h"
+#include "apps/io/run_log.h"
+#include "apps/run/fields.h"
+#include "apps/run/history.h"
+#include "apps/run/results.h"
+#include "apps/run/summary_of_run.h"
+#include "apps/scene/command_line.h"
+#include "apps/scene/scene.h"
+#include "coupling/problem.h"
+#include "dem/parallel.h"
+
+namespace platen::apps {
+
+using Clock = std::chrono::steady_clock;
+
+// Rows of history.csv and frames for ParaView over the way to the target strain, where the scene leaves it
+// open.
+constexpr double automatic_rows = 600, automatic_frames = 24;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// How the platens meet the specimen: at the ends of its axis, or across it, at its rim.
+enum class Pressed { along_axis, across_axis };
+
+class CompressionRun {
+public:
+  // Checks the output folder and, but for a dry run, begins it. Throws InputError where the scene cannot be
+  // run.
+  CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed);
+  int run(); // the exit status; throws NumericsError
+
+private:
+  std::string description() const;
+  double every(const Interval &interval, double automatic) const;
+  bool due(const Interval &interval, double automatic) const;
+  double steps_until_due(const Interval &interval, double automatic) const;
+  long steps_unobserved() const;
+  void open_files();
+  void loop();
+  void sample();
+  void write_cracks();
+  void checkpoint();
+  bool checkpoint_due() const;
+  ProgressSample where() const;
+  bool finished() const;
+  bool by_time() const; // the run ends after a time (hydrostatic: or a little later), not at a strain
+  double end_time() const;
+  void write_bond_stress() const;
+  void save_summary(const std::string &status);
+  RunCosts costs() const;
+
+  const CommandLine &command_;
+  const Scene &scene_;
+  Clock::time_point start_ = Clock::now(), last_checkpoint_ = Clock::now(), loop_start_ = Clock::now();
+  OutputPaths paths_;
+  RunLog log_;
+  dem::ThreadLimit threads_;
+  std::unique_ptr<coupling::Problem> problem_;
+  std::unique_ptr<Sampler> sampler_;
+  Results results_;
+  std::optional<CsvWriter> history_, cracks_;
+  std::optional<FieldSeries> fields_;
+  double setup_seconds_ = 0, earlier_seconds_ = 0;
+  double expected_steps_ = 1;
+  long first_step_ = 0;
+  int signal_ = 0;
+  ExtraColumns columns_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,121 @@
+// A test as it begins: the specimen laid as the app presses it, its problem, its folder; anew or resumed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "apps/io/file.h"
+#include "apps/io/specimen_csv.h"
+#include "apps/io/stop_signal.h"
+#include "apps/run/compression_run.h"
+#include "apps/run/problem_setup.h"
+#include "apps/run/specimen_setup.h"
+#include "apps/scene/errors.h"
+#include "apps/scene/parameters.h"
+#include "apps/scene/version.h"
+#include "fem/threads.h"
+
+namespace platen::apps {
+namespace {
+
+std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
+  std::ostringstream text;
+  write_scene(scene, folder.string(), text);
+  return text.str();
+}
+
+std::string file_text(const std::filesystem::path &path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A resumed run must be the same scene; the first line that differs is named.
+void require_same_scene(const Scene &scene, const OutputPaths &paths) {
+  std::istringstream before(file_text(paths.scene())), now(scene_text(scene, paths.folder));
+  std::string a, b;
+  while (true) {
+    const bool more_before = static_cast<bool>(std::getline(before, a)),
+               more = static_cast<bool>(std::getline(now, b));
+    if (!more_before && !more) return;
+    if (!more_before) a.clear();
+    if (!more) b.clear();
+    if (a != b)
+      throw InputError(
+          fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
+                      "start it anew in another folder, or resume with the scene as it was",
+                      paths.scene().string(), a, b));
+  }
+}
+
+// The specimen as the app presses it.
+dem::Specimen placed(const Scene &scene, Pressed pressed) {
+  const dem::Specimen made = make_specimen(scene);
+  const auto refuse = [&](const std::string &reason) {
+    if (scene.parameters) scene.parameters->refuse("Specimen/File", reason);
+    throw InputError("Specimen/File " + reason);
+  };
+  if (pressed == Pressed::across_axis) {
+    if (made.shape.kind == dem::ShapeKind::box)
+      refuse("states a box, which cannot be laid on its rim. Allowed: a cylinder, a disc.");
+    return dem::laid_down(made);
+  }
+  if (scene.loading.bending() && scene.specimen.shape == SpecimenShape::bar) return dem::laid_along_x(made);
+  if (made.shape.kind == dem::ShapeKind::disc)
+    refuse("states a disc that lies on its rim, for platen-brazilian. Allowed: a cylinder, a box.");
+  return made;
+}
+
+Loudness loudness(const CommandLine &c) {
+  return c.quiet ? Loudness::quiet : (c.verbose ? Loudness::verbose : Loudness::normal);
+}
+
+} // namespace
+
+CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
+    : command_(command),
+      scene_(scene),
+      paths_(command.output),
+      log_(loudness(command)),
+      threads_(command.threads),
+      results_(scene.loading.test == LoadingTest::tension),
+      columns_{scene.loading.cell(), pressed == Pressed::across_axis, scene.loading.bending()} {
+  fem::limit_threads(command.threads);
+  const FolderUse use =
+      command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
+  std::vector<std::filesystem::path> inputs{command.scene};
+  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
+  if (!scene.phases.file.empty()) inputs.emplace_back(scene.phases.file);
+  if (!command.dry_run) check_output_folder(paths_.folder, use, inputs);
+  if (command.resume && !command.dry_run) require_same_scene(scene, paths_);
+  // A resumed run takes the packing that the first part wrote, to the last bit.
+  const dem::Specimen specimen = command.resume && !command.dry_run
+                                     ? read_specimen_csv(paths_.specimen_csv()).specimen
+                                     : placed(scene, pressed);
+  try {
+    problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
+    sampler_ = std::make_unique<Sampler>(*problem_);
+  } catch (const coupling::BadSetup &e) {
+    if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
+    throw InputError(e.entry() + " " + e.what());
+  }
+  const double seconds =
+      by_time()
+          ? end_time()
+          : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
+                scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
+  expected_steps_ = std::max(1.0, seconds / problem_->time_step());
+  setup_seconds_ = seconds_since(start_);
+  if (command.dry_run) return;
+  catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
+  open_output_folder(paths_.folder, use, inputs);
+  log_.open(paths_.log(), command.resume, {version_text(), command.text, costs().threads});
+  if (!command.resume) {
+    write_text_aside(paths_.scene(), scene_text(scene, paths_.folder));
+    write_specimen_csv(paths_.specimen_csv(), specimen);
+  }
+}
+
+} // namespace platen::apps
