@@ -1,4 +1,5 @@
 set(PLATEN_RUN_SOURCES
+  run/at_peak.cc
   run/compression.cc
   run/compression_files.cc
   run/compression_schedule.cc
@@ -10,6 +11,7 @@ set(PLATEN_RUN_SOURCES
   run/model_setup.cc
   run/pack.cc
   run/problem_setup.cc
+  run/report_of_run.cc
   run/results.cc
   run/run_state.cc
   run/specimen_setup.cc

@@ -1,11 +1,7 @@
 #include "apps/run/summary_of_run.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
 #include "apps/io/machine.h"
+#include "apps/run/at_peak.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/version.h"
 #include "dem/measure/bending.h"
@@ -30,11 +26,6 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   to[start + "end_damage_bottom"] = p.end_bottom;
   to[start + "middle_damage"] = p.middle;
   to[start + "end_spread"] = p.end_spread;
-}
-
-// Speed of a slow test: how often a wave crosses the specimen until the peak.
-double crossings_to_peak(const coupling::Problem &problem, const Results &results) {
-  return problem.wave_crossing() > 0 ? results.time_at_peak() / problem.wave_crossing() : not_measured;
 }
 
 const char *word_of(LoadingTest test) {
@@ -93,24 +84,6 @@ void add_disc(Json &to, const coupling::Problem &problem, const Results &results
   to["cracks_on_loaded_diameter"] = p.on_diameter;
   to["cracks_in_middle_of_diameter"] = p.in_middle;
   to["first_cracks_in_middle_of_diameter"] = p.first_in_middle;
-}
-
-// Poisson's ratio of the share of shear in a deflection, which a bent bar does not tell: between 0.1 and 0.3
-// the share changes by a sixth.
-constexpr double assumed_poisson_ratio = 0.2;
-
-double flexural_modulus(const coupling::Problem &problem, const Results &results) {
-  const dem::ThreePoints bar = problem.three_points();
-  return results.stress_per_deflection() * bar.deflection(1, 1, assumed_poisson_ratio);
-}
-
-double moment_over_nominal(const coupling::Problem &problem, const Results &results) {
-  const double load = results.strength() * problem.nominal_area();
-  return results.midspan_moment_at_peak() / (0.25 * load * problem.three_points().span);
-}
-
-double swings_to_peak(const coupling::Problem &problem, const Results &results) {
-  return problem.swing() > 0 ? results.time_at_peak() / problem.swing() : not_measured;
 }
 
 // Of a bent bar: stresses are 3 P L / (2 b d^2); what is true of the moduli is in the deflection.
@@ -199,110 +172,6 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["cone_top"] = nullptr; // not measured by this app yet
   s["cone_bottom"] = nullptr;
   return s;
-}
-
-namespace {
-
-// Lines for the screen, of what has been measured.
-class Report {
-public:
-  template <class... Numbers>
-  void line(const char *what, const char *format, Numbers... numbers) {
-    if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
-    text_ += fmt::format("  {:<36}{}\n", what, fmt::format(fmt::runtime(format), numbers...));
-  }
-  const std::string &text() const { return text_; }
-
-private:
-  std::string text_;
-};
-
-void report_strength(Report &report, const Scene &scene, const coupling::Problem &problem,
-                     const Results &results) {
-  const bool disc = problem.shape().kind == dem::ShapeKind::disc,
-             tension = scene.loading.test == LoadingTest::tension;
-  if (disc || problem.bent())
-    report.line("load at failure", "{:.2f} kN", results.strength() * problem.nominal_area() / 1e3);
-  report.line(disc             ? "splitting strength, 2P/(pi D t)"
-              : problem.bent() ? "flexural strength, 3PL/(2bd^2)"
-              : tension        ? "tensile strength"
-                               : "compressive strength",
-              "{:.2f} MPa", results.strength() / 1e6);
-  if (problem.confinement() != nullptr) {
-    report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
-    report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
-  }
-}
-
-void report_stiffness(Report &report, const coupling::Problem &problem, const Results &results) {
-  if (problem.bent()) {
-    report.line("deflection at peak", "{:.2f} um", 1e6 * results.deflection_at_peak());
-    report.line("flexural modulus", "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
-                flexural_modulus(problem, results) / 1e9,
-                problem.three_points().shear_share(assumed_poisson_ratio));
-    report.line("moment at mid-span over PL/4", "{:.3f}", moment_over_nominal(problem, results));
-    return;
-  }
-  report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),
-              results.strain_at_peak_gauge());
-  if (problem.shape().kind == dem::ShapeKind::disc) return;
-  const bool walled = problem.wall() != nullptr;
-  report.line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
-              "{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
-              results.youngs_modulus_platen() / 1e9);
-  if (walled)
-    report.line("lateral over axial stress", "{:.3f}", results.lateral_over_axial());
-  else
-    report.line("Poisson's ratio", "{:.3f}", results.poisson_ratio());
-}
-
-void report_damage(Report &report, const Scene &scene, const coupling::Problem &problem,
-                   const Results &results) {
-  const dem::Model &model = problem.model;
-  report.line("broken bonds (tension, shear)", "{}, {} of {}",
-              model.broken(dem::BondState::broken_in_tension), model.broken(dem::BondState::broken_in_shear),
-              model.bonds ? model.bonds->initial_count() : 0);
-  if (problem.bent()) {
-    report.line("cracks within d/2 of mid-span", "{:.2f}",
-                dem::broken_near_midspan(model.particles, *model.bonds, problem.shape().height));
-    return;
-  }
-  if (problem.shape().kind == dem::ShapeKind::disc) {
-    if (!model.bonds) return;
-    const dem::SplitPattern s = dem::split_pattern(model.particles, *model.bonds, problem.shape());
-    report.line("cracks on the loaded diameter", "{:.2f}, of the first twenty in its middle half {:.2f}",
-                s.on_diameter, s.first_in_middle);
-    return;
-  }
-  const Pattern &p = results.pattern();
-  if (std::isnan(p.strain) || scene.loading.test == LoadingTest::tension) return;
-  report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top,
-              p.end_bottom, p.middle);
-  report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak());
-}
-
-} // namespace
-
-std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
-                          const RunCosts &costs) {
-  Report report;
-  report_strength(report, scene, problem, results);
-  report_stiffness(report, problem, results);
-  report_damage(report, scene, problem, results);
-  report.line("energy residual over work", "{:.2e}", results.energy_residual_relative());
-  report.line("kinetic over internal, to peak", "{:.2e}", results.kinetic_to_internal_max());
-  const double crossings = crossings_to_peak(problem, results);
-  if (problem.bent())
-    report.line("swings of the bar to the peak", "{:.1f}", swings_to_peak(problem, results));
-  else
-    report.line("wave crossings to the peak", crossings < 100 ? "{:.0f} (fast: 120 are advised)" : "{:.0f}",
-                crossings);
-  report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
-              problem.model.bonds && costs.step_seconds > 0
-                  ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *
-                        static_cast<double>(costs.steps_here) / costs.step_seconds
-                  : 0.0);
-  return report.text();
 }
 
 } // namespace platen::apps

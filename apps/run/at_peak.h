@@ -1,0 +1,21 @@
+// Numbers that the summary and the report of a test take from the state at its peak; NaN where not measured.
+#pragma once
+
+#include "apps/run/results.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+// Poisson's ratio of the share of shear in a deflection, which a bent bar does not tell: between 0.1 and 0.3
+// the share changes by a sixth.
+constexpr double assumed_poisson_ratio = 0.2;
+
+// Speed of a slow test: how often a wave crosses the specimen until the peak.
+double crossings_to_peak(const coupling::Problem &problem, const Results &results);
+
+// Of a bent bar: Pa; the moment at mid-span over P L / 4; how often it could have swung until the peak.
+double flexural_modulus(const coupling::Problem &problem, const Results &results);
+double moment_over_nominal(const coupling::Problem &problem, const Results &results);
+double swings_to_peak(const coupling::Problem &problem, const Results &results);
+
+} // namespace platen::apps

@@ -1,0 +1,116 @@
+// The lines for the screen at the end of a test.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/run/at_peak.h"
+#include "apps/run/summary_of_run.h"
+#include "dem/measure/bending.h"
+#include "dem/measure/split.h"
+
+namespace platen::apps {
+namespace {
+
+// Lines for the screen, of what has been measured.
+class Report {
+public:
+  template <class... Numbers>
+  void line(const char *what, const char *format, Numbers... numbers) {
+    if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
+    text_ += fmt::format("  {:<36}{}\n", what, fmt::format(fmt::runtime(format), numbers...));
+  }
+  const std::string &text() const { return text_; }
+
+private:
+  std::string text_;
+};
+
+void report_strength(Report &report, const Scene &scene, const coupling::Problem &problem,
+                     const Results &results) {
+  const bool disc = problem.shape().kind == dem::ShapeKind::disc,
+             tension = scene.loading.test == LoadingTest::tension;
+  if (disc || problem.bent())
+    report.line("load at failure", "{:.2f} kN", results.strength() * problem.nominal_area() / 1e3);
+  report.line(disc             ? "splitting strength, 2P/(pi D t)"
+              : problem.bent() ? "flexural strength, 3PL/(2bd^2)"
+              : tension        ? "tensile strength"
+                               : "compressive strength",
+              "{:.2f} MPa", results.strength() / 1e6);
+  if (problem.confinement() != nullptr) {
+    report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
+    report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
+  }
+}
+
+void report_stiffness(Report &report, const coupling::Problem &problem, const Results &results) {
+  if (problem.bent()) {
+    report.line("deflection at peak", "{:.2f} um", 1e6 * results.deflection_at_peak());
+    report.line("flexural modulus", "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
+                flexural_modulus(problem, results) / 1e9,
+                problem.three_points().shear_share(assumed_poisson_ratio));
+    report.line("moment at mid-span over PL/4", "{:.3f}", moment_over_nominal(problem, results));
+    return;
+  }
+  report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),
+              results.strain_at_peak_gauge());
+  if (problem.shape().kind == dem::ShapeKind::disc) return;
+  const bool walled = problem.wall() != nullptr;
+  report.line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
+              "{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
+              results.youngs_modulus_platen() / 1e9);
+  if (walled)
+    report.line("lateral over axial stress", "{:.3f}", results.lateral_over_axial());
+  else
+    report.line("Poisson's ratio", "{:.3f}", results.poisson_ratio());
+}
+
+void report_damage(Report &report, const Scene &scene, const coupling::Problem &problem,
+                   const Results &results) {
+  const dem::Model &model = problem.model;
+  report.line("broken bonds (tension, shear)", "{}, {} of {}",
+              model.broken(dem::BondState::broken_in_tension), model.broken(dem::BondState::broken_in_shear),
+              model.bonds ? model.bonds->initial_count() : 0);
+  if (problem.bent()) {
+    report.line("cracks within d/2 of mid-span", "{:.2f}",
+                dem::broken_near_midspan(model.particles, *model.bonds, problem.shape().height));
+    return;
+  }
+  if (problem.shape().kind == dem::ShapeKind::disc) {
+    if (!model.bonds) return;
+    const dem::SplitPattern s = dem::split_pattern(model.particles, *model.bonds, problem.shape());
+    report.line("cracks on the loaded diameter", "{:.2f}, of the first twenty in its middle half {:.2f}",
+                s.on_diameter, s.first_in_middle);
+    return;
+  }
+  const Pattern &p = results.pattern();
+  if (std::isnan(p.strain) || scene.loading.test == LoadingTest::tension) return;
+  report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top,
+              p.end_bottom, p.middle);
+  report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak());
+}
+
+} // namespace
+
+std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
+                          const RunCosts &costs) {
+  Report report;
+  report_strength(report, scene, problem, results);
+  report_stiffness(report, problem, results);
+  report_damage(report, scene, problem, results);
+  report.line("energy residual over work", "{:.2e}", results.energy_residual_relative());
+  report.line("kinetic over internal, to peak", "{:.2e}", results.kinetic_to_internal_max());
+  const double crossings = crossings_to_peak(problem, results);
+  if (problem.bent())
+    report.line("swings of the bar to the peak", "{:.1f}", swings_to_peak(problem, results));
+  else
+    report.line("wave crossings to the peak", crossings < 100 ? "{:.0f} (fast: 120 are advised)" : "{:.0f}",
+                crossings);
+  report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
+              problem.model.bonds && costs.step_seconds > 0
+                  ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *
+                        static_cast<double>(costs.steps_here) / costs.step_seconds
+                  : 0.0);
+  return report.text();
+}
+
+} // namespace platen::apps
