@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 
+#include "apps/bar/history.h"
 #include "apps/bar/summary.h"
 #include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
@@ -17,7 +18,6 @@
 #include "apps/io/run_log.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/expectations.h"
-#include "apps/run/history.h"
 #include "apps/run/model_setup.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
@@ -43,34 +43,6 @@ long steps_between_samples(const Scene &scene, double step, double interval) {
   if (every.kind == Interval::Kind::steps) steps = every.value;
   if (every.kind == Interval::Kind::time) steps = every.value / step;
   return std::max(1L, static_cast<long>(steps));
-}
-
-std::vector<std::string> columns() {
-  std::vector<std::string> names = history_columns({});
-  for (const char *own :
-       {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s", "far_end_velocity_m_s",
-        "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j", "torsion_energy_j"})
-    names.emplace_back(own);
-  return names;
-}
-
-// A bar knows no platens: their columns are not measured.
-Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
-  Sample c;
-  c.time = s.time;
-  for (double *unmeasured :
-       {&c.strain_platen, &c.strain_gauge, &c.lateral_strain, &c.volumetric_strain, &c.lateral_extremal,
-        &c.axial_extremal, &c.stress_top, &c.stress_bottom, &c.confining_pressure, &c.contact, &c.body,
-        &c.damping, &c.friction, &c.fracture, &c.boundary, &c.unbalanced, &c.platen_speed})
-    *unmeasured = none;
-  c.intact_bonds = static_cast<double>(bonds) - static_cast<double>(s.broken_tension + s.broken_shear);
-  c.broken_tension = static_cast<double>(s.broken_tension);
-  c.broken_shear = static_cast<double>(s.broken_shear);
-  c.kinetic = ledger ? s.kinetic : none;
-  c.bond = ledger ? s.energy.total() : none;
-  c.residual = ledger ? s.kinetic + s.energy.total() - s.initial_energy : none;
-  c.time_step = step;
-  return c;
 }
 
 class BarRun {
@@ -170,15 +142,7 @@ std::string BarRun::description() const {
 }
 
 bool BarRun::take(const BarSample &s, BarLoad load) {
-  const bool ledger = scene_.effects.energy_ledger;
-  std::vector<CsvCell> cells = history_row(common(s, results_.bonds, results_.time.step, ledger), {});
-  cells[cells.size() - 2] = none; // grain contacts, not counted
-  for (const CsvCell &own : std::initializer_list<CsvCell>{
-           word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,
-           s.far_velocity, s.quarter, s.half, ledger ? s.energy.axial : none,
-           ledger ? s.energy.bending : none, ledger ? s.energy.torsion : none})
-    cells.push_back(own);
-  history_->row(cells);
+  history_->row(bar_row(s, load, results_, scene_.effects.energy_ledger));
   ProgressSample p;
   const double made = static_cast<double>(results_.steps) + s.time / results_.time.step;
   p.fraction = made / static_cast<double>(planned_);
@@ -251,7 +215,7 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
   log_.info("{}", description());
   write_stream_aside(paths_.scene(),
                      [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
-  history_ = std::make_unique<CsvWriter>(paths_.history(), columns());
+  history_ = std::make_unique<CsvWriter>(paths_.history(), bar_columns());
   progress_ = std::make_unique<Progress>(log_);
   if (scene_.bar_test.bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
   test_loads();
@@ -275,24 +239,6 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
 }
 
 } // namespace
-
-Rod BarResults::rod(bool effective) const {
-  Rod rod =
-      rod_at_rest(bar, pulled.axial_rigidity, pulled.poisson_ratio, effective ? bar.effective : bar.bounding);
-  if (!effective) rod.mass_section = bar.bounding;
-  return rod;
-}
-
-Rod BarResults::swinging_rod(bool effective) const {
-  Rod swinging = rod(effective);
-  swinging.length = bar.top - bar.low.z;
-  return swinging;
-}
-
-const char *word(BarLoad load) {
-  constexpr const char *words[] = {"all", "tension", "bending", "torsion", "impact", "none"};
-  return words[static_cast<int>(load)];
-}
 
 int run_bar(const CommandLine &command, const Scene &scene) {
   if (command.resume)

@@ -1,7 +1,9 @@
 # Sources of platen-bar but for its main, apps/platen_bar.cc; linked with platen_run.
 set(PLATEN_BAR_SOURCES
   bar/bar.cc
+  bar/bar_results.cc
   bar/dynamic_test.cc
+  bar/history.cc
   bar/moduli.cc
   bar/run_bar.cc
   bar/static_test.cc
