@@ -1,0 +1,73 @@
+// Sections of a scene that one app each reads. NaN means "not given" where a member says so.
+#pragma once
+
+#include <vector>
+
+#include "apps/scene/quantities.h"
+
+namespace platen::apps {
+
+enum class PairPath { tension, compression, shear, bending, twisting, cyclic };
+enum class PairPlate { frictionless, rolling, sticking };
+
+struct PairTest { // platen-bonds
+  int particles = 2;
+  PairPath path = PairPath::tension;
+  PairPlate plate = PairPlate::frictionless; // three particles: what the lower two stand on
+  bool base_bond = true;                     // three particles: a bond between the lower two
+  double force = not_given;                  // N, largest
+  double displacement = not_given;           // m, largest
+  std::vector<double> moduli;                // Pa; holds Bond/Modulus where the list is empty
+  std::vector<double> stiffness_ratios;      // holds Bond/Stiffness ratio where the list is empty
+  int steps = 1000;
+};
+
+enum class CalibrateMode { bounds, abacus, search };
+
+struct Calibrate { // platen-calibrate
+  CalibrateMode mode = CalibrateMode::search;
+  // Wanted of the specimen; each may be left out.
+  double young_modulus = not_given, poisson_ratio = not_given;           // Pa, 1
+  double compressive_strength = not_given, tensile_strength = not_given; // Pa
+  int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
+  double strain = 1e-5;                  // of the static solves
+  double tension_rate = not_given;       // m/s; tension tests
+  int most_trials = 8;                   // sets of strengths that are tried
+  double tolerance = 0.02;               // of strengths, relative
+  // Abacus; each holds the bond's own value where the list is empty.
+  std::vector<double> moduli, stiffness_ratios, radius_multipliers, poisson_ratios; // Pa, 1, 1, 1
+  // Where the search may go.
+  double ratio_low = 0.02, ratio_high = 1;          // shear over normal stiffness (parallel bond)
+  double multiplier_low = 0.3, multiplier_high = 1; // radius multiplier (cohesive beam)
+  double moments_low = 0; // moment contribution, once the strengths are at their largest ratio
+  double strengths_low = 0.5, strengths_high = 6; // shear over tensile strength of the bond
+};
+
+enum class BarLoad { all, tension, bending, torsion, impact, none };
+enum class BarMethod { both, at_rest, dynamic };
+enum class BarSide { x, y };
+
+struct BarTest {               // platen-bar
+  BarLoad load = BarLoad::all; // none: the moduli alone
+  BarMethod method = BarMethod::both;
+  BarSide side = BarSide::x; // the way in which the bar is bent
+  double strain = 1e-4;      // at the skin of the clamped end
+  double end_depth = 1;      // mean sphere radii
+  double periods = 10;       // recorded of each oscillation
+  bool bulk_moduli = true;
+};
+
+struct DomainSize {              // of a cylinder
+  double height = 0, radius = 0; // m
+};
+
+struct Study {                      // platen-study; a list that is empty leaves the scene's own value
+  int seeds = 5;                    // runs of each case: Scene/Seed and those after it
+  std::vector<double> sphere_radii; // m; size
+  std::vector<DomainSize> domains;  // size; at the scene's sphere radius
+  std::vector<Gap> gaps;            // packing
+  std::vector<double> radius_multipliers, radius_spreads; // packing
+  std::vector<double> axial_rates;                        // m/s; rate
+};
+
+} // namespace platen::apps

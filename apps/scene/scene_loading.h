@@ -1,0 +1,85 @@
+// Sections of a scene that say what is done with the specimen. NaN means "not given" where a member says so.
+#pragma once
+
+#include <vector>
+
+#include "apps/scene/quantities.h"
+
+namespace platen::apps {
+
+enum class PlatenKind { rigid, deformable };
+enum class Attachment { contact, glued };
+enum class PlatenControl { motion, stress };
+
+struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
+  double friction_static = not_given, friction_dynamic = not_given;
+};
+
+struct Platens {
+  PlatenKind kind = PlatenKind::rigid;
+  double friction_static = 0.3;        // common to both; the apps use top and bottom
+  double friction_dynamic = not_given; // common to both; not given: as the static one
+  PlatenSide top, bottom;
+  PlatenControl top_control = PlatenControl::motion;
+  double top_stress = 0;         // Pa, pressing; top_control = stress
+  Stiffness stiffness;           // of_bond (of the mean bond) or absolute
+  double tangential_ratio = 0.8; // tangential over normal penalty stiffness
+  double damping = 0.2;          // fraction of critical
+  double strip_width = 0;        // m, platen-brazilian, bending; 0: as wide as the platens
+  double span = not_given;       // m, test = three_point_bending
+  double overhang = 1.2;         // platen half-width over that of the specimen
+  double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
+  int elements_across = 8;
+  double density = 7830;        // kg/m3
+  double young_modulus = 200e9; // Pa
+  double poisson_ratio = 0.3;
+  Attachment attachment = Attachment::contact;
+};
+
+struct Sleeve {
+  double thickness = not_given; // m
+  double modulus = not_given;   // Pa
+  double poisson_ratio = not_given;
+};
+
+enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain, three_point_bending };
+enum class ConfinementKind { none, particles, sleeve };
+enum class ConfinementArea { voronoi, sphere };
+
+struct Loading {
+  LoadingTest test = LoadingTest::compression;
+  double axial_rate = not_given; // m/s, speed of the platens towards (tension: from) each other, > 0
+  double ramp = 0;               // s, smooth start; 0: the app chooses
+  double hold = 0;             // s, how long a stress is held after its ramp: the top platen's, or the cell's
+  double target_strain = 0.01; // closure of the platens over the height of the specimen
+  double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
+  ConfinementKind confinement = ConfinementKind::none;
+  double confining_pressure = 0; // Pa
+  double confining_ramp = 0;     // s; 0: the app chooses
+  ConfinementArea confinement_area = ConfinementArea::voronoi;
+
+  double wall_stiffness = 10;    // of the mean bond's; test = uniaxial_strain
+  std::vector<double> unload_at; // closure strains, ascending
+  double unload_to = 0.1;        // share of the axial stress at the turn
+
+  bool cell() const { return confinement == ConfinementKind::particles; }
+  bool walled() const { return test == LoadingTest::uniaxial_strain; }
+  bool bending() const { return test == LoadingTest::three_point_bending; }
+  bool hydrostatic() const { return test == LoadingTest::hydrostatic; }
+};
+
+enum class InstructionSet { best, baseline };
+
+enum class Scheme { velocity_verlet, tchamwa_wielgosz };
+
+struct Integration {
+  Scheme scheme = Scheme::velocity_verlet;
+  double dissipation = 1.1; // phi of tchamwa wielgosz
+  double safety = 0.8;      // time step over its limit
+  double mass_scaling = 1;
+  double damping = 0.5; // local, non-viscous
+  double time_step = 0; // s; 0: safety times the limit
+  InstructionSet instruction_set = InstructionSet::best;
+};
+
+} // namespace platen::apps
