@@ -10,6 +10,7 @@
 #include "coupling/problem.h"
 #include "coupling/static_press.h"
 #include "dem/packing/growth.h"
+#include "tests/coupling/elastic_problem.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -118,22 +119,12 @@ TEST_F(Bending, what_cannot_be_bent_is_refused) {
 TEST(bending, an_elastic_bar_bends_like_a_beam) {
   const double length = 60e-3, side = 12e-3;
   const dem::Specimen standing = dem::random_close_packing(dem::box(side, side, length), 0.9e-3, 0.25, 3);
-  coupling::ProblemSettings settings;
-  settings.model.bond_layout.modulus = 36e9;
-  settings.model.bond_layout.gap = 0.05;
-  dem::ParallelBond::Parameters bond;
-  bond.stiffness_ratio = 0.4;
-  settings.model.bond = bond;
-  settings.model.local_damping = 0.5;
-  settings.ends = coupling::Ends::ground;
-  settings.end_layer = 0.05;
-  settings.platens.thickness = 2e-3;
+  coupling::ProblemSettings settings = coupling::elastic_settings(0.05);
   coupling::Problem pressed(standing, settings);
   const coupling::StaticPress press = coupling::press_statically(pressed, 1e-5);
   const double e = press.youngs_modulus(), nu = press.poisson_ratio();
 
   settings.platens.strip_width = 3e-3;
-  settings.loading.rate = 0.02;
   const auto bent = [&](double span) {
     settings.platens.span = span;
     coupling::Problem problem(dem::laid_along_x(standing), settings);

@@ -5,6 +5,7 @@
 #include "coupling/problem.h"
 #include "dem/measure/stress.h"
 #include "dem/packing/growth.h"
+#include "tests/coupling/elastic_problem.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -70,18 +71,8 @@ TEST(brazilian, the_centre_of_an_elastic_disc_has_the_stress_of_the_closed_form)
   const double radius = 15e-3, thickness = 12e-3;
   const dem::Specimen specimen =
       dem::laid_down(dem::random_close_packing(dem::cylinder(radius, thickness), 1.1e-3, 0.25, 3));
-  coupling::ProblemSettings settings;
-  settings.model.bond_layout.modulus = 36e9;
-  settings.model.bond_layout.gap = 0.05;
-  dem::ParallelBond::Parameters bond;
-  bond.stiffness_ratio = 0.4;
-  settings.model.bond = bond;
-  settings.model.local_damping = 0.5;
-  settings.ends = coupling::Ends::ground;
-  settings.end_layer = 1;
-  settings.platens.thickness = 2e-3;
+  coupling::ProblemSettings settings = coupling::elastic_settings(1);
   settings.platens.strip_width = 2e-3;
-  settings.loading.rate = 0.02;
   coupling::Problem problem(specimen, settings);
   while (problem.closure_strain() < 1e-4)
     problem.advance(16);

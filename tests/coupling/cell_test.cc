@@ -8,6 +8,7 @@
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
+#include "tests/coupling/elastic_problem.h"
 
 namespace platen::coupling {
 namespace {
@@ -19,18 +20,8 @@ const dem::Specimen &cylinder() {
 }
 
 ProblemSettings lubricated() {
-  ProblemSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap = 0.05;
-  dem::ParallelBond::Parameters bond;
-  bond.stiffness_ratio = 0.4;
-  s.model.bond = bond;
-  s.model.local_damping = 0.5;
-  s.ends = Ends::ground;
-  s.end_layer = 0.3;
+  ProblemSettings s = elastic_settings(0.3);
   s.platens.damping = 0;
-  s.platens.thickness = 2e-3;
-  s.loading.rate = 0.02;
   return s;
 }
 

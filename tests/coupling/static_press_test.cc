@@ -6,22 +6,16 @@
 #include <cmath>
 
 #include "dem/measure/gauge.h"
+#include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 
 namespace platen::coupling {
 namespace {
 
 ProblemSettings elastic(double friction, const dem::BondParameters &bond) {
-  ProblemSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap = 0.05;
-  s.model.bond = bond;
-  s.model.local_damping = 0.5;
-  s.ends = Ends::ground;
-  s.end_layer = 0.5;
+  ProblemSettings s = elastic_settings(0.5, bond);
   s.platens.top = s.platens.bottom = {friction, friction};
   s.platens.damping = 0;
-  s.platens.thickness = 2e-3;
   s.loading.rate = 4e-4;
   return s;
 }
@@ -33,11 +27,6 @@ struct Case {
 };
 void PrintTo(const Case &c, std::ostream *out) {
   *out << c.name;
-}
-dem::ParallelBond::Parameters parallel() {
-  dem::ParallelBond::Parameters p;
-  p.stiffness_ratio = 0.4;
-  return p;
 }
 
 class StaticAgainstExplicit : public testing::TestWithParam<Case> {};
@@ -63,13 +52,13 @@ TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
 }
 
 INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
-                         testing::Values(Case{"parallel_bonds_sticking", 1e6, parallel()},
-                                         Case{"parallel_bonds_lubricated", 0, parallel()},
+                         testing::Values(Case{"parallel_bonds_sticking", 1e6, unbreakable_bond()},
+                                         Case{"parallel_bonds_lubricated", 0, unbreakable_bond()},
                                          Case{"beams_sticking", 1e6, dem::CohesiveBeam::Parameters{}}),
                          [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
 
 TEST(static_press, stress_is_linear_where_no_contact_changes) {
-  ProblemSettings settings = elastic(1e6, parallel());
+  ProblemSettings settings = elastic(1e6, unbreakable_bond());
   settings.end_layer = 0.05; // few seats, and no other sphere within reach
   Problem problem(small_cylinder(), settings);
   const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
@@ -78,7 +67,7 @@ TEST(static_press, stress_is_linear_where_no_contact_changes) {
 }
 
 TEST(static_press, asks_for_bonds_and_a_strain) {
-  Problem problem(small_cylinder(), elastic(0, parallel()));
+  Problem problem(small_cylinder(), elastic(0, unbreakable_bond()));
   EXPECT_THROW(press_statically(problem, 0), NumericsStopped);
 }
 
