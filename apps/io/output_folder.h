@@ -21,6 +21,7 @@ struct OutputPaths {
   std::filesystem::path log() const { return folder / "run.log"; }
   std::filesystem::path specimen_csv() const { return folder / "specimen.csv"; }
   std::filesystem::path specimen_vtu() const { return folder / "specimen.vtu"; }
+  std::filesystem::path directions() const { return folder / "directions.csv"; }
   std::filesystem::path bond_stress() const { return folder / "bond_stress.csv"; }
   std::filesystem::path study() const { return folder / "study.csv"; }
   std::filesystem::path study_json() const { return folder / "study.json"; }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
@@ -85,6 +86,18 @@ Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
   return s;
 }
 
+// Where the contacts point: a row for each pair of opposite cells of the sphere.
+void write_directions(const OutputPaths &paths, const std::vector<dem::AxisCell> &cells) {
+  std::size_t contacts = 0;
+  for (const dem::AxisCell &cell : cells)
+    contacts += cell.axes;
+  CsvWriter table(paths.directions(),
+                  {"x", "y", "z", "share_of_directions", "contacts", "share_of_contacts"});
+  for (const dem::AxisCell &cell : cells)
+    table.row({cell.middle.x, cell.middle.y, cell.middle.z, cell.weight, cell.axes,
+               static_cast<double>(cell.axes) / static_cast<double>(contacts)});
+}
+
 std::string report_of(const Judgement &j, double seconds) {
   const dem::PackingQuality &q = j.quality;
   std::string text = fmt::format("  spheres                    {} of mean radius {:.4g} mm\n", q.spheres,
@@ -138,6 +151,7 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   std::vector<int> id(specimen.size());
   std::iota(id.begin(), id.end(), 0);
   write_points(paths.specimen_vtu(), 0.0, specimen.centre, {{"radius", specimen.radius}, {"id", id}});
+  write_directions(paths, judgement.quality.directions);
   const Json summary = summary_of(scene, judgement, seconds);
   write_summary(paths.summary(), summary);
   log.info("{}", report_of(judgement, seconds));

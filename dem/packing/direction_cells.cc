@@ -46,7 +46,6 @@ DirectionCells::DirectionCells() {
               dot(corner[i], cross(corner[j], corner[k])) > 0; // corners anticlockwise from outside
           face_[n++] = {{corner[i], outward ? corner[j] : corner[k], outward ? corner[k] : corner[j]}};
         }
-  std::array<Vector3, count> middle;
   for (std::size_t f = 0; f < 20; ++f) {
     Triangle child[4], grandchild[4];
     split(face_[f], child);
@@ -55,12 +54,12 @@ DirectionCells::DirectionCells() {
       for (std::size_t b = 0; b < 4; ++b) {
         const Vector3 *c = grandchild[b].corner;
         weight_[16 * f + 4 * a + b] = solid_angle(c[0], c[1], c[2]) / (4 * 3.14159265358979323846);
-        middle[16 * f + 4 * a + b] = c[0] + c[1] + c[2];
+        middle_[16 * f + 4 * a + b] = unit(c[0] + c[1] + c[2]);
       }
     }
   }
   for (std::size_t cell = 0; cell < count; ++cell)
-    opposite_[cell] = cell_of(-middle[cell]);
+    opposite_[cell] = cell_of(-middle_[cell]);
 }
 
 // Three corner triangles, each in the place of its corner, then the one in the middle; corners on the unit
@@ -96,22 +95,34 @@ std::size_t DirectionCells::cell_of(const Vector3 &direction) const {
   return cell;
 }
 
-double isotropy_chi_squared(const std::vector<Vector3> &axes) {
-  if (axes.empty()) return 0;
+std::vector<AxisCell> count_axes(const std::vector<Vector3> &axes) {
   const DirectionCells cells;
-  std::array<double, DirectionCells::count> hits{};
+  std::array<std::size_t, DirectionCells::count> hits{};
   for (const Vector3 &axis : axes)
-    hits[cells.cell_of(axis)] += 1;
-  const double n = static_cast<double>(axes.size());
-  double sum = 0;
+    ++hits[cells.cell_of(axis)];
+  std::vector<AxisCell> merged;
   for (std::size_t cell = 0; cell < DirectionCells::count; ++cell) {
     const std::size_t other = cells.opposite(cell);
     if (other < cell) continue;
-    const double weight = cells.weight(cell) + cells.weight(other);
-    const double excess = (hits[cell] + hits[other]) / n - weight;
-    sum += excess * excess / weight;
+    const Vector3 &middle = cells.middle(cell);
+    merged.push_back({middle.z < 0 ? -middle : middle, cells.weight(cell) + cells.weight(other),
+                      hits[cell] + hits[other]});
   }
-  return n * sum / (DirectionCells::count / 2 - 1);
+  return merged;
+}
+
+double isotropy_chi_squared(const std::vector<AxisCell> &cells) {
+  std::size_t axes = 0;
+  for (const AxisCell &cell : cells)
+    axes += cell.axes;
+  if (axes == 0) return 0;
+  const double n = static_cast<double>(axes);
+  double sum = 0;
+  for (const AxisCell &cell : cells) {
+    const double excess = static_cast<double>(cell.axes) / n - cell.weight;
+    sum += excess * excess / cell.weight;
+  }
+  return n * sum / static_cast<double>(cells.size() - 1);
 }
 
 } // namespace platen::dem

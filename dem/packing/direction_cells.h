@@ -19,6 +19,7 @@ public:
   std::size_t cell_of(const Vector3 &direction) const;
   // Solid angle over 4 pi; the weights add up to 1.
   double weight(std::size_t cell) const { return weight_[cell]; }
+  const Vector3 &middle(std::size_t cell) const { return middle_[cell]; } // unit vector
   // The cell on the other side of the sphere.
   std::size_t opposite(std::size_t cell) const { return opposite_[cell]; }
 
@@ -29,13 +30,21 @@ private:
   static void split(const Triangle &parent, Triangle child[4]);
   std::array<Triangle, 20> face_;
   std::array<double, count> weight_;
+  std::array<Vector3, count> middle_;
   std::array<std::size_t, count> opposite_;
 };
 
-// How far a set of axes (contact normals, sign without meaning) is from isotropy: opposite cells are merged
-// into 160, chi^2 = n sum (f - w)^2 / w / 159 with f the part of the n axes in a merged cell and w its
-// weight. Expect 1 with a standard deviation of .11 for independent axes; 0 for none. (The measure sum (f -
-// w)^2 / 320 that is found in print is below any bound set on it whatever the packing.)
-double isotropy_chi_squared(const std::vector<Vector3> &axes);
+// A cell and its opposite as one, for axes (contact normals), whose sign has no meaning.
+struct AxisCell {
+  Vector3 middle;       // unit vector, upward
+  double weight = 0;    // solid angle of the two over 4 pi; the weights of all 160 add up to 1
+  std::size_t axes = 0; // that lie in it
+};
+std::vector<AxisCell> count_axes(const std::vector<Vector3> &axes); // any lengths but zero
+
+// How far counted axes are from isotropy: chi^2 = n sum (f - w)^2 / w / 159 with f the part of the n axes in
+// a merged cell and w its weight. Expect 1 with a standard deviation of .11 for independent axes; 0 for none.
+// (The measure sum (f - w)^2 / 320 that is found in print is below any bound set on it whatever the packing.)
+double isotropy_chi_squared(const std::vector<AxisCell> &cells);
 
 } // namespace platen::dem

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "dem/packing/direction_cells.h"
 #include "dem/packing/point_grid.h"
 #include "dem/packing/sphere_clipping.h"
 
@@ -49,7 +48,8 @@ void judge_contacts(const Specimen &s, const QualityMeasure &measure, PackingQua
   quality.core_coordination_number =
       quality.core_spheres > 0 ? static_cast<double>(core_ends) / static_cast<double>(quality.core_spheres)
                                : std::numeric_limits<double>::quiet_NaN();
-  quality.isotropy_chi_squared = isotropy_chi_squared(axes);
+  quality.directions = count_axes(axes);
+  quality.isotropy_chi_squared = isotropy_chi_squared(quality.directions);
 }
 
 void judge_walls(const Specimen &s, const QualityMeasure &measure, PackingQuality &quality) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dem/packing/direction_cells.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -36,9 +37,9 @@ struct PackingQuality {
   double max_overlap = 0;              // in mean radii, of pairs
   double mean_overlap = 0;             // in mean radii, over the pairs that overlap; 0 where none does
   double max_wall_overlap = 0;         // in mean radii
-  // Chi-squared of contact directions over 160 pairs of opposite cells (direction_cells.h); isotropic: 1 +-
-  // .11. Of contacts that lie in the core; of all where there is no core.
-  double isotropy_chi_squared = 0;
+  // Directions of the contacts that lie in the core; of all where there is no core.
+  std::vector<AxisCell> directions;
+  double isotropy_chi_squared = 0;                   // of these; isotropic: 1 +- .11
   std::size_t touching_bottom = 0, touching_top = 0; // spheres within the gap tolerance of z = 0, z = height
   double cover_bottom = 0, cover_top = 0;            // their great circles over the cross section
 };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -60,6 +62,25 @@ protected:
     return nlohmann::json::parse(text_of(folder / of / "summary.json"));
   }
 
+  struct Direction {
+    double x = 0, y = 0, z = 0, weight = 0, contacts = 0, share = 0;
+  };
+  std::vector<Direction> directions(const std::string &of) const {
+    std::ifstream file(folder / of / "directions.csv");
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(line, "x,y,z,share_of_directions,contacts,share_of_contacts");
+    std::vector<Direction> rows;
+    while (std::getline(file, line)) {
+      Direction d;
+      EXPECT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &d.x, &d.y, &d.z, &d.weight, &d.contacts,
+                            &d.share),
+                6);
+      rows.push_back(d);
+    }
+    return rows;
+  }
+
   fs::path folder;
 };
 
@@ -75,7 +96,8 @@ TEST_F(PackApp, checks_the_numbers_that_are_its_own) {
 
 TEST_F(PackApp, judges_what_it_packs) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
-  for (const char *name : {"specimen.csv", "specimen.vtu", "summary.json", "scene.prm", "run.log"})
+  for (const char *name :
+       {"specimen.csv", "specimen.vtu", "directions.csv", "summary.json", "scene.prm", "run.log"})
     EXPECT_TRUE(fs::exists(folder / "a" / name)) << name;
   const nlohmann::json s = summary("a");
   const dem::Specimen written = read_specimen_csv(folder / "a/specimen.csv").specimen;
@@ -85,6 +107,43 @@ TEST_F(PackApp, judges_what_it_packs) {
   // Each sphere of the front touches three earlier ones: 3 N - 6 contacts.
   const double n = static_cast<double>(written.size());
   EXPECT_NEAR(s["coordination_number"].get<double>(), 2 * (3 * n - 6) / n, .02);
+}
+
+// Ten spheres in a row: nine contacts with one direction, in a cell less than 10 degrees across.
+TEST_F(PackApp, tells_where_contacts_point) {
+  const double step[] = {2e-3 / std::sqrt(14.0), 4e-3 / std::sqrt(14.0), 6e-3 / std::sqrt(14.0)};
+  std::ostringstream spheres;
+  spheres << "x_m,y_m,z_m,radius_m\n" << std::setprecision(17);
+  for (int k = 0; k < 10; ++k)
+    spheres << k * step[0] << ',' << k * step[1] << ',' << 0.02 + k * step[2] << ",0.001\n";
+  write("row.csv", spheres.str());
+  write("row.prm",
+        "subsection Specimen\n  set Shape = box\n  set Width x = 60 mm\n  set Width y = 60 mm\n"
+        "  set Height = 60 mm\n  set Packing = file\n  set File = row.csv\nend\n");
+  ASSERT_EQ(run(scene("row.prm"), "row"), status_done);
+  double contacts = 0;
+  for (const Direction &d : directions("row")) {
+    contacts += d.contacts;
+    EXPECT_EQ(d.share, d.contacts / 9);
+    if (d.contacts == 0) continue;
+    EXPECT_GT((d.x * step[0] + d.y * step[1] + d.z * step[2]) / 2e-3, std::cos(0.17));
+  }
+  EXPECT_EQ(contacts, 9);
+}
+
+// Chi squared of the table, from its definition, is the figure of the summary.
+TEST_F(PackApp, judges_isotropy_by_the_directions_that_it_tells) {
+  ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
+  const std::vector<Direction> table = directions("a");
+  ASSERT_EQ(table.size(), 160u);
+  double whole = 0, contacts = 0, sum = 0;
+  for (const Direction &d : table) {
+    whole += d.weight, contacts += d.contacts;
+    sum += (d.share - d.weight) * (d.share - d.weight) / d.weight;
+  }
+  EXPECT_NEAR(whole, 1, 1e-12);
+  EXPECT_GT(contacts, 100);
+  EXPECT_NEAR(summary("a")["isotropy_chi_squared"].get<double>(), contacts * sum / 159, 1e-9);
 }
 
 // The figure of the summary is a double written with all its digits.

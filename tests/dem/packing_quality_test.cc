@@ -131,6 +131,8 @@ TEST(DirectionCells, cover_the_sphere_once) {
     EXPECT_NE(cells.opposite(c), c);
     EXPECT_EQ(cells.opposite(cells.opposite(c)), c);
     EXPECT_NEAR(cells.weight(cells.opposite(c)), cells.weight(c), 1e-14);
+    EXPECT_EQ(cells.cell_of(cells.middle(c)), c);
+    EXPECT_NEAR(norm(cells.middle(c)), 1.0, 1e-14);
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_NEAR(largest / smallest, 1.275, 0.001);
@@ -150,6 +152,23 @@ TEST(DirectionCells, are_hit_by_their_weight) {
     EXPECT_NEAR(hits[c] / n, cells.weight(c), 5 * std::sqrt(cells.weight(c) / n));
 }
 
+TEST(DirectionCells, count_an_axis_once_whichever_way_it_points) {
+  const std::vector<AxisCell> none = count_axes({});
+  ASSERT_EQ(none.size(), DirectionCells::count / 2);
+  double sum = 0;
+  for (const AxisCell &cell : none) {
+    sum += cell.weight;
+    EXPECT_GE(cell.middle.z, 0.0);
+    EXPECT_EQ(cell.axes, 0u);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_EQ(isotropy_chi_squared(none), 0.0);
+  const Vector3 some = none[17].middle;
+  const std::vector<AxisCell> counted = count_axes({2 * some, -some, none[80].middle});
+  EXPECT_EQ(counted[17].axes, 2u);
+  EXPECT_EQ(counted[80].axes, 1u);
+}
+
 TEST(Isotropy, is_one_for_random_axes_and_blind_to_their_sign) {
   Random random(3);
   std::vector<Vector3> axes, turned;
@@ -158,11 +177,11 @@ TEST(Isotropy, is_one_for_random_axes_and_blind_to_their_sign) {
     turned.push_back(k % 2 == 0 ? axes.back() : -axes.back());
   }
   // Chi-squared of 159 degrees of freedom over 159: standard deviation .112; four of them.
-  EXPECT_NEAR(isotropy_chi_squared(axes), 1.0, 0.45);
-  EXPECT_DOUBLE_EQ(isotropy_chi_squared(axes), isotropy_chi_squared(turned));
+  EXPECT_NEAR(isotropy_chi_squared(count_axes(axes)), 1.0, 0.45);
+  EXPECT_DOUBLE_EQ(isotropy_chi_squared(count_axes(axes)), isotropy_chi_squared(count_axes(turned)));
   for (Vector3 &axis : axes)
     axis.z *= 1.2; // a fabric stretched by a fifth must show
-  EXPECT_GT(isotropy_chi_squared(axes), 2.0);
+  EXPECT_GT(isotropy_chi_squared(count_axes(axes)), 2.0);
 }
 
 } // namespace
