@@ -1,31 +1,14 @@
 #!/usr/bin/env python3
-"""Tables and curves of the runs that run.sh made, as CSV. Usage: table.py FOLDER"""
+"""Tables 3 and 4, moduli of the bulk, and figures 12, 19, 20 and 21 of the runs that run.sh made, as CSV.
+Usage: table.py FOLDER"""
 import csv
-import json
 import pathlib
 import statistics
 import sys
 
+from runs import figure, summaries, write
+
 folder = pathlib.Path(sys.argv[1])
-
-
-def summaries(prefix):
-    paths = sorted(folder.glob(prefix + "_*/summary.json"))
-    return {p.parent.name: json.loads(p.read_text()) for p in paths}
-
-
-def figure(summary, path):
-    for key in path.split("/"):
-        summary = (summary or {}).get(key)
-    return summary
-
-
-def write(name, header, rows):
-    with open(folder / name, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
-
 
 # figure, its path in summary.json, published (andre et al. 2012, tables 1, 3 and 4; errors in percent)
 ERRORS = [
@@ -41,7 +24,7 @@ ERRORS = [
     ("dynamic torsion, effective section", "torsion/dynamic_error_effective", None),
     ("wave", "impact/wave_error", 0.40),
 ]
-bars, bulks = summaries("bar"), summaries("bulk")
+bars, bulks = summaries(folder, "bar_*"), summaries(folder, "bulk_10000_*")
 rows, runs = [], []
 for label, path, published in ERRORS:
     values = [100 * v for v in (figure(s, path) for s in bars.values()) if v is not None]
@@ -54,18 +37,18 @@ for label, path, unit, factor, published in [("bulk modulus of elasticity", "bul
     values = [factor * figure(s, path) for s in bulks.values() if figure(s, path) is not None]
     if values:
         rows.append([label, unit, published, f"{statistics.median(values):.4g}", "", f"{min(values):.4g}", f"{max(values):.4g}"])
-write("tables.csv", ["figure", "unit", "published", "median", "median_signed", "least", "most"], rows)
+write(folder / "tables.csv", ["figure", "unit", "published", "median", "median_signed", "least", "most"], rows)
 
 COLUMNS = ["particles", "bonds", "packing_fraction", "density_kg_m3", "bounding_radius_m", "effective_radius_m",
            "youngs_modulus_gauge_pa", "youngs_modulus_effective_pa", "poisson_ratio", "bulk/youngs_modulus_pa",
            "bulk/poisson_ratio"] + [path for _, path, _ in ERRORS] + ["impact/wave_speed_m_s", "wall_seconds"]
 for name, summary in list(bars.items()) + list(bulks.items()):
     runs.append([name] + [figure(summary, c) if figure(summary, c) is not None else "" for c in COLUMNS])
-write("runs.csv", ["run"] + COLUMNS, runs)
+write(folder / "runs.csv", ["run"] + COLUMNS, runs)
 
 # Figure 12: shares of the energy at rest.
 shares = ["axial_energy_share", "bending_energy_share", "torsion_energy_share"]
-write("energy_static.csv", ["run", "load"] + shares,
+write(folder / "energy_static.csv", ["run", "load"] + shares,
       [[name, load] + [s[load][k] for k in shares] for name, s in bars.items()
        for load in ("tension", "bending", "torsion") if load in s])
 
@@ -74,7 +57,7 @@ if bars:
     with open(folder / next(iter(bars)) / "history.csv", newline="") as file:
         history = list(csv.DictReader(file))
     energy = ["load", "time_s", "kinetic_energy_j", "axial_energy_j", "bending_energy_j", "torsion_energy_j"]
-    write("energy_dynamic.csv", energy, [[r[k] for k in energy] for r in history])
+    write(folder / "energy_dynamic.csv", energy, [[r[k] for k in energy] for r in history])
     wave = ["time_s", "end_velocity_m_s", "far_end_velocity_m_s", "quarter_z_m", "half_z_m"]
-    write("wave.csv", wave, [[r[k] for k in wave] for r in history if r["load"] == "impact"])
+    write(folder / "wave.csv", wave, [[r[k] for k in wave] for r in history if r["load"] == "impact"])
 print((folder / "tables.csv").read_text(), end="")
