@@ -90,7 +90,7 @@ StaticPress measured(const Problem &problem, const Contacts &c, const dem::Stati
     const double up = normal_force(c.near[k], state) * c.near[k].spring.normal.z;
     p.stress += 0.5 * (top ? -up : up) / problem.nominal_area();
   }
-  dem::Gauge gauge(problem.model.particles, problem.shape());
+  dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const dem::GaugeStrain s = gauge.strain_of(problem.model.particles, state.displacement);
   p.strain_gauge = -s.axial;
   p.lateral_strain = s.lateral();

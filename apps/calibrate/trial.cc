@@ -68,7 +68,7 @@ void add_moduli(const std::vector<Look> &all, double peak, TrialResult &result) 
 
 void load_to_peak(coupling::Problem &problem, bool tension, double target, TrialResult &result) {
   const double sign = tension ? -1 : 1;
-  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const double step_closes = problem.settings().loading.rate * problem.time_step() / problem.shape().height;
   const long between = std::max(1L, std::lround(target / looks / step_closes));
   std::vector<Look> all{{}};

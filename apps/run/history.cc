@@ -74,7 +74,8 @@ std::vector<CsvCell> history_row(const Sample &s, const ExtraColumns &extra) {
 }
 
 Sampler::Sampler(const coupling::Problem &problem)
-    : gauge_(problem.model.particles, problem.shape()), pairs_(problem.model.particles, problem.shape()) {
+    : gauge_(problem.model.particles, problem.shape(), problem.model.bonds.get()),
+      pairs_(problem.model.particles, problem.shape(), problem.model.bonds.get()) {
   if (problem.shape().kind == dem::ShapeKind::disc)
     opening_.emplace(problem.model.particles, problem.shape());
   if (!problem.bent()) return;

@@ -6,9 +6,19 @@
 
 namespace platen::dem {
 
-Gauge::Gauge(const Particles &p, const Shape &shape) {
+std::vector<char> ever_bonded(const Particles &p, const Bonds *bonds) {
+  if (bonds == nullptr || bonds->initial_count() == 0) return std::vector<char>(p.size(), 1);
+  std::vector<char> bonded(p.size(), 0);
+  for (std::size_t k = 0; k < bonds->initial_count(); ++k)
+    bonded[static_cast<std::size_t>(bonds->record_first[k])] =
+        bonded[static_cast<std::size_t>(bonds->record_second[k])] = 1;
+  return bonded;
+}
+
+Gauge::Gauge(const Particles &p, const Shape &shape, const Bonds *bonds) {
+  const std::vector<char> bonded = ever_bonded(p, bonds);
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (std::abs(p.reference_position[i].z - 0.5 * shape.height) < 0.25 * shape.height)
+    if (bonded[i] && std::abs(p.reference_position[i].z - 0.5 * shape.height) < 0.25 * shape.height)
       rows_.push_back(static_cast<int>(i));
   for (const int i : rows_)
     centre_ += p.reference_position[i];
@@ -54,7 +64,8 @@ GaugeStrain Gauge::fit(const Particles &p, const Displacement &displacement) con
   return {gradient(2), gradient(0), gradient(1)};
 }
 
-ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape) {
+ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape, const Bonds *bonds) {
+  const std::vector<char> bonded = ever_bonded(p, bonds);
   double mean = 0;
   for (const double r : p.radius)
     mean += r / static_cast<double>(p.size());
@@ -65,7 +76,7 @@ ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape) {
       for (std::size_t i = 0; i < p.size(); ++i) {
         const Vector3 &x = p.reference_position[i];
         // A slab two spheres thick, and near the diameter, as the thesis' figure 22 shows.
-        if (std::abs(x.z - z) > 2 * mean || std::abs(x[1 - axis]) > 2 * mean) continue;
+        if (!bonded[i] || std::abs(x.z - z) > 2 * mean || std::abs(x[1 - axis]) > 2 * mean) continue;
         if (ends[0] < 0 || x[axis] < p.reference_position[ends[0]][axis]) ends[0] = static_cast<int>(i);
         if (ends[1] < 0 || x[axis] > p.reference_position[ends[1]][axis]) ends[1] = static_cast<int>(i);
       }
@@ -75,7 +86,7 @@ ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape) {
   along_ = {-1, -1};
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vector3 &x = p.reference_position[i];
-    if (x.x * x.x + x.y * x.y > 9 * mean * mean) continue;
+    if (!bonded[i] || x.x * x.x + x.y * x.y > 9 * mean * mean) continue;
     if (along_[0] < 0 || x.z < p.reference_position[along_[0]].z) along_[0] = static_cast<int>(i);
     if (along_[1] < 0 || x.z > p.reference_position[along_[1]].z) along_[1] = static_cast<int>(i);
   }

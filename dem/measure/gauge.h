@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "dem/bonds.h"
 #include "dem/packing/specimen.h"
 #include "dem/particles.h"
 
@@ -14,11 +15,17 @@ struct GaugeStrain {
   double lateral() const { return 0.5 * (lateral_x + lateral_y); }
 };
 
-// Best-fit displacement gradient over the particles whose reference centre lies in |z - H/2| < H/4: least
-// squares of the displacement on the reference position, less noisy than pairs of single particles.
+// 1 for each particle row that ever had a bond, broken ones included; all 1 where there never was any. What
+// sits loose between bonded spheres does not follow their strain.
+std::vector<char> ever_bonded(const Particles &particles, const Bonds *bonds);
+
+// Best-fit displacement gradient over the particles whose reference centre lies in |z - H/2| < H/4 and that
+// were bonded once: least squares of the displacement on the reference position, less noisy than pairs of
+// single particles.
 class Gauge {
 public:
-  Gauge(const Particles &particles, const Shape &shape);
+  // The same whenever it is made: from reference positions and the record of all bonds. `bonds` may be null.
+  Gauge(const Particles &particles, const Shape &shape, const Bonds *bonds);
   GaugeStrain strain(const Particles &particles) const;
   // Of displacements (m, one per particle row) instead of where the particles are.
   GaugeStrain strain_of(const Particles &particles, const std::vector<Vector3> &displacement) const;
@@ -36,10 +43,10 @@ private:
 // Lateral and axial strain the way of Tannu 2017 (32)-(34): in three sections (a quarter, half and three
 // quarters of the height) two pairs of outermost particles, along x and along y; the mean of the six
 // distances gives the lateral strain. Axial from the topmost and the lowest particle nearest to the axis of
-// each end.
+// each end. Loose spheres are passed over as in Gauge.
 class ExtremalPairs {
 public:
-  ExtremalPairs(const Particles &particles, const Shape &shape);
+  ExtremalPairs(const Particles &particles, const Shape &shape, const Bonds *bonds);
   double lateral(const Particles &particles) const; // tension positive
   double axial(const Particles &particles) const;   // tension positive
 

@@ -41,7 +41,7 @@ TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
   ProblemSettings settings = lubricated();
   settings.loading.cell = CellSettings{2e6, 0, 0, dem::ConfinementArea::voronoi};
   Problem problem(cylinder(), settings);
-  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
     problem.advance(16);
   const dem::GaugeStrain s = gauge.strain(problem.model.particles);
@@ -64,7 +64,7 @@ TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
   ProblemSettings settings = lubricated();
   settings.loading.cell = CellSettings{2e6, 0, 0, dem::ConfinementArea::voronoi};
   Problem problem(cylinder(), settings);
-  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
     problem.advance(16);
   const dem::GaugeStrain before = gauge.strain(problem.model.particles);
@@ -84,7 +84,7 @@ TEST(cell, a_stiff_wall_takes_nu_over_one_minus_nu_of_the_axial_stress) {
   settings.loading.wall_stiffness = 10;
   settings.loading.wall_layer = 1;
   Problem problem(cylinder(), settings);
-  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (problem.closure_strain() < 2e-4)
     problem.advance(16);
   const dem::GaugeStrain s = gauge.strain(problem.model.particles);

@@ -24,6 +24,7 @@ struct Case {
   const char *name;
   double friction; // enough of it to stick
   dem::BondParameters bond;
+  bool glued = false;
 };
 void PrintTo(const Case &c, std::ostream *out) {
   *out << c.name;
@@ -32,7 +33,9 @@ void PrintTo(const Case &c, std::ostream *out) {
 class StaticAgainstExplicit : public testing::TestWithParam<Case> {};
 
 TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
-  Problem problem(small_cylinder(), elastic(GetParam().friction, GetParam().bond));
+  ProblemSettings settings = elastic(GetParam().friction, GetParam().bond);
+  settings.platens.glued = GetParam().glued;
+  Problem problem(small_cylinder(), settings);
   const StaticPress still = press_statically(problem, 1e-5);
   EXPECT_GT(still.closed_top, 10u);
   EXPECT_GT(still.closed_bottom, 10u);
@@ -40,7 +43,7 @@ TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
   EXPECT_LT(still.youngs_modulus(), problem.voigt_modulus());
   EXPECT_EQ(problem.closure_strain(), 0); // the problem itself has not moved
 
-  const dem::Gauge gauge(problem.model.particles, problem.shape());
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (problem.closure_strain() < 1e-5)
     problem.step();
   const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
@@ -54,7 +57,8 @@ TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
 INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
                          testing::Values(Case{"parallel_bonds_sticking", 1e6, unbreakable_bond()},
                                          Case{"parallel_bonds_lubricated", 0, unbreakable_bond()},
-                                         Case{"beams_sticking", 1e6, dem::CohesiveBeam::Parameters{}}),
+                                         Case{"beams_sticking", 1e6, dem::CohesiveBeam::Parameters{}},
+                                         Case{"glued", 0, unbreakable_bond(), true}),
                          [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
 
 TEST(static_press, stress_is_linear_where_no_contact_changes) {
@@ -64,6 +68,44 @@ TEST(static_press, stress_is_linear_where_no_contact_changes) {
   const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
   ASSERT_EQ(once.closed_top, twice.closed_top);
   EXPECT_NEAR(twice.stress, 2 * once.stress, 1e-6 * once.stress);
+}
+
+// Glue holds sideways without friction, and where free ends would let go.
+TEST(static_press, glued_ends_are_stiffer_than_free_ones) {
+  ProblemSettings settings = elastic(0, unbreakable_bond());
+  Problem lubricated(small_cylinder(), settings);
+  settings.platens.glued = true;
+  Problem glued(small_cylinder(), settings);
+  settings = elastic(1e6, unbreakable_bond());
+  Problem sticking(small_cylinder(), settings);
+  const StaticPress slides = press_statically(lubricated, 1e-5), holds = press_statically(glued, 1e-5),
+                    sticks = press_statically(sticking, 1e-5);
+  EXPECT_GT(holds.platen_modulus(), 1.001 * slides.platen_modulus());
+  EXPECT_GE(holds.platen_modulus(), (1 - 1e-6) * sticks.platen_modulus()); // one spring more or as many
+  EXPECT_GE(holds.closed_top, sticks.closed_top);
+  EXPECT_EQ(holds.closed_top, static_cast<std::size_t>(glued.top_layer.seats()));
+  EXPECT_EQ(holds.closed_bottom, static_cast<std::size_t>(glued.bottom_layer.seats()));
+}
+
+// One on the lower platen, carried up by it alone, and one that touches nothing.
+TEST(static_press, loose_spheres_change_nothing) {
+  const dem::Specimen bonded = small_cylinder();
+  const double r = 0.5e-3, beside = bonded.shape.radius + 1.2 * r;
+  dem::Specimen more = bonded;
+  for (const double z : {r, 0.5 * bonded.shape.height}) {
+    more.centre.push_back({beside, 0, z});
+    more.radius.push_back(r);
+  }
+  for (const double friction : {0., 1e6}) {
+    Problem without(bonded, elastic(friction, unbreakable_bond())),
+        with(more, elastic(friction, unbreakable_bond()));
+    ASSERT_EQ(with.model.bonds->size(), without.model.bonds->size());
+    const StaticPress a = press_statically(without, 1e-5), b = press_statically(with, 1e-5);
+    EXPECT_EQ(b.closed_top, a.closed_top);
+    EXPECT_NEAR(b.youngs_modulus(), a.youngs_modulus(), 1e-6 * a.youngs_modulus());
+    EXPECT_NEAR(b.platen_modulus(), a.platen_modulus(), 1e-6 * a.platen_modulus());
+    EXPECT_NEAR(b.poisson_ratio(), a.poisson_ratio(), 1e-6);
+  }
 }
 
 TEST(static_press, asks_for_bonds_and_a_strain) {

@@ -38,7 +38,7 @@ void deform(Particles &p, const Gradient &g, const Vector3 &shift) {
 TEST(measure, the_gauge_reads_an_affine_motion_exactly) {
   const Specimen specimen = small_cylinder();
   Model model(specimen, bonded());
-  const Gauge gauge(model.particles, specimen.shape);
+  const Gauge gauge(model.particles, specimen.shape, model.bonds.get());
   EXPECT_GT(gauge.size(), 50u);
   EXPECT_LT(gauge.size(), model.particles.size());
   const Gradient g{{{1.1e-3, 4e-4, -7e-4}, {2e-4, .9e-3, 3e-4}, {-5e-4, 6e-4, -4.2e-3}}};
@@ -52,11 +52,82 @@ TEST(measure, the_gauge_reads_an_affine_motion_exactly) {
   EXPECT_NEAR(s.lateral(), 1e-3, 1e-12);
 }
 
+// A lattice that is bonded, 12 radii wide and 24 high, and in its wide holes and around it small spheres that
+// touch nothing.
+Specimen lattice_with_loose_spheres() {
+  Specimen s;
+  s.shape = box(16 * radius, 16 * radius, 24 * radius);
+  const auto place = [&](double half, double z0, double layers, double r) {
+    for (double z = 0; z < layers; ++z)
+      for (double y = -half; y <= half; ++y)
+        for (double x = -half; x <= half; ++x) {
+          s.centre.push_back({2 * radius * x, 2 * radius * y, 2 * radius * z + z0});
+          s.radius.push_back(r);
+        }
+  };
+  place(2.5, radius, 12, radius);
+  place(3, 2 * radius, 11, .1 * radius);
+  return s;
+}
+// Strains what is bonded and leaves the rest.
+void deform_bonded(Model &model, const Gradient &g) {
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.radius[i] > .5 * radius) p.position[i] = p.reference_position[i] + g(p.reference_position[i]);
+}
+constexpr double squeezed = 1e-3, widened = 2e-4;
+const Gradient squeeze{{{widened, 0, 0}, {0, widened, 0}, {0, 0, -squeezed}}};
+
+// What is in no bond stays behind where the network is strained.
+TEST(measure, loose_spheres_do_not_enter_the_gauges) {
+  const Specimen specimen = lattice_with_loose_spheres();
+  Model model(specimen, bonded());
+  const Gauge gauge(model.particles, specimen.shape, model.bonds.get());
+  const ExtremalPairs pairs(model.particles, specimen.shape, model.bonds.get());
+  EXPECT_EQ(gauge.size(), 6u * 6 * 6);
+  deform_bonded(model, squeeze);
+  const GaugeStrain s = gauge.strain(model.particles);
+  EXPECT_NEAR(s.axial, -squeezed, 1e-12);
+  EXPECT_NEAR(s.lateral_x, widened, 1e-12);
+  EXPECT_NEAR(s.lateral_y, widened, 1e-12);
+  EXPECT_NEAR(pairs.axial(model.particles), -squeezed, 1e-5); // pairs may lean by a sphere: lengths mix
+  EXPECT_NEAR(pairs.lateral(model.particles), widened, 1e-4);
+}
+
+// A resumed run makes its gauge when bonds have broken and their rows are gone.
+TEST(measure, broken_bonds_leave_the_gauge_as_it_was) {
+  const Specimen specimen = lattice_with_loose_spheres();
+  Model model(specimen, bonded());
+  const Gauge before(model.particles, specimen.shape, model.bonds.get());
+  std::vector<BondBreak> breaks;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k)
+    breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  model.bonds->break_rows(breaks, model.particles, 0);
+  model.bonds->compact();
+  ASSERT_EQ(model.bonds->size(), 0u);
+  const Gauge after(model.particles, specimen.shape, model.bonds.get());
+  EXPECT_EQ(after.size(), before.size());
+  deform_bonded(model, squeeze);
+  EXPECT_EQ(after.strain(model.particles).axial, before.strain(model.particles).axial);
+}
+
+TEST(measure, without_bonds_the_gauge_counts_every_sphere) {
+  const Specimen specimen = small_cylinder();
+  ModelSettings settings = bonded();
+  settings.bond.reset();
+  const Model loose(specimen, settings);
+  const Gauge all(loose.particles, specimen.shape, loose.bonds.get());
+  std::size_t middle = 0;
+  for (const Vector3 &x : loose.particles.reference_position)
+    middle += std::abs(x.z - .5 * specimen.shape.height) < .25 * specimen.shape.height;
+  EXPECT_EQ(all.size(), middle);
+}
+
 TEST(measure, the_gauge_does_not_see_the_ends) {
   const Specimen specimen = small_cylinder();
   Model model(specimen, bonded());
   Particles &p = model.particles;
-  const Gauge gauge(p, specimen.shape);
+  const Gauge gauge(p, specimen.shape, model.bonds.get());
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.reference_position[i].z < 3 * radius) p.position[i].z -= 1e-3;
   EXPECT_EQ(gauge.strain(p).axial, 0);
@@ -65,7 +136,7 @@ TEST(measure, the_gauge_does_not_see_the_ends) {
 TEST(measure, extremal_pairs_read_an_affine_motion) {
   const Specimen specimen = small_cylinder();
   Model model(specimen, bonded());
-  const ExtremalPairs pairs(model.particles, specimen.shape);
+  const ExtremalPairs pairs(model.particles, specimen.shape, model.bonds.get());
   const Gradient g{{{1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, -4e-3}}};
   deform(model.particles, g, {});
   EXPECT_NEAR(pairs.axial(model.particles), -4e-3, 1e-12);
