@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "dem/measure/fragments.h"
 #include "dem/statics/conjugate_gradients.h"
 #include "dem/statics/multigrid.h"
 #include "dem/statics/network.h"
@@ -16,6 +17,62 @@ void check(const Particles &p, const StaticCase &load) {
   if ((!load.force.empty() && load.force.size() != p.size()) ||
       (!load.torque.empty() && load.torque.size() != p.size()))
     throw std::invalid_argument("static loads need one row per particle");
+  const auto require_row = [&](int row, const char *what) {
+    if (row < 0 || static_cast<std::size_t>(row) >= p.size())
+      throw std::invalid_argument(std::string(what) + " is given for particle row " + std::to_string(row) +
+                                  ". Allowed: 0 to " + std::to_string(p.size()) + ", exclusive");
+  };
+  for (const Support &s : load.supports)
+    require_row(s.spring.particle, "a static support");
+  std::vector<char> led(p.size(), 0);
+  for (const Led &l : load.led) {
+    require_row(l.particle, "a static motion");
+    if (led[static_cast<std::size_t>(l.particle)]++)
+      throw std::invalid_argument("particle " + std::to_string(p.id[static_cast<std::size_t>(l.particle)]) +
+                                  " is led twice. Allowed: one motion for each particle");
+  }
+}
+
+// Pieces of the network that nothing leads or supports rest only under loads that balance; found out here,
+// because conjugate gradients would look for a balance until they are stopped.
+void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase &load, double tolerance) {
+  if (load.force.empty() && load.torque.empty()) return;
+  const Fragments pieces = find_fragments(p, &bonds);
+  struct Sum {
+    bool held = false;
+    int particle = 0;               // row, one of the piece
+    Vector3 force, torque;          // N, N m about that particle
+    double forces = 0, torques = 0; // sums of sizes
+  };
+  std::vector<Sum> sums(pieces.particles.size());
+  const auto piece = [&](int row) -> Sum & {
+    return sums[static_cast<std::size_t>(pieces.of_particle[static_cast<std::size_t>(row)])];
+  };
+  for (const Support &s : load.supports)
+    piece(s.spring.particle).held = true;
+  for (const Led &l : load.led)
+    piece(l.particle).held = true;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    piece(static_cast<int>(i)).particle = static_cast<int>(i);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Sum &s = piece(static_cast<int>(i));
+    const Vector3 f = load.force.empty() ? Vector3{} : load.force[i],
+                  t = load.torque.empty() ? Vector3{} : load.torque[i],
+                  arm = p.position[i] - p.position[static_cast<std::size_t>(s.particle)];
+    s.force += f;
+    s.torque += cross(arm, f) + t;
+    s.forces += norm(f);
+    s.torques += norm(arm) * norm(f) + norm(t);
+  }
+  for (const Sum &s : sums) {
+    const bool turns = p.has_rotation() && norm(s.torque) > tolerance * s.torques;
+    if (s.held || !(norm(s.force) > tolerance * s.forces || turns)) continue;
+    const std::size_t i = static_cast<std::size_t>(s.particle);
+    throw NoEquilibrium("nothing holds the piece of " +
+                        std::to_string(pieces.particles[static_cast<std::size_t>(pieces.of_particle[i])]) +
+                        " spheres with particle " + std::to_string(p.id[i]) +
+                        ", and its loads do not balance");
+  }
 }
 
 void put(const Vector3 &a, double *to) {
@@ -37,6 +94,7 @@ class Network final : public StaticSolver::Implementation {
 public:
   Network(const Particles &p, const Bonds &b)
       : p_(p),
+        network_(b),
         bonds_(statics::assemble<n>(
             p.size(), b, [&](std::size_t row) { return statics::material_stiffness<n>(p, b, row); })),
         matrix_(bonds_) {
@@ -48,12 +106,13 @@ public:
 
   StaticState solve(const StaticCase &load, const StaticSettings &settings,
                     const StaticState *start) override {
+    check(p_, load);
+    refuse_unbalanced(p_, network_, load, settings.tolerance);
     hold(load);
     support(load);
     std::vector<double> x(n * p_.size(), 0.0), right(n * p_.size(), 0.0);
     if (start != nullptr) begin_from(*start, x);
     take(load, x, right);
-    refuse_loose(right);
     if (!multigrid_)
       multigrid_.emplace(matrix_, std::vector<Vector3>(p_.position.begin(), p_.position.end()),
                          std::vector<double>(p_.radius.begin(), p_.radius.end()), held_);
@@ -68,16 +127,14 @@ public:
 private:
   // What is led, or held by nothing, has no equation. Another set of them needs another multigrid.
   void hold(const StaticCase &load) {
-    std::vector<char> led(p_.size(), 0);
+    std::vector<char> held(p_.size(), 0);
     for (const Led &l : load.led)
-      led[static_cast<std::size_t>(l.particle)] = 1;
+      held[static_cast<std::size_t>(l.particle)] = 1;
     std::vector<char> supported(p_.size(), 0);
     for (const Support &s : load.supports)
       supported[static_cast<std::size_t>(s.spring.particle)] = 1;
-    std::vector<char> held = led;
     for (std::size_t i = 0; i < p_.size(); ++i)
       if (!supported[i] && loose(i)) held[i] = 1;
-    led_ = std::move(led);
     if (held == held_) return;
     held_ = std::move(held);
     multigrid_.reset();
@@ -122,14 +179,6 @@ private:
     }
   }
 
-  void refuse_loose(const std::vector<double> &right) const {
-    for (std::size_t i = 0; i < p_.size(); ++i)
-      if (held_[i] && !led_[i])
-        for (int c = 0; c < n; ++c)
-          if (right[n * i + static_cast<std::size_t>(c)] != 0)
-            throw NoEquilibrium("nothing holds particle " + std::to_string(p_.id[i]) + ", which is loaded");
-  }
-
   StaticState state_of(const std::vector<double> &x, const statics::Solution &s) const {
     StaticState state;
     state.iterations = s.iterations;
@@ -145,10 +194,11 @@ private:
   }
 
   const Particles &p_;
+  const Bonds &network_;
   statics::BlockRows<n, double> bonds_, matrix_; // without and with supports
   std::vector<std::size_t> diagonal_;            // block of each row
   std::vector<std::size_t> supported_;           // rows
-  std::vector<char> held_, led_;
+  std::vector<char> held_;
   std::optional<statics::Multigrid<n>> multigrid_;
 };
 
@@ -170,7 +220,6 @@ StaticState StaticSolver::solve(const StaticCase &load, const StaticSettings &se
 
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings) {
-  check(particles, load);
   return StaticSolver(particles, bonds).solve(load, settings);
 }
 

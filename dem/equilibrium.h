@@ -25,7 +25,7 @@ struct Led {
 };
 struct StaticCase {
   std::vector<Support> supports;
-  std::vector<Led> led;               // each particle at most once
+  std::vector<Led> led;               // each particle at most once; goes before what supports would do to it
   std::vector<Vector3> force, torque; // N, N m, on every particle; empty: none
 };
 struct StaticSettings {
@@ -42,11 +42,12 @@ struct NoEquilibrium : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What bonds in their present directions, with no forces in them, answer to the case. Particles that nothing
-// holds stay where they are. A network that its supports leave free to move as a whole comes to rest at one
-// of its equilibria, if the loads have any. Throws NoEquilibrium where the residual does not fall to the
-// tolerance, and std::invalid_argument where columns of loads do not fit the particles. The same on any
-// number of threads, to the last bit.
+// What bonds in their present directions, with no forces in them, answer to the case. Spheres and pieces that
+// nothing holds or loads stay where they are. A network that its supports leave free to move as a whole comes
+// to rest at one of its equilibria, if the loads have any. Throws NoEquilibrium where a piece that nothing
+// holds has loads that do not balance or the residual does not fall to the tolerance, and
+// std::invalid_argument where columns of loads do not fit the particles, a row is none of theirs or a
+// particle is led twice. The same on any number of threads, to the last bit.
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings = {});
 

@@ -222,5 +222,102 @@ TEST(equilibrium, loose_spheres_stay_where_they_are) {
   EXPECT_THROW(solve_static(model.particles, *model.bonds, load), NoEquilibrium);
 }
 
+TEST(equilibrium, a_particle_is_led_once) {
+  Model model(row(3, {1, 0, 0}), bonded());
+  StaticCase load = clamped_at(0);
+  load.led.push_back({0, {1e-6, 0, 0}, {}});
+  StaticSolver solver(model.particles, *model.bonds);
+  for (int way = 0; way < 2; ++way)
+    try {
+      way == 0 ? solver.solve(load) : solve_static(model.particles, *model.bonds, load);
+      FAIL();
+    } catch (const std::invalid_argument &e) {
+      EXPECT_NE(
+          std::string(e.what()).find("particle " + std::to_string(model.particles.id[0]) + " is led twice"),
+          std::string::npos)
+          << e.what();
+    }
+  for (const int none : {-1, 4}) {
+    load.led = {{none, {}, {}}};
+    EXPECT_THROW(solver.solve(load), std::invalid_argument);
+    load.led.clear();
+    load.supports = {{{none, {0, 0, 1}, {0, 0, -radius}, 1e7, 0, 0.}, {}}};
+    EXPECT_THROW(solver.solve(load), std::invalid_argument);
+    load.supports.clear();
+  }
+}
+
+// Whatever spring it has too, a led particle is where it was led to.
+TEST(equilibrium, a_led_particle_does_not_feel_its_support) {
+  Model model(row(3, {1, 0, 0}), bonded());
+  const Particles &p = model.particles;
+  const std::size_t low = row_of(p, 0), high = row_of(p, 3);
+  StaticCase load = clamped_at(low);
+  load.led.push_back({static_cast<int>(high), {2e-6, 0, 0}, {}});
+  const StaticState without = solve_static(p, *model.bonds, load, exact());
+  load.supports.push_back(
+      {{static_cast<int>(high), {1, 0, 0}, {-radius, 0, 0}, 1e9, 1e8, 0.}, {-1e-3, 0, 0}});
+  const StaticState with = solve_static(p, *model.bonds, load, exact());
+  EXPECT_EQ(largest_difference(p, without, with), 0);
+  EXPECT_EQ(with.displacement[high].x, 2e-6);
+  EXPECT_NEAR(with.displacement[row_of(p, 1)].x, 2e-6 / 3, 1e-17);
+}
+
+// A box beside another one, in one network, small enough for one level and large enough for several.
+TEST(equilibrium, a_piece_that_nothing_holds_stays_where_it_is) {
+  for (const double height : {6., 30.}) {
+    const double wide = height > 10 ? 20 : 6;
+    const Specimen one = packed_box(wide, wide, height);
+    Specimen both = one;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      both.centre.push_back(one.centre[i] + Vector3{2 * wide * radius, 0, 0});
+      both.radius.push_back(one.radius[i]);
+    }
+    both.centre.push_back({0, 4 * wide * radius, 0}); // and a sphere
+    both.radius.push_back(radius);
+    Model model(both, bonded()), alone(one, bonded());
+    const auto held = [&](const Particles &p) {
+      StaticCase load;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        if (p.position[i].x > wide * radius || p.position[i].y > 2 * wide * radius) continue;
+        const int row = static_cast<int>(i);
+        if (p.position[i].z < 2 * radius)
+          load.supports.push_back({{row, {0, 0, 1}, {0, 0, -radius}, 1e7, 1e6, 0.}, {}});
+        if (p.position[i].z > (height - 2) * radius) load.led.push_back({row, {1e-6, 0, -2e-6}, {}});
+      }
+      return load;
+    };
+    StaticSettings fine;
+    fine.tolerance = 1e-12;
+    const Particles &p = model.particles;
+    StaticCase load = held(p);
+    ASSERT_FALSE(load.led.empty());
+    const StaticState s = solve_static(p, *model.bonds, load, fine),
+                      expected = solve_static(alone.particles, *alone.bonds, held(alone.particles), fine);
+    std::vector<std::size_t> at(both.size());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      at[static_cast<std::size_t>(p.id[i])] = i;
+    std::size_t stray = p.size();
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (p.position[i].x > wide * radius || p.position[i].y > 2 * wide * radius) {
+        stray = i;
+        ASSERT_LT(norm(s.displacement[i]), 1e-16) << i; // of 2e-6
+      }
+    for (std::size_t i = 0; i < alone.particles.size(); ++i)
+      ASSERT_LT(norm(s.displacement[at[static_cast<std::size_t>(alone.particles.id[i])]] -
+                     expected.displacement[i]),
+                1e-8 * 2e-6);
+    // Loaded, it is refused by name, at once.
+    load.force.assign(p.size(), {});
+    load.force[stray] = {0, 0, 1};
+    try {
+      solve_static(p, *model.bonds, load, fine);
+      FAIL();
+    } catch (const NoEquilibrium &e) {
+      EXPECT_NE(std::string(e.what()).find("nothing holds"), std::string::npos) << e.what();
+    }
+  }
+}
+
 } // namespace
 } // namespace platen::dem
