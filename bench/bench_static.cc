@@ -1,5 +1,5 @@
 // Elastic moduli of the step benchmarks' specimen by static solves, beside the time that explicit steps would
-// take.
+// take, or beside explicit steps that are made.
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -8,6 +8,7 @@
 
 #include "apps/io/specimen_csv.h"
 #include "coupling/static_press.h"
+#include "dem/measure/gauge.h"
 #include "dem/parallel.h"
 #include "dem/statics/network.h"
 #include "static_ml.h"
@@ -54,6 +55,48 @@ void compare_with_ml(coupling::Problem &problem) {
       seconds, ours.iterations, ml.setup_seconds, ml.solve_seconds, ml.iterations, difference);
 }
 
+// What platens and gauge say of a specimen that has been pressed.
+struct Moduli {
+  double gauge = 0, platens = 0, poisson_ratio = 0; // Pa, Pa, 1
+};
+
+double percent_off(double a, double b) {
+  return 100 * (a / b - 1);
+}
+
+// The same strain by so many steps: platens that start smoothly over the first half of the run and then keep
+// their speed, thousands of wave crossings for the whole way.
+void compare_with_steps(const dem::Specimen &specimen, coupling::ProblemSettings settings, long steps,
+                        double time_step, const coupling::StaticPress &still, double still_seconds) {
+  settings.loading.ramp = 0.5 * static_cast<double>(steps) * time_step;
+  settings.loading.rate = still.strain_platen * specimen.shape.height /
+                          (static_cast<double>(steps) * time_step - 0.5 * settings.loading.ramp);
+  coupling::Problem problem(specimen, settings);
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
+  const double seconds = seconds_of([&] { bench::run(problem, steps); });
+
+  const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
+  const double stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  const Moduli made{stress / -strain.axial, stress / problem.closure_strain(),
+                    -strain.lateral() / strain.axial};
+  const dem::EnergyLedger energy = problem.energy();
+  std::printf("explicit: %ld steps of %.3g s in %.4g s, to a strain of %.4g at %.3g m/s\n", steps,
+              problem.time_step(), seconds, problem.closure_strain(), settings.loading.rate);
+  std::printf("  E %.6g GPa (gauge), %.6g GPa (platens), nu %.6f; static %.6g, %.6g, %.6f\n",
+              1e-9 * made.gauge, 1e-9 * made.platens, made.poisson_ratio, 1e-9 * still.youngs_modulus(),
+              1e-9 * still.platen_modulus(), still.poisson_ratio());
+  std::printf("  static against explicit: %+.4f %%, %+.4f %%, %+.4f %%; ratio of the seconds %.0f\n",
+              percent_off(still.youngs_modulus(), made.gauge),
+              percent_off(still.platen_modulus(), made.platens),
+              percent_off(still.poisson_ratio(), made.poisson_ratio), seconds / still_seconds);
+  std::printf("  contacts of the platens: %zu + %zu, static %zu + %zu; touching grains %zu; cracks %ld\n",
+              problem.bottom_layer.closed, problem.top_layer.closed, still.closed_bottom, still.closed_top,
+              problem.model.contacts->touching_count(),
+              problem.model.broken_tension + problem.model.broken_shear);
+  std::printf("  kinetic over internal energy %.1e, unbalanced over bond force %.1e\n",
+              energy.kinetic / (energy.bonds + energy.contacts), problem.unbalanced_ratio());
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -68,28 +111,42 @@ int main(int argc, char **argv) {
   app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
   app.add_option("--law", law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
   app.add_option("--specimen", read, "a packing from this file instead")->check(CLI::ExistingFile);
-  bool ml = false;
+  double friction = 1e6, strain = 1e-5;
+  app.add_option("--friction", friction,
+                 "of the platens, in explicit steps; in static solves all of it sticks")
+      ->check(CLI::Range(0., 1e9));
+  app.add_option("--strain", strain, "closure of the platens over the height")->check(CLI::Range(1e-9, 1e-2));
+  bool ml = false, explicitly_too = false;
+  app.add_flag("--explicit", explicitly_too, "make all of the explicit steps and compare what they give");
   app.add_flag("--ml", ml, "compare a solve with Trilinos ML");
   CLI11_PARSE(app, argc, argv);
 
   const dem::ThreadLimit limit(threads);
-  coupling::Problem problem(
-      read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen,
-      bench::elastic_press(law));
+  const dem::Specimen specimen =
+      read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen;
+  coupling::ProblemSettings settings = bench::elastic_press(law);
+  settings.platens.top = settings.platens.bottom = {friction, friction};
+  coupling::Problem problem(specimen, settings);
   if (ml) compare_with_ml(problem);
   std::vector<double> still, step;
   coupling::StaticPress p;
   constexpr long timed = 100;
   for (int r = 0; r < repeats; ++r) {
-    still.push_back(seconds_of([&] { p = coupling::press_statically(problem, 1e-5); }));
-    step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
+    still.push_back(seconds_of([&] { p = coupling::press_statically(problem, strain); }));
+    if (!explicitly_too) step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
   }
-  const double seconds = bench::spread(still).median, explicitly = bench::spread(step).median * steps;
+  const double seconds = bench::spread(still).median;
   std::printf("%s, %d threads\n", bench::machine().c_str(), threads);
   std::printf("%zu particles, %zu bonds: E %.4g GPa (gauge), %.4g GPa (platens), nu %.4f\n",
               problem.model.particles.size(), problem.model.bonds->size(), 1e-9 * p.youngs_modulus(),
               1e-9 * p.platen_modulus(), p.poisson_ratio());
-  std::printf("static: %.3g s (%d solves, %d iterations); %.0f explicit steps: %.3g s; ratio %.0f\n", seconds,
-              p.solves, p.iterations, steps, explicitly, explicitly / seconds);
+  std::printf("static: %.3g s (%d solves, %d iterations)\n", seconds, p.solves, p.iterations);
+  if (explicitly_too) {
+    compare_with_steps(specimen, settings, static_cast<long>(steps), problem.time_step(), p, seconds);
+  } else {
+    const double explicitly = bench::spread(step).median * steps;
+    std::printf("%.0f explicit steps would take %.3g s (by %ld of them); ratio %.0f\n", steps, explicitly,
+                timed, explicitly / seconds);
+  }
   return 0;
 }
