@@ -72,7 +72,6 @@ void Problem::choose_step(bool first) {
 }
 
 void Problem::drift_bodies() {
-  set_platen_speeds();
   top.drift(time_step_);
   bottom.drift(time_step_);
   top.clear_loads();
@@ -110,6 +109,7 @@ long Problem::advance(long most) {
       throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_ + 1) +
                             ", time " + text_of(time()) +
                             " s; try a smaller Integration/Safety or Loading/Axial rate");
+    set_platen_speeds();
     add_forces();
     ++steps_;
     if (made + 1 == most || (model.breaks > 0 && model.settings().crack_log)) {
@@ -118,6 +118,37 @@ long Problem::advance(long most) {
     }
   }
   return most;
+}
+
+// One step so long that no speed in it counts: what dashpots take of it is their fraction of critical times a
+// period over this, and forces at its end, which balance, do nothing.
+void Problem::carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
+                    double way) {
+  if (steps_ > 0) throw std::logic_error("a problem is carried to its start before its first step");
+  constexpr double unhurried = 1; // s, against periods of microseconds
+  dem::Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = displacement[i] / unhurried;
+    if (p.has_rotation() && !turn.empty()) (*p.angular_velocity)[i] = turn[i] / unhurried;
+  }
+  top.set_velocity({0, 0, -way / unhurried});
+  bottom.set_velocity({0, 0, way / unhurried});
+  const double chosen = time_step_, damped = model.works.damping;
+  time_step_ = unhurried;
+  model.begin_step(unhurried);
+  add_forces();
+  model.end_step(unhurried);
+  time_step_ = chosen;
+  if (model.breaks > 0)
+    throw BadSetup("Loading/Start strain", "breaks " + std::to_string(model.breaks) +
+                                               " bonds at once, which a static solve does not follow. "
+                                               "Allowed: less, before the first crack.");
+  model.works.damping = damped; // of the kick alone, which is taken back
+  model.time = 0;
+  std::fill(p.velocity.begin(), p.velocity.end(), dem::Vector3{});
+  if (p.has_rotation()) std::fill(p.angular_velocity->begin(), p.angular_velocity->end(), dem::Vector3{});
+  top.set_velocity({0, 0, 0});
+  bottom.set_velocity({0, 0, 0});
 }
 
 // All but the particles' motion. What platens do to particles is found while bonds are: its parts are small,

@@ -98,6 +98,13 @@ public:
   // Up to `most` steps, to the same bits as one by one and faster; ends early after a step that leaves
   // cracks to be written. Returns how many were made.
   long advance(long most);
+  // Before the first step: carries the particles by displacements (m) and turns (rad; empty without rotation)
+  // and each platen towards the other by `way` (m), so slowly that nothing is left in motion, as a solve
+  // without inertia has it. Bonds, contacts, friction springs and the energy book are then as after a loading
+  // in no hurry; the clock stands at zero. Throws BadSetup where a bond breaks on the way, and
+  // std::logic_error after the first step.
+  void carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
+             double way);
 
   dem::Model model;
   fem::Body top, bottom;

@@ -124,10 +124,18 @@ StaticPress press_statically(Problem &problem, double strain, const dem::StaticS
     StaticPress p = measured(problem, contacts, state, strain);
     p.solves = solve;
     p.iterations = iterations;
+    p.displacement = std::move(state.displacement);
+    p.turn = std::move(state.turn);
     return p;
   }
   throw NumericsStopped("the contacts of the platens do not settle in " + std::to_string(most_solves) +
                         " solves");
+}
+
+StaticPress start_statically(Problem &problem, double strain, const dem::StaticSettings &settings) {
+  StaticPress p = press_statically(problem, strain, settings);
+  problem.carry(p.displacement, p.turn, 0.5 * strain * problem.shape().height);
+  return p;
 }
 
 } // namespace platen::coupling

@@ -17,6 +17,7 @@ struct StaticPress {
   double poisson_ratio() const { return lateral_strain / strain_gauge; }
   std::size_t closed_top = 0, closed_bottom = 0; // spheres that the platens press
   int solves = 0, iterations = 0;                // of the active set, of all conjugate gradients
+  std::vector<dem::Vector3> displacement, turn;  // m, rad; of every particle; no turns without rotation
 };
 
 // Closes the platens by `strain` (positive) of the height against the intact network in its present state,
@@ -25,5 +26,9 @@ struct StaticPress {
 // otherwise: stress grows with strain alone where the set of contacts does not change. Glued ends hold in
 // either sense. Throws NumericsStopped where the set does not settle or no equilibrium is found.
 StaticPress press_statically(Problem &problem, double strain, const dem::StaticSettings &settings = {});
+
+// The same, and carries a problem that has made no step there (Problem::carry): an explicit run begins at
+// that strain, at rest. Friction has its share of slip then, if it has any. Throws BadSetup too.
+StaticPress start_statically(Problem &problem, double strain, const dem::StaticSettings &settings = {});
 
 } // namespace platen::coupling

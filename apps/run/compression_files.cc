@@ -63,6 +63,7 @@ void CompressionRun::open_files() {
     history_.emplace(paths_.history(), history_columns(columns_));
     if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
+    if (as_packed_) keep(*as_packed_);
     sample();
     if (fields_) fields_->write(*problem_);
     return;
@@ -84,7 +85,10 @@ void CompressionRun::open_files() {
 
 void CompressionRun::sample() {
   dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::measures);
-  const Sample s = (*sampler_)(*problem_);
+  keep((*sampler_)(*problem_));
+}
+
+void CompressionRun::keep(const Sample &s) {
   history_->row(history_row(s, columns_));
   const bool fallen = results_.add(s, *problem_);
   if (fallen && fields_) fields_->write(*problem_); // the state that damage and opening are measured in

@@ -49,7 +49,9 @@ private:
   long steps_unobserved() const;
   void open_files();
   void loop();
+  void start_pressed();
   void sample();
+  void keep(const Sample &s);
   void write_cracks();
   void checkpoint();
   bool checkpoint_due() const;
@@ -69,6 +71,7 @@ private:
   dem::ThreadLimit threads_;
   std::unique_ptr<coupling::Problem> problem_;
   std::unique_ptr<Sampler> sampler_;
+  std::optional<Sample> as_packed_; // where the run does not begin there
   Results results_;
   std::optional<CsvWriter> history_, cracks_;
   std::optional<FieldSeries> fields_;

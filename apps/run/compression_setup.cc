@@ -14,6 +14,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
+#include "coupling/static_press.h"
 #include "fem/threads.h"
 
 namespace platen::apps {
@@ -97,15 +98,16 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   try {
     problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
     sampler_ = std::make_unique<Sampler>(*problem_);
+    if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
   } catch (const coupling::BadSetup &e) {
     if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
     throw InputError(e.entry() + " " + e.what());
   }
-  const double seconds =
-      by_time()
-          ? end_time()
-          : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) + 0.5 * problem_->ramp() +
-                scene.loading.target_strain * problem_->shape().height / scene.loading.axial_rate;
+  const double seconds = by_time() ? end_time()
+                                   : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) +
+                                         0.5 * problem_->ramp() +
+                                         (scene.loading.target_strain - scene.loading.start_strain) *
+                                             problem_->shape().height / scene.loading.axial_rate;
   expected_steps_ = std::max(1.0, seconds / problem_->time_step());
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
@@ -115,6 +117,17 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (!command.resume) {
     write_text_aside(paths_.scene(), scene_text(scene, paths_.folder));
     write_specimen_csv(paths_.specimen_csv(), specimen);
+  }
+}
+
+// Moduli and strains are told from the specimen as it was packed.
+void CompressionRun::start_pressed() {
+  as_packed_ = (*sampler_)(*problem_);
+  try {
+    coupling::start_statically(*problem_, scene_.loading.start_strain);
+  } catch (const coupling::NumericsStopped &e) {
+    throw coupling::BadSetup("Loading/Start strain", std::string("has no static solution: ") + e.what() +
+                                                         ". Allowed: 0, from nothing.");
   }
 }
 

@@ -26,6 +26,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.bond();
   check.phases();
   check.contact();
+  check.start();
   check.splitting();
   check.bending();
   check.platens();

@@ -43,6 +43,31 @@ void SceneCheck::loading() const {
       refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
 }
 
+void SceneCheck::start() const {
+  const Loading &loading = scene_.loading;
+  if (!(loading.start_strain > 0)) return;
+  const auto refuse_start = [&](const std::string &why) { refuse("Loading/Start strain", why); };
+  if (app_ != AppKind::compress && app_ != AppKind::study)
+    refuse_start("is for platen-compress. Allowed: 0.");
+  if (loading.test != LoadingTest::compression)
+    refuse_start("needs Loading/Test = compression: the solve presses. Allowed: 0.");
+  if (loading.confinement != ConfinementKind::none)
+    refuse_start("does not go with Loading/Confinement. Allowed: 0.");
+  if (scene_.platens.top_control == PlatenControl::stress)
+    refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
+  if (scene_.effects.bond == BondKind::none) refuse_start("needs bonds to solve for. Allowed: 0.");
+  if (scene_.effects.bond == BondKind::elasto_damage_plastic)
+    refuse_start(
+        "needs bonds without a memory: Effects/Bond = elasto damage plastic answers to its whole "
+        "path. Allowed: 0.");
+  if (scene_.effects.gravity) refuse_start("does not go with Effects/Gravity = on. Allowed: 0.");
+  if (loading.start_strain >= loading.target_strain)
+    refuse_start("is not below Loading/Target strain = " + parameters_.at("Loading/Target strain").text +
+                 ".");
+  if (!loading.unload_at.empty() && loading.start_strain >= loading.unload_at.front())
+    refuse_start("is not below the first of Loading/Unload at.");
+}
+
 void SceneCheck::splitting() const {
   if (app_ != AppKind::brazilian) return;
   if (scene_.loading.test != LoadingTest::compression)

@@ -51,6 +51,7 @@ struct Loading {
   double axial_rate = not_given; // m/s, speed of the platens towards (tension: from) each other, > 0
   double ramp = 0;               // s, smooth start; 0: the app chooses
   double hold = 0;             // s, how long a stress is held after its ramp: the top platen's, or the cell's
+  double start_strain = 0;     // closure of a static solve that the run begins with; 0: from nothing
   double target_strain = 0.01; // closure of the platens over the height of the specimen
   double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
   ConfinementKind confinement = ConfinementKind::none;

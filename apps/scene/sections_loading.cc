@@ -85,6 +85,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "Hold", loading.hold, "s", at_least(0),
       "How long the stress of Platens/Top/Control = stress is held after the ramp; with Confinement: "
       "how long its pressure stands on all sides before the platens move on.");
+  section.number("Start strain", loading.start_strain, {0, 1, true, false},
+                 "Closure over height that a static solve begins the run with, at rest; 0: from nothing.");
   section.number("Target strain", loading.target_strain, above_up_to(0, 1),
                  "Closure over height at which the run is over.");
   section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),

@@ -72,6 +72,29 @@ TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
+// Begun at a strain by a static solve: first row as packed, second where it begins, and no second start.
+TEST_F(Determinism, a_run_begun_statically_resumes_as_if_it_had_not_been_stopped) {
+  const std::vector<std::string> begun{"-s", "Loading/Start strain = 4e-4"};
+  crush("whole", "1", begun);
+  const auto rows = [&](const char *name) { return column_of(folder_ / "whole/history.csv", name); };
+  EXPECT_EQ(rows("axial_strain_platen")[0], 0);
+  EXPECT_EQ(rows("axial_stress_top_pa")[0], 0);
+  EXPECT_NEAR(rows("axial_strain_platen")[1], 4e-4, 1e-12);
+  EXPECT_EQ(rows("time_s")[1], 0);
+  EXPECT_EQ(rows("kinetic_energy_j")[1], 0);
+  EXPECT_GT(rows("axial_stress_top_pa")[1], 1e6);
+  EXPECT_LT(std::abs(rows("energy_residual_j")[1]), 0.01 * rows("bond_energy_j")[1]);
+  std::vector<std::string> stopping{"-t", "2"};
+  stopping.insert(stopping.end(), begun.begin(), begun.end());
+  EXPECT_EQ(stop_at("stopped", 30, SIGTERM, stopping), 143);
+  std::vector<std::string> going_on{scene_, "-o", "stopped", "-t", "1", "--resume", "--quiet"};
+  going_on.insert(going_on.end(), begun.begin(), begun.end());
+  const Outcome last = run_compress(going_on, folder_);
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+  EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
 TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
   crush("whole", "1");
   // Row 132 is step 2600: after the checkpoint of step 2500, so that rows, cracks and a frame have to go.

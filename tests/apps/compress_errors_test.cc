@@ -77,6 +77,14 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
                {"bad.prm:3", "above the static friction, 0.3"});
   refuse_scene("subsection Loading\n  set Test = tension\nend\n",
                {"bad.prm:3", "needs Platens/Attachment = glued"});
+  refuse_scene("subsection Loading\n  set Start strain = 0.008\nend\n",
+               {"bad.prm:3", "Loading/Start strain = 0.008", "is not below Loading/Target strain = 0.008"});
+  refuse_scene("subsection Loading\n  set Start strain = 0.006\nend\n",
+               {"bad.prm:3", "Loading/Start strain = 0.006 breaks", "bonds at once"});
+  refuse_scene(
+      "subsection Effects\n  set Gravity = on\nend\nsubsection Loading\n"
+      "  set Start strain = 0.001\nend\n",
+      {"bad.prm:6", "does not go with Effects/Gravity = on"});
   refuse_scene("subsection Loading\n  set Test = hydrostatic\nend\n",
                {"bad.prm:3", "needs Loading/Confinement = particles"});
   refuse_scene("subsection Loading\n  set Confinement = particles\nend\n",
