@@ -109,6 +109,12 @@ private:
   template <class Real>
   Softening<Real> softening(const InterfaceGeometry<Real> &g) const;
   template <class Real>
+  struct Shares {
+    Real tension, shear, friction; // of T where it pulls, of u_s and of x
+  };
+  template <class Real>
+  Shares<Real> shares(const InterfaceState<Real> &s, const Softening<Real> &delta) const;
+  template <class Real>
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
   }
@@ -148,9 +154,7 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> 
           of(p.softening_shear, p.fracture_energy_shear, finite(p.shear_strength), Real(shear_ratio() * kn))};
 }
 
-// Damage by the stresses that would act without it. Its work: where the envelope is followed, the triangle
-// between the origin, the strength where damage began and where it is now; the energy that the spring of
-// friction gains comes from it. The last step to failure lets go of what the other direction still held.
+// Damage by the stresses that would act without it.
 template <class Real>
 PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
                                                const Softening<Real> &delta, const Real &tension) const {
@@ -163,11 +167,8 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
   const Real tensile = g.strength_factor * finite(p.tensile_strength);
   const Real strength = cohesion + p.friction_static * closing;
   Real used_n = opening / tensile, used_s = sliding / strength;
-  Real peak_n = tensile, peak_s = strength;
   if (p.line == FailureLine::coupled) { // in tension both count together
-    const Real both = used_n + used_s, per_both = 1.0 / larger(both, Real(zero + 1e-300));
-    peak_n = where_positive(opening, Real(opening * per_both), peak_n);
-    peak_s = where_positive(opening, Real(sliding * per_both), peak_s);
+    const Real both = used_n + used_s;
     used_n = where_positive(opening, both, used_n);
     used_s = where_positive(opening, both, used_s);
   }
@@ -176,20 +177,20 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
     const Real wanted = larger(old, Real((used - 1.0) / d));
     return where_positive(sound, Real(one - positive_part(Real(1.0 - wanted))), old);
   };
-  const Real dn = grown(s.tension_damage, used_n, delta.tension),
-             ds = grown(s.shear_damage, used_s, delta.shear);
-  const Real friction_energy = 0.5 * ks * dot(s.slider, s.slider);
-  Real work = 0.5 * (peak_n * peak_n * (1.0 + delta.tension) * (dn - s.tension_damage) / kn +
-                     (peak_s * peak_s * (1.0 + delta.shear) / ks) * (ds - s.shear_damage)) -
-              friction_energy * (ds - s.shear_damage);
-  const Real fails = where_positive(sound, larger(dn, ds), zero); // 1: now
-  const Real let_go = 0.5 * (left(dn, delta.tension) * opening * opening / kn +
-                             left(ds, delta.shear) * sliding * sliding / ks) -
-                      friction_energy * (1.0 - ds);
-  work = work + where_positive(Real(fails - 1.0 + 1e-15), let_go, zero);
+  const Real dn = grown(s.tension_damage, used_n, delta.tension);
+  s.shear_damage = grown(s.shear_damage, used_s, delta.shear);
   s.tension_damage = dn;
-  s.shear_damage = ds;
-  s.dissipated = s.dissipated + g.area * work;
+}
+
+// Of the stresses that would act without damage, those that do.
+template <class Real>
+PLATEN_INLINE auto ElastoDamagePlastic::shares(const InterfaceState<Real> &s,
+                                               const Softening<Real> &delta) const -> Shares<Real> {
+  const Real one = s.tension_damage * 0.0 + 1.0;
+  const Real left_whole = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
+  const Real dn = where_positive(left_whole, s.tension_damage, one);
+  const Real ds = where_positive(left_whole, s.shear_damage, one);
+  return {left(dn, delta.tension), left(ds, delta.shear), ds};
 }
 
 template <class Real>
@@ -200,21 +201,17 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
   const Softening<Real> delta = softening(g);
   const Real length = root(dot(d, d));
   const Real tension = kn * (length - g.rest_length) + s.plastic;
-  const Real zero = tension * 0.0, one = zero + 1.0;
-  const Real left_whole = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
-  const Real dn = where_positive(left_whole, s.tension_damage, one);
-  const Real ds = where_positive(left_whole, s.shear_damage, one);
-  const Real gn = left(dn, delta.tension), gs = left(ds, delta.shear);
+  const Shares<Real> share = shares(s, delta);
   const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
   InterfaceResponse<Real> r;
   r.tension = tension;
-  r.normal = g.area * (gn * opening - closing);
-  r.shear = scale(Real(g.area * ks), scale(gs, s.shear) + scale(ds, s.slider));
+  r.normal = g.area * (share.tension * opening - closing);
+  r.shear = scale(Real(g.area * ks), scale(share.shear, s.shear) + scale(share.friction, s.slider));
   r.force = scale(Real(r.normal / length), d) + r.shear;
   r.energy = 0.5 * g.area *
-             ((gn * opening * opening + closing * closing) / kn +
-              ks * (gs * dot(s.shear, s.shear) + ds * dot(s.slider, s.slider)));
-  r.failed_now = zero;
+             ((share.tension * opening * opening + closing * closing) / kn +
+              ks * (share.shear * dot(s.shear, s.shear) + share.friction * dot(s.slider, s.slider)));
+  r.failed_now = tension * 0.0;
   return r;
 }
 
@@ -226,13 +223,16 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   const Real square = dot(m.distance, m.distance), length = root(square);
   const Triple<Real> n = scale(Real(1.0 / length), m.distance);
   const Real elastic = kn * (g.rest_length - length);
+  const Softening<Real> delta = softening(g);
+  const InterfaceState<Real> last = s;
   s.plastic = larger(s.plastic, Real(elastic - envelope(elastic)));
   const Real tension = s.plastic - elastic, zero = tension * 0.0, one = zero + 1.0;
 
   // Both vectors turn with the plane, by the least rotation but for third powers of its angle and without
   // change of length, and spin with the pair (Cayley's form).
   const Real half = 0.5 * m.spun, whole = 1.0 / (1.0 + half * half);
-  const Triple<Real> across = m.travelled - scale(dot(m.travelled, n), n);
+  const Real drawn = dot(m.travelled, n);
+  const Triple<Real> across = m.travelled - scale(drawn, n);
   const Triple<Real> between_normals = n - scale(Real(0.5 / length), across);
   const Triple<Real> moved = m.moved - scale(dot(m.moved, n), n);
   const auto carry = [&](const Triple<Real> &v) {
@@ -246,15 +246,27 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   };
   s.shear = carry(s.shear);
   s.slider = carry(s.slider);
-  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
+  const Triple<Real> shear_before = s.shear - moved, slider_before = s.slider - moved; // turned alone
+  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension));        // Pa
   const Real pull = ks * root(dot(s.slider, s.slider));
   const Real over = positive_part(Real(pull - cap)); // Pa
-  s.slider = scale(Real(1.0 - over / where_positive(pull, pull, one)), s.slider);
+  const Real let_slip = over / where_positive(pull, pull, one);
+  const Triple<Real> slip = scale(let_slip, s.slider);
+  s.slider = scale(Real(1.0 - let_slip), s.slider);
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
-  const Real weight = where_positive(Real(1.0 - failed_before), s.shear_damage, one);
-  damage(s, g, softening(g), tension);
-  const Real mean = 0.5 * (weight + where_positive(Real(1.0 - failed_before), s.shear_damage, one));
-  s.dissipated = s.dissipated + g.area * mean * (cap * over / ks);
+  damage(s, g, delta, tension);
+
+  // What the step took: (F before + F now)/2 times the way, less the gain of stored energy. Of springs that
+  // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
+  // off by the kink, as in any contact: that is no loss.
+  const Real tension_before =
+      tension + (last.plastic - s.plastic) - kn * (drawn - 0.5 * dot(across, across) / length);
+  const Shares<Real> was = shares(last, delta), is = shares(s, delta);
+  const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / kn;
+  const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
+                          (was.friction - is.friction) * dot(slider_before, s.slider) +
+                          dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), slip);
+  s.dissipated = s.dissipated + 0.5 * g.area * (normal_work + ks * shear_work);
   InterfaceResponse<Real> r = response(s, g, m.distance);
   const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
   r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
