@@ -12,7 +12,7 @@
 
 namespace platen::apps {
 
-std::vector<int> read_id_list(const std::filesystem::path &path) {
+std::vector<int> read_id_list(const std::filesystem::path &path, std::size_t spheres) {
   std::error_code error;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, error))
@@ -33,6 +33,10 @@ std::vector<int> read_id_list(const std::filesystem::path &path) {
       throw InputError(
           fmt::format("{}:{}: error: \"{}\" is no id. Allowed: a whole number, 0 or more, a line.",
                       path.string(), number, text.substr(0, 60)));
+    if (static_cast<std::size_t>(id) >= spheres)
+      throw InputError(
+          fmt::format("{}:{}: error: names sphere {}, but the specimen has {}. Allowed: 0 ... {}.",
+                      path.string(), number, id, spheres, spheres - 1));
     const auto [found, fresh] = line_of.try_emplace(id, number);
     if (!fresh)
       throw InputError(

@@ -69,6 +69,13 @@ dem::Specimen placed(const Scene &scene, Pressed pressed) {
   return made;
 }
 
+// The packing that the first part wrote; the list of ids may have changed since.
+dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
+  dem::Specimen specimen = read_specimen_csv(paths.specimen_csv()).specimen;
+  check_phases(scene, specimen);
+  return specimen;
+}
+
 Loudness loudness(const CommandLine &c) {
   return c.quiet ? Loudness::quiet : (c.verbose ? Loudness::verbose : Loudness::normal);
 }
@@ -92,9 +99,8 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (!command.dry_run) check_output_folder(paths_.folder, use, inputs);
   if (command.resume && !command.dry_run) require_same_scene(scene, paths_);
   // A resumed run takes the packing that the first part wrote, to the last bit.
-  const dem::Specimen specimen = command.resume && !command.dry_run
-                                     ? read_specimen_csv(paths_.specimen_csv()).specimen
-                                     : placed(scene, pressed);
+  const dem::Specimen specimen =
+      command.resume && !command.dry_run ? resumed(scene, paths_) : placed(scene, pressed);
   try {
     problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
     sampler_ = std::make_unique<Sampler>(*problem_);

@@ -96,9 +96,6 @@ dem::Shape specimen_shape(const Scene &scene) {
                : dem::box(specimen.width_x, specimen.width_y, specimen.height);
 }
 
-namespace {
-
-// The phases of the scene fit this specimen: none is empty, and every id is a sphere's.
 void check_phases(const Scene &scene, const dem::Specimen &specimen) {
   const PhasesSection &phases = scene.phases;
   if (phases.by == PhasesBy::radius && (dem::largest_radius(specimen) <= phases.radius_above ||
@@ -107,18 +104,14 @@ void check_phases(const Scene &scene, const dem::Specimen &specimen) {
            "leaves one phase empty: the radii are " + shortest_text(dem::smallest_radius(specimen)) +
                " ... " + shortest_text(dem::largest_radius(specimen)) + " m.");
   if (phases.by != PhasesBy::file) return;
-  const std::vector<int> ids = read_id_list(phases.file);
-  for (const int id : ids)
-    if (static_cast<std::size_t>(id) >= specimen.size())
-      refuse(scene, "Phases/File",
-             "names sphere " + std::to_string(id) + ", but the specimen has " +
-                 std::to_string(specimen.size()) + ". Allowed: 0 ... " + std::to_string(specimen.size() - 1) +
-                 ".");
+  const std::vector<int> ids = read_id_list(phases.file, specimen.size());
   if (ids.empty() || ids.size() == specimen.size())
     refuse(
         scene, "Phases/File",
         ids.empty() ? "names no sphere: the aggregate is empty." : "names all spheres: the matrix is empty.");
 }
+
+namespace {
 
 dem::Specimen place_spheres(const Scene &scene, dem::GrowthReport *growth) {
   const SpecimenSection &specimen = scene.specimen;

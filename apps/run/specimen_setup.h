@@ -20,4 +20,8 @@ dem::Shape specimen_shape(const Scene &scene);
 // not jam).
 dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth = nullptr);
 
+// The phases of the scene fit this specimen: none is empty, and every id of Phases/File is a sphere's.
+// make_specimen sees to it; for specimens that come from elsewhere. Throws InputError, naming the line.
+void check_phases(const Scene &scene, const dem::Specimen &specimen);
+
 } // namespace platen::apps

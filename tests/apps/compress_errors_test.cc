@@ -169,6 +169,31 @@ TEST_F(Errors, output_folders_are_guarded) {
   EXPECT_EQ(content_of(folder_ / "scene.prm"), content_of(scene_));
 }
 
+// An id that no sphere has: at the start, and where the list has changed before a run goes on.
+TEST_F(Errors, ids_beyond_the_spheres_are_refused_at_the_start_and_on_resume) {
+  const std::vector<std::string> run{scene_,
+                                     "-s",
+                                     "Phases/By = file",
+                                     "-s",
+                                     "Phases/File = " + (folder_ / "ids.txt").string(),
+                                     "-s",
+                                     "Output/Fields = off"};
+  put(folder_ / "ids.txt", "# large\n0\n1\n99999\n");
+  const std::string says = "ids.txt:4: error: names sphere 99999, but the specimen has ";
+  refuse({run, {says, "Allowed: 0 ... 1"}});
+  put(folder_ / "ids.txt", "0\n1\n2\n");
+  std::vector<std::string> first = run;
+  first.insert(first.end(), {"-o", "results", "-t", "1", "--quiet"});
+  Program program(compress_command(first), folder_);
+  ASSERT_TRUE(program.wait_until([&] { return lines_in(folder_ / "results/history.csv") >= 3; }));
+  program.send(SIGTERM);
+  ASSERT_EQ(program.wait(), 143);
+  put(folder_ / "ids.txt", "0\n1\n\n99999\n");
+  std::vector<std::string> again = run;
+  again.emplace_back("--resume");
+  refuse({again, {says, "Allowed: 0 ... 1"}});
+}
+
 TEST_F(Errors, a_dry_run_tells_what_would_run_and_writes_nothing) {
   put(folder_ / "out.txt", "");
   put(folder_ / "error.txt", "");

@@ -32,6 +32,11 @@ TEST_F(IdList, refuses_what_is_no_id) {
         << message;
   }
   EXPECT_TRUE(contains(refusal("7\n8\n\n7\n"), "aggregate.txt:4: error: 7 stands in line 1 too"));
+  put(path_, "0\n9\n\n10\n");
+  EXPECT_EQ(read_id_list(path_, 11).size(), 3u);
+  EXPECT_TRUE(
+      contains(message_of<InputError>([&] { read_id_list(path_, 10); }),
+               "aggregate.txt:4: error: names sphere 10, but the specimen has 10. Allowed: 0 ... 9."));
   EXPECT_TRUE(contains(message_of<InputError>([&] { read_id_list(folder_ / "none"); }), "cannot be read"));
   EXPECT_TRUE(contains(message_of<InputError>([&] { read_id_list(folder_); }), "cannot be read"));
 }
