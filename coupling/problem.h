@@ -73,8 +73,8 @@ struct LoadingSettings {
   std::optional<CellSettings> cell;
   double wall_stiffness = 0; // multiple of the mean bond's; 0: no wall around the specimen
   double wall_layer = 1;     // mean radii: deeper spheres are not seated on the wall
-  // Closure strains at which the platens turn round until the axial stress (less the cell's pressure) has
-  // fallen to this share of what it was; ascending.
+  // Closure strains (since the end of a cell's own stage) at which the platens turn round until the axial
+  // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
   std::vector<double> unload_at;
   double unload_to = 0.1;
 };
@@ -147,7 +147,8 @@ public:
   dem::EndPlanes end_planes() const; // where the platens' faces are now
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
-  double closure_strain() const;                    // platen to platen, over the height
+  double closure_strain() const; // platen to platen, over the height
+  double axial_closure() const;  // the same since the platens took over from a cell (without one: all of it)
   double stress_top() const, stress_bottom() const; // Pa, load over nominal_area()
   // m^2: the cross-section; of a bent bar what makes the load its nominal flexural stress.
   double nominal_area() const { return bent() ? three_points().nominal_area() : shape_.cross_section(); }
@@ -168,7 +169,7 @@ private:
   void add_forces();
   void press_skin();
   void turn_round();
-  double loaded_strain() const { return settings_.loading.tension ? -closure_strain() : closure_strain(); }
+  double loaded_strain() const { return settings_.loading.tension ? -axial_closure() : axial_closure(); }
   void look_at_cell();
   double lead_of_cell(double time) const;
   void start_cell(const CellSettings &cell);
@@ -194,6 +195,7 @@ private:
   bool apart_ = false;                            // no particle is near both platens
   std::unique_ptr<Servo> servo_;                  // null where both platens are always driven
   double cell_ramp_ = 0, cell_end_ = 0;           // s
+  double cell_closure_ = 0;                       // closure strain at cell_end_
   std::unique_ptr<dem::Confinement> confinement_;
   std::unique_ptr<dem::LateralWall> wall_;
   struct Cycle {

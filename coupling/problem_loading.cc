@@ -58,7 +58,10 @@ void Problem::look_at_cell() {
   const double least = cell_ramp_ + settings_.loading.cell->hold;
   const double stress = 0.5 * (stress_top() + stress_bottom()), pressure = confinement_->pressure();
   const bool near = std::abs(stress - pressure) < settled_share * pressure;
-  if (model.time >= least && (near || model.time >= patience * least)) cell_end_ = model.time;
+  if (model.time >= least && (near || model.time >= patience * least)) {
+    cell_end_ = model.time;
+    cell_closure_ = closure_strain();
+  }
 }
 
 void Problem::set_platen_speeds() {

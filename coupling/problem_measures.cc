@@ -29,6 +29,10 @@ std::size_t Problem::bytes() const {
 double Problem::closure_strain() const {
   return (bottom.displacement()[2] - top.displacement()[2]) / shape_.height;
 }
+double Problem::axial_closure() const {
+  if (!confinement_) return closure_strain();
+  return axial_stage() ? closure_strain() - cell_closure_ : 0.0;
+}
 double Problem::stress_top() const {
   return reaction_top_ / nominal_area();
 }

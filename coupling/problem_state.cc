@@ -30,7 +30,7 @@ std::vector<double> Problem::numbers() const {
   if (!settings_.loading.unload_at.empty())
     all.insert(all.end(), {cycle_.direction, cycle_.speed, cycle_.turns, cycle_.strain, cycle_.stress});
   if (confinement_) {
-    all.push_back(cell_end_);
+    all.insert(all.end(), {cell_end_, cell_closure_});
     const std::vector<double> more = confinement_->numbers();
     all.insert(all.end(), more.begin(), more.end());
   }
@@ -41,7 +41,8 @@ void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
   if (confinement_) {
     const auto own = static_cast<std::ptrdiff_t>(confinement_->numbers().size());
-    cell_end_ = *(n.end() - own - 1);
+    cell_end_ = *(n.end() - own - 2);
+    cell_closure_ = *(n.end() - own - 1);
     confinement_->set_numbers({n.end() - own, n.end()});
   }
   if (!settings_.loading.unload_at.empty()) cycle_ = {n[21], n[22], n[23], n[24], n[25]};

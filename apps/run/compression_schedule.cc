@@ -46,7 +46,7 @@ long CompressionRun::steps_unobserved() const {
     steps = std::min(steps, steps_until_due(scene_.checkpoint.every, 1));
   if (!scene_.loading.hydrostatic()) {
     const double step_closes = scene_.loading.axial_rate * p.time_step() / p.shape().height;
-    steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.closure_strain())) / step_closes - 1);
+    steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.axial_closure())) / step_closes - 1);
   }
   if (by_time()) steps = std::min(steps, (end_time() - p.time()) / p.time_step() - 1);
   return static_cast<long>(std::clamp(steps, 1.0, most_unobserved));
@@ -70,14 +70,14 @@ double CompressionRun::end_time() const {
 bool CompressionRun::finished() const {
   if (scene_.loading.hydrostatic()) return problem_->axial_stage();
   if (by_time() && problem_->time() >= end_time()) return true;
-  if (std::abs(problem_->closure_strain()) >= scene_.loading.target_strain) return true;
+  if (std::abs(problem_->axial_closure()) >= scene_.loading.target_strain) return true;
   return scene_.loading.stop_at_residual > 0 && results_.fallen_to(scene_.loading.stop_at_residual);
 }
 
 ProgressSample CompressionRun::where() const {
   ProgressSample p;
   p.fraction = std::min(1.0, by_time() ? problem_->time() / end_time()
-                                       : std::abs(problem_->closure_strain()) / scene_.loading.target_strain);
+                                       : std::abs(problem_->axial_closure()) / scene_.loading.target_strain);
   p.step = static_cast<std::uint64_t>(problem_->steps());
   p.time = problem_->time();
   p.strain = problem_->closure_strain();

@@ -1,6 +1,8 @@
 // Tests in a cell: strength grows with the pressure, the book closes, and a stopped run repeats.
 #include <signal.h>
 
+#include <algorithm>
+
 #include "apps/crushed.h"
 
 namespace platen::apps::testing {
@@ -41,6 +43,32 @@ TEST_F(Cell, strength_grows_with_the_confining_pressure) {
   EXPECT_EQ(pressure.back(), 6e6);
   for (std::size_t k = 0; k < pressure.size(); ++k)
     ASSERT_NEAR(deviator[k], 0.5 * (top[k] + bottom[k]) - pressure[k], 1e-3);
+}
+
+// The cell alone closes the specimen by more than the target: that is consolidation, and the axial test comes
+// after it. Turns of the platens are counted alike.
+TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage) {
+  const nlohmann::json s =
+      crush("deep", {"Loading/Confinement = particles", "Loading/Confining pressure = 20 MPa",
+                     "Loading/Target strain = 0.001", "Loading/Unload at = 0.0005", "Loading/Unload to = 0.5",
+                     "Bond/Tensile strength = 0", "Bond/Shear strength = 0"});
+  const auto closure = column("deep", "axial_strain_platen"), deviator = column("deep", "deviator_pa"),
+             pressure = column("deep", "confining_pressure_pa");
+  // The last row near the 1 % of the pressure at which the platens take over.
+  std::size_t stood = 0;
+  for (std::size_t k = 0; k < closure.size() && deviator[k] < 1e6; ++k)
+    if (deviator[k] < 0.02 * 20e6) stood = k;
+  ASSERT_EQ(pressure[stood], 20e6);
+  EXPECT_GT(closure[stood], 0.001);
+  EXPECT_NEAR(closure.back() - closure[stood], 0.001, 0.0001); // a row closes by a thirtieth
+  EXPECT_GT(s["deviator_strength_pa"].get<double>(), 0.001 * 5e9);
+  std::size_t turn = stood;
+  while (turn + 1 < deviator.size() && deviator[turn + 1] > deviator[turn] - 0.01e6)
+    ++turn;
+  ASSERT_LT(turn + 1, deviator.size()); // unloaded
+  // It slows down by the ramp, ten wave crossings.
+  EXPECT_NEAR(closure[turn] - closure[stood], 0.0005, 0.0004);
+  EXPECT_GT(closure[turn] - closure[stood], 0.00045);
 }
 
 TEST_F(Cell, unconfined_runs_have_no_column_of_it) {
