@@ -271,6 +271,23 @@ LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
 // faster than the pair. With a dissipation phi, at
 // the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
 // terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
+namespace {
+
+// What holds the particles, in words.
+std::string springs_of(const Bonds *bonds, const Contacts *contacts,
+                       const std::vector<GroundSpring> &ground) {
+  std::vector<std::string> parts;
+  if (bonds != nullptr) parts.emplace_back("bonds");
+  if (contacts != nullptr) parts.emplace_back("contacts");
+  if (!ground.empty()) parts.emplace_back("platens");
+  std::string text;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == parts.size() ? " and " : ", ") + parts[k];
+  return text;
+}
+
+} // namespace
+
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
   StableStep result;
@@ -293,7 +310,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     multiply(x, 1 / std::sqrt(std::max(inner(x, x), 1e-300)));
   }
   result.particle_id = particles.id[static_cast<std::size_t>(loudest_particle(x))];
-  result.reason = "2/omega of bonds, contacts and platens, highest mode at particle " +
+  result.reason = "2/omega of " + springs_of(bonds, contacts, ground) + ", highest mode at particle " +
                   std::to_string(result.particle_id);
   return result;
 }

@@ -118,6 +118,24 @@ TEST(stable_step, knows_local_damping) {
   }
 }
 
+TEST(stable_step, names_what_holds_the_particles) {
+  ModelSettings settings = bonded();
+  Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}}), settings);
+  GroundSpring ground;
+  ground.normal = {0, 0, 1};
+  ground.normal_stiffness = 1e6;
+  const auto reason = [&](const Contacts *contacts, const std::vector<GroundSpring> &springs) {
+    return stable_step(model.particles, model.bonds.get(), contacts, springs, {}).reason;
+  };
+  EXPECT_EQ(reason(nullptr, {}).rfind("2/omega of bonds, highest mode at particle ", 0), 0u);
+  EXPECT_EQ(reason(nullptr, {ground}).rfind("2/omega of bonds and platens, highest", 0), 0u);
+  settings.contact = ContactSettings{};
+  Model touching(spheres({{0, 0, 0}, {2 * radius, 0, 0}}), settings);
+  EXPECT_EQ(touching.stable_step({}, 0).reason.rfind("2/omega of bonds and contacts, highest", 0), 0u);
+  EXPECT_EQ(touching.stable_step({ground}, 0).reason.rfind("2/omega of bonds, contacts and platens, ", 0),
+            0u);
+}
+
 // On a spring k the lone sphere has omega^2 = k/m; the lever adds k_t R^2 / I = 2.5 k_t/m.
 TEST(stable_step, knows_springs_to_the_ground) {
   ModelSettings settings = bonded();
