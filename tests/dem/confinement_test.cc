@@ -171,6 +171,46 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
   EXPECT_EQ(c.size(), size);
 }
 
+// Cut through along its axis: both halves are bodies, and the flaw between them is too narrow for the cell.
+// Drawn apart, each has a skin of its own all round, so that the pressure holds none of them to one side.
+TEST(confinement, two_large_pieces_are_both_pressed_and_pushed_nowhere) {
+  for (const Specimen &s : {packed_cylinder(), packed_box()})
+    for (const double opening : {0.0, 0.3e-3, 12e-3}) { // m; sphere radius 1 mm
+      Body body(s);
+      Confinement c = body.confinement();
+      const auto right = [&](int i) {
+        return body.particles.reference_position[static_cast<std::size_t>(i)].x > 0;
+      };
+      std::vector<BondBreak> breaks;
+      for (std::size_t k = 0; k < body.bonds.size(); ++k)
+        if (right(body.bonds.first[k]) != right(body.bonds.second[k]))
+          breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+      body.bonds.break_rows(breaks, body.particles, 0.0);
+      for (std::size_t i = 0; i < body.particles.size(); ++i)
+        body.particles.position[i].x += (right(static_cast<int>(i)) ? .5 : -.5) * opening;
+      const double p = 1e6;
+      c.add_forces(body.particles, &body.bonds, body.planes(), p, 0, 0, true);
+      Vector3 all, piece[2], outer[2]; // outer: of spheres far from the cut
+      for (std::size_t i = 0; i < body.particles.size(); ++i) {
+        const int side = right(static_cast<int>(i)) ? 1 : 0;
+        const Vector3 f = body.particles.force[i];
+        all += f, piece[side] += f;
+        if (std::abs(body.particles.reference_position[i].x) > 4e-3) outer[side] += f;
+      }
+      const double section = p * 20e-3 * s.shape.height; // N, on the plane of the cut; both are 20 mm wide
+      EXPECT_LT(norm(all), 1e-12 * section) << opening;
+      EXPECT_LT(outer[1].x, -.7 * section) << opening; // pressed from outside
+      EXPECT_GT(outer[0].x, .7 * section) << opening;
+      if (opening > 4e-3) { // the cell is between them too
+        EXPECT_LT(std::abs(piece[0].x), .08 * section) << opening;
+        EXPECT_LT(std::abs(piece[1].x), .08 * section) << opening;
+      } else { // they are pressed together by it
+        EXPECT_NEAR(piece[0].x, section, .08 * section) << opening;
+        EXPECT_NEAR(piece[1].x, -section, .08 * section) << opening;
+      }
+    }
+}
+
 TEST(confinement, work_is_pressure_times_the_volume_that_is_lost) {
   Body body(packed_cylinder());
   Confinement c = body.confinement();
