@@ -14,7 +14,12 @@ using kernels::MotionSums;
 namespace {
 
 kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
-  const kernels::MotionEffects effects{how.rotation, how.local_damping > 0, norm_squared(how.gravity) > 0,
+  using kernels::LocalDamping;
+  const LocalDamping damping =
+      how.local_damping > 0
+          ? how.damping_form == DampingForm::vector ? LocalDamping::vector : LocalDamping::component
+          : LocalDamping::none;
+  const kernels::MotionEffects effects{how.rotation, damping, norm_squared(how.gravity) > 0,
                                        how.energy_ledger, how.dissipation > 1};
   switch (how.instruction_set) {
     case InstructionSet::avx512:

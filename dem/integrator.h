@@ -24,16 +24,22 @@ struct Ghosts {
   const PairBlocks *bonds = nullptr, *contacts = nullptr;
 };
 
+// Local damping of a load F on what moves at v: of each component on its own, F -= alpha |F| sign(v) (Cundall
+// 1987), or of the whole along the velocity, F -= alpha |F| v/|v|, which no choice of axes changes (Onate et
+// al. 2015).
+enum class DampingForm { component, vector };
+
 // How the particles move, chosen once. Results do not depend on the instruction set.
 struct Integrator {
   bool rotation = true;
-  double local_damping = 0;  // alpha: F -= alpha |F| sign(v), each component (Cundall); 0: none
+  double local_damping = 0;  // alpha, of loads and moments; 0: none
   Vector3 gravity;           // m/s^2
   bool energy_ledger = true; // sums of works and energies
   InstructionSet instruction_set = best_instruction_set();
   // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet. Above 1 particles need their excess columns
   // (Particles::add_excess).
   double dissipation = 1;
+  DampingForm damping_form = DampingForm::component;
 
   // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. With a dissipation phi the velocity
   // of the drift, which `velocity` holds until `end`, is larger by (phi - 1) dt F/m. Returns the largest

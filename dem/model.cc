@@ -75,7 +75,8 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
           settings.rotation),
       settings_(completed(specimen, settings)),
       integrator_{settings.rotation,      settings.local_damping,   settings.gravity,
-                  settings.energy_ledger, settings.instruction_set, settings.dissipation} {
+                  settings.energy_ledger, settings.instruction_set, settings.dissipation,
+                  settings.damping_form} {
   if (settings.dissipation > 1) particles.add_excess();
   if (settings.phases) mark_phases(particles, *settings.phases);
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);

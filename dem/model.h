@@ -23,10 +23,11 @@ enum class DensityOf { grains, solid };
 
 struct ModelSettings {
   bool rotation = true;
-  double density = 2400;                  // kg/m^3
-  double mass_scaling = 1;                // multiplies mass and inertia
-  Vector3 gravity;                        // m/s^2
-  double local_damping = 0;               // 0 ... 1, Cundall's
+  double density = 2400;    // kg/m^3
+  double mass_scaling = 1;  // multiplies mass and inertia
+  Vector3 gravity;          // m/s^2
+  double local_damping = 0; // 0 ... 1
+  DampingForm damping_form = DampingForm::component;
   bool energy_ledger = true;              // sums of energies and works
   bool crack_log = true;                  // a record of each bond that breaks
   double bond_dashpot = 0;                // fraction of critical

@@ -164,6 +164,8 @@ dem::ModelSettings model_settings(const Scene &scene) {
   to.mass_scaling = scene.integration.mass_scaling;
   if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
   to.local_damping = scene.integration.damping;
+  to.damping_form = scene.integration.damping_form == DampingForm::vector ? dem::DampingForm::vector
+                                                                          : dem::DampingForm::component;
   if (scene.integration.scheme == Scheme::tchamwa_wielgosz) to.dissipation = scene.integration.dissipation;
   to.bond_dashpot = scene.bond.damping;
   to.bond_layout = bond_layout(scene.bond);

@@ -37,7 +37,9 @@ std::vector<Effect> effects(const Scene &s) {
           {e.rotation, "rotation"},
           {bonded && moments, "bond moments"},
           {e.gravity, "gravity"},
-          {s.integration.damping > 0, "local damping"},
+          {s.integration.damping > 0, s.integration.damping_form == DampingForm::vector
+                                          ? "local damping along the velocity"
+                                          : "local damping"},
           {s.integration.scheme == Scheme::tchamwa_wielgosz && s.integration.dissipation > 1,
            "dissipative scheme"},
           {bonded && s.bond.damping > 0, "bond dashpots"},

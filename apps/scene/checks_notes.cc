@@ -118,6 +118,7 @@ void SceneCheck::notes() {
   strength_notes();
   contact_notes();
   loading_notes();
+  if (scene_.integration.damping == 0) note("Integration/Damping form", "Integration/Damping = 0");
   if (scene_.integration.scheme != Scheme::tchamwa_wielgosz)
     note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");

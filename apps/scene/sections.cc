@@ -31,6 +31,10 @@ void declare_integration(Parameters &parameters, Integration &integration) {
                  "Factor on all masses; the time step grows by its root, and inertia with it.");
   section.number("Damping", integration.damping, {0, 1, true, false},
                  "Local damping: force against the motion, as a fraction of the unbalanced force.");
+  section.word<DampingForm>(
+      "Damping form", integration.damping_form,
+      {{"component", DampingForm::component}, {"vector", DampingForm::vector}}, {},
+      "Local damping of each component of a force by itself, or of the whole along the velocity.");
   section.quantity("Time step", integration.time_step, "s", at_least(0),
                    "0: Safety times the limit; a larger one than the limit is refused.");
   section.word<InstructionSet>("Instruction set", integration.instruction_set,

@@ -40,8 +40,11 @@ struct MotionSums {
 };
 
 // Which effects a pass has; each combination is a loop of its own.
+enum class LocalDamping { none, component, vector };
 struct MotionEffects {
-  bool rotation = false, local_damping = false, gravity = false;
+  bool rotation = false;
+  LocalDamping local_damping = LocalDamping::none;
+  bool gravity = false;
   bool book = true;         // energy sums
   bool dissipative = false; // drifts by an excess over the half-step velocity
 };

@@ -46,6 +46,14 @@ inline Real damped(const Real &force, const Real &velocity, double alpha) {
   return force - with_sign(Real(alpha * magnitude(force)), velocity);
 }
 
+// Of the whole load, along the velocity; none where nothing moves.
+template <class Real>
+inline Triple<Real> damped(const Triple<Real> &load, const Triple<Real> &v, double alpha) {
+  const Real speed = root(dot(v, v)), zero = speed * 0.0;
+  const Real share = alpha * root(dot(load, load)) / where_positive(speed, speed, Real(zero + 1.0));
+  return load - scale(share, v);
+}
+
 // Turns by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
 template <class Real>
 inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, double dt) {
@@ -58,11 +66,12 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
 
 // Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `excess`:
 // what the drift had above the half-step velocity, only with a dissipative scheme.
-template <class Real, bool damping, bool book, bool dissipative, Halves halves>
+template <class Real, LocalDamping damping, bool book, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
                      const MotionStep &step, Book<Real> &sums, const Triple<Real> &excess = {}) {
   const Triple<Real> whole = load;
-  if constexpr (damping)
+  if constexpr (damping == LocalDamping::vector) load = damped(load, v, step.local_damping);
+  if constexpr (damping == LocalDamping::component)
     load = {damped(load.x, v.x, step.local_damping), damped(load.y, v.y, step.local_damping),
             damped(load.z, v.z, step.local_damping)};
   if constexpr (dissipative) v = v - excess;
@@ -73,7 +82,7 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
       const Real before = (1 / step.excess) * mass * dot(excess, excess);
       sums.damping_work = sums.damping_work + 0.5 * (before + step.finished * dot(load, excess));
     }
-    if constexpr (damping && book) {
+    if constexpr (damping != LocalDamping::none && book) {
       // At the mean of the drifts on either side, which the excess lets differ from the full-step velocity.
       const Triple<Real> next = scale(Real(step.excess * step.finished * mobility), load);
       sums.damping_work =
@@ -81,7 +90,7 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
     }
   } else {
     // The work lost in the step, which the leapfrog books at the full-step velocity.
-    if constexpr (damping && book)
+    if constexpr (damping != LocalDamping::none && book)
       sums.damping_work = sums.damping_work + step.finished * dot(whole - load, v);
   }
   if constexpr (book && halves == Halves::end)
@@ -103,7 +112,8 @@ inline Triple<Real> add_excess(Triple<Real> &v, const Triple<Real> &load, const 
   return excess;
 }
 
-template <class Real, bool rotation, bool damping, bool gravity, bool book, bool dissipative, Halves halves>
+template <class Real, bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative,
+          Halves halves>
 inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, Book<Real> &sums) {
   using R = Rows<Real>;
   Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
@@ -151,7 +161,7 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   }
 }
 
-template <bool rotation, bool damping, bool gravity, bool book, bool dissipative, Halves halves>
+template <bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative, Halves halves>
 MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_t first, std::size_t last) {
   constexpr std::size_t packs = slots / lanes;
   Book<Pack> wide[packs];
@@ -180,26 +190,27 @@ MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_
   return sums;
 }
 
-template <bool rotation, bool damping, bool gravity, bool book, bool dissipative>
+template <bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative>
 MotionKernel kernel_for(Halves halves) {
   if (halves == Halves::end) return move_block<rotation, damping, gravity, book, dissipative, Halves::end>;
-  if (halves == Halves::begin) return move_block<rotation, false, false, book, dissipative, Halves::begin>;
+  if (halves == Halves::begin)
+    return move_block<rotation, LocalDamping::none, false, book, dissipative, Halves::begin>;
   return move_block<rotation, damping, gravity, book, dissipative, Halves::end_and_begin>;
 }
 // What a build leaves out is not instantiated.
-template <bool rotation, bool damping, bool gravity, bool book>
+template <bool rotation, LocalDamping damping, bool gravity, bool book>
 MotionKernel choose(Halves h, bool dissipative) {
   if constexpr (compiled::dissipative_scheme)
     if (dissipative) return kernel_for<rotation, damping, gravity, book, true>(h);
   return kernel_for<rotation, damping, gravity, book, false>(h);
 }
-template <bool rotation, bool damping, bool gravity>
+template <bool rotation, LocalDamping damping, bool gravity>
 MotionKernel choose(Halves h, const MotionEffects &e) {
   if constexpr (compiled::energy_ledger)
     if (e.book) return choose<rotation, damping, gravity, true>(h, e.dissipative);
   return choose<rotation, damping, gravity, false>(h, e.dissipative);
 }
-template <bool rotation, bool damping>
+template <bool rotation, LocalDamping damping>
 MotionKernel choose(Halves h, const MotionEffects &e) {
   if constexpr (compiled::gravity)
     if (e.gravity) return choose<rotation, damping, true>(h, e);
@@ -207,9 +218,11 @@ MotionKernel choose(Halves h, const MotionEffects &e) {
 }
 template <bool rotation>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::local_damping)
-    if (e.local_damping) return choose<rotation, true>(h, e);
-  return choose<rotation, false>(h, e);
+  if constexpr (compiled::local_damping) {
+    if (e.local_damping == LocalDamping::component) return choose<rotation, LocalDamping::component>(h, e);
+    if (e.local_damping == LocalDamping::vector) return choose<rotation, LocalDamping::vector>(h, e);
+  }
+  return choose<rotation, LocalDamping::none>(h, e);
 }
 
 } // namespace

@@ -191,11 +191,12 @@ TEST_P(EightLanes, move_to_the_same_bits) {
     return all;
   };
   const auto halves = kernels::Halves::end_and_begin;
-  for (const bool dissipative : {false, true}) {
-    const kernels::MotionEffects effects{rotation(), true, true, true, dissipative};
-    EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects), dissipative),
-              moved(kernels::motion_kernel_of_eight_lanes(halves, effects), dissipative));
-  }
+  for (const auto damping : {kernels::LocalDamping::component, kernels::LocalDamping::vector})
+    for (const bool dissipative : {false, true}) {
+      const kernels::MotionEffects effects{rotation(), damping, true, true, dissipative};
+      EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects), dissipative),
+                moved(kernels::motion_kernel_of_eight_lanes(halves, effects), dissipative));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(kernels, EightLanes, testing::Combine(testing::Bool(), testing::Bool()));

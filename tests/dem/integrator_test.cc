@@ -152,15 +152,19 @@ TEST(integrator, a_thrown_sphere_follows_its_parabola) {
 
 // Cundall's damping on a free oscillator: a constant share of the force acts against the motion. A quarter
 // cycle inwards releases (1 - a) of the energy, one outwards stores 1/(1 + a) of it.
-TEST(integrator, local_damping_takes_a_fixed_share_of_every_half_cycle) {
+class DampedSwing : public testing::TestWithParam<DampingForm> {};
+
+TEST_P(DampedSwing, loses_a_fixed_share_of_every_half_cycle) {
   const double alpha = .2;
   ModelSettings settings = bonded();
   settings.local_damping = alpha;
-  Model model(row(1, {1, 0, 0}), settings);
+  settings.damping_form = GetParam();
+  const Vector3 axis = GetParam() == DampingForm::vector ? Vector3{2, -3, 6} / 7 : Vector3{1, 0, 0};
+  Model model(row(1, axis), settings);
   Particles &p = model.particles;
   const double start = 1e-4 * radius;
-  p.position[0].x -= .5 * start, p.position[1].x += .5 * start;
-  p.force[0].x = normal_stiffness * area * start, p.force[1].x = -p.force[0].x;
+  p.position[0] -= .5 * start * axis, p.position[1] += .5 * start * axis;
+  p.force[0] = normal_stiffness * area * start * axis, p.force[1] = -1 * p.force[0];
   const double omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]);
   const double energy = bond_energy(p, *model.bonds);
   std::vector<double> extremes;
@@ -180,6 +184,34 @@ TEST(integrator, local_damping_takes_a_fixed_share_of_every_half_cycle) {
     EXPECT_NEAR(extremes[k], expected, .01 * expected); // the force jumps when the motion turns
   }
   EXPECT_NEAR(model.energy().stored() + model.energy().damping, energy, 1e-3 * energy);
+}
+
+INSTANTIATE_TEST_SUITE_P(integrator, DampedSwing,
+                         testing::Values(DampingForm::component, DampingForm::vector), [](const auto &form) {
+                           return form.param == DampingForm::vector ? "vector" : "component";
+                         });
+
+// Against the velocity and of the size of the whole load, whatever its direction; nothing where nothing
+// moves.
+TEST(integrator, damping_along_the_velocity_knows_no_axes) {
+  Integrator how;
+  how.local_damping = .4;
+  how.damping_form = DampingForm::vector;
+  const double slow = 1e-12; // s: the kick does not matter
+  Particles p(spheres({{0, 0, 0}, {1, 0, 0}}), 2400, true);
+  p.velocity[0] = {3, 0, -4};
+  (*p.angular_velocity)[0] = {0, 8, 6};
+  for (int i = 0; i < 2; ++i) {
+    p.force[static_cast<std::size_t>(i)] = {0, 12, 5};
+    (*p.torque)[static_cast<std::size_t>(i)] = {1e-6, 0, 0};
+  }
+  const KickSums sums = how.end(p, {}, slow);
+  const auto near = [](const Vector3 &a, const Vector3 &b) { return norm(a - b) <= 1e-15 * norm(b); };
+  EXPECT_TRUE(near(p.force[0], {-.4 * 13 * .6, 12, 5 + .4 * 13 * .8}));
+  EXPECT_TRUE(near((*p.torque)[0], {1e-6, -.4e-6 * .8, -.4e-6 * .6}));
+  EXPECT_TRUE(near(p.force[1], {0, 12, 5}));
+  EXPECT_TRUE(near((*p.torque)[1], {1e-6, 0, 0}));
+  EXPECT_NEAR(sums.damping_work, slow * (.4 * 13 * 5 + .4e-6 * 10), 1e-3 * slow * 26);
 }
 
 TEST(integrator, bond_dashpots_damp_by_their_fraction) {

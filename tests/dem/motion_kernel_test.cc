@@ -21,6 +21,7 @@ struct Effects {
   Vector3 gravity;
   bool book;
   double dissipation = 1;
+  DampingForm form = DampingForm::component;
 };
 
 void PrintTo(const Effects &effects, std::ostream *to) {
@@ -31,7 +32,7 @@ class Passes : public testing::TestWithParam<Effects> {
 protected:
   Integrator how(InstructionSet set) const {
     const Effects &e = GetParam();
-    return {e.rotation, e.local_damping, e.gravity, e.book, set, e.dissipation};
+    return {e.rotation, e.local_damping, e.gravity, e.book, set, e.dissipation, e.form};
   }
   // A cloud in motion under random loads; 1029 rows leave a block of five.
   void set_in_motion(Particles &p) const {
@@ -112,17 +113,21 @@ TEST_P(Passes, may_be_one_or_two) {
   expect_same_bits(one, two, "in one pass");
 }
 
-INSTANTIATE_TEST_SUITE_P(motion_kernel, Passes,
-                         testing::Values(Effects{"all", true, .5, {1, -2, -9.81}, true},
-                                         Effects{"without_rotation", false, .5, {1, -2, -9.81}, true},
-                                         Effects{"without_damping", true, 0, {0, 0, -9.81}, true},
-                                         Effects{"without_gravity", true, .5, {}, true},
-                                         Effects{"without_book", true, .5, {0, 0, -9.81}, false},
-                                         Effects{"translation_alone", false, 0, {}, false},
-                                         Effects{"all_and_dissipation", true, .5, {1, -2, -9.81}, true, 1.3},
-                                         Effects{"dissipation_alone", true, 0, {}, true, 1.3},
-                                         Effects{"dissipation_unbooked", false, 0, {}, false, 1.3}),
-                         [](const auto &effects) { return std::string(effects.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    motion_kernel, Passes,
+    testing::Values(Effects{"all", true, .5, {1, -2, -9.81}, true},
+                    Effects{"without_rotation", false, .5, {1, -2, -9.81}, true},
+                    Effects{"without_damping", true, 0, {0, 0, -9.81}, true},
+                    Effects{"without_gravity", true, .5, {}, true},
+                    Effects{"without_book", true, .5, {0, 0, -9.81}, false},
+                    Effects{"translation_alone", false, 0, {}, false},
+                    Effects{"all_and_dissipation", true, .5, {1, -2, -9.81}, true, 1.3},
+                    Effects{"along_the_velocity", true, .5, {1, -2, -9.81}, true, 1, DampingForm::vector},
+                    Effects{
+                        "along_the_velocity_and_dissipation", true, .5, {}, true, 1.3, DampingForm::vector},
+                    Effects{"dissipation_alone", true, 0, {}, true, 1.3},
+                    Effects{"dissipation_unbooked", false, 0, {}, false, 1.3}),
+    [](const auto &effects) { return std::string(effects.param.name); });
 
 } // namespace
 } // namespace platen::dem

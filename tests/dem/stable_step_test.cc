@@ -111,10 +111,13 @@ TEST(stable_step, knows_local_damping) {
   const double undamped = Model(specimen, settings).stable_step({}, 0).limit;
   for (const double alpha : {.2, .5, .9}) {
     settings.local_damping = alpha;
+    settings.damping_form = DampingForm::component;
     const double limit = Model(specimen, settings).stable_step({}, 0).limit;
     EXPECT_NEAR(limit, undamped / std::sqrt(1 + alpha), 1e-9 * undamped);
     EXPECT_TRUE(comes_to_rest(specimen, settings, .99 * limit)) << alpha;
     EXPECT_FALSE(comes_to_rest(specimen, settings, 1.02 * limit)) << alpha; // the estimate is within 1 %
+    settings.damping_form = DampingForm::vector;
+    EXPECT_TRUE(comes_to_rest(specimen, settings, .99 * limit)) << alpha << " along the velocity";
   }
 }
 
