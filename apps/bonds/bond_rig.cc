@@ -28,7 +28,8 @@ bool is_pyramid(const Scene &scene) {
   return scene.pair_test.particles == 3;
 }
 
-// Sphere 0 is driven. Two: sphere 1 below it. Three: on spheres 1 and 2 that lie on the plate.
+} // namespace
+
 dem::Specimen touching_spheres(const Scene &scene) {
   const double r = scene.specimen.sphere_radius;
   dem::Specimen s;
@@ -52,6 +53,8 @@ dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiff
     bond->stiffness_ratio = stiffness_ratio;
   return settings;
 }
+
+namespace {
 
 BondSection section_of(const dem::ModelSettings &settings, double radius) {
   BondSection b;

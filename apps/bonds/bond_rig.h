@@ -25,6 +25,11 @@ struct RigReading {
   double utilisation() const { return tension_ratio > shear_ratio ? tension_ratio : shear_ratio; }
 };
 
+// Sphere 0 is driven. Two: sphere 1 below it. Three: on spheres 1 and 2 that lie on the plate.
+dem::Specimen touching_spheres(const Scene &scene);
+// The scene's, for one pair of bond modulus (Pa) and stiffness ratio.
+dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiffness_ratio);
+
 class BondRig {
 public:
   // Throws InputError where the time step that the scene sets is above the limit.

@@ -40,6 +40,7 @@ double pair_stiffness(const BondSection &bond, PairPath path) {
     case PairPath::tension:
     case PairPath::compression:
     case PairPath::cyclic:
+    case PairPath::combined: // of bonds that remember alone: interface_forms.h
       break;
   }
   return bond.axial_stiffness();
@@ -61,6 +62,7 @@ double pair_strength(const BondSection &bond, PairPath path) {
       return std::numeric_limits<double>::infinity();
     case PairPath::tension:
     case PairPath::cyclic:
+    case PairPath::combined: // of bonds that remember alone: interface_forms.h
       break;
   }
   return bond.tensile_strength * bond.area();

@@ -96,6 +96,7 @@ std::vector<double> turning_points(const PairTest &test) {
     case PairPath::shear:
     case PairPath::bending:
     case PairPath::twisting:
+    case PairPath::combined:
       break;
   }
   return {1};

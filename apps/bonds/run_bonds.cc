@@ -8,8 +8,10 @@
 #include <limits>
 #include <sstream>
 
+#include "apps/bonds/interface_results.h"
 #include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
+#include "apps/io/id_list.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
@@ -48,11 +50,16 @@ void refuse(const Scene &scene, const std::string &path, const std::string &reas
 // What this test cannot do, or what its closed forms know nothing of.
 void check(const Scene &scene) {
   const PairTest &test = scene.pair_test;
-  if (is_beam(scene) && test.stiffness_ratios.size() > 1)
+  if ((is_beam(scene) || is_led(scene)) && test.stiffness_ratios.size() > 1)
     refuse(scene, "Pair test/Stiffness ratio list",
-           "is for parallel bonds: a beam has the ratio of its section.");
+           std::string("is for parallel bonds: ") +
+               (is_beam(scene) ? "a beam has the ratio of its section."
+                               : "an elasto damage plastic bond has that of Bond/Poisson ratio."));
+  if (scene.phases.by == PhasesBy::file)
+    read_id_list(scene.phases.file, static_cast<std::size_t>(test.particles)); // refuses ids of no sphere
   if (scene.effects.gravity)
     refuse(scene, "Effects/Gravity", "would load the bonds before the test does. Allowed: off.");
+  if (is_led(scene)) return; // what else it asks for is checked with the scene
   if (scene.integration.damping < .05)
     refuse(scene, "Integration/Damping",
            "lets the spheres swing for ever. Allowed: 0.05 ... 1 (0.7 is best).");
@@ -74,7 +81,8 @@ void check(const Scene &scene) {
 }
 
 const char *word(PairPath path) {
-  constexpr const char *words[] = {"tension", "compression", "shear", "bending", "twisting", "cyclic"};
+  constexpr const char *words[] = {"tension",  "compression", "shear",   "bending",
+                                   "twisting", "cyclic",      "combined"};
   return words[static_cast<int>(path)];
 }
 const char *word(PairPlate plate) {
@@ -90,6 +98,8 @@ std::string description(const Scene &scene) {
   if (!std::isnan(t.force))
     text += fmt::format(" up to {:g} {}", t.force * (turns(scene) ? scene.specimen.sphere_radius : 1),
                         turns(scene) ? "N m" : "N");
+  else if (!t.turns.empty())
+    text += fmt::format(" by {} turns to {:g} m", t.turns.size(), t.turns.back());
   else
     text += fmt::format(" up to {:g} {}", t.displacement / (turns(scene) ? scene.specimen.sphere_radius : 1),
                         turns(scene) ? "rad" : "m");
@@ -102,6 +112,7 @@ std::string description(const Scene &scene) {
 }
 
 BondRun run_one(const Scene &scene, double modulus, double ratio) {
+  if (is_led(scene)) return lead_bond(scene, modulus);
   BondRig rig(scene, modulus, ratio);
   BondRun run;
   run.modulus = modulus;
@@ -138,6 +149,7 @@ double relative(double measured, double by_hand) {
 
 // Largest difference of a row that carries at least a hundredth of the load.
 double largest_difference(const Scene &scene, const BondRun &run) {
+  if (is_led(scene)) return run.led.largest_difference();
   double largest = 0;
   const double peak = std::abs(load_of(scene, run.path.largest));
   for (const RigReading &row : run.path.rows) {
@@ -147,25 +159,9 @@ double largest_difference(const Scene &scene, const BondRun &run) {
   return largest;
 }
 
-const std::vector<std::string> columns{"run",
-                                       "modulus_pa",
-                                       "stiffness_ratio",
-                                       "force_n",
-                                       "displacement_m",
-                                       "moment_nm",
-                                       "rotation_rad",
-                                       "bond_normal_n",
-                                       "bond_shear_n",
-                                       "tension_utilisation",
-                                       "shear_utilisation",
-                                       "intact_bonds",
-                                       "lateral_m",
-                                       "strain_ratio",
-                                       "by_hand",
-                                       "difference"};
-
 void write_table(const std::filesystem::path &path, const Scene &scene, const std::vector<BondRun> &runs) {
-  CsvWriter table(path, columns);
+  if (is_led(scene)) return write_interface_table(path, scene, runs);
+  CsvWriter table(path, bond_columns());
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (const RigReading &r : runs[k].path.rows) {
       const double by_hand = row_by_hand(scene, runs[k], r);
@@ -177,6 +173,7 @@ void write_table(const std::filesystem::path &path, const Scene &scene, const st
 
 // Up to six rows of a run, evenly: what the screen shows; the table in bonds.csv has all.
 std::string report(const Scene &scene, const std::vector<BondRun> &runs) {
+  if (is_led(scene)) return interface_report(scene, runs);
   const bool three = is_pyramid(scene);
   std::string text = fmt::format(
       "  {:>10} {:>7} {:>12} {:>14} {:>14} {:>11}\n", "modulus", "ks/kn", turns(scene) ? "moment" : "force",
@@ -221,6 +218,7 @@ Json summary_of(const Scene &scene, const BondRun &run) {
   j["fracture_work_j"] = run.fracture_work;
   j["largest_difference"] = largest_difference(scene, run);
   j["steps"] = run.steps;
+  if (is_led(scene)) add_interface_summary(run, j);
   return j;
 }
 
@@ -235,12 +233,15 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, const Cost
   s["app"] = "platen-bonds";
   s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
   s["version"] = version_line();
-  std::vector<std::string> effects{is_beam(scene) ? "cohesive beam" : "parallel bond"};
-  if (scene.effects.rotation) effects.insert(effects.end(), {"rotation", "bond moments"});
+  std::vector<std::string> effects{is_led(scene)    ? "elasto damage plastic"
+                                   : is_beam(scene) ? "cohesive beam"
+                                                    : "parallel bond"};
+  if (scene.effects.rotation) effects.emplace_back("rotation");
+  if (scene.effects.rotation && !is_led(scene)) effects.emplace_back("bond moments");
   if (scene.effects.contact != ContactKind::none)
     effects.emplace_back(scene.effects.contact == ContactKind::hertz ? "hertz contact" : "linear contact");
-  if (scene.bond.damping > 0) effects.emplace_back("bond dashpots");
-  effects.emplace_back("local damping");
+  if (scene.bond.damping > 0 && !is_led(scene)) effects.emplace_back("bond dashpots");
+  if (!is_led(scene)) effects.emplace_back("local damping");
   s["effects"] = effects;
   s["path"] = word(scene.pair_test.path);
   s["particles"] = scene.pair_test.particles;
@@ -294,6 +295,26 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
 
 } // namespace
 
+const std::vector<std::string> &bond_columns() {
+  static const std::vector<std::string> columns{"run",
+                                                "modulus_pa",
+                                                "stiffness_ratio",
+                                                "force_n",
+                                                "displacement_m",
+                                                "moment_nm",
+                                                "rotation_rad",
+                                                "bond_normal_n",
+                                                "bond_shear_n",
+                                                "tension_utilisation",
+                                                "shear_utilisation",
+                                                "intact_bonds",
+                                                "lateral_m",
+                                                "strain_ratio",
+                                                "by_hand",
+                                                "difference"};
+  return columns;
+}
+
 double row_measured(const Scene &scene, const RigReading &row) {
   return is_pyramid(scene) ? row.strain_ratio : way_of(scene, row);
 }
@@ -318,6 +339,11 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
     throw InputError("--resume: a bond test takes seconds and keeps no checkpoint; run it anew");
   const OutputPaths paths(command.output);
   const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
+  if (command.dry_run && is_led(scene)) {
+    const InterfaceRig rig(scene, scene.pair_test.moduli.front());
+    fmt::print("{}  led without inertia: no time step\n", description(scene));
+    return status_done;
+  }
   if (command.dry_run) {
     const BondRig rig(scene, scene.pair_test.moduli.front(), scene.pair_test.stiffness_ratios.front());
     fmt::print("{}  time step {:.4g} s ({})\n", description(scene), rig.time_step(), rig.time_step_reason());

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/bonds/interface_path.h"
 #include "apps/bonds/load_path.h"
 #include "apps/scene/command_line.h"
 
@@ -13,6 +14,7 @@ namespace platen::apps {
 struct BondRun {
   double modulus = 0, stiffness_ratio = 0; // Pa, 1
   PathResult path;
+  InterfaceResult led; // only of a bond that remembers
   long steps = 0;
   double time_step = 0; // s
   std::string time_step_reason;
@@ -30,6 +32,9 @@ struct BondRun {
 // Runs every combination of the scene's moduli and stiffness ratios. Throws InputError where the scene asks
 // for what this test cannot do, NumericsError where the spheres do not come to rest.
 std::vector<BondRun> run_bond_tests(const Scene &scene);
+
+// Columns of bonds.csv that all bonds have.
+const std::vector<std::string> &bond_columns();
 
 // What the closed form gives for a row: displacement (m) or rotation (rad) under the row's load of two
 // spheres, the strain ratio of three; NaN once a bond has broken.

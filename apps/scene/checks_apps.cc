@@ -11,12 +11,47 @@ void SceneCheck::pair_test() const {
   if (app_ != AppKind::bonds) return;
   if (scene_.effects.bond == BondKind::none)
     refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
-  if (scene_.effects.bond == BondKind::elasto_damage_plastic)
-    refuse("Effects/Bond",
-           "yields and softens: platen-bonds brings bonds to rest by swinging, which such a "
-           "bond would remember. Allowed: parallel bond, cohesive beam.");
+  if (scene_.effects.bond == BondKind::elasto_damage_plastic) return led_pair();
+  if (scene_.pair_test.path == PairPath::combined)
+    refuse("Pair test/Path",
+           "needs Effects/Bond = elasto damage plastic. Allowed: tension, compression, "
+           "shear, bending, twisting, cyclic.");
   if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
     refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
+}
+
+// A bond that remembers is led from place to place.
+void SceneCheck::led_pair() const {
+  const PairTest &test = scene_.pair_test;
+  const bool slips = test.path == PairPath::shear || test.path == PairPath::combined;
+  if (test.particles != 2)
+    refuse("Pair test/Particles", "leaves a bond that remembers to the swings of free spheres. Allowed: 2.");
+  if (test.path == PairPath::bending || test.path == PairPath::twisting)
+    refuse("Pair test/Path",
+           "moves nothing in an elasto damage plastic bond, which neither bends nor twists. "
+           "Allowed: tension, compression, shear, cyclic, combined.");
+  if (given(test.force))
+    refuse("Pair test/Force",
+           "cannot lead a bond through its softening. Allowed: Pair test/Displacement or "
+           "Pair test/Turns instead.");
+  if (!given(test.displacement) && test.turns.empty())
+    refuse("Pair test/Displacement", "is not set, nor is Pair test/Turns. Allowed: one of them.");
+  if (given(test.displacement) && !test.turns.empty())
+    refuse("Pair test/Turns", "contradicts Pair test/Displacement. Allowed: one of both leads the test.");
+  double at = 0;
+  for (const double turn : test.turns) {
+    if (turn == at)
+      refuse("Pair test/Turns", "stays where it is at " + shortest_text(turn) +
+                                    " m. Allowed: "
+                                    "displacements that differ from the one before, from 0 on.");
+    if (test.path == PairPath::combined && turn < 0)
+      refuse("Pair test/Turns", "closes a combined path. Allowed: >= 0.");
+    at = turn;
+  }
+  if (slips && !scene_.effects.rotation)
+    refuse("Effects/Rotation", "is off, but Pair test/Path slides spheres by turning them. Allowed: on.");
+  if (scene_.bond.area_factor == 0)
+    refuse("Bond/Area factor", "is taken from a packing, and two spheres are none. Allowed: > 0.");
 }
 
 void SceneCheck::calibrate() const {

@@ -111,6 +111,20 @@ void SceneCheck::bar_notes() {
     note("Bar test/Bent along", "nothing is bent");
 }
 
+void SceneCheck::pair_notes() {
+  if (scene_.effects.bond != BondKind::elasto_damage_plastic) {
+    for (const char *key : {"Pair test/Turns", "Pair test/Pressure", "Pair test/Slip ratio"})
+      note(key, "Effects/Bond is not elasto damage plastic");
+    return;
+  }
+  for (const char *key :
+       {"Integration/Damping", "Integration/Damping form", "Integration/Time step", "Bond/Damping"})
+    note(key, "an elasto damage plastic bond is led without inertia");
+  if (scene_.pair_test.path != PairPath::shear) note("Pair test/Pressure", "Pair test/Path is not shear");
+  if (scene_.pair_test.path != PairPath::combined)
+    note("Pair test/Slip ratio", "Pair test/Path is not combined");
+}
+
 void SceneCheck::notes() {
   specimen_notes();
   bond_notes();
@@ -126,6 +140,7 @@ void SceneCheck::notes() {
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
     for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})
       note(key, "Pair test/Particles = 2");
+  if (app_ == AppKind::bonds) pair_notes();
 }
 
 } // namespace platen::apps

@@ -7,7 +7,7 @@
 
 namespace platen::apps {
 
-enum class PairPath { tension, compression, shear, bending, twisting, cyclic };
+enum class PairPath { tension, compression, shear, bending, twisting, cyclic, combined };
 enum class PairPlate { frictionless, rolling, sticking };
 
 struct PairTest { // platen-bonds
@@ -17,8 +17,12 @@ struct PairTest { // platen-bonds
   bool base_bond = true;                     // three particles: a bond between the lower two
   double force = not_given;                  // N, largest
   double displacement = not_given;           // m, largest
-  std::vector<double> moduli;                // Pa; holds Bond/Modulus where the list is empty
-  std::vector<double> stiffness_ratios;      // holds Bond/Stiffness ratio where the list is empty
+  // Elasto damage plastic.
+  std::vector<double> turns;  // m, displacements at which the path turns, opening positive; empty: one way
+  double pressure = 0;        // Pa, that presses the bond while it is sheared
+  double slip_ratio = 1;      // slip over opening of a combined path
+  std::vector<double> moduli; // Pa; holds Bond/Modulus where the list is empty
+  std::vector<double> stiffness_ratios; // holds Bond/Stiffness ratio where the list is empty
   int steps = 1000;
 };
 

@@ -32,6 +32,7 @@ public:
   void cycles() const;
   void cell() const;
   void pair_test() const;
+  void led_pair() const;
   void calibrate() const;
   void bar_test() const;
   void study() const;
@@ -61,6 +62,7 @@ private:
   void contact_notes();
   void loading_notes();
   void bar_notes();
+  void pair_notes();
 
   Scene &scene_;
   const Parameters &parameters_;

@@ -12,7 +12,8 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
                           {"shear", PairPath::shear},
                           {"bending", PairPath::bending},
                           {"twisting", PairPath::twisting},
-                          {"cyclic", PairPath::cyclic}},
+                          {"cyclic", PairPath::cyclic},
+                          {"combined", PairPath::combined}},
                          {}, "How the upper particle is moved against the lower ones.");
   section.word<PairPlate>("Plate", pair.plate,
                           {{"frictionless", PairPlate::frictionless},
@@ -22,6 +23,13 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
   section.quantity("Force", pair.force, "N", above(0), "Largest force.");
   section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
+  section.list("Turns", pair.turns, "m", any_number(),
+               "Displacements at which the path turns, opening positive, the last one its end; instead of "
+               "Displacement (elasto damage plastic).");
+  section.quantity("Pressure", pair.pressure, "Pa", at_least(0),
+                   "Presses the bond while it is sheared (elasto damage plastic).");
+  section.number("Slip ratio", pair.slip_ratio, above(0),
+                 "Slip over opening of the combined path (elasto damage plastic).");
   section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
   section.list("Stiffness ratio list", pair.stiffness_ratios, "1", between(0, 5),
                "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
