@@ -1,6 +1,7 @@
 #include "apps/calibrate/abacus.h"
 
-#include "apps/calibrate/scatter.h"
+#include "apps/calibrate/seeds.h"
+#include "apps/io/seed_statistics.h"
 
 namespace platen::apps {
 namespace {
@@ -62,7 +63,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     const BondChoice &c = choices[k];
     const double ratio = beams ? not_given : c.stiffness_ratio,
                  bond_poisson = beams ? c.poisson_ratio : not_given;
-    Scatter young, poisson, voigt, voigt_poisson;
+    SeedStatistics young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
       const double scale = linear ? c.modulus / scene.bond.modulus : 1.0;

@@ -134,7 +134,7 @@ void Calibration::tell_bounds(Trials &trials, Json &s) {
                  {"poisson_reuss", b.poisson_reuss}};
 }
 
-Json json_of(const Scatter &scatter) {
+Json json_of(const SeedStatistics &scatter) {
   return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
 }
 Json json_of(const Measured &m) {
@@ -143,17 +143,12 @@ Json json_of(const Measured &m) {
           {"tensile_strength_pa", json_of(m.tensile)},   {"failed", m.failed}};
 }
 
-std::string row_of(const char *what, double unit, double wanted, const Scatter &training,
-                   const Scatter &unseen) {
-  const auto one = [&](const Scatter &s) {
-    if (s.count() == 0) return std::string("-");
-    if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
-    return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
-  };
+std::string row_of(const char *what, double unit, double wanted, const SeedStatistics &training,
+                   const SeedStatistics &unseen) {
   const std::string goal = std::isnan(wanted) ? "-" : fmt::format("{:.4g}", wanted / unit);
   const double off = 100 * (unseen.mean() / wanted - 1);
-  return fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", what, goal, one(training), one(unseen),
-                     std::isnan(off) ? "" : fmt::format("{:+.1f} %", off));
+  return fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", what, goal, text_of(training, unit),
+                     text_of(unseen, unit), std::isnan(off) ? "" : fmt::format("{:+.1f} %", off));
 }
 
 std::string table_of(const Scene &scene, const Found &f) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/calibrate/seeds.h"
+
 namespace platen::apps {
 namespace {
 

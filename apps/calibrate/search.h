@@ -3,14 +3,14 @@
 // shear and tensile strength, and their size by the latter, to which it is proportional.
 #pragma once
 
-#include "apps/calibrate/scatter.h"
 #include "apps/calibrate/trials.h"
+#include "apps/io/seed_statistics.h"
 
 namespace platen::apps {
 
 // Means over seeds, compression and tension of those runs that came to a peak.
 struct Measured {
-  Scatter young, platen, poisson, compressive, tensile;
+  SeedStatistics young, platen, poisson, compressive, tensile;
   int failed = 0;
 };
 

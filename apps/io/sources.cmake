@@ -13,6 +13,7 @@ set(PLATEN_IO_SOURCES
   io/summary.cc
   io/machine.cc
   io/run_log.cc
+  io/seed_statistics.cc
   io/progress.cc
   io/stop_signal.cc
   io/specimen_csv.cc)

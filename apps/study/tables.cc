@@ -76,12 +76,6 @@ constexpr Column printed[] = {{"particles", "spheres", 1},
                               {"poisson_ratio", "nu", 1},
                               {"kinetic_to_internal_max", "kinetic", 1}};
 
-std::string text_of(const SeedStatistics &s, double unit) {
-  if (s.count() == 0) return "-";
-  if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
-  return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
-}
-
 // Columns as wide as what stands in them.
 std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
@@ -98,26 +92,6 @@ std::string aligned(const std::vector<std::vector<std::string>> &rows) {
 }
 
 } // namespace
-
-void SeedStatistics::add(double value) {
-  if (!std::isnan(value)) values_.push_back(value);
-}
-
-double SeedStatistics::mean() const {
-  double sum = 0;
-  for (const double v : values_)
-    sum += v;
-  return sum / static_cast<double>(values_.size());
-}
-
-double SeedStatistics::deviation() const {
-  if (values_.size() < 2) return not_given;
-  double squares = 0;
-  const double m = mean();
-  for (const double v : values_)
-    squares += (v - m) * (v - m);
-  return std::sqrt(squares / (static_cast<double>(values_.size()) - 1));
-}
 
 StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),

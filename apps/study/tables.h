@@ -6,23 +6,12 @@
 
 #include "apps/io/csv_writer.h"
 #include "apps/io/output_folder.h"
+#include "apps/io/seed_statistics.h"
 #include "apps/io/summary.h"
 #include "apps/study/cases.h"
 #include "apps/study/runs.h"
 
 namespace platen::apps {
-
-// Of what was measured; a number that is NaN does not count.
-class SeedStatistics {
-public:
-  void add(double value);
-  std::size_t count() const { return values_.size(); }
-  double mean() const;      // NaN of nothing
-  double deviation() const; // sample standard deviation; NaN of fewer than two
-
-private:
-  std::vector<double> values_;
-};
 
 class StudyTables {
 public:

@@ -1,0 +1,36 @@
+#include "apps/io/seed_statistics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace platen::apps {
+
+void SeedStatistics::add(double value) {
+  if (!std::isnan(value)) values_.push_back(value);
+}
+
+double SeedStatistics::mean() const {
+  double sum = 0;
+  for (const double v : values_)
+    sum += v;
+  return sum / static_cast<double>(values_.size());
+}
+
+double SeedStatistics::deviation() const {
+  if (values_.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  double squares = 0;
+  const double m = mean();
+  for (const double v : values_)
+    squares += (v - m) * (v - m);
+  return std::sqrt(squares / (static_cast<double>(values_.size()) - 1));
+}
+
+std::string text_of(const SeedStatistics &s, double unit) {
+  if (s.count() == 0) return "-";
+  if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
+  return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
+}
+
+} // namespace platen::apps

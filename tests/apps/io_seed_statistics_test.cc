@@ -1,0 +1,36 @@
+// Mean and scatter over seeds.
+#include "apps/io/seed_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace platen::apps {
+namespace {
+
+TEST(SeedStatistics, are_those_of_a_sample_that_is_known) {
+  SeedStatistics s;
+  for (const double v : {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0})
+    s.add(v);
+  EXPECT_EQ(s.count(), 8u);
+  EXPECT_DOUBLE_EQ(s.mean(), 5);
+  EXPECT_DOUBLE_EQ(s.deviation(), std::sqrt(32.0 / 7)); // of the sample: over n - 1
+  EXPECT_EQ(text_of(s, 1), "5 +- 2.1");
+  EXPECT_EQ(text_of(s, 10), "0.5 +- 0.21");
+}
+
+TEST(SeedStatistics, leave_out_what_was_not_measured) {
+  SeedStatistics s;
+  EXPECT_TRUE(std::isnan(s.mean()));
+  EXPECT_EQ(text_of(s, 1), "-");
+  s.add(std::numeric_limits<double>::quiet_NaN());
+  s.add(3);
+  EXPECT_EQ(s.count(), 1u);
+  EXPECT_EQ(s.mean(), 3);
+  EXPECT_TRUE(std::isnan(s.deviation()));
+  EXPECT_EQ(text_of(s, 1), "3");
+}
+
+} // namespace
+} // namespace platen::apps
