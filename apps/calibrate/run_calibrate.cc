@@ -92,6 +92,9 @@ std::string Calibration::description() const {
   say("Poisson's ratio", c.poisson_ratio, "", 1);
   say("compressive strength", c.compressive_strength, " MPa", 1e-6);
   say("tensile strength", c.tensile_strength, " MPa", 1e-6);
+  if (!std::isnan(c.triaxial_strength))
+    text += fmt::format("  wanted: triaxial strength {:.5g} MPa at a pressure of {:.5g} MPa\n",
+                        1e-6 * c.triaxial_strength, 1e-6 * c.confining_pressure);
   return text;
 }
 
@@ -138,9 +141,13 @@ Json json_of(const SeedStatistics &scatter) {
   return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
 }
 Json json_of(const Measured &m) {
-  return {{"youngs_modulus_gauge_pa", json_of(m.young)}, {"youngs_modulus_platen_pa", json_of(m.platen)},
-          {"poisson_ratio", json_of(m.poisson)},         {"compressive_strength_pa", json_of(m.compressive)},
-          {"tensile_strength_pa", json_of(m.tensile)},   {"failed", m.failed}};
+  return {{"youngs_modulus_gauge_pa", json_of(m.young)},
+          {"youngs_modulus_platen_pa", json_of(m.platen)},
+          {"poisson_ratio", json_of(m.poisson)},
+          {"compressive_strength_pa", json_of(m.compressive)},
+          {"tensile_strength_pa", json_of(m.tensile)},
+          {"triaxial_strength_pa", json_of(m.triaxial)},
+          {"failed", m.failed}};
 }
 
 std::string row_of(const char *what, double unit, double wanted, const SeedStatistics &training,
@@ -160,6 +167,9 @@ std::string table_of(const Scene &scene, const Found &f) {
   text += row_of("compressive strength, MPa", 1e6, c.compressive_strength, f.training.compressive,
                  f.unseen.compressive);
   text += row_of("tensile strength, MPa", 1e6, c.tensile_strength, f.training.tensile, f.unseen.tensile);
+  if (!std::isnan(c.triaxial_strength))
+    text +=
+        row_of("triaxial strength, MPa", 1e6, c.triaxial_strength, f.training.triaxial, f.unseen.triaxial);
   return text;
 }
 
@@ -170,7 +180,8 @@ void Calibration::tell_found(const Found &f, Json &s) {
                 {"radius_multiplier", c.radius_multiplier},
                 {"bond_tensile_strength_pa", c.tensile_strength},
                 {"bond_shear_strength_pa", c.shear_strength},
-                {"moment_contribution", c.moment_contribution}};
+                {"moment_contribution", c.moment_contribution},
+                {"friction_angle_rad", c.friction_angle}};
   s["training"] = json_of(f.training);
   s["verification"] = json_of(f.unseen);
   const Measured &judged = f.unseen.young.count() > 0 ? f.unseen : f.training;
@@ -179,14 +190,16 @@ void Calibration::tell_found(const Found &f, Json &s) {
   s["poisson_ratio"] = judged.poisson.mean();
   s["strength_pa"] = judged.compressive.mean();
   s["tensile_strength_pa"] = judged.tensile.mean();
+  s["triaxial_strength_pa"] = judged.triaxial.mean();
   s["strength_trials"] = f.strength_trials;
   s["missed"] = f.missed;
   log_.info(
       "found: bond modulus {:.5g} GPa, stiffness ratio {:.5g}, radius multiplier {:.5g}, tensile strength "
       "{:.5g} "
-      "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}\n{}",
+      "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}, friction angle {:.4g} degree\n{}",
       1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, c.moment_contribution, table_of(scene_, f));
+      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / std::acos(-1.0),
+      table_of(scene_, f));
   for (const std::string &line : f.missed)
     log_.warning("{}", line);
 }
@@ -204,6 +217,7 @@ void Calibration::write_found(const Found &f) {
   set("Tensile strength", c.tensile_strength, " Pa");
   set("Shear strength", c.shear_strength, " Pa");
   set("Moment contribution", c.moment_contribution, "");
+  if (c.friction_angle != scene_.bond.friction_angle) set("Friction angle", c.friction_angle, " rad");
   const Scene scene = read_scene(command_.scene, overrides, AppKind::calibrate);
   std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", scene_.name,
                                     version_line(), table_of(scene_, f));

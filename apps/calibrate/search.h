@@ -1,6 +1,6 @@
 // Bonds for a wanted material: Poisson's ratio by the stiffness ratio (beams: the radius multiplier), Young's
-// modulus by the bond's, to which it is proportional; then the ratio of the strengths by that of the bond's
-// shear and tensile strength, and their size by the latter, to which it is proportional.
+// modulus by the bond's, to which it is proportional; then the strengths by those of the bond, its moment
+// contribution and its friction angle (strengths.h).
 #pragma once
 
 #include "apps/calibrate/trials.h"
@@ -8,9 +8,9 @@
 
 namespace platen::apps {
 
-// Means over seeds, compression and tension of those runs that came to a peak.
+// Over seeds; strengths of those runs that came to a peak.
 struct Measured {
-  SeedStatistics young, platen, poisson, compressive, tensile;
+  SeedStatistics young, platen, poisson, compressive, tensile, triaxial;
   int failed = 0;
 };
 

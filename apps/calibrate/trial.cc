@@ -16,6 +16,8 @@ namespace {
 constexpr double looks = 600;
 // A run is over when the stress has fallen to this share of its peak; moduli are secants at that of 40 %.
 constexpr double fallen = 0.8, modulus_share = 0.4;
+// A confined specimen may flow on: its peak counts if it lies before this share of the largest strain.
+constexpr double before_the_end = 0.8;
 // Largest strain of a tension test over that of a compression test.
 constexpr double tension_strain = 0.25;
 
@@ -28,6 +30,7 @@ Scene chosen(const Scene &scene, const BondChoice &choice) {
   s.bond.tensile_strength = choice.tensile_strength;
   s.bond.shear_strength = choice.shear_strength;
   s.bond.moment_contribution = choice.moment_contribution;
+  s.bond.friction_angle = choice.friction_angle;
   s.effects.energy_ledger = s.effects.crack_log = false;
   return s;
 }
@@ -50,6 +53,9 @@ double tension_rate(const Scene &scene) {
 
 struct Look {
   double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
+  Look minus(const Look &o) const {
+    return {stress - o.stress, strain_platen - o.strain_platen, axial - o.axial, lateral - o.lateral};
+  }
 };
 
 // Linear between the looks on both sides of a share of the peak, before it.
@@ -66,27 +72,39 @@ void add_moduli(const std::vector<Look> &all, double peak, TrialResult &result) 
   }
 }
 
-void load_to_peak(coupling::Problem &problem, bool tension, double target, TrialResult &result) {
-  const double sign = tension ? -1 : 1;
+void load_to_peak(coupling::Problem &problem, TrialKind kind, double target, TrialResult &result) {
+  const double sign = kind == TrialKind::tension ? -1 : 1;
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const double step_closes = problem.settings().loading.rate * problem.time_step() / problem.shape().height;
   const long between = std::max(1L, std::lround(target / looks / step_closes));
+  const auto look = [&]() -> Look {
+    const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
+    return {sign * 0.5 * (problem.stress_top() + problem.stress_bottom()), sign * problem.closure_strain(),
+            -sign * strain.axial, sign * strain.lateral()};
+  };
+  while (!problem.axial_stage())
+    problem.advance(between);
+  const bool confined = problem.confinement() != nullptr;
+  const Look start = confined ? look() : Look{};
   std::vector<Look> all{{}};
   double peak = 0;
-  while (sign * problem.closure_strain() < target) {
+  while (all.back().strain_platen < target) {
     for (long made = 0; made < between;)
       made += problem.advance(between - made);
-    const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
-    all.push_back({sign * 0.5 * (problem.stress_top() + problem.stress_bottom()),
-                   sign * problem.closure_strain(), -sign * strain.axial, sign * strain.lateral()});
+    all.push_back(look().minus(start));
     const Look &now = all.back();
     if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen;
     const bool broken = problem.model.broken_tension + problem.model.broken_shear > 0;
     if (broken && now.stress < fallen * peak) {
-      result.strength = peak;
+      result.strength = peak + start.stress;
       add_moduli(all, peak, result);
       return;
     }
+  }
+  if (confined && result.strain_at_peak < before_the_end * target) {
+    result.strength = peak + start.stress;
+    add_moduli(all, peak, result);
+    return;
   }
   result.strain_at_peak = not_given;
   result.status = "no peak before the largest strain";
@@ -95,14 +113,14 @@ void load_to_peak(coupling::Problem &problem, bool tension, double target, Trial
 } // namespace
 
 const char *word(TrialKind kind) {
-  constexpr const char *words[] = {"elastic", "compression", "tension"};
+  constexpr const char *words[] = {"elastic", "compression", "tension", "triaxial"};
   return words[static_cast<int>(kind)];
 }
 
 BondChoice choice_of(const Scene &scene) {
   const Bond &b = scene.bond;
-  return {b.modulus,          b.stiffness_ratio, b.radius_multiplier,  b.poisson_ratio,
-          b.tensile_strength, b.shear_strength,  b.moment_contribution};
+  return {b.modulus,          b.stiffness_ratio, b.radius_multiplier,   b.poisson_ratio,
+          b.tensile_strength, b.shear_strength,  b.moment_contribution, b.friction_angle};
 }
 
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
@@ -120,9 +138,9 @@ TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, con
 }
 
 TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice,
-                           bool tension) {
+                           TrialKind kind) {
   Scene s = chosen(scene, choice);
-  if (tension) {
+  if (kind == TrialKind::tension) {
     s.loading.test = LoadingTest::tension;
     s.platens.attachment = Attachment::glued;
     s.loading.axial_rate = tension_rate(scene);
@@ -130,10 +148,14 @@ TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, co
   } else {
     s.loading.test = LoadingTest::compression;
   }
+  if (kind == TrialKind::triaxial) {
+    s.loading.confinement = ConfinementKind::particles;
+    s.loading.confining_pressure = scene.calibrate.confining_pressure;
+  }
   TrialResult result;
   try {
     coupling::Problem problem = problem_of(s, specimen);
-    load_to_peak(problem, tension, s.loading.target_strain, result);
+    load_to_peak(problem, kind, s.loading.target_strain, result);
   } catch (const coupling::NumericsStopped &e) {
     result.status = e.what();
   }

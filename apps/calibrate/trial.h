@@ -13,10 +13,11 @@ struct BondChoice {
   double modulus = 0, stiffness_ratio = 0, radius_multiplier = 1, poisson_ratio = 0; // Pa, 1, 1, 1
   double tensile_strength = 0, shear_strength = 0;                                   // Pa
   double moment_contribution = 1;
+  double friction_angle = 0; // rad
 };
 BondChoice choice_of(const Scene &scene);
 
-enum class TrialKind { elastic, compression, tension };
+enum class TrialKind { elastic, compression, tension, triaxial };
 const char *word(TrialKind kind);
 
 struct TrialResult {
@@ -29,10 +30,12 @@ struct TrialResult {
 // Of the middle half, between the platens of the scene, at Calibrate/Strain.
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice);
 // To four fifths of the peak, at the rate of the scene: compression as the scene has its platens, tension
-// between glued ends. The strength is the largest mean of both platens' stresses. Moduli are secants at 40 %
-// of it.
+// between glued ends, triaxial at Calibrate/Confining pressure on the skin (strains and stresses counted from
+// where it stands on all sides; a peak that holds to the largest strain counts too). The strength is the
+// largest mean of both platens' stresses, the pressure included. Moduli are secants at 40 % of what the
+// platens add.
 TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice,
-                           bool tension);
+                           TrialKind kind);
 // Without a solve.
 dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice);
 

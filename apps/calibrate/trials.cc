@@ -29,6 +29,7 @@ const std::vector<std::string> columns{"test",
                                        "tensile_pa",
                                        "shear_pa",
                                        "moment_contribution",
+                                       "friction_angle_rad",
                                        "status",
                                        "youngs_modulus_gauge_pa",
                                        "youngs_modulus_platen_pa",
@@ -42,9 +43,9 @@ std::string key_of(const Trial &t) {
   std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
   for (const double number : {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio})
     key += "," + shortest_text(number);
-  if (t.kind == TrialKind::elastic) return key + ",0,0,0";
+  if (t.kind == TrialKind::elastic) return key + ",0,0,0,0";
   return key + "," + shortest_text(c.tensile_strength) + "," + shortest_text(c.shear_strength) + "," +
-         shortest_text(c.moment_contribution);
+         shortest_text(c.moment_contribution) + "," + shortest_text(c.friction_angle);
 }
 
 std::vector<std::string> cells_of(const std::string &line) {
@@ -114,14 +115,14 @@ void Trials::read() {
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
-    for (std::size_t k = 10; k < cells.size(); ++k)
+    for (std::size_t k = 11; k < cells.size(); ++k)
       if (const auto value = number_of(cells[k])) values.push_back(*value);
     if (cells.size() != columns.size() || values.size() != 5)
       throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
     std::string key = cells[0] + "," + cells[1];
-    for (std::size_t k = 2; k < 9; ++k)
+    for (std::size_t k = 2; k < 10; ++k)
       key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
-    known_[key] = {cells[9], values[0], values[1], values[2], values[3], values[4]};
+    known_[key] = {cells[10], values[0], values[1], values[2], values[3], values[4]};
   }
   table_.emplace(path, columns, end + 1);
 }
@@ -132,8 +133,8 @@ void Trials::keep(const Trial &t, const TrialResult &r) {
   const std::string status = one_cell(r.status);
   table_->row({word(t.kind), t.seed, c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
                elastic ? 0.0 : c.tensile_strength, elastic ? 0.0 : c.shear_strength,
-               elastic ? 0.0 : c.moment_contribution, status, r.young_modulus, r.platen_modulus,
-               r.poisson_ratio, r.strength, r.strain_at_peak});
+               elastic ? 0.0 : c.moment_contribution, elastic ? 0.0 : c.friction_angle, status,
+               r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
   known_[key_of(t)] = r;
   ++made_;
 }
@@ -172,7 +173,7 @@ void Trials::pack(const std::vector<unsigned long> &seeds) {
 TrialResult Trials::run(const Trial &t) const {
   const dem::Specimen &specimen = packings_.at(t.seed);
   if (t.kind == TrialKind::elastic) return elastic_trial(scene_, specimen, t.choice);
-  return strength_trial(scene_, specimen, t.choice, t.kind == TrialKind::tension);
+  return strength_trial(scene_, specimen, t.choice, t.kind);
 }
 
 std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {

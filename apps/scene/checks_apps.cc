@@ -69,12 +69,25 @@ void SceneCheck::calibrate() const {
   ascending(c.ratio_low, c.ratio_high, "stiffness ratio");
   ascending(c.multiplier_low, c.multiplier_high, "radius multiplier");
   ascending(c.strengths_low, c.strengths_high, "shear over tensile strength");
+  const BondKind kind = scene_.effects.bond;
+  const bool has_friction = kind == BondKind::parallel_bond || kind == BondKind::cohesive_beam;
+  for (const char *key : {"Calibrate/Smallest friction angle", "Calibrate/Largest friction angle",
+                          "Calibrate/Triaxial strength"})
+    if (parameters_.at(key).changed() && !has_friction)
+      refuse(key,
+             "needs a bond with a friction angle. Allowed: Effects/Bond = parallel bond, cohesive beam.");
+  const double own = given(c.triaxial_strength) ? not_given : scene_.bond.friction_angle;
+  if ((given(c.friction_low) ? c.friction_low : own) > (given(c.friction_high) ? c.friction_high : own))
+    refuse(given(c.friction_low) ? "Calibrate/Smallest friction angle" : "Calibrate/Largest friction angle",
+           given(c.friction_low) ? "is above the largest, or the bond's own where none is given."
+                                 : "is below the bond's own, which is the smallest where none is given.");
   const bool beam = scene_.effects.bond == BondKind::cohesive_beam;
   if (beam && !c.stiffness_ratios.empty())
     refuse("Calibrate/Stiffness ratio list", "is for parallel bonds: a beam has the ratio of its section.");
   if (!beam && !c.poisson_ratios.empty())
     refuse("Calibrate/Poisson ratio list", "is for beams: Effects/Bond = parallel bond has none.");
   if (c.mode != CalibrateMode::search) return;
+  if (given(c.triaxial_strength)) triaxial_strength();
   const bool strengths = given(c.compressive_strength) || given(c.tensile_strength);
   if (!strengths && !given(c.young_modulus) && !given(c.poisson_ratio))
     refuse("Calibrate/Mode",
@@ -90,6 +103,21 @@ void SceneCheck::calibrate() const {
       c.compressive_strength <= c.tensile_strength)
     refuse("Calibrate/Tensile strength", "is not below Calibrate/Compressive strength = " +
                                              parameters_.at("Calibrate/Compressive strength").text + ".");
+}
+
+void SceneCheck::triaxial_strength() const {
+  const Calibrate &c = scene_.calibrate;
+  need("Calibrate/Confining pressure", c.confining_pressure, "a triaxial strength has one.");
+  if (!given(c.compressive_strength))
+    refuse("Calibrate/Triaxial strength",
+           "needs Calibrate/Compressive strength: both tell how strength grows with pressure.");
+  if (c.triaxial_strength <= c.compressive_strength)
+    refuse("Calibrate/Triaxial strength", "is not above Calibrate/Compressive strength = " +
+                                              parameters_.at("Calibrate/Compressive strength").text + ".");
+  if (scene_.loading.confinement != ConfinementKind::none)
+    refuse("Loading/Confinement",
+           "would act on the compressive strength too; Calibrate/Triaxial strength brings its own. Allowed: "
+           "none.");
 }
 
 void SceneCheck::bar_test() const {

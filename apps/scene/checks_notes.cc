@@ -137,6 +137,8 @@ void SceneCheck::notes() {
     note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
   if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
   bar_notes();
+  if (app_ == AppKind::calibrate && !given(scene_.calibrate.triaxial_strength))
+    note("Calibrate/Confining pressure", "Calibrate/Triaxial strength is not set");
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
     for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})
       note(key, "Pair test/Particles = 2");

@@ -33,6 +33,7 @@ struct Calibrate { // platen-calibrate
   // Wanted of the specimen; each may be left out.
   double young_modulus = not_given, poisson_ratio = not_given;           // Pa, 1
   double compressive_strength = not_given, tensile_strength = not_given; // Pa
+  double triaxial_strength = not_given, confining_pressure = not_given;  // Pa, largest axial stress at it
   int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
   double strain = 1e-5;                  // of the static solves
   double tension_rate = not_given;       // m/s; tension tests
@@ -41,10 +42,11 @@ struct Calibrate { // platen-calibrate
   // Abacus; each holds the bond's own value where the list is empty.
   std::vector<double> moduli, stiffness_ratios, radius_multipliers, poisson_ratios; // Pa, 1, 1, 1
   // Where the search may go.
-  double ratio_low = 0.02, ratio_high = 1;          // shear over normal stiffness (parallel bond)
-  double multiplier_low = 0.3, multiplier_high = 1; // radius multiplier (cohesive beam)
-  double moments_low = 0; // moment contribution, once the strengths are at their largest ratio
-  double strengths_low = 0.5, strengths_high = 6; // shear over tensile strength of the bond
+  double ratio_low = 0.02, ratio_high = 1;                    // shear over normal stiffness (parallel bond)
+  double multiplier_low = 0.3, multiplier_high = 1;           // radius multiplier (cohesive beam)
+  double moments_low = 0;                                     // moment contribution
+  double strengths_low = 0.5, strengths_high = 6;             // shear over tensile strength of the bond
+  double friction_low = not_given, friction_high = not_given; // rad, friction angle of the bond
 };
 
 enum class BarLoad { all, tension, bending, torsion, impact, none };

@@ -34,6 +34,7 @@ public:
   void pair_test() const;
   void led_pair() const;
   void calibrate() const;
+  void triaxial_strength() const;
   void bar_test() const;
   void study() const;
   void notes();

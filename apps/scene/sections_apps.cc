@@ -52,6 +52,12 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                    "Wanted between the platens of the scene; may be left out.");
   section.quantity("Tensile strength", c.tensile_strength, "Pa", above(0),
                    "Wanted between glued ends; may be left out.");
+  section.quantity(
+      "Triaxial strength", c.triaxial_strength, "Pa", above(0),
+      "Wanted at the confining pressure, as largest axial stress (the pressure included); may be "
+      "left out.");
+  section.quantity("Confining pressure", c.confining_pressure, "Pa", above(0),
+                   "Of the triaxial strength; it acts as Loading/Confinement = particles.");
   section.integer("Seeds", c.seeds, 1, 1000, "Packings to calibrate on: Scene/Seed and those after it.");
   section.integer("Verification seeds", c.verification_seeds, 0, 1000,
                   "Packings after those, on which what was found is judged.");
@@ -79,11 +85,20 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search for Poisson's ratio (cohesive beam).");
   section.number(
       "Smallest moment contribution", c.moments_low, between(0, 1),
-      "Search for the ratio of the strengths, once shear over tensile strength is at its largest.");
+      "Search for compressive over tensile strength (parallel bond, cohesive beam); the largest is the "
+      "bond's own.");
   section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
-                 "Search for the ratio of the strengths.");
+                 "Search for compressive over tensile strength.");
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
-                 "Search for the ratio of the strengths.");
+                 "Search for compressive over tensile strength.");
+  section.quantity(
+      "Smallest friction angle", c.friction_low, "rad", {0, right_angle, true, false},
+      "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
+      "a triaxial strength is wanted.");
+  section.quantity(
+      "Largest friction angle", c.friction_high, "rad", {0, right_angle, true, false},
+      "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
+      "degree if a triaxial strength is wanted.");
 }
 
 void declare_bar_test(Parameters &parameters, BarTest &bar) {

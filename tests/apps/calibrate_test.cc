@@ -173,6 +173,31 @@ TEST_F(CalibrateApp, strengths_are_found) {
   EXPECT_NEAR(s["strength_pa"].get<double>(), 40e6, 4e6);
 }
 
+// One trial on one packing; Mohr's circles rise with pressure by more than the pressure itself wherever there
+// is friction, and the found scene gives the measured strength again.
+TEST_F(CalibrateApp, a_triaxial_strength_is_measured_under_its_pressure) {
+  const std::vector<std::string> asked{
+      "Calibrate/Compressive strength = 40 MPa", "Calibrate/Triaxial strength = 52 MPa",
+      "Calibrate/Confining pressure = 4 MPa",    "Calibrate/Seeds = 1",
+      "Calibrate/Verification seeds = 0",        "Calibrate/Most trials = 1"};
+  const auto s = run(asked, "a");
+  EXPECT_EQ(s["failed_trials"], 0);
+  EXPECT_EQ(s["trials"], 3); // compression, triaxial and a static solve
+  EXPECT_GT(s["triaxial_strength_pa"].get<double>(), s["strength_pa"].get<double>() + 1.5 * 4e6);
+  EXPECT_LT(s["triaxial_strength_pa"].get<double>(), s["strength_pa"].get<double>() + 15 * 4e6);
+}
+
+TEST_F(CalibrateApp, runs_without_a_peak_are_counted_and_not_fatal) {
+  const auto s = run({"Calibrate/Compressive strength = 20 MPa", "Bond/Tensile strength = 60 MPa",
+                      "Bond/Shear strength = 240 MPa", "Loading/Target strain = 0.006", "Calibrate/Seeds = 1",
+                      "Calibrate/Verification seeds = 0"},
+                     "a");
+  EXPECT_GT(s["failed_trials"].get<int>(), 0);
+  EXPECT_EQ(s["status"], "done");
+  EXPECT_NEAR(s["strength_pa"].get<double>(), 20e6, 2e6);
+  EXPECT_NE(text_of(folder / "a/trials.csv").find("no peak before the largest strain"), std::string::npos);
+}
+
 TEST_F(CalibrateApp, what_is_out_of_reach_is_told_with_the_nearest) {
   const auto s =
       run({"Calibrate/Poisson ratio = 0.45", "Calibrate/Seeds = 1", "Calibrate/Verification seeds = 0"}, "a");
@@ -198,6 +223,24 @@ TEST_F(CalibrateApp, faults_are_refused) {
   EXPECT_NE(fault({"Calibrate/Mode = abacus", "Calibrate/Poisson ratio list = 0.2"}).find("is for beams"),
             std::string::npos);
   EXPECT_NE(fault({"Effects/Bond = none", "Calibrate/Mode = bounds"}).find("Effects/Bond"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Compressive strength = 20 MPa", "Calibrate/Triaxial strength = 30 MPa"})
+                .find("Calibrate/Confining pressure"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Triaxial strength = 30 MPa", "Calibrate/Confining pressure = 2 MPa"})
+                .find("needs Calibrate/Compressive strength"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Compressive strength = 20 MPa", "Calibrate/Triaxial strength = 30 MPa",
+                   "Calibrate/Confining pressure = 2 MPa", "Loading/Confinement = particles",
+                   "Loading/Confining pressure = 2 MPa"})
+                .find("Loading/Confinement"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Calibrate/Largest friction angle = 30 degree"})
+                .find("below the bond's own"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Effects/Bond = elasto damage plastic",
+                   "Calibrate/Largest friction angle = 60 degree"})
+                .find("needs a bond with a friction angle"),
             std::string::npos);
   EXPECT_EQ(fault({"Calibrate/Mode = bounds", "Loading/Axial rate ="}), "");
 }
