@@ -171,13 +171,8 @@ TEST_F(Errors, output_folders_are_guarded) {
 
 // An id that no sphere has: at the start, and where the list has changed before a run goes on.
 TEST_F(Errors, ids_beyond_the_spheres_are_refused_at_the_start_and_on_resume) {
-  const std::vector<std::string> run{scene_,
-                                     "-s",
-                                     "Phases/By = file",
-                                     "-s",
-                                     "Phases/File = " + (folder_ / "ids.txt").string(),
-                                     "-s",
-                                     "Output/Fields = off"};
+  const std::vector<std::string> run{scene_, "-s", "Phases/By = file", "-s",
+                                     "Phases/File = " + (folder_ / "ids.txt").string()};
   put(folder_ / "ids.txt", "# large\n0\n1\n99999\n");
   const std::string says = "ids.txt:4: error: names sphere 99999, but the specimen has ";
   refuse({run, {says, "Allowed: 0 ... 1"}});
