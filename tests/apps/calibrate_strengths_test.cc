@@ -139,8 +139,7 @@ TEST(StrengthSearch, a_triaxial_strength_is_met_beside_a_compressive_one_alone) 
   StandIn specimen;
   const FoundStrengths f = found(scene_of(40e6, not_given, 50e6), specimen);
   EXPECT_NEAR(specimen(f.choice).triaxial, 50e6, 0.02 * 50e6);
-  EXPECT_LT(f.choice.friction_angle,
-            45 * degree); // the slope is 2.7, that of 45 degree 2.66 + 0.02 * 52/4.5 at most
+  EXPECT_LT(f.choice.friction_angle, 43 * degree); // 45 degree would give 52 MPa
   EXPECT_EQ(f.choice.moment_contribution, 0.3);
 }
 
