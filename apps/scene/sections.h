@@ -8,6 +8,8 @@
 
 namespace platen::apps {
 
+constexpr double right_angle = 1.5707963267948966; // rad
+
 void declare_general(Parameters &parameters, General &general);
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen);
 void declare_material(Parameters &parameters, Material &material);

@@ -4,8 +4,6 @@
 namespace platen::apps {
 namespace {
 
-constexpr double right_angle = 1.5707963267948966; // rad
-
 // Of Effects/Bond = elasto damage plastic alone.
 void declare_interface(Section &section, Bond &bond) {
   section.number("Interaction range", bond.interaction_range, between(0, 1),
