@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <iosfwd>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "fem/solid_mesh.h"
@@ -103,7 +104,7 @@ public:
   // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where those lie in planes).
   double enclosed_volume(int tag) const;
 
-  // Rate of mass-proportional damping (1/s): free nodes lose velocity as exp(-rate t).
+  // Rate of mass-proportional damping (1/s): a force of -rate times momentum on free nodes.
   void set_damping(double rate);
 
   // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.

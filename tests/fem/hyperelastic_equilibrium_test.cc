@@ -67,12 +67,12 @@ TEST(hyperelastic_equilibrium, newton_converges_with_order_two) {
   const int high = solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
   // Loose enough that the last residual is none of round-off.
   const EquilibriumReport report =
-      solid.solve({{{mantle_tag, 5e4}}, {{low, {{0, 0, 0}}}, {high, {{0.002, 0, -0.004}}}}}, {1e-7, 15, 10});
+      solid.solve({{{inner_tag, 3e4}}, {{low, {{0, 0, 0}}}, {high, {{0.002, 0, -0.004}}}}}, {1e-7, 15, 10});
   EXPECT_EQ(report.steps, 1);
   ASSERT_GE(report.residuals.size(), 4u);
   EXPECT_GT(order_of(report.residuals), 1.8) << report.residuals.back();
   // Balance: the leads carry what the pressure does not.
-  const Point sum = solid.lead_force(low) + solid.lead_force(high) + solid.pressure_force(mantle_tag);
+  const Point sum = solid.lead_force(low) + solid.lead_force(high) + solid.pressure_force(inner_tag);
   EXPECT_LT(norm(sum), 1e-5 * norm(solid.lead_force(high)));
   const Point moment = solid.lead_moment(low, {}) + solid.lead_moment(high, {});
   EXPECT_LT(norm(moment), 1e-2 * norm(solid.lead_force(high))); // and that of the pressure
@@ -88,7 +88,7 @@ TEST(hyperelastic_equilibrium, works_of_a_slow_path_are_stored) {
     const int high = solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
     for (int k = 1; k <= 4 * fine; ++k) {
       const double share = 0.25 * k / fine;
-      solid.solve({{{inner_tag, 1e5 * share}}, {{high, {{0, 0, 0.012 * share}}}}});
+      solid.solve({{{inner_tag, 4e4 * share}}, {{high, {{0, 0, 0.012 * share}}}}});
     }
     EXPECT_GT(solid.pressure_work(), 0.05 * solid.internal_energy());
     error[fine - 1] = solid.pressure_work() + solid.lead_work() - solid.internal_energy();
@@ -191,7 +191,7 @@ TEST(hyperelastic_equilibrium, a_thin_sleeve_softens_as_it_is_stretched) {
 // A strip of a 3 mm sleeve bent by an end force, against Euler and Bernoulli with shear: the figure for how
 // long an element may be beside its thickness.
 double bending_share(double element_length, int through, double poisson) {
-  const double t = 0.003, length = 0.06, young = 3e6, force = 1e-6;
+  const double t = 0.003, length = 0.06, young = 3e6, force = 1e-4;
   const int along = static_cast<int>(std::lround(length / element_length));
   HyperelasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {length, t, t}, {along, 1, through}}),
                           {1100, NeoHookean::from_young(young, poisson)});
@@ -262,9 +262,7 @@ TEST(hyperelastic_equilibrium, what_cannot_be_reached_is_named_and_leaves_the_so
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_LT(std::abs(error.place[k] - 0.015), 0.03);
   }
-  const std::vector<double> after = solid.state();
-  for (std::size_t k = 3; k < before.size(); ++k) // but for the works' round-off
-    EXPECT_EQ(after[k], before[k]);
+  EXPECT_EQ(solid.state(), before);
 }
 
 // Loads that stand on the surface fade in along the way; taken off, the solid is where it was.

@@ -246,12 +246,12 @@ TEST(hyperelastic_solid, the_stable_step_is_below_that_of_lanczos) {
   }
 }
 
-// Pressed from outside with its ends held in their planes; rings as it is let go.
+// Blown up from inside with its ends held; rings as it is let go. (From outside it would buckle at 7 kPa.)
 HyperelasticSolid held_sleeve(double pressure, double poisson = 0.45) {
   HyperelasticSolid solid = sleeve({1100, NeoHookean::from_young(3e6, poisson)});
   solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
   solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
-  solid.set_pressure(mantle_tag, pressure);
+  solid.set_pressure(inner_tag, pressure);
   solid.update_forces();
   return solid;
 }
@@ -275,7 +275,7 @@ double imbalance(const HyperelasticSolid &solid) {
 TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
   double worst[2] = {0, 0}, book = 0;
   for (const int fine : {0, 1}) {
-    HyperelasticSolid solid = held_sleeve(4e4);
+    HyperelasticSolid solid = held_sleeve(2e4);
     solid.set_damping(50);
     const double dt = 0.4 * solid.stable_step() / (1 + fine);
     for (int k = 0; k < 300 * (1 + fine); ++k) {
@@ -294,16 +294,22 @@ TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
 TEST(hyperelastic_solid, steps_below_the_limit_stay_bounded_and_above_it_do_not) {
   const double limit = 2 / std::sqrt(lanczos(held_sleeve(0), 60));
   HyperelasticSolid calm = held_sleeve(2e3), wild = held_sleeve(2e3);
-  step(calm, calm.stable_step(), 2000);
-  EXPECT_LT(calm.kinetic_energy() + calm.internal_energy(), 4 * calm.pressure_work());
+  const double dt = calm.stable_step();
+  double energy = 0, work = 0;
+  for (int k = 0; k < 2000; ++k) {
+    step(calm, dt, 1);
+    energy = std::max(energy, calm.kinetic_energy() + calm.internal_energy());
+    work = std::max(work, calm.pressure_work());
+  }
+  EXPECT_LT(energy, 2 * work);
   EXPECT_THROW(step(wild, 1.2 * limit, 2000), InvertedElement);
 }
 
 TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {
-  HyperelasticSolid explicit_one = held_sleeve(4e4), implicit = held_sleeve(0);
+  HyperelasticSolid explicit_one = held_sleeve(2e4), implicit = held_sleeve(0);
   explicit_one.set_damping(800);
   step(explicit_one, 0.9 * explicit_one.stable_step(), 6000);
-  implicit.solve({{{mantle_tag, 4e4}}, {}});
+  implicit.solve({{{inner_tag, 2e4}}, {}});
   const double size = largest(implicit.displacement());
   EXPECT_GT(size, 1e-4);
   for (std::size_t n = 0; n < implicit.displacement().size(); ++n)
@@ -311,7 +317,7 @@ TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {
 }
 
 TEST(hyperelastic_solid, an_inverted_element_is_found_before_it_is_used) {
-  HyperelasticSolid solid = held_sleeve(4e4);
+  HyperelasticSolid solid = held_sleeve(2e4);
   step(solid, 0.9 * solid.stable_step(), 20);
   const std::vector<double> before = solid.state();
   std::vector<Point> v = solid.velocity();
@@ -325,7 +331,7 @@ TEST(hyperelastic_solid, an_inverted_element_is_found_before_it_is_used) {
   } catch (const InvertedElement &error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("cell " + std::to_string(error.cell) + " at ("), std::string::npos) << text;
-    EXPECT_NE(text.find("pressure 40000 Pa on side 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("pressure 20000 Pa on side 6"), std::string::npos) << text;
     EXPECT_LE(error.volume_ratio, inverted_share);
     const auto &nodes = solid.mesh().cell_nodes[static_cast<std::size_t>(error.cell)];
     EXPECT_NE(std::find(nodes.begin(), nodes.end(), node), nodes.end());
@@ -340,7 +346,7 @@ bool same(const std::vector<Point> &a, const std::vector<Point> &b) {
 }
 
 TEST(hyperelastic_solid, a_resumed_run_is_the_same_to_the_last_bit) {
-  HyperelasticSolid one = held_sleeve(4e4), other = held_sleeve(0);
+  HyperelasticSolid one = held_sleeve(2e4), other = held_sleeve(0);
   one.set_damping(50), other.set_damping(50);
   const double dt = 0.5 * one.stable_step();
   one.set_lead_velocity(1, {0, 0, -0.3}, {0.1, 0.2, 5}, {0, 0, 0.06});
@@ -362,10 +368,10 @@ TEST(hyperelastic_solid, the_number_of_threads_changes_no_bit) {
   double energy[2], limit[2];
   for (const int threads : {1, 2}) {
     limit_threads(threads);
-    HyperelasticSolid solid = held_sleeve(4e4);
+    HyperelasticSolid solid = held_sleeve(2e4);
     limit[threads - 1] = solid.stable_step();
     step(solid, 0.5 * limit[threads - 1], 50);
-    solid.solve({{{mantle_tag, 5e4}}, {}});
+    solid.solve({{{inner_tag, 3e4}}, {}});
     state[threads - 1] = solid.state(), energy[threads - 1] = solid.internal_energy();
   }
   limit_threads(0);
