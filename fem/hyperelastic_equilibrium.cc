@@ -25,12 +25,12 @@ namespace {
 
 // A correction is shortened at most so often for one that would turn a cell inside out ...
 constexpr int inversion_cuts = 6;
-// ... and so often where the residual along it has not fallen (Crisfield, Non-linear Finite Element Analysis,
-// vol. 1, 1991, section 9.2.2: a loose line search is enough for Newton's method).
+// ... and so often, in a line search, where the residual along it has not fallen (Crisfield, Non-linear
+// Finite Element Analysis, vol. 1, 1991, section 9.2.2: a loose search is enough for Newton's method). Full
+// corrections are tried first: rubber that hardly changes its volume answers them with a large residual that
+// the next one takes away, and a search would creep.
 constexpr int line_cuts = 4;
 constexpr double slack = 0.8;
-// After a step that took no more iterations than this the next is longer.
-constexpr int easy_iterations = 6;
 // Volume ratios are known to this, so that stresses are to it times the bulk modulus: no smaller residual can
 // be asked for.
 constexpr double round_off = 2e-15;
@@ -56,7 +56,7 @@ public:
         old_works_{solid.pressure_work_, solid.lead_work_},
         goal_(start_),
         fading_(start_.size()),
-        spared_(start_.size()),
+        trial_(start_.size()),
         dofs_(3 * start_.size()) {
     for (const PressureTarget &p : target.pressures) {
       solid.pressure(p.tag); // throws where no face has it
@@ -78,23 +78,32 @@ public:
 
   EquilibriumReport run() {
     double share = 0, step = 1;
+    int cuts = 0; // in a row
     std::vector<Point> reached = start_;
     while (share < 1) {
       const double next = share + step >= 1 - 1e-12 ? 1 : share + step;
       const std::vector<Point> forces = lead_forces();
       const std::vector<double> pressures = solid_.face_pressure_;
-      if (converge(next)) {
+      bool found = converge(next, false);
+      if (!found) {
+        place(reached);
+        found = converge(next, true);
+      }
+      if (found) {
         book(reached, pressures, forces);
         share = next;
         reached = solid_.displacement_;
         ++report_.steps;
-        if (static_cast<int>(report_.residuals.size()) <= easy_iterations + 1) step *= 2;
+        // After an easy step a longer one.
+        if (2 * (static_cast<int>(report_.residuals.size()) - 1) <= control_.iterations) step *= 2;
+        cuts = 0;
         continue;
       }
       solid_.face_pressure_ = pressures;
       place(reached);
       step /= 2;
-      if (++report_.cuts > control_.cuts) fail(share, next);
+      ++report_.cuts;
+      if (++cuts > control_.cuts) fail(share, next);
     }
     std::fill(solid_.velocity_.begin(), solid_.velocity_.end(), Point{});
     solid_.place_surface();
@@ -202,7 +211,7 @@ private:
     }
   }
 
-  bool converge(double share) {
+  bool converge(double share, bool search) {
     for (std::size_t f = 0; f < new_pressure_.size(); ++f)
       solid_.face_pressure_[f] = old_pressure_[f] + share * (new_pressure_[f] - old_pressure_[f]);
     std::vector<Point> wanted(start_.size()), balance(start_.size());
@@ -224,7 +233,7 @@ private:
       }
       ++report_.iterations;
       if (!std::isfinite(squared(move))) return false;
-      if (!advance(share, move, balance, off > 0 ? &wanted : nullptr)) return false;
+      if (!advance(share, move, balance, wanted, search && off == 0)) return false;
       report_.residuals.push_back(residual(share, balance));
     }
   }
@@ -237,31 +246,30 @@ private:
     return off;
   }
 
-  // Goes along the correction as far as no cell is turned inside out and, once the leads are in place
-  // (`leads` null), as the residual along it has fallen. False where no length will do.
+  // Goes along the correction as far as no cell is turned inside out and, with `search`, as the residual
+  // along it has fallen. False where no length will do.
   bool advance(double share, const std::vector<Point> &move, std::vector<Point> &balance,
-               const std::vector<Point> *leads) {
+               const std::vector<Point> &wanted, bool search) {
     const std::vector<Point> from = solid_.displacement_;
     const double before = along(move, balance);
     double length = 1;
     int line = 0;
     for (int inverted = 0; inverted < inversion_cuts;) {
-      for (std::size_t n = 0; n < from.size(); ++n)
-        spared_[n] = from[n] + length * move[n];
-      if (length == 1 && leads) // to the last bit
-        for (std::size_t n = 0; n < from.size(); ++n)
-          for (std::size_t k = 0; k < 3; ++k)
-            if (solid_.is_led(n, k)) spared_[n][k] = (*leads)[n][k];
-      worst_ = solid_.first_inverted(spared_);
+      for (std::size_t n = 0; n < from.size(); ++n) {
+        trial_[n] = from[n] + length * move[n];
+        for (std::size_t k = 0; k < 3; ++k)
+          if (length == 1 && solid_.is_led(n, k)) trial_[n][k] = wanted[n][k]; // to the last bit
+      }
+      worst_ = solid_.first_inverted(trial_);
       if (worst_.cell >= 0) {
-        worst_place_ = solid_.cell_middle(worst_.cell, spared_);
+        worst_place_ = solid_.cell_middle(worst_.cell, trial_);
         length /= 2, ++inverted;
         continue;
       }
-      place(spared_);
+      place(trial_);
       residual(share, balance);
       const double after = along(move, balance);
-      if (leads || line == line_cuts || std::abs(after) <= slack * std::abs(before)) return true;
+      if (!search || line == line_cuts || std::abs(after) <= slack * std::abs(before)) return true;
       length *= std::clamp(before / (before - after), 0.1, 0.5), ++line;
     }
     return false;
@@ -337,7 +345,7 @@ private:
   std::vector<Point> start_;
   std::vector<double> old_pressure_, new_pressure_; // of each face
   std::array<double, 2> old_works_;                 // J, of pressure and leads
-  std::vector<Point> goal_, fading_, spared_;
+  std::vector<Point> goal_, fading_, trial_;
   std::size_t dofs_;
   double noise_ = 0; // N
   dealii::SparsityPattern pattern_;

@@ -175,6 +175,8 @@ void HyperelasticSolid::half_kick(double dt) {
   });
   lead_work_ += works.lead;
   damping_work_ += works.damping;
+  for (std::size_t v = 0; v < surface_node_.size(); ++v)
+    surface_.velocities[v] = velocity_[index(surface_node_[v])];
 }
 
 void HyperelasticSolid::drift(double dt) {

@@ -60,7 +60,7 @@ struct EquilibriumTarget {
 struct EquilibriumControl {
   double tolerance = 1e-10; // residual over the forces in the solid, both as root of the sum of squares
   int iterations = 15;      // per step
-  int cuts = 10;            // halvings of the step before giving up
+  int cuts = 10;            // halvings of the step in a row before giving up
 };
 struct EquilibriumReport {
   int steps = 0, cuts = 0, iterations = 0; // in all

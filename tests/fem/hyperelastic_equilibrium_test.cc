@@ -55,44 +55,59 @@ TEST(hyperelastic_equilibrium, an_even_finite_strain_is_kept_by_cells_of_any_sha
       EXPECT_NEAR(cell.cauchy[k], tau[k] / determinant(f), 1e-9 * law.bulk_modulus);
 }
 
-double order_of(const std::vector<double> &r) {
-  const std::size_t k = r.size() - 1;
-  return std::log(r[k] / r[k - 1]) / std::log(r[k - 1] / r[k - 2]);
+HyperelasticSolid block() {
+  HyperelasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {0.03, 0.03, 0.03}, {4, 4, 4}}),
+                          {1100, NeoHookean::from_young(3e6, 0.4)});
+  solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
+  solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
+  return solid;
 }
 
+// Each residual near the end is about the square of the one before.
 TEST(hyperelastic_equilibrium, newton_converges_with_order_two) {
+  HyperelasticSolid solid = block();
+  solid.set_pressure(0, 1e5);
+  const EquilibriumReport report = solid.solve({{{0, 3e5}}, {}});
+  EXPECT_EQ(report.steps, 1);
+  const std::vector<double> &r = report.residuals;
+  ASSERT_GE(r.size(), 4u);
+  const std::size_t k = r.size() - 1;
+  EXPECT_GT(std::log(r[k] / r[k - 1]) / std::log(r[k - 1] / r[k - 2]), 1.8)
+      << r[k - 2] << ' ' << r[k - 1] << ' ' << r[k];
+}
+
+// The leads carry what the pressure does not: forces and, about any point, moments.
+TEST(hyperelastic_equilibrium, leads_balance_the_pressure) {
   HyperelasticSolid solid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}),
                           {1100, NeoHookean::from_young(3e6, 0.45)});
   const int low = solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
   const int high = solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
-  // Loose enough that the last residual is none of round-off.
-  const EquilibriumReport report =
-      solid.solve({{{inner_tag, 3e4}}, {{low, {{0, 0, 0}}}, {high, {{0.002, 0, -0.004}}}}}, {1e-7, 15, 10});
-  EXPECT_EQ(report.steps, 1);
-  ASSERT_GE(report.residuals.size(), 4u);
-  EXPECT_GT(order_of(report.residuals), 1.8) << report.residuals.back();
-  // Balance: the leads carry what the pressure does not.
+  solid.solve({{{inner_tag, 3e4}}, {{low, {{0, 0, 0}}}, {high, {{0.002, 0, -0.004}}}}});
   const Point sum = solid.lead_force(low) + solid.lead_force(high) + solid.pressure_force(inner_tag);
-  EXPECT_LT(norm(sum), 1e-5 * norm(solid.lead_force(high)));
-  const Point moment = solid.lead_moment(low, {}) + solid.lead_moment(high, {});
-  EXPECT_LT(norm(moment), 1e-2 * norm(solid.lead_force(high))); // and that of the pressure
+  EXPECT_GT(norm(solid.lead_force(high)), 1);
+  EXPECT_LT(norm(sum), 1e-7 * norm(solid.lead_force(high)));
+  const Point about = {0.3, -0.2, 0.1};
+  Point moment = solid.lead_moment(low, about) + solid.lead_moment(high, about);
+  for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n)
+    moment = moment + cross(solid.node_place(static_cast<int>(n)) - about, solid.pressure_forces()[n]);
+  EXPECT_LT(norm(moment), 1e-7 * norm(solid.lead_force(high)));
 }
 
 // Works of the path = energy stored; second order in the steps of the path.
 TEST(hyperelastic_equilibrium, works_of_a_slow_path_are_stored) {
   double error[2];
   for (const int fine : {1, 2}) {
-    HyperelasticSolid solid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}),
+    HyperelasticSolid solid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 12, 4, 1}),
                             {1100, NeoHookean::from_young(3e6, 0.45)});
     solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
     const int high = solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
-    for (int k = 1; k <= 4 * fine; ++k) {
-      const double share = 0.25 * k / fine;
+    for (int k = 1; k <= 2 * fine; ++k) {
+      const double share = 0.5 * k / fine;
       solid.solve({{{inner_tag, 4e4 * share}}, {{high, {{0, 0, 0.012 * share}}}}});
     }
     EXPECT_GT(solid.pressure_work(), 0.05 * solid.internal_energy());
     error[fine - 1] = solid.pressure_work() + solid.lead_work() - solid.internal_energy();
-    EXPECT_LT(std::abs(error[fine - 1]), 0.01 / (fine * fine) * solid.internal_energy());
+    EXPECT_LT(std::abs(error[fine - 1]), 0.04 / (fine * fine) * solid.internal_energy());
   }
   EXPECT_GT(std::abs(error[0] / error[1]), 3);
 }
@@ -222,25 +237,17 @@ TEST(hyperelastic_equilibrium, bending_of_a_thin_strip_is_too_stiff_by_the_known
 }
 
 // ---- where there is no way
-HyperelasticSolid block() {
-  HyperelasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {0.03, 0.03, 0.03}, {4, 4, 4}}),
-                          {1100, NeoHookean::from_young(3e6, 0.4)});
-  solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
-  solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
-  return solid;
-}
-
-// In one step the first correction would turn cells inside out; the path gets there.
+// Five iterations are not enough for the whole way, but for each of its parts; the end is the same as that of
+// many short steps.
 TEST(hyperelastic_equilibrium, a_step_too_long_is_cut) {
   HyperelasticSolid solid = block();
-  const EquilibriumReport report = solid.solve({{}, {{1, {{0.02, 0, -0.014}}}}});
+  const EquilibriumReport report = solid.solve({{}, {{1, {{0.012, 0, -0.008}}}}}, {1e-10, 5, 10});
   EXPECT_GT(report.steps, 1);
   EXPECT_GT(report.cuts, 0);
-  EXPECT_NEAR(solid.displacement()[static_cast<std::size_t>(solid.nodes_of(high_end_tag)[3])][2], -0.014, 0);
-  // The same place by short steps: a path of equilibria has one end.
+  EXPECT_EQ(solid.displacement()[static_cast<std::size_t>(solid.nodes_of(high_end_tag)[3])][2], -0.008);
   HyperelasticSolid slow = block();
   for (int k = 1; k <= 10; ++k)
-    slow.solve({{}, {{1, {{0.002 * k, 0, -0.0014 * k}}}}});
+    slow.solve({{}, {{1, {{0.0012 * k, 0, -0.0008 * k}}}}});
   for (std::size_t n = 0; n < slow.displacement().size(); ++n)
     EXPECT_LT(norm(slow.displacement()[n] - solid.displacement()[n]), 1e-8 * 0.03);
 }
