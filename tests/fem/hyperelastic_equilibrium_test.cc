@@ -69,8 +69,10 @@ TEST(hyperelastic_equilibrium, newton_converges_with_order_two) {
   solid.set_pressure(0, 1e5);
   const EquilibriumReport report = solid.solve({{{0, 3e5}}, {}});
   EXPECT_EQ(report.steps, 1);
-  const std::vector<double> &r = report.residuals;
-  ASSERT_GE(r.size(), 4u);
+  std::vector<double> r = report.residuals;
+  while (!r.empty() && r.back() < 1e-12)
+    r.pop_back(); // round-off
+  ASSERT_GE(r.size(), 3u);
   const std::size_t k = r.size() - 1;
   EXPECT_GT(std::log(r[k] / r[k - 1]) / std::log(r[k - 1] / r[k - 2]), 1.8)
       << r[k - 2] << ' ' << r[k - 1] << ' ' << r[k];
@@ -237,19 +239,19 @@ TEST(hyperelastic_equilibrium, bending_of_a_thin_strip_is_too_stiff_by_the_known
 }
 
 // ---- where there is no way
-// Five iterations are not enough for the whole way, but for each of its parts; the end is the same as that of
-// many short steps.
+// Three iterations are not enough for the whole way, but for each of its parts; the end is the same as that
+// of short steps with as many iterations as they need.
 TEST(hyperelastic_equilibrium, a_step_too_long_is_cut) {
   HyperelasticSolid solid = block();
-  const EquilibriumReport report = solid.solve({{}, {{1, {{0.012, 0, -0.008}}}}}, {1e-10, 5, 10});
+  const EquilibriumReport report = solid.solve({{}, {{1, {{0.012, 0, -0.008}}}}}, {1e-8, 3, 10});
   EXPECT_GT(report.steps, 1);
   EXPECT_GT(report.cuts, 0);
   EXPECT_EQ(solid.displacement()[static_cast<std::size_t>(solid.nodes_of(high_end_tag)[3])][2], -0.008);
   HyperelasticSolid slow = block();
-  for (int k = 1; k <= 10; ++k)
-    slow.solve({{}, {{1, {{0.0012 * k, 0, -0.0008 * k}}}}});
+  for (int k = 1; k <= 4; ++k)
+    slow.solve({{}, {{1, {{0.003 * k, 0, -0.002 * k}}}}});
   for (std::size_t n = 0; n < slow.displacement().size(); ++n)
-    EXPECT_LT(norm(slow.displacement()[n] - solid.displacement()[n]), 1e-8 * 0.03);
+    EXPECT_LT(norm(slow.displacement()[n] - solid.displacement()[n]), 1e-6 * 0.03);
 }
 
 TEST(hyperelastic_equilibrium, what_cannot_be_reached_is_named_and_leaves_the_solid_as_it_was) {
