@@ -183,6 +183,84 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
   return grid;
 }
 
+namespace {
+
+void check(const std::vector<Layer> &layers, double whole) {
+  require(!layers.empty(), "there are no layers");
+  double sum = 0;
+  for (const Layer &layer : layers) {
+    require(layer.thickness > 0, "the thickness of a layer must be positive");
+    require(layer.elements >= 1, "at least one element through a layer");
+    sum += layer.thickness;
+  }
+  require(std::abs(sum - whole) <= 1e-9 * whole, "the layers are " + std::to_string(sum) +
+                                                     " m thick together, the plate " + std::to_string(whole) +
+                                                     " m");
+}
+
+int elements_of(const std::vector<Layer> &layers) {
+  int sum = 0;
+  for (const Layer &layer : layers)
+    sum += layer.elements;
+  return sum;
+}
+
+// From even heights between low and high to those of the layers, by whole numbers: ends keep their bits.
+void stretch(dealii::Triangulation<3> &grid, const std::vector<Layer> &layers, double low, double high) {
+  std::vector<double> heights = {low};
+  std::vector<unsigned int> material;
+  double below = low;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    for (int j = 1; j <= layers[k].elements; ++j) {
+      heights.push_back(below + layers[k].thickness * j / layers[k].elements);
+      material.push_back(static_cast<unsigned int>(k));
+    }
+    below = heights.back();
+  }
+  heights.back() = high;
+  const double count = static_cast<double>(material.size());
+  const auto level = [&](double z) { return (z - low) / (high - low) * count; };
+  for (const auto &cell : grid.active_cell_iterators())
+    cell->set_material_id(material[static_cast<std::size_t>(level(cell->center()[2]))]);
+  const auto raise = [&](dealii::Point<3> p) {
+    p[2] = heights[static_cast<std::size_t>(std::lround(level(p[2])))];
+    return p;
+  };
+  dealii::GridTools::transform(raise, grid);
+}
+
+} // namespace
+
+Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers) {
+  check(layers, plate.thickness);
+  CylinderPlate even = plate;
+  even.elements_thick = elements_of(layers);
+  Grid grid = make_grid(even);
+  stretch(*grid, layers, plate.z_low, plate.z_low + plate.thickness);
+  return grid;
+}
+
+Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers) {
+  check(layers, plate.high[2] - plate.low[2]);
+  BoxPlate even = plate;
+  even.elements[2] = elements_of(layers);
+  Grid grid = make_grid(even);
+  stretch(*grid, layers, plate.low[2], plate.high[2]);
+  return grid;
+}
+
+Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place) {
+  auto moved = std::make_shared<dealii::Triangulation<3>>();
+  moved->copy_triangulation(*grid);
+  dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p) {
+        const Point q = place({p[0], p[1], p[2]});
+        return dealii::Point<3>(q[0], q[1], q[2]);
+      },
+      *moved);
+  return moved;
+}
+
 GridSurface extract_surface(const Grid &grid) {
   GridSurface result;
   std::vector<int> surface_vertex(grid->n_vertices(), -1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -58,6 +59,20 @@ Grid make_grid(const Tube &tube);
 // Boxes that do not touch, in one grid: strips of one rigid tool. Each has its own sides and ends by number.
 // Throws std::invalid_argument as above, and where there are none or two touch.
 Grid make_grid(const std::vector<BoxPlate> &boxes);
+
+// A sheet of a layered plate; the first lies at the low end.
+struct Layer {
+  double thickness = 0; // m
+  int elements = 1;     // through it
+};
+// Plates of several materials: cells of layer k have material id k. Layers take the place of the plate's
+// elements along z; throws std::invalid_argument also where their thicknesses do not add up to the plate's.
+Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers);
+Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers);
+
+// The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials stay. Cells
+// that this inverts are found by those who use them.
+Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place);
 
 // The boundary of a grid as a surface of quadrilaterals.
 struct GridSurface {
