@@ -215,7 +215,9 @@ TEST(elastic_model, lumped_masses_are_positive_and_weigh_what_the_solid_does) {
     EXPECT_NEAR(even_sum, steel.density * whole.volume, 1e-12 * even_sum);
     EXPECT_LT(sum, even_sum);
     // Quadrature at the nodes has the right centre, too.
-    if (degree == 2) EXPECT_LT(norm((1 / even_sum) * first - whole.centroid), 1e-13);
+    if (degree == 2) {
+      EXPECT_LT(norm((1 / even_sum) * first - whole.centroid), 1e-13);
+    }
   }
 }
 

@@ -117,8 +117,7 @@ TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
 TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     ElasticSolid solid(plate(), {steel}, Grip{}, {1, kind});
-    ElasticSolid still = solid.model().degree == 1 ? ElasticSolid(plate(), {steel}, Grip{})
-                                                   : ElasticSolid(plate(), {steel}, Grip{});
+    const ElasticSolid still(plate(), {steel}, Grip{});
     const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to swing
     solid.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
     std::vector<Point> rate(solid.model().nodes.size(), Point{});
@@ -211,7 +210,7 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
     }
 }
 
-// Loads and the machine's velocity held over a time in steps of dt and dt / 2 against many finer ones; drifts
+// Loads and the machine's velocity held over a time in steps of dt and dt / 2 against far finer ones; drifts
 // of one and of three steps of their own.
 TEST(elastic_solid, explicit_motion_is_of_second_order) {
   for (const int inner : {1, 3}) {
@@ -232,7 +231,7 @@ TEST(elastic_solid, explicit_motion_is_of_second_order) {
       }
       return solid.deformation();
     };
-    const auto fine = run(1024), middle = run(128), coarse = run(64);
+    const auto fine = run(2048), middle = run(256), coarse = run(128);
     double near = 0, far = 0;
     for (std::size_t i = 0; i < fine.size(); ++i)
       near += dot(middle[i] - fine[i], middle[i] - fine[i]),
@@ -344,7 +343,7 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
 }
 
 // On an elastic ground that is tilted, the free seat turns the plate until the ground pushes without moment:
-// the plate lies as the ground does.
+// the plate lies as the ground does, but for the third of a percent that its face shifts sideways.
 TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     Grip grip;
@@ -356,7 +355,7 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
     if (kind == ElasticMotion::explicit_steps) options.mass_damping = 3000;
     ElasticSolid solid(make_grid(BoxPlate{{-0.02, -0.03, 0}, {0.04, 0.03, 0.02}, {2, 2, 1}}), {steel}, grip,
                        options);
-    const double stiffness = 1e7, slope = 2e-3, sink = 1e-3, dt = 1e-6;
+    const double stiffness = 1e7, slope = 2e-3, sink = 1e-4, dt = 1e-6;
     const auto press = [&] {
       solid.clear_loads();
       for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v) {
@@ -377,7 +376,7 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
     }
     EXPECT_LT(norm(solid.moment(solid.centre())), 1e-6 * moment_at_start);
     const Point normal = rotated(solid.rotation(), {0, 0, 1});
-    EXPECT_NEAR(-normal[0] / normal[2], slope, 1e-3 * slope);
+    EXPECT_NEAR(-normal[0] / normal[2], slope, 5e-3 * slope);
     EXPECT_NEAR(normal[1], 0, 1e-9);
     EXPECT_NEAR(norm(solid.displacement()), 0, 1e-15); // the seat is held
     EXPECT_NEAR(solid.grip_force()[2], solid.total_force()[2], 1e-6 * solid.total_force()[2]);
