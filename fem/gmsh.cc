@@ -1,9 +1,6 @@
 #include "fem/gmsh.h"
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -11,7 +8,6 @@
 #include <algorithm>
 #include <exception>
 #include <map>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -50,20 +46,6 @@ void read(std::istream &stream, const GmshOptions &options, dealii::Triangulatio
       refuse(options, "there are cells of the kind " + kind.to_string() +
                           "; only hexahedra are taken (in Gmsh: transfinite volumes with Recombine, or "
                           "extrusions with Layers and Recombine)");
-}
-
-void check_cells(const dealii::Triangulation<3> &grid, const GmshOptions &options) {
-  const dealii::FE_Nothing<3> element;
-  dealii::FEValues<3> corners(element, dealii::QGaussLobatto<3>(2), dealii::update_JxW_values);
-  for (const auto &cell : grid.active_cell_iterators()) {
-    corners.reinit(cell);
-    const dealii::Point<3> p = cell->center();
-    for (const double volume : corners.get_JxW_values())
-      if (!(volume > 0))
-        refuse(options, "hexahedron " + std::to_string(cell->active_cell_index() + 1) + " around (" +
-                            number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) +
-                            ") m is inverted or warped through itself");
-  }
 }
 
 void count_materials(dealii::Triangulation<3> &grid) {
@@ -111,7 +93,8 @@ Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
   if (!(across > smallest && across < largest))
     refuse(options, "the body is " + number(across) + " m across; allowed are " + number(smallest) + " to " +
                         number(largest) + " m. Is " + number(options.unit) + " m the file's unit of length?");
-  check_cells(*grid, options);
+  const std::string inverted = inverted_cell(grid);
+  if (!inverted.empty()) refuse(options, inverted + " is inverted or warped through itself");
   count_materials(*grid);
   tag_ends_if_unnamed(*grid, low, high);
   return grid;

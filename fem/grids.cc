@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -259,6 +260,23 @@ Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &pla
       },
       *moved);
   return moved;
+}
+
+std::string inverted_cell(const Grid &grid) {
+  for (const auto &cell : grid->active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices()) {
+      // Edges along the cell's three axes, of which bits of v tell the direction.
+      std::array<dealii::Tensor<1, 3>, 3> edge;
+      for (unsigned int k = 0; k < 3; ++k)
+        edge[k] = (v >> k & 1U ? -1.0 : 1.0) * (cell->vertex(v ^ (1U << k)) - cell->vertex(v));
+      if (dealii::cross_product_3d(edge[0], edge[1]) * edge[2] > 0) continue;
+      const dealii::Point<3> p = cell->center();
+      std::ostringstream name;
+      name << "cell " << cell->active_cell_index() << " at (" << p[0] << ", " << p[1] << ", " << p[2]
+           << ") m";
+      return name.str();
+    }
+  return "";
 }
 
 GridSurface extract_surface(const Grid &grid) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "fem/surface_mesh.h"
@@ -73,6 +74,10 @@ Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers);
 // The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials stay. Cells
 // that this inverts are found by those who use them.
 Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place);
+
+// Names the first cell that is inverted or warped through itself at a corner, with its number from 0 and the
+// place of its middle; empty where there is none.
+std::string inverted_cell(const Grid &grid);
 
 // The boundary of a grid as a surface of quadrilaterals.
 struct GridSurface {

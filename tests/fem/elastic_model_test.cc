@@ -124,7 +124,7 @@ TEST(elastic_model, passes_the_patch_test_on_distorted_cells) {
 TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
   const double a = 1, b = 2, p = 1e6;
   for (const int degree : {1, 2}) {
-    const int n = degree == 1 ? 16 : 5;
+    const int n = degree == 1 ? 16 : 8;
     const Grid grid =
         moved_grid(make_grid(BoxPlate{{a, 0, 0}, {b, 0.5 * pi, 0.2}, {n, 2 * n, 1}}), [](const Point &q) {
           return Point{q[0] * std::cos(q[1]), q[0] * std::sin(q[1]), q[2]};
@@ -157,7 +157,7 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
       const double expected = (1 + nu) / e * (A * (1 - 2 * nu) * r + B / r);
       EXPECT_NEAR((x[i][0] * q[0] + x[i][1] * q[1]) / r, expected, 0.005 * expected) << degree;
       // On the axis of y the hoop runs along x; in the middle of the wall the nodal mean has both sides.
-      if (degree == 2 && std::abs(q[0]) < 1e-9 && std::abs(r - 1.5) < 0.11) {
+      if (degree == 2 && std::abs(q[0]) < 1e-9 && std::abs(r - 1.5) < 0.2) {
         EXPECT_NEAR(at_node[i][0], A + B / (r * r), 0.02 * (A + B / (r * r)));
       }
     }

@@ -80,7 +80,7 @@ TEST(gmsh, what_is_no_body_is_refused_with_its_reason) {
   tells(refusal("not a mesh"), "no mesh of hexahedra");
   tells(refusal(""), "no mesh of hexahedra");
   tells(refusal(block("", "12 12 2")), "inverted or warped");
-  tells(refusal(block("", "12 12 2")), "hexahedron 4");
+  tells(refusal(block("", "12 12 2")), "cell 3 at");
   tells(refusal(block(), 1e4), "unit of length");
   tells(refusal(block(), -1), "unit");
   const std::string tetrahedron =
