@@ -127,6 +127,8 @@ Grid make_grid(const BoxPlate &plate) {
   dealii::GridGenerator::subdivided_hyper_rectangle(
       *grid, {count(0), count(1), count(2)}, dealii::Point<3>(plate.low[0], plate.low[1], plate.low[2]),
       dealii::Point<3>(plate.high[0], plate.high[1], plate.high[2]), true);
+  for (const auto &cell : grid->active_cell_iterators())
+    cell->set_material_id(0); // the generator numbers octants
   return grid;
 }
 

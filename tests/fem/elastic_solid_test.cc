@@ -441,8 +441,10 @@ TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
     ends.push_back(solid.state());
   }
   limit_threads(0);
-  EXPECT_EQ(ends[0], ends[1]);
-  EXPECT_EQ(ends[0], ends[2]);
+  for (std::size_t k = 0; k < ends[0].size(); ++k) {
+    ASSERT_EQ(ends[0][k], ends[1][k]) << k;
+    ASSERT_EQ(ends[0][k], ends[2][k]) << k;
+  }
 }
 
 TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
