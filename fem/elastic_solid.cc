@@ -58,12 +58,8 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
       options_(options) {
   check(grip, options);
   NodeSurface extracted = node_surface(model_);
-  surface_ = std::move(extracted.surface);
+  set_surface(std::move(extracted.surface));
   node_of_ = std::move(extracted.node);
-  const std::vector<int> empty = zero_area_faces(surface_);
-  require(empty.empty(), "surface face " + (empty.empty() ? "" : std::to_string(empty[0])) + " has no area");
-  load_.assign(node_of_.size(), Point{});
-  is_loaded_.assign(node_of_.size(), 0);
 
   const std::size_t n = model_.nodes.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -141,35 +137,6 @@ void ElasticSolid::weigh_rotor() {
       add(static_cast<std::size_t>(i));
   }
   rotor_inverse_ = inverse(rotor_);
-}
-
-void ElasticSolid::clear_loads() {
-  for (const int v : loaded_) {
-    load_[static_cast<std::size_t>(v)] = Point{};
-    is_loaded_[static_cast<std::size_t>(v)] = 0;
-  }
-  loaded_.clear();
-}
-
-Point ElasticSolid::total_force() const {
-  Point sum{};
-  for (const int v : loaded_)
-    sum = sum + contact_load(v);
-  return sum;
-}
-
-Point ElasticSolid::moment(const Point &about) const {
-  Point sum{};
-  for (const int v : loaded_)
-    sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
-  return sum;
-}
-
-double ElasticSolid::load_power() const {
-  double sum = 0;
-  for (const int v : loaded_)
-    sum += dot(contact_load(v), surface_.velocities[static_cast<std::size_t>(v)]);
-  return sum;
 }
 
 double ElasticSolid::largest_move(double dt) const {

@@ -19,10 +19,9 @@
 
 #include "fem/elastic_model.h"
 #include "fem/largest_frequency.h"
+#include "fem/loaded_surface.h"
 #include "fem/rotation.h"
 #include "fem/static_solver.h"
-#include "fem/surface_mesh.h"
-#include "fem/tractions.h"
 
 namespace platen::fem {
 
@@ -63,7 +62,8 @@ struct ElasticBook {
   double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
 };
 
-class ElasticSolid {
+// Every node of the boundary is a vertex of the surface.
+class ElasticSolid : public LoadedSurface {
 public:
   // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
   // no face has the grip's tag, an option is out of range or two exclude each other.
@@ -71,7 +71,6 @@ public:
                const ElasticOptions &options = {});
 
   const ElasticModel &model() const { return model_; }
-  const SurfaceMesh &surface() const { return surface_; }            // every node of the boundary is a vertex
   const std::vector<int> &surface_nodes() const { return node_of_; } // node of each vertex
   const std::vector<int> &grip_nodes() const { return grip_nodes_; }
   double mass() const { return mass_; } // kg
@@ -103,20 +102,6 @@ public:
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
   int solver_iterations() const;
 
-  // Loads on the surface (N), accumulated in the order of the calls.
-  void clear_loads();
-  void add_surface_force(int vertex, const Point &force) {
-    const std::size_t v = static_cast<std::size_t>(vertex);
-    if (!is_loaded_[v]) loaded_.push_back(vertex);
-    is_loaded_[v] = 1;
-    load_[v] = load_[v] + force;
-  }
-  const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
-  const std::vector<Point> &contact_loads() const { return load_; }
-  Point total_force() const;              // N, of the loads
-  Point moment(const Point &about) const; // N m, of the loads
-  double load_power() const;              // W, sum of load . vertex velocity
-
   // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
   // the loads.
   Point grip_force() const;
@@ -140,7 +125,6 @@ public:
   // Throws std::invalid_argument where the numbers are not those of such a body.
   void set_state(const std::vector<double> &numbers);
 
-  std::vector<Traction> contact_tractions() const { return tractions_of(surface_, load_); }
   // Writes the grid where it is now as VTU (binary, zlib; cells of degree 2 as such) with displacement (m),
   // stress and von_mises (Pa, in the frame's axes, per material), contact_pressure, contact_shear (Pa) and
   // slip (m; one value per vertex, or empty for zero).
@@ -184,7 +168,6 @@ private:
   ElasticModel model_;
   Grip grip_;
   ElasticOptions options_;
-  SurfaceMesh surface_;
   std::vector<int> node_of_, grip_nodes_;
   Held held_; // components in the frame's axes
   double mass_ = 0, stable_step_ = 0;
@@ -204,9 +187,6 @@ private:
   std::array<double, 3> path_{};        // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
   double last_step_ = 0, last_move_ = 0;
   double load_work_ = 0, grip_work_ = 0, dissipated_ = 0;
-  std::vector<Point> load_;
-  std::vector<int> loaded_;
-  std::vector<char> is_loaded_;
   std::vector<StaticSolver> solver_; // none until the first aim()
 };
 

@@ -82,22 +82,6 @@ std::vector<Tensor> HyperelasticSolid::node_stresses() const {
   return nodes;
 }
 
-std::vector<HyperelasticSolid::Traction> HyperelasticSolid::contact_tractions() const {
-  std::vector<Point> areas(load_.size());
-  for (std::size_t f = 0; f < surface_.faces.size(); ++f)
-    for (const int v : surface_.faces[f])
-      areas[index(v)] = areas[index(v)] + 0.25 * face_area_vector(surface_, f);
-  std::vector<Traction> tractions(load_.size());
-  for (std::size_t v = 0; v < load_.size(); ++v) {
-    const double size = norm(areas[v]);
-    if (!(size > 0)) continue;
-    const Point normal = (1 / size) * areas[v];
-    const double pressing = -dot(load_[v], normal);
-    tractions[v] = {pressing / size, (1 / size) * (load_[v] + pressing * normal)};
-  }
-  return tractions;
-}
-
 void HyperelasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
   if (!slip.empty() && slip.size() != load_.size())
     throw std::invalid_argument("solid: slip must have one value per surface vertex");

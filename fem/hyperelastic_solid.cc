@@ -31,7 +31,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
   for (const int tag : contact_tags)
     require(!mesh_.nodes_of(tag).empty(), "no face has the contact tag " + std::to_string(tag));
   PartSurface part = part_surface(mesh_, contact_tags);
-  surface_ = std::move(part.surface);
+  set_surface(std::move(part.surface));
   surface_node_ = std::move(part.node);
   const std::size_t nodes = mesh_.nodes.size();
   vertex_of_.assign(nodes, -1);
@@ -50,7 +50,6 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
     column->assign(nodes, Point{});
   led_.assign(nodes, 0);
   face_pressure_.assign(mesh_.faces.size(), 0.0);
-  load_.assign(surface_.vertices.size(), Point{});
   cell_force_.resize(mesh_.cells.size());
 }
 
@@ -207,31 +206,6 @@ void HyperelasticSolid::update_forces() {
   add_pressure_forces();
 }
 
-void HyperelasticSolid::clear_loads() {
-  std::fill(load_.begin(), load_.end(), Point{});
-}
-
-Point HyperelasticSolid::total_force() const {
-  Point sum{};
-  for (const Point &load : load_)
-    sum = sum + load;
-  return sum;
-}
-
-Point HyperelasticSolid::moment(const Point &about) const {
-  Point sum{};
-  for (std::size_t v = 0; v < load_.size(); ++v)
-    sum = sum + cross(surface_.vertices[v] - about, load_[v]);
-  return sum;
-}
-
-double HyperelasticSolid::load_power() const {
-  double sum = 0;
-  for (std::size_t v = 0; v < load_.size(); ++v)
-    sum += dot(load_[v], surface_.velocities[v]);
-  return sum;
-}
-
 double HyperelasticSolid::kinetic_energy() const {
   double energy = 0;
   for (std::size_t n = 0; n < velocity_.size(); ++n)
@@ -294,9 +268,12 @@ void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
   for (Lead &own : leads_)
     take(own.velocity), take(own.spin), take(own.about);
   take(face_pressure_);
+  clear_loads();
   for (std::vector<Point> *column : {&displacement_, &velocity_, &load_})
     for (Point &value : *column)
       take(value);
+  for (std::size_t v = 0; v < load_.size(); ++v)
+    if (load_[v] != Point{}) loaded_.push_back(static_cast<int>(v)), is_loaded_[v] = 1;
   place_surface();
   update_forces();
 }

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/loaded_surface.h"
 #include "fem/solid_mesh.h"
 
 namespace platen::fem {
@@ -67,7 +68,7 @@ struct EquilibriumReport {
   std::vector<double> residuals;           // of the last step, relative, the start's first
 };
 
-class HyperelasticSolid {
+class HyperelasticSolid : public LoadedSurface {
 public:
   // `contact_tags`: the part of the surface that meets the particles (inner_tag for a sleeve: its outer face
   // is then never seen); empty for all of it. Throws std::invalid_argument where a constant is out of range,
@@ -81,8 +82,7 @@ public:
   std::vector<int> nodes_of(int tag) const { return mesh_.nodes_of(tag); } // ascending
 
   // The part that meets the particles: current vertices and velocities, outward normals of the solid (those
-  // of the inner face of a tube point to the axis).
-  const SurfaceMesh &surface() const { return surface_; }
+  // of the inner face of a tube point to the axis), is surface().
   int surface_node(int vertex) const { return surface_node_[static_cast<std::size_t>(vertex)]; }
   double surface_mass(int vertex) const { return mass_[index(surface_node(vertex))]; } // kg
   double largest_move(double dt) const; // m, bound on how far any node moves in a drift over dt
@@ -121,16 +121,6 @@ public:
   // back where it was).
   EquilibriumReport solve(const EquilibriumTarget &target, const EquilibriumControl &control = {});
 
-  // Loads on the vertices of surface() (N), accumulated in the order of the calls, as in Body.
-  void clear_loads();
-  void add_surface_force(int vertex, const Point &force) {
-    load_[index(vertex)] = load_[index(vertex)] + force;
-  }
-  const Point &contact_load(int vertex) const { return load_[index(vertex)]; }
-  Point total_force() const;              // N, of contact loads
-  Point moment(const Point &about) const; // N m
-  double load_power() const;              // W
-
   double kinetic_energy() const;  // J
   double internal_energy() const; // J, stored, as of the last update_forces
   // Since the start (J). Pressure: p times the volume swept, exact for a constant p over each drift.
@@ -153,12 +143,6 @@ public:
   // Cauchy stress (Pa), tension positive. Node values are means over the cells around, by current volume.
   std::vector<CellStress> cell_stresses() const;
   std::vector<Tensor> node_stresses() const;
-  // As Body::contact_tractions, one per vertex of surface().
-  struct Traction {
-    double pressure = 0; // Pa, positive when pressed
-    Point shear{};       // Pa, along the face
-  };
-  std::vector<Traction> contact_tractions() const;
   // VTU (binary, zlib) of the grid where it is now. Points: displacement (m), stress (tensor), von_mises,
   // pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per surface vertex
   // or empty for zero). Cells: J (volume ratio).
@@ -202,7 +186,6 @@ private:
   Grid grid_;
   Rubber material_;
   SolidMesh mesh_;
-  SurfaceMesh surface_;
   std::vector<int> surface_node_;       // of each vertex
   std::vector<int> vertex_of_;          // of each node, -1 where it is not on the surface
   std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
@@ -213,7 +196,6 @@ private:
   std::vector<unsigned char> led_; // bits x, y, z of each node
   std::vector<Lead> leads_;
   std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
-  std::vector<Point> load_;           // N, of each vertex
   double damping_ = 0;
 
   std::vector<CellForce> cell_force_;
