@@ -28,7 +28,7 @@ bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, do
   return std::all_of(strips.middles.begin(), strips.middles.end(), meets);
 }
 
-double midspan_moment(const fem::Body &body, double z) {
+double midspan_moment(const fem::LoadedSurface &body, double z) {
   const fem::SurfaceMesh &surface = body.surface();
   double sum = 0;
   for (std::size_t v = 0; v < surface.vertices.size(); ++v) {

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "dem/packing/specimen.h"
-#include "fem/body.h"
+#include "fem/grids.h"
+#include "fem/loaded_surface.h"
 
 namespace platen::coupling {
 
@@ -24,6 +25,6 @@ bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, do
 
 // What the forces of one body on the bar add to its bending moment at x = 0, about the height z (m), N m:
 // the mean of what those left of it and those right of it say. Positive where it pulls the lower side.
-double midspan_moment(const fem::Body &body, double z);
+double midspan_moment(const fem::LoadedSurface &body, double z);
 
 } // namespace platen::coupling

@@ -197,6 +197,25 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
   return springs;
 }
 
+fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
+                                                const fem::Body &body) const {
+  const std::size_t vertices = body.surface().vertices.size();
+  fem::VertexSprings springs{std::vector<double>(vertices, 0.0), std::vector<double>(vertices, 0.0)};
+  for (std::size_t row = 0; row < search_.particles().size(); ++row) {
+    const int i = search_.particles()[row];
+    const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
+    const double k = stiffness(i);
+    const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
+    const double dashpot = 2 * parameters_.damping * std::sqrt(k * particles.mass[index(i)]);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
+      springs.stiffness[v] += at.local.weights[corner] * stiffest;
+      springs.dashpot[v] += at.local.weights[corner] * dashpot;
+    }
+  }
+  return springs;
+}
+
 ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
   ServoLoad load;
   for (const int particle : particle_) {

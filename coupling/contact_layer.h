@@ -21,7 +21,7 @@
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "dem/table.h"
-#include "fem/loaded_surface.h"
+#include "fem/body.h"
 
 namespace platen::coupling {
 
@@ -117,6 +117,8 @@ public:
   // Springs of all particles near the surface, for the stable step.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
                                                 const fem::LoadedSurface &body) const;
+  // What the same particles would put on each vertex of the surface.
+  fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
   // What a servo pushes against: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
 

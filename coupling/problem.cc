@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "coupling/text_of.h"
 #include "dem/parallel.h"
@@ -13,6 +14,9 @@ namespace {
 // The step is looked at again after this many steps, if contacts have grown by this share of the particles.
 constexpr long steps_between_choices = 400;
 constexpr double growth_of_contacts = 0.02;
+// A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
+// side may be looked at alone.
+constexpr double share_of_bodies = 0.25;
 
 } // namespace
 
@@ -46,7 +50,17 @@ void Problem::choose_step(bool first) {
     const std::vector<dem::GroundSpring> more = wall_->ground_springs(model.particles);
     springs.insert(springs.end(), more.begin(), more.end());
   }
-  const dem::StableStep limit = model.stable_step(springs, settings_.platens.damping);
+  if (deformable())
+    for (dem::GroundSpring &s : springs) {
+      s.normal_stiffness *= 1 + share_of_bodies;
+      s.tangential_stiffness *= 1 + share_of_bodies;
+    }
+  dem::StableStep limit = model.stable_step(springs, settings_.platens.damping);
+  const double bodies = deformable() ? limit_of_bodies() : limit.limit;
+  if (bodies < limit.limit) {
+    limit.limit = bodies;
+    limit.reason = "the finite elements of a platen with the springs of its contacts";
+  }
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string above =
@@ -71,7 +85,40 @@ void Problem::choose_step(bool first) {
   }
 }
 
+double Problem::limit_of_bodies() const {
+  double limit = std::numeric_limits<double>::infinity();
+  const auto ask = [&](const ContactLayer &layer, const fem::Body &body) {
+    fem::VertexSprings springs = layer.vertex_springs(model.particles, body);
+    for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
+      for (double &number : *column)
+        number *= 1 + 1 / share_of_bodies;
+    limit = std::min(limit, body.stable_step(springs));
+  };
+  ask(top_layer, top);
+  ask(bottom_layer, bottom);
+  return limit;
+}
+
+void Problem::kick_bodies() {
+  top.kick(0.5 * time_step_);
+  bottom.kick(0.5 * time_step_);
+}
+
+// Shapes follow the loads of the last steps during the next ones.
+void Problem::solve_bodies() {
+  const int whole = settings_.platens.elastic->steps_per_solve;
+  const auto follow = [&](MeanLoads &loads, fem::Body &body) {
+    loads.add(body, time_step_);
+    if (loads.steps() < whole) return;
+    static_cast<fem::ElasticSolid &>(body).aim(loads.mean(), whole * time_step_);
+    loads.reset();
+  };
+  follow(top_loads_, top);
+  follow(bottom_loads_, bottom);
+}
+
 void Problem::drift_bodies() {
+  kick_bodies();
   top.drift(time_step_);
   bottom.drift(time_step_);
   top.clear_loads();
@@ -82,8 +129,8 @@ void Problem::drift_bodies() {
 void Problem::announce_motion(double dt) {
   const double particles = model.last_motion().fastest * dt;
   try {
-    top_layer.moved(particles + top.largest_move(dt));
-    bottom_layer.moved(particles + bottom.largest_move(dt));
+    top_layer.moved(particles + top.last_move());
+    bottom_layer.moved(particles + bottom.last_move());
   } catch (const std::runtime_error &e) {
     throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what());
   }
@@ -125,6 +172,7 @@ long Problem::advance(long most) {
 void Problem::carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
                     double way) {
   if (steps_ > 0) throw std::logic_error("a problem is carried to its start before its first step");
+  if (deformable()) throw std::logic_error("only rigid platens are carried to a start");
   constexpr double unhurried = 1; // s, against periods of microseconds
   dem::Particles &p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -173,8 +221,16 @@ void Problem::add_forces() {
       top_layer.compute_part(model.particles, top, dt, p - below);
   };
   model.compute_forces(dt, dem::loop_of(below + above, part));
+  {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+    give_platen_forces();
+  }
+  if (deformable()) {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
+    kick_bodies();
+    if (quasi_static()) solve_bodies();
+  }
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-  give_platen_forces();
   book_reactions();
   if (confinement_) press_skin();
   if (wall_) wall_->add_forces(model.particles, model.last_motion().fastest * dt);
@@ -203,13 +259,14 @@ void Problem::give_platen_forces() {
   below();
 }
 
-// The machine holds each platen against the particles: its work is minus theirs, by the trapezoid over the
-// drift.
+// The machine holds each rigid platen against the particles: its work is minus theirs, by the trapezoid over
+// the drift. An elastic one keeps that book itself, at its grip.
 void Problem::book_reactions() {
   const double force_top = top.total_force()[2], force_bottom = bottom.total_force()[2];
-  boundary_work_ -= 0.5 * time_step_ *
-                    ((reaction_top_ + force_top) * top.velocity()[2] +
-                     (reaction_bottom_ + force_bottom) * bottom.velocity()[2]);
+  if (!deformable())
+    boundary_work_ -= 0.5 * time_step_ *
+                      ((reaction_top_ + force_top) * top.velocity()[2] +
+                       (reaction_bottom_ + force_bottom) * bottom.velocity()[2]);
   reaction_top_ = force_top;
   reaction_bottom_ = force_bottom;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupling/contact_layer.h"
+#include "coupling/mean_loads.h"
 #include "coupling/servo.h"
 #include "dem/confinement.h"
 #include "dem/lateral_wall.h"
@@ -16,6 +17,7 @@
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "fem/body.h"
+#include "fem/elastic_solid.h"
 
 namespace platen::coupling {
 
@@ -41,10 +43,20 @@ struct PlatenSide {
   double friction_static = 0, friction_dynamic = 0;
 };
 
+// Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
+// springs are then the particles' share alone: what the platen gives way is in its mesh.
+struct ElasticPlatens {
+  int degree = 1;
+  fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
+  double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
+  int steps_per_solve = 20; // quasi-static: of the particles
+};
+
 struct PlatenSettings {
   PlatenSide top, bottom;
-  double stiffness_of_bond = 1;  // multiple of the mean bond's k_n A ...
-  double stiffness_absolute = 0; // ... or N/m where positive
+  std::optional<ElasticPlatens> elastic; // none: rigid
+  double stiffness_of_bond = 1;          // multiple of the mean bond's k_n A ...
+  double stiffness_absolute = 0;         // ... or N/m where positive
   double tangential_ratio = 0.8;
   double damping = 0.2;   // fraction of critical
   double strip_width = 0; // m, of strips that press a disc or bend a bar; 0: as wide as the platens
@@ -107,11 +119,20 @@ public:
              double way);
 
   dem::Model model;
-  fem::Body top, bottom;
+
+private:
+  std::unique_ptr<fem::Body> top_body_, bottom_body_;
+
+public:
+  fem::Body &top, &bottom;
   ContactLayer top_layer, bottom_layer;
 
   const dem::Shape &shape() const { return shape_; }
   const ProblemSettings &settings() const { return settings_; }
+  bool deformable() const { return settings_.platens.elastic.has_value(); }
+  bool quasi_static() const {
+    return deformable() && settings_.platens.elastic->motion == fem::ElasticMotion::quasi_static;
+  }
   double time() const { return model.time; }
   long steps() const { return steps_; }
   double time_step() const { return time_step_; }
@@ -147,9 +168,12 @@ public:
   dem::EndPlanes end_planes() const; // where the platens' faces are now
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
-  double closure_strain() const; // platen to platen, over the height
+  double closure_strain() const; // platen to platen, over the height; elastic: of the faces, on the mean
+                                 // over what the specimen covered at the start
+  double grip_closure() const;   // m, of what the machine leads; rigid: of the platens
   double axial_closure() const;  // the same since the platens took over from a cell (without one: all of it)
-  double stress_top() const, stress_bottom() const; // Pa, load over nominal_area()
+  // Pa, load of the particles over nominal_area(), whatever the platens' own inertia makes of it.
+  double stress_top() const, stress_bottom() const;
   // m^2: the cross-section; of a bent bar what makes the load its nominal flexural stress.
   double nominal_area() const { return bent() ? three_points().nominal_area() : shape_.cross_section(); }
   double platen_speed() const; // m/s, closure speed now
@@ -178,6 +202,10 @@ private:
   void book_reactions();
   void set_platen_speeds();
   void drift_bodies();
+  void kick_bodies();
+  void solve_bodies();
+  double limit_of_bodies() const;
+  double face_move(const fem::Body &body, const MeanPlace &face, double plane) const;
   void announce_motion(double dt);
   std::vector<dem::GroundSpring> ground_springs() const;
 
@@ -191,6 +219,8 @@ private:
   std::size_t near_at_choice_ = 0;
   double boundary_work_ = 0;                      // J, of both platens
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
+  MeanPlace top_face_, bottom_face_;              // of elastic platens
+  MeanLoads top_loads_, bottom_loads_;            // of quasi-static ones
   long lists_compared_ = -1;                      // search lists made by both layers when apart_ was found
   bool apart_ = false;                            // no particle is near both platens
   std::unique_ptr<Servo> servo_;                  // null where both platens are always driven

@@ -13,7 +13,12 @@ constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 dem::EndPlanes Problem::end_planes() const {
-  return {bottom_plane_ + bottom.displacement()[2], top_plane_ + top.displacement()[2]};
+  return {bottom_plane_ + face_move(bottom, bottom_face_, bottom_plane_),
+          top_plane_ + face_move(top, top_face_, top_plane_)};
+}
+
+double Problem::face_move(const fem::Body &body, const MeanPlace &face, double plane) const {
+  return deformable() ? face.height(body.surface()) - plane : body.displacement()[2];
 }
 
 double Problem::coordination_number() const {
@@ -27,7 +32,11 @@ std::size_t Problem::bytes() const {
 }
 
 double Problem::closure_strain() const {
-  return (bottom.displacement()[2] - top.displacement()[2]) / shape_.height;
+  return (face_move(bottom, bottom_face_, bottom_plane_) - face_move(top, top_face_, top_plane_)) /
+         shape_.height;
+}
+double Problem::grip_closure() const {
+  return bottom.displacement()[2] - top.displacement()[2];
 }
 double Problem::axial_closure() const {
   if (!confinement_) return closure_strain();
@@ -57,6 +66,13 @@ dem::EnergyLedger Problem::energy() const {
   e.contacts += top_layer.elastic_energy() + bottom_layer.elastic_energy();
   e.friction += top_layer.friction_work + bottom_layer.friction_work;
   e.damping += top_layer.damping_work + bottom_layer.damping_work;
+  if (deformable())
+    for (const fem::Body *body : {&top, &bottom}) {
+      const fem::BodyBook book = body->book();
+      e.bodies += book.strain + book.kinetic;
+      e.damping += book.dissipated;
+      e.boundary += book.grip_work;
+    }
   e.boundary += boundary_work_ + (confinement_ ? confinement_->work() : 0.0);
   return e;
 }

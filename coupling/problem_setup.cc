@@ -8,6 +8,7 @@
 #include "coupling/text_of.h"
 #include "dem/measure/moduli.h"
 #include "fem/grids.h"
+#include "fem/rigid_body.h"
 
 namespace platen::coupling {
 namespace {
@@ -67,15 +68,40 @@ Strips bending_strips(const dem::Specimen &s, const ProblemSettings &settings, b
 fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  // Elements of elastic platens are about as thick as wide.
+  const auto layers = [&](double half_width) {
+    if (!p.elastic) return 2;
+    return std::max(2, static_cast<int>(std::lround(0.5 * p.elements_across * p.thickness / half_width)));
+  };
   if (p.span > 0) return make_grid(bending_strips(s, settings, top));
   if (s.shape.kind == dem::ShapeKind::cylinder)
-    return fem::make_grid(
-        fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2});
+    return fem::make_grid(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across,
+                                             layers(p.overhang * s.shape.radius)});
   const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
   const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
                y = 0.5 * p.overhang * s.shape.width_y;
-  return fem::make_grid(
-      fem::BoxPlate{{-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}});
+  return fem::make_grid(fem::BoxPlate{{-x, -y, low},
+                                      {x, y, low + p.thickness},
+                                      {p.elements_across, p.elements_across, layers(std::max(x, y))}});
+}
+
+std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const PlatenSettings &p = settings.platens;
+  if (!p.elastic) return std::make_unique<fem::RigidBody>(platen_grid(s, settings, top), p.material);
+  fem::Grip grip;
+  grip.tag = top ? fem::high_end_tag : fem::low_end_tag;
+  fem::ElasticOptions options;
+  options.degree = p.elastic->degree;
+  options.motion = p.elastic->motion;
+  if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
+  return std::make_unique<fem::ElasticSolid>(platen_grid(s, settings, top), std::vector{p.material}, grip,
+                                             options);
+}
+
+// What the specimen covers of a platen.
+bool covers(const dem::Shape &shape, double x, double y) {
+  if (shape.kind == dem::ShapeKind::cylinder) return x * x + y * y <= shape.radius * shape.radius;
+  return std::abs(x) <= 0.5 * shape.width_x && std::abs(y) <= 0.5 * shape.width_y;
 }
 
 // Without bonds the stiffness that a bond would have still measures the grains; N/m.
@@ -117,8 +143,10 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
 
 Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     : model(specimen, settings.model),
-      top(platen_grid(specimen, settings, true), settings.platens.material),
-      bottom(platen_grid(specimen, settings, false), settings.platens.material),
+      top_body_(make_platen(specimen, settings, true)),
+      bottom_body_(make_platen(specimen, settings, false)),
+      top(*top_body_),
+      bottom(*bottom_body_),
       top_layer(model.particles, top, layer_settings(model, specimen, settings, settings.platens.top)),
       bottom_layer(model.particles, bottom,
                    layer_settings(model, specimen, settings, settings.platens.bottom)),
@@ -126,6 +154,11 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
       shape_(specimen.shape),
       bottom_plane_(platen_plane(specimen, false, settings.ends)),
       top_plane_(platen_plane(specimen, true, settings.ends)) {
+  if (deformable()) {
+    const auto inside = [&](double x, double y) { return covers(shape_, x, y); };
+    top_face_ = MeanPlace(top.surface(), fem::low_end_tag, inside);
+    bottom_face_ = MeanPlace(bottom.surface(), fem::high_end_tag, inside);
+  }
   double solid = 0;
   for (const double r : specimen.radius)
     solid += 4.0 / 3.0 * pi * r * r * r;

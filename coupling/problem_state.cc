@@ -1,5 +1,6 @@
 // What a checkpoint keeps of a problem.
 #include <stdexcept>
+#include <utility>
 
 #include "coupling/problem.h"
 
@@ -29,6 +30,11 @@ std::vector<double> Problem::numbers() const {
                           static_cast<double>(bottom_layer.closed)};
   if (!settings_.loading.unload_at.empty())
     all.insert(all.end(), {cycle_.direction, cycle_.speed, cycle_.turns, cycle_.strain, cycle_.stress});
+  if (quasi_static())
+    for (const auto &[loads, body] : {std::pair{&top_loads_, &top}, std::pair{&bottom_loads_, &bottom}}) {
+      const std::vector<double> more = loads->numbers(body->surface().vertices.size());
+      all.insert(all.end(), more.begin(), more.end());
+    }
   if (confinement_) {
     all.insert(all.end(), {cell_end_, cell_closure_});
     const std::vector<double> more = confinement_->numbers();
@@ -46,6 +52,14 @@ void Problem::set_numbers(const std::vector<double> &n) {
     confinement_->set_numbers({n.end() - own, n.end()});
   }
   if (!settings_.loading.unload_at.empty()) cycle_ = {n[21], n[22], n[23], n[24], n[25]};
+  if (quasi_static()) {
+    const auto size = [](const fem::Body &body) {
+      return static_cast<std::ptrdiff_t>(2 + 3 * body.surface().vertices.size());
+    };
+    const auto first = n.begin() + (settings_.loading.unload_at.empty() ? 21 : 26);
+    top_loads_.set_numbers({first, first + size(top)});
+    bottom_loads_.set_numbers({first + size(top), first + size(top) + size(bottom)});
+  }
   if (servo_) servo_->set_state({n[0]});
   model.time = n[1];
   time_step_ = n[2];

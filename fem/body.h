@@ -1,75 +1,69 @@
-// A body of finite elements that meets the particles with its surface: a platen today, a sleeve later.
+// A body of finite elements that a machine moves and that meets the particles with its surface: a platen.
 // Callers see a surface, loads on its vertices and a few numbers; what happens inside is the kind's own
-// affair.
+// affair. One step of the particles is kick(dt / 2), drift(dt), new loads, kick(dt / 2).
 #pragma once
 
-#include <array>
 #include <iosfwd>
 #include <vector>
 
-#include "fem/grids.h"
 #include "fem/loaded_surface.h"
-#include "fem/material.h"
 
 namespace platen::fem {
 
-enum class BodyKind { rigid };
+// Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
+// grip_work stays what it was. A rigid body keeps no book: where its loads do work, the machine does it.
+struct BodyBook {
+  // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
+  double kinetic = 0;
+  double strain = 0;
+  double load_work = 0;  // by loads on the surface
+  double grip_work = 0;  // by the machine
+  double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
+};
+
+// What contacts add at each vertex of the surface, for the stable step.
+struct VertexSprings {
+  std::vector<double> stiffness; // N/m
+  std::vector<double> dashpot;   // N s/m
+};
 
 class Body : public LoadedSurface {
 public:
-  // Throws std::invalid_argument where a constant is out of range or a surface face has no area (naming the
-  // face).
-  Body(Grid grid, const Material &material, BodyKind kind = BodyKind::rigid);
+  virtual ~Body() = default;
+  Body(const Body &) = default;
+  Body(Body &&) = default;
+  Body &operator=(const Body &) = default;
+  Body &operator=(Body &&) = default;
 
-  BodyKind kind() const { return kind_; }
-  const Material &material() const { return material_; }
-  double volume() const { return volume_; }                   // m^3
-  double mass() const { return material_.density * volume_; } // kg
+  virtual double mass() const = 0; // kg
 
-  // Motion. A rigid body moves by six numbers about its centre of mass.
-  void set_velocity(const Point &velocity) { set_velocity(velocity, Point{}); } // m/s
-  void set_velocity(const Point &velocity, const Point &angular_velocity);      // m/s; rad/s, global axes
-  // Moves every vertex over dt (s): the centre along a straight line, the rotation by its exponential, so
-  // that the shape is kept to round-off for any dt. Loads stay as they are.
-  void drift(double dt);
-  const Point &velocity() const { return velocity_; }                 // m/s, of the centre
-  const Point &angular_velocity() const { return angular_velocity_; } // rad/s
-  const Point &displacement() const { return displacement_; }         // m, of the centre
-  Point centre() const { return reference_centre_ + displacement_; }  // m, centre of mass
-  // Unit quaternion (w, x, y, z) from reference axes to current ones.
-  const std::array<double, 4> &rotation() const { return rotation_; }
-  // Bound on how far any vertex moves in a drift over dt (m).
-  double largest_move(double dt) const;
+  // How the machine leads the body, without turning it: its grip, or all of it where it is rigid.
+  virtual void set_velocity(const Point &velocity) = 0; // m/s
+  virtual const Point &velocity() const = 0;            // m/s, of the centre of the frame that is led
+  virtual const Point &displacement() const = 0;        // m, of the same
 
-  double kinetic_energy() const;  // J
-  double internal_energy() const; // J; a rigid body stores none
-  double stable_step() const;     // s; infinite for a rigid body
+  virtual void kick(double dt) = 0;  // impulse of the loads over dt (s)
+  virtual void drift(double dt) = 0; // moves everything over dt (s); loads stay as they are
+  // m, the farthest that a vertex went in the last drift, or a bound of it.
+  virtual double last_move() const = 0;
+  // s, the longest step between kicks that keeps the body stable on these springs, which the particles' side
+  // holds at rest; infinite where nothing limits it.
+  virtual double stable_step(const VertexSprings &springs) const = 0;
 
-  // Everything that changes in a run, to the last bit: motion, velocities and loads.
-  std::vector<double> state() const;
-  // Throws std::invalid_argument where the numbers are not those of a body with this surface.
-  void set_state(const std::vector<double> &numbers);
+  virtual BodyBook book() const = 0;
+
+  // Everything that changes in a run, to the last bit.
+  virtual std::vector<double> state() const = 0;
+  // Throws std::invalid_argument where the numbers are not those of such a body.
+  virtual void set_state(const std::vector<double> &numbers) = 0;
 
   // Writes the grid where it is now as VTU (binary, zlib) with point data displacement (m), contact_pressure
   // and contact_shear (Pa, as contact_tractions) and slip (m; one value per surface vertex, or an empty
-  // vector for zero).
-  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
+  // vector for zero); a deformable one adds stress and von_mises (Pa).
+  virtual void write_vtu(std::ostream &stream, const std::vector<double> &slip) const = 0;
 
-private:
-  Point current_position(const Point &reference) const;
-  void place_vertices();
-
-  Grid grid_;
-  Material material_;
-  BodyKind kind_;
-  std::vector<Point> reference_vertices_; // m, of the surface
-  std::vector<int> grid_vertex_;          // of each surface vertex
-  double volume_ = 0;
-  Point reference_centre_{};
-  std::array<double, 9> inertia_{}; // kg m^2 about the centre, reference axes
-
-  Point displacement_{}, velocity_{}, angular_velocity_{};
-  std::array<double, 4> rotation_{1, 0, 0, 0};
+protected:
+  Body() = default;
 };
 
 } // namespace platen::fem

@@ -23,8 +23,10 @@ void check(const Grip &grip, const ElasticOptions &options) {
   require(grip.damping >= 0, "the seat's damping must not be negative");
   require(grip.turns || (grip.inertia == 0 && grip.damping == 0),
           "inertia and damping of a seat need a grip that turns");
-  require(options.mass_damping >= 0 && options.stiffness_damping >= 0, "damping must not be negative");
-  require(!is_static || (options.mass_damping == 0 && options.stiffness_damping == 0),
+  require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
+          "damping must not be negative");
+  require(!is_static ||
+              (options.mass_damping == 0 && options.stiffness_damping == 0 && options.fastest_damping == 0),
           "a quasi-static body has no inertia to damp");
 }
 
@@ -82,8 +84,9 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
   const double square =
       largest_eigenvalue(model_.stiffness, model_.mass, grip.turns ? none : held_, model_.cell_bound);
   stable_step_ = 2 / std::sqrt(square);
-  if (options.stiffness_damping > 0)
-    stable_step_ = std::min(stable_step_, 2 / (options.stiffness_damping * square));
+  options_.stiffness_damping += 2 * options.fastest_damping / std::sqrt(square);
+  if (options_.stiffness_damping > 0)
+    stable_step_ = std::min(stable_step_, 2 / (options_.stiffness_damping * square));
 }
 
 void ElasticSolid::hold(const Grip &grip) {

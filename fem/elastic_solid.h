@@ -17,9 +17,9 @@
 #include <iosfwd>
 #include <vector>
 
+#include "fem/body.h"
 #include "fem/elastic_model.h"
 #include "fem/largest_frequency.h"
-#include "fem/loaded_surface.h"
 #include "fem/rotation.h"
 #include "fem/static_solver.h"
 
@@ -48,22 +48,13 @@ struct ElasticOptions {
   ElasticMotion motion = ElasticMotion::explicit_steps;
   double mass_damping = 0;      // 1/s, rate at which velocities relative to the frame die away; explicit
   double stiffness_damping = 0; // s, damping stress over stress per rate of strain; explicit
+  double fastest_damping =
+      0; // fraction of critical that more of the same gives to the fastest mode; explicit
   LinearSolver solver = LinearSolver::automatic;
 };
 
-// Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
-// grip_work stays what it was.
-struct ElasticBook {
-  // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
-  double kinetic = 0;
-  double strain = 0;
-  double load_work = 0;  // by loads on the surface
-  double grip_work = 0;  // by the machine
-  double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
-};
-
 // Every node of the boundary is a vertex of the surface.
-class ElasticSolid : public LoadedSurface {
+class ElasticSolid : public Body {
 public:
   // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
   // no face has the grip's tag, an option is out of range or two exclude each other.
@@ -73,27 +64,29 @@ public:
   const ElasticModel &model() const { return model_; }
   const std::vector<int> &surface_nodes() const { return node_of_; } // node of each vertex
   const std::vector<int> &grip_nodes() const { return grip_nodes_; }
-  double mass() const { return mass_; } // kg
+  double mass() const override { return mass_; } // kg
 
   // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
   // freely: then angular velocities are its own, and the other form keeps them).
-  void set_velocity(const Point &velocity);                                // m/s
+  void set_velocity(const Point &velocity) override;                       // m/s
   void set_velocity(const Point &velocity, const Point &angular_velocity); // m/s; rad/s, global axes
-  const Point &velocity() const { return velocity_; }                      // m/s, of centre or seat
+  const Point &velocity() const override { return velocity_; }             // m/s, of centre or seat
   const Point &angular_velocity() const { return angular_velocity_; }      // rad/s
-  const Point &displacement() const { return displacement_; }              // m, of centre or seat
+  const Point &displacement() const override { return displacement_; }     // m, of centre or seat
   Point centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
   const Quaternion &rotation() const { return rotation_; }
 
-  // One step of the particles: kick(dt / 2), drift(dt), new loads, kick(dt / 2).
-  void kick(double dt);  // impulse of the loads over dt (s)
-  void drift(double dt); // moves everything over dt in steps of at most 0.9 of the stable one
+  void kick(double dt) override; // impulse of the loads over dt (s)
+  // Moves everything over dt in steps of at most 0.9 of the stable one. Surface velocities are then those of
+  // the way: their product with dt is what each vertex went.
+  void drift(double dt) override;
   void drift(double dt, int substeps);
   double stable_step() const { return stable_step_; } // s, of explicit steps; infinite for quasi-static
-  int substeps(double dt) const;                      // that drift(dt) takes
+  double stable_step(const VertexSprings &springs) const override;
+  int substeps(double dt) const; // that drift(dt) takes
   // How far the surface may go in a drift over dt (m): velocities now, and accelerations now twice over.
   double largest_move(double dt) const;
-  double last_move() const { return last_move_; } // m, the farthest that a vertex went in the last drift
+  double last_move() const override { return last_move_; }
 
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
   // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
@@ -109,7 +102,7 @@ public:
 
   double kinetic_energy() const;                           // J
   double internal_energy() const { return book().strain; } // J
-  ElasticBook book() const;
+  BodyBook book() const override;
   Point momentum() const;         // kg m/s, grip nodes included; explicit
   Point angular_momentum() const; // kg m^2/s about centre or seat, with the seat's rotor; explicit
 
@@ -120,15 +113,13 @@ public:
   void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
-  // Everything that changes in a run, to the last bit.
-  std::vector<double> state() const;
-  // Throws std::invalid_argument where the numbers are not those of such a body.
-  void set_state(const std::vector<double> &numbers);
+  std::vector<double> state() const override;
+  void set_state(const std::vector<double> &numbers) override;
 
   // Writes the grid where it is now as VTU (binary, zlib; cells of degree 2 as such) with displacement (m),
   // stress and von_mises (Pa, in the frame's axes, per material), contact_pressure, contact_shear (Pa) and
   // slip (m; one value per vertex, or empty for zero).
-  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
+  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
 
 private:
   bool turns_freely() const { return grip_.turns; }

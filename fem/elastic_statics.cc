@@ -39,8 +39,8 @@ void ElasticSolid::set_deformation(const std::vector<Point> &displacement, const
   place_surface();
 }
 
-ElasticBook ElasticSolid::book() const {
-  ElasticBook book;
+BodyBook ElasticSolid::book() const {
+  BodyBook book;
   book.load_work = load_work_, book.grip_work = grip_work_, book.dissipated = dissipated_;
   book.kinetic = kinetic_energy();
   if (is_static()) {

@@ -7,6 +7,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "dem/measure/bond_stress.h"
+#include "fem/elastic_solid.h"
 
 namespace platen::apps {
 namespace {
@@ -49,6 +50,9 @@ std::string CompressionRun::description() const {
         "  confinement: {} spheres of the skin with {:.3f} of the lateral area, ramp {:.3g} s\n",
         problem_->confinement()->size(),
         problem_->confinement()->coverage(model.particles, problem_->end_planes()), problem_->cell_ramp());
+  if (const auto *top = dynamic_cast<const fem::ElasticSolid *>(&problem_->top))
+    text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
+                        top->model().nodes.size(), top->substeps(problem_->time_step()));
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", problem_->ramp(), problem_->wave_crossing());
   text += fmt::format(

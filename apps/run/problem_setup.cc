@@ -47,6 +47,7 @@ std::vector<Effect> effects(const Scene &s) {
           {bonded && s.bond.strength_scatter != StrengthScatter::none, "scattered strengths"},
           {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
            "contact dashpots"},
+          {s.platens.kind == PlatenKind::deformable, "elastic platens"},
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
@@ -107,6 +108,15 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.platens.thickness = from.thickness;
   to.platens.elements_across = from.elements_across;
   to.platens.material = {from.density, from.young_modulus, from.poisson_ratio};
+  if (from.kind == PlatenKind::deformable) {
+    coupling::ElasticPlatens elastic;
+    elastic.degree = from.degree;
+    elastic.motion = from.motion == PlatenMotion::quasi_static ? fem::ElasticMotion::quasi_static
+                                                               : fem::ElasticMotion::explicit_steps;
+    elastic.damping = from.body_damping;
+    elastic.steps_per_solve = from.steps_per_solve;
+    to.platens.elastic = elastic;
+  }
   to.platens.glued = from.attachment == Attachment::glued;
   to.loading.tension = scene.loading.test == LoadingTest::tension;
   to.loading.rate = std::isnan(scene.loading.axial_rate) ? 0.0 : scene.loading.axial_rate;

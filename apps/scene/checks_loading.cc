@@ -30,6 +30,21 @@ void SceneCheck::platens() const {
     refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
+  if (loads() && platens.kind == PlatenKind::deformable) deformable_platens();
+}
+
+void SceneCheck::deformable_platens() const {
+  const Loading &loading = scene_.loading;
+  const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
+  if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
+  if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
+  if (loading.confinement != ConfinementKind::none) refuse_kind("needs Loading/Confinement = none.");
+  if (scene_.platens.top_control == PlatenControl::stress) refuse_kind("needs Platens/Top/Control = motion.");
+  if (scene_.platens.attachment == Attachment::glued) refuse_kind("needs Platens/Attachment = contact.");
+  if (scene_.integration.scheme != Scheme::velocity_verlet)
+    refuse_kind("needs Integration/Scheme = velocity verlet.");
+  if (loading.start_strain > 0)
+    refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
 }
 
 void SceneCheck::loading() const {

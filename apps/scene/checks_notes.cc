@@ -76,8 +76,13 @@ void SceneCheck::contact_notes() {
 
 void SceneCheck::loading_notes() {
   if (scene_.platens.kind == PlatenKind::rigid)
-    for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio"})
+    for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio", "Platens/Motion",
+                            "Platens/Degree", "Platens/Body damping", "Platens/Steps per solve"})
       note(key, "Platens/Kind = rigid");
+  else if (scene_.platens.motion == PlatenMotion::quasi_static)
+    note("Platens/Body damping", "Platens/Motion = quasi-static");
+  else
+    note("Platens/Steps per solve", "Platens/Motion = explicit");
   if (scene_.platens.top_control == PlatenControl::motion) {
     note("Platens/Top/Stress", "Platens/Top/Control = motion");
     if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");

@@ -54,6 +54,7 @@ private:
   void readable(const std::string &path, const std::string &file, const std::string &why) const;
   void cross_section() const;
   void spheres_fit() const;
+  void deformable_platens() const;
   void friction(const std::string &name, const PlatenSide &side) const;
   void note(const std::string &path, const std::string &why);
   void specimen_notes();

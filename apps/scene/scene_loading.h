@@ -8,6 +8,7 @@
 namespace platen::apps {
 
 enum class PlatenKind { rigid, deformable };
+enum class PlatenMotion { explicit_steps, quasi_static };
 enum class Attachment { contact, glued };
 enum class PlatenControl { motion, stress };
 
@@ -33,6 +34,10 @@ struct Platens {
   double density = 7830;        // kg/m3
   double young_modulus = 200e9; // Pa
   double poisson_ratio = 0.3;
+  PlatenMotion motion = PlatenMotion::explicit_steps; // this and the next: kind = deformable
+  int degree = 1;
+  double body_damping = 0.05; // fraction of critical, of the fastest mode; motion = explicit_steps
+  int steps_per_solve = 20;   // motion = quasi_static
   Attachment attachment = Attachment::contact;
 };
 

@@ -17,8 +17,8 @@ void declare_side(Parameters &parameters, const std::string &name, PlatenSide &s
 void declare_platens(Parameters &parameters, Platens &platens) {
   Section section(parameters, "Platens");
   section.word<PlatenKind>("Kind", platens.kind,
-                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}},
-                           {"deformable"}, "Rigid bodies, or elastic ones by finite elements.");
+                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}}, {},
+                           "Rigid bodies, or elastic ones by finite elements.");
   section.number("Friction static", platens.friction_static, between(0, 5),
                  "Coefficient of friction of grains on both platens while they stick.");
   section.number("Friction dynamic", platens.friction_dynamic, between(0, 5),
@@ -43,6 +43,17 @@ void declare_platens(Parameters &parameters, Platens &platens) {
   section.quantity("Young modulus", platens.young_modulus, "Pa", above(0), "Young modulus of the platens.");
   section.number("Poisson ratio", platens.poisson_ratio, between_open(-1, 0.5),
                  "Poisson ratio of the platens.");
+  section.word<PlatenMotion>(
+      "Motion", platens.motion,
+      {{"explicit", PlatenMotion::explicit_steps}, {"quasi-static", PlatenMotion::quasi_static}}, {},
+      "Of deformable platens: with their inertia, step by step; or without, solved for now and then.");
+  section.integer("Degree", platens.degree, 1, 2, "Of the elements of deformable platens.");
+  section.number(
+      "Body damping", platens.body_damping, between(0, 1),
+      "Fraction of critical damping of a deformable platen's fastest vibration, less of slower ones "
+      "(Motion = explicit).");
+  section.integer("Steps per solve", platens.steps_per_solve, 1, 100000,
+                  "Time steps over which loads are averaged for each solve (Motion = quasi-static).");
   section.word<Attachment>("Attachment", platens.attachment,
                            {{"contact", Attachment::contact}, {"glued", Attachment::glued}}, {},
                            "Glued: the end grains are held by the platens, in tension too.");

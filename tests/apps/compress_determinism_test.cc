@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+
 #include "apps/io_folder.h"
 #include "apps/program.h"
 
@@ -93,6 +95,30 @@ TEST_F(Determinism, a_run_begun_statically_resumes_as_if_it_had_not_been_stopped
   EXPECT_EQ(last.status, 0) << last.error;
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
   EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
+TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
+  for (const std::string motion : {"explicit", "quasi-static"}) {
+    const std::vector<std::string> options{"-s", "Platens/Kind = deformable", "-s",
+                                           "Platens/Motion = " + motion};
+    const std::string whole = motion, stopped = motion + " stopped";
+    crush(whole, "1", options);
+    const nlohmann::json found = summary_in(folder_ / whole);
+    EXPECT_GT(found["broken_tension"], 500);
+    EXPECT_LT(found["energy_residual_relative"], 0.01);
+    const auto held = column_of(folder_ / whole / "history.csv", "body_energy_j");
+    EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
+    EXPECT_NE(content_of(folder_ / whole / "platens_000002.vtu").find("von_mises"), std::string::npos);
+    std::vector<std::string> stopping{"-t", "2"};
+    stopping.insert(stopping.end(), options.begin(), options.end());
+    EXPECT_EQ(stop_at(stopped, 70, SIGTERM, stopping), 143);
+    std::vector<std::string> going_on{scene_, "-o", stopped, "-t", "4", "--resume", "--quiet"};
+    going_on.insert(going_on.end(), options.begin(), options.end());
+    const Outcome last = run_compress(going_on, folder_);
+    EXPECT_EQ(last.status, 0) << last.error;
+    EXPECT_EQ(difference(results_in(folder_ / whole), results_in(folder_ / stopped)), "");
+    EXPECT_EQ(figures(whole), figures(stopped));
+  }
 }
 
 TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {

@@ -97,8 +97,7 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
 }
 
 TEST_F(Errors, what_is_not_there_yet_is_refused_and_not_ignored) {
-  for (const char *entry :
-       {"Loading/Confinement = sleeve", "Platens/Kind = deformable", "Scene/Quality = reference"})
+  for (const char *entry : {"Loading/Confinement = sleeve", "Scene/Quality = reference"})
     refuse({with({entry}),
             {"command line, --set 1: error: " + std::string(entry) + " is not available in this version"}});
   refuse({with({"Sleeve/Thickness = 2 mm"}), {"Loading/Confinement = sleeve, which is not available"}});

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-fem::Body strip(int facets) {
-  return fem::Body(fem::make_grid(fem::BoxPlate{{0, -0.005, -0.01}, {1, 0.005, 0}, {facets, 1, 1}}), steel);
+fem::RigidBody strip(int facets) {
+  return fem::RigidBody(fem::make_grid(fem::BoxPlate{{0, -0.005, -0.01}, {1, 0.005, 0}, {facets, 1, 1}}),
+                        steel);
 }
 
 // The list of a long strip takes long to make; a large skin makes it seldom.
@@ -128,7 +129,7 @@ std::unique_ptr<SphereScene> heap(double skin, int n = 300) {
   for (Vector3 &c : centres)
     c = {0.02 * draw(engine), 0.02 * draw(engine), sphere_radius * (1.4 + 0.5 * draw(engine))};
   auto scene = std::make_unique<SphereScene>(
-      fem::Body(fem::make_grid(fem::CylinderPlate{0.03, 0.01, -0.01, 11, 1}), steel), centres, contact);
+      fem::RigidBody(fem::make_grid(fem::CylinderPlate{0.03, 0.01, -0.01, 11, 1}), steel), centres, contact);
   scene->gravity = {3, 1, -2000};
   scene->layer.seat_within(scene->particles, scene->body, 0.2 * sphere_radius);
   for (std::size_t i = 0; i < scene->particles.size(); ++i)

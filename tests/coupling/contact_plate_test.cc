@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(quads_along_a_side, DraggedSphere, testing::Values(1, 1
 // The same on a plate turned into a skew position: only round-off of turned coordinates (1e-17 m against
 // overlaps of 5e-6 m) may show.
 TEST(contact_plate, a_skew_plate_feels_like_a_level_one) {
-  fem::Body body = plate(0.01, 10);
+  fem::RigidBody body = plate(0.01, 10);
   body.set_velocity({}, {0.3, -0.5, 0.2});
   body.drift(1);
   body.set_velocity({});

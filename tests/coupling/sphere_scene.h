@@ -5,8 +5,8 @@
 
 #include "coupling/contact_layer.h"
 #include "dem/packing/specimen.h"
-#include "fem/body.h"
 #include "fem/grids.h"
+#include "fem/rigid_body.h"
 
 namespace platen::coupling {
 
@@ -17,9 +17,9 @@ constexpr double sphere_radius = 1e-3; // m
 constexpr double stiffness = 1e6;      // N/m, of particle and contact (rigid plate)
 
 // A plate whose upper face is z = 0, [-half, half] in x and y, `across` x `across` quads on it.
-inline fem::Body plate(double half, int across) {
-  return fem::Body(fem::make_grid(fem::BoxPlate{{-half, -half, -0.01}, {half, half, 0}, {across, across, 1}}),
-                   steel);
+inline fem::RigidBody plate(double half, int across) {
+  return fem::RigidBody(
+      fem::make_grid(fem::BoxPlate{{-half, -half, -0.01}, {half, half, 0}, {across, across, 1}}), steel);
 }
 
 inline dem::Specimen spheres(const std::vector<Vector3> &centres, double radius = sphere_radius) {
@@ -40,11 +40,11 @@ inline SurfaceContact frictional(double friction_static, double friction_dynamic
 
 struct SphereScene {
   dem::Particles particles;
-  fem::Body body;
+  fem::RigidBody body;
   ContactLayer layer;
   Vector3 gravity;
 
-  SphereScene(fem::Body plate_body, const std::vector<Vector3> &centres, const SurfaceContact &contact,
+  SphereScene(fem::RigidBody plate_body, const std::vector<Vector3> &centres, const SurfaceContact &contact,
               bool rotation = true, double radius = sphere_radius)
       : particles(spheres(centres, radius), 2500, rotation),
         body(std::move(plate_body)),

@@ -11,8 +11,8 @@
 namespace platen::coupling {
 namespace {
 
-fem::Body box(int elements) {
-  return fem::Body(
+fem::RigidBody box(int elements) {
+  return fem::RigidBody(
       fem::make_grid(fem::BoxPlate{{-1, -0.5, -0.25}, {1, 0.5, 0.25}, {elements, elements, elements}}),
       steel);
 }
@@ -36,7 +36,7 @@ std::vector<Vector3> random_points(int n, double size, unsigned seed) {
 // Inside, outside, beyond edges and corners. Round-off of coordinates of size 1.
 TEST(surface_search, distance_to_a_box_is_the_closed_form_with_its_sign) {
   for (const int elements : {1, 2, 5}) {
-    const fem::Body body = box(elements);
+    const fem::RigidBody body = box(elements);
     const SurfaceSearch search(body.surface(), 0.1);
     for (const Vector3 &p : random_points(3000, 1.5, 5)) {
       const SurfacePoint s = search.closest_of_all(body.surface(), p);
@@ -49,7 +49,7 @@ TEST(surface_search, distance_to_a_box_is_the_closed_form_with_its_sign) {
 
 // Points exactly over and on edges, corners and inner edges of the mesh.
 TEST(surface_search, points_exactly_on_edges_and_vertices_have_one_answer) {
-  const fem::Body body = box(2);
+  const fem::RigidBody body = box(2);
   const SurfaceSearch search(body.surface(), 0.1);
   for (const double x : {-1.0, -0.5, 0.0, 0.5, 1.0, 1.25})
     for (const double y : {-0.5, -0.25, 0.0, 0.25, 0.5, 0.75})
@@ -62,7 +62,7 @@ TEST(surface_search, points_exactly_on_edges_and_vertices_have_one_answer) {
 
 // Over an inner edge of a flat face the normal is the face's, to the last bit.
 TEST(surface_search, an_inner_edge_of_a_flat_face_has_the_normal_of_the_face) {
-  const fem::Body body = box(2);
+  const fem::RigidBody body = box(2);
   const SurfaceSearch search(body.surface(), 0.1);
   for (const double x : {-1.0, -0.37, 0.0, 0.5})
     for (const double y : {0.0, 0.1, -0.31}) {
@@ -84,7 +84,7 @@ bool same(const SurfacePoint &a, const SurfacePoint &b) {
 class Disc : public testing::TestWithParam<bool> {};
 
 TEST_P(Disc, the_list_gives_the_answer_of_looking_at_every_face) {
-  fem::Body body(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel);
+  fem::RigidBody body(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel);
   body.set_velocity({0.3, 0.1, -0.2}, GetParam() ? fem::Point{0.5, -0.4, 0.3} : fem::Point{});
   ASSERT_NE(body.surface().only_shifted, GetParam());
   std::vector<Vector3> centres = random_points(150, 0.8, 11);
@@ -187,7 +187,7 @@ TEST(surface_search, broken_surfaces_still_give_one_finite_answer) {
 
 // The work of a step follows the particles near the surface: far ones are not in the list.
 TEST(surface_search, particles_far_from_the_surface_are_not_listed) {
-  const fem::Body body = plate(0.02, 4);
+  const fem::RigidBody body = plate(0.02, 4);
   std::vector<Vector3> centres;
   for (int k = 0; k < 100; ++k)
     centres.push_back({0, 0, sphere_radius * (1 + 2 * k)});

@@ -28,9 +28,9 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
   dem::Model model(spheres({{-r, 0, 0}, {r, 0, 0}, {0, 0, height}}), settings);
   EXPECT_EQ(model.bonds->initial_count(), 3u);
 
-  fem::Body bottom(fem::make_grid(fem::BoxPlate{{-4 * r, -4 * r, -3 * r}, {4 * r, 4 * r, -r}, {7, 7, 1}}),
-                   steel);
-  fem::Body top(
+  fem::RigidBody bottom(
+      fem::make_grid(fem::BoxPlate{{-4 * r, -4 * r, -3 * r}, {4 * r, 4 * r, -r}, {7, 7, 1}}), steel);
+  fem::RigidBody top(
       fem::make_grid(fem::BoxPlate{{-4 * r, -4 * r, height + r}, {4 * r, 4 * r, height + 3 * r}, {4, 4, 1}}),
       steel);
   const double axial = settings.bond_layout.axial_stiffness(r, r);
@@ -52,7 +52,7 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
       fastest = std::max(fastest, norm(v));
     model.compute_forces(dt);
     for (auto *pair : {&below, &above}) {
-      fem::Body &body = pair == &below ? bottom : top;
+      fem::RigidBody &body = pair == &below ? bottom : top;
       pair->moved(fastest * dt + body.largest_move(dt));
       body.clear_loads();
       pair->add_forces(model.particles, body, dt);

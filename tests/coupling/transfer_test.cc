@@ -29,15 +29,15 @@ struct Crowd {
     for (int n = 0; n < 20; ++n)
       scene.carry(1e-4);
   }
-  static fem::Body disc() {
-    fem::Body body(fem::make_grid(fem::CylinderPlate{0.03, 0.01, 0, 7, 2}), steel);
+  static fem::RigidBody disc() {
+    fem::RigidBody body(fem::make_grid(fem::CylinderPlate{0.03, 0.01, 0, 7, 2}), steel);
     body.set_velocity({1, 2, 3}, {1, 0.5, -0.7});
     body.drift(1); // skew, and away from the origin
     body.set_velocity({});
     return body;
   }
   static std::vector<Vector3> centres() {
-    const fem::Body body = disc();
+    const fem::RigidBody body = disc();
     const Vector3 c = vec(body.centre());
     std::mt19937 engine(8);
     std::uniform_real_distribution<double> draw(-1, 1);
@@ -128,7 +128,7 @@ TEST(transfer, a_rigid_motion_of_the_corners_is_a_rigid_motion_of_the_face) {
 
 // Moments laid on a needle of aspect 1e-9 and on a line: finite; exact where a face can take a moment at all.
 TEST(transfer, a_moment_on_a_face_is_a_moment_without_a_force) {
-  fem::Body body(fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 0.001, 0.1}, {1, 1, 1}}), steel);
+  fem::RigidBody body(fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 0.001, 0.1}, {1, 1, 1}}), steel);
   apply_moment(body, 0, {1, -2, 3});
   EXPECT_LT(norm(vec(body.total_force())), 1e-13 * 3e3); // forces of M / width
   EXPECT_LT(norm(vec(body.moment({4, 5, 6})) - Vector3{1, -2, 3}), 1e-10);

@@ -39,7 +39,7 @@ void put(ElasticSolid &solid, const std::vector<Point> &loads) {
     if (norm(loads[v]) > 0) solid.add_surface_force(static_cast<int>(v), loads[v]);
 }
 
-double total(const ElasticBook &b) {
+double total(const BodyBook &b) {
   return b.kinetic + b.strain + b.dissipated - b.load_work - b.grip_work;
 }
 
@@ -205,7 +205,7 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
         largest = std::max(largest, solid.book().strain);
         ASSERT_NEAR(total(solid.book()), start, 1e-8 * largest) << k;
       }
-      const ElasticBook b = solid.book();
+      const BodyBook b = solid.book();
       EXPECT_NE(b.load_work, 0);
       EXPECT_NE(b.grip_work, 0);
       EXPECT_EQ(b.dissipated != 0, slides);
@@ -308,7 +308,7 @@ TEST(elastic_solid, the_grip_bears_what_the_loads_give) {
     largest = std::max(largest, norm(p));
   for (std::size_t i = 0; i < a.size(); ++i)
     EXPECT_LT(norm(a[i] - b[i]), 1e-8 * largest);
-  const ElasticBook book = slow.book();
+  const BodyBook book = slow.book();
   EXPECT_NEAR(book.load_work, 2 * book.strain, 1e-10 * book.strain);
   EXPECT_NEAR(total(book), 0, 1e-10 * book.strain);
   EXPECT_LT(norm(slow.grip_force() - slow.total_force()), 1e-12 * size);

@@ -11,10 +11,10 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "fem/body.h"
+#include "fem/rigid_body.h"
 
 namespace platen::fem {
-void Body::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
+void RigidBody::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
   if (!slip.empty() && slip.size() != load_.size())
     throw std::invalid_argument("body: slip must have one value per surface vertex");
   const dealii::FE_Q<3> scalar(1);

@@ -1,4 +1,4 @@
-#include "fem/body.h"
+#include "fem/rigid_body.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +12,16 @@ namespace {
 
 constexpr Material steel{7850, 210e9, 0.3};
 
-Body box() {
-  return Body(make_grid(BoxPlate{{-0.02, -0.03, 0.1}, {0.04, 0.03, 0.11}, {3, 4, 2}}), steel);
+RigidBody box() {
+  return RigidBody(make_grid(BoxPlate{{-0.02, -0.03, 0.1}, {0.04, 0.03, 0.11}, {3, 4, 2}}), steel);
 }
 
-double distance(const Body &body, std::size_t a, std::size_t b) {
+double distance(const RigidBody &body, std::size_t a, std::size_t b) {
   return norm(body.surface().vertices[a] - body.surface().vertices[b]);
 }
 
-TEST(body, mass_is_density_times_volume) {
-  const Body body = box();
+TEST(rigid_body, mass_is_density_times_volume) {
+  const RigidBody body = box();
   const double volume = 0.06 * 0.06 * 0.01;
   EXPECT_NEAR(body.volume(), volume, 1e-14 * volume);
   EXPECT_NEAR(body.mass(), 7850 * volume, 1e-14 * 7850 * volume);
@@ -30,8 +30,8 @@ TEST(body, mass_is_density_times_volume) {
 }
 
 // A cuboid about z: I = m (a^2 + b^2) / 12.
-TEST(body, kinetic_energy_is_that_of_a_cuboid) {
-  Body body = box();
+TEST(rigid_body, kinetic_energy_is_that_of_a_cuboid) {
+  RigidBody body = box();
   body.set_velocity({1, 2, 3}, {0, 0, 40});
   const double inertia = body.mass() * (0.06 * 0.06 + 0.06 * 0.06) / 12;
   const double expected = 0.5 * body.mass() * 14 + 0.5 * inertia * 1600;
@@ -39,8 +39,8 @@ TEST(body, kinetic_energy_is_that_of_a_cuboid) {
 }
 
 // A cuboid's inertia turns with it: spun about z after a quarter turn about x it is that about its own y.
-TEST(body, inertia_turns_with_the_body) {
-  Body body(make_grid(BoxPlate{{0, 0, 0}, {1, 2, 3}, {1, 1, 1}}), steel);
+TEST(rigid_body, inertia_turns_with_the_body) {
+  RigidBody body(make_grid(BoxPlate{{0, 0, 0}, {1, 2, 3}, {1, 1, 1}}), steel);
   body.set_velocity({}, {std::acos(0.0), 0, 0});
   body.drift(1);
   body.set_velocity({}, {0, 0, 1});
@@ -50,9 +50,9 @@ TEST(body, inertia_turns_with_the_body) {
 
 // 10 000 drifts about a skew axis: lengths are kept to the round-off of one rotation, because vertices are
 // placed from the reference and never from each other.
-TEST(body, rigid_rotation_keeps_the_shape) {
-  Body body = box();
-  const Body start = box();
+TEST(rigid_body, rigid_rotation_keeps_the_shape) {
+  RigidBody body = box();
+  const RigidBody start = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
   for (int step = 0; step < 10000; ++step)
     body.drift(1e-3);
@@ -64,8 +64,8 @@ TEST(body, rigid_rotation_keeps_the_shape) {
 
 // Angle after many exponentials against one: a full number of turns brings every vertex back. Round-off of
 // 1e4 products of quaternions.
-TEST(body, whole_turns_bring_every_vertex_back) {
-  Body body = box();
+TEST(rigid_body, whole_turns_bring_every_vertex_back) {
+  RigidBody body = box();
   const std::vector<Point> start = body.surface().vertices;
   const double pi = 3.14159265358979323846, rate = 2 * pi * 10;
   body.set_velocity({}, {rate / 3, 2 * rate / 3, 2 * rate / 3});
@@ -75,8 +75,8 @@ TEST(body, whole_turns_bring_every_vertex_back) {
     EXPECT_LT(norm(body.surface().vertices[v] - start[v]), 1e-13);
 }
 
-TEST(body, vertex_velocities_are_those_of_the_motion) {
-  Body body = box();
+TEST(rigid_body, vertex_velocities_are_those_of_the_motion) {
+  RigidBody body = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
   const std::vector<Point> velocities = body.surface().velocities, before = body.surface().vertices;
   const double h = 1e-6;
@@ -87,8 +87,8 @@ TEST(body, vertex_velocities_are_those_of_the_motion) {
   }
 }
 
-TEST(body, a_translated_face_stays_flat_to_the_last_bit) {
-  Body body = box();
+TEST(rigid_body, a_translated_face_stays_flat_to_the_last_bit) {
+  RigidBody body = box();
   body.set_velocity({0, 0, -0.0123});
   for (int step = 0; step < 1000; ++step)
     body.drift(1e-7 / 3);
@@ -100,8 +100,8 @@ TEST(body, a_translated_face_stays_flat_to_the_last_bit) {
 }
 
 // Power of the loads = force . velocity + moment . angular velocity for a rigid body.
-TEST(body, load_power_is_force_times_velocity_plus_moment_times_spin) {
-  Body body = box();
+TEST(rigid_body, load_power_is_force_times_velocity_plus_moment_times_spin) {
+  RigidBody body = box();
   body.set_velocity({0.4, -0.2, 0.3}, {3, -2, 5});
   body.add_surface_force(3, {10, 20, -30});
   body.add_surface_force(17, {-5, 1, 2});
@@ -117,14 +117,14 @@ TEST(body, load_power_is_force_times_velocity_plus_moment_times_spin) {
   EXPECT_EQ(body.contact_load(3), Point{});
 }
 
-TEST(body, state_comes_back_to_the_last_bit) {
-  Body body = box();
+TEST(rigid_body, state_comes_back_to_the_last_bit) {
+  RigidBody body = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
   for (int step = 0; step < 7; ++step)
     body.drift(1e-3 / 3);
   for (const int v : {20, 3, 11})
     body.add_surface_force(v, {1.0 / 3, 2.0 / 7 * v, -1e-9});
-  Body other = box();
+  RigidBody other = box();
   other.add_surface_force(5, {1, 1, 1}); // must be gone afterwards
   other.set_state(body.state());
   const auto same = [](const std::vector<Point> &a, const std::vector<Point> &b) {
@@ -139,24 +139,24 @@ TEST(body, state_comes_back_to_the_last_bit) {
   EXPECT_TRUE(same(other.surface().vertices, body.surface().vertices));
 }
 
-TEST(body, a_state_of_another_body_is_refused) {
-  Body body = box();
+TEST(rigid_body, a_state_of_another_body_is_refused) {
+  RigidBody body = box();
   EXPECT_THROW(body.set_state({1, 2, 3}), std::invalid_argument);
   std::vector<double> numbers = body.state();
   numbers.insert(numbers.end(), {1e6, 0, 0, 0});
   EXPECT_THROW(body.set_state(numbers), std::invalid_argument);
 }
 
-TEST(body, impossible_materials_are_refused) {
+TEST(rigid_body, impossible_materials_are_refused) {
   const Grid grid = make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}});
-  EXPECT_THROW(Body(grid, {0, 1e9, 0.2}), std::invalid_argument);
-  EXPECT_THROW(Body(grid, {1, -1e9, 0.2}), std::invalid_argument);
-  EXPECT_THROW(Body(grid, {1, 1e9, 0.5}), std::invalid_argument);
-  EXPECT_THROW(Body(grid, {1, std::nan(""), 0.2}), std::invalid_argument);
+  EXPECT_THROW(RigidBody(grid, {0, 1e9, 0.2}), std::invalid_argument);
+  EXPECT_THROW(RigidBody(grid, {1, -1e9, 0.2}), std::invalid_argument);
+  EXPECT_THROW(RigidBody(grid, {1, 1e9, 0.5}), std::invalid_argument);
+  EXPECT_THROW(RigidBody(grid, {1, std::nan(""), 0.2}), std::invalid_argument);
 }
 
-TEST(body, no_vertex_moves_farther_than_the_bound) {
-  Body body = box();
+TEST(rigid_body, no_vertex_moves_farther_than_the_bound) {
+  RigidBody body = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
   const double bound = body.largest_move(0.01);
   const std::vector<Point> before = body.surface().vertices;
@@ -170,9 +170,9 @@ TEST(body, no_vertex_moves_farther_than_the_bound) {
 
 // Consistent loads of an even pressure with an even shear on one face give that pressure and shear at every
 // vertex of it, at its rim and corners too, and nothing elsewhere.
-TEST(body, an_even_load_is_an_even_pressure_up_to_the_rim) {
+TEST(rigid_body, an_even_load_is_an_even_pressure_up_to_the_rim) {
   for (const bool disc : {false, true}) {
-    Body body = disc ? Body(make_grid(CylinderPlate{0.03, 0.01, 0, 9, 2}), steel) : box();
+    RigidBody body = disc ? RigidBody(make_grid(CylinderPlate{0.03, 0.01, 0, 9, 2}), steel) : box();
     const double pressure = 3e6;
     const Point shear = {1e6, -5e5, 0};
     std::vector<char> on_top(body.surface().vertices.size(), 0);
@@ -186,7 +186,7 @@ TEST(body, an_even_load_is_an_even_pressure_up_to_the_rim) {
         on_top[static_cast<std::size_t>(v)] = 1;
       }
     }
-    const std::vector<Body::Traction> tractions = body.contact_tractions();
+    const std::vector<RigidBody::Traction> tractions = body.contact_tractions();
     double sum = 0;
     for (std::size_t v = 0; v < tractions.size(); ++v) {
       EXPECT_NEAR(tractions[v].pressure, on_top[v] ? pressure : 0, 1e-9 * pressure);
@@ -199,8 +199,8 @@ TEST(body, an_even_load_is_an_even_pressure_up_to_the_rim) {
 }
 
 // All fields that the pictures need stand in the file, which is the same for the same state.
-TEST(body, the_picture_names_its_fields_and_repeats) {
-  Body body = box();
+TEST(rigid_body, the_picture_names_its_fields_and_repeats) {
+  RigidBody body = box();
   body.add_surface_force(0, {0, 0, 1});
   std::ostringstream first, second;
   body.write_vtu(first);

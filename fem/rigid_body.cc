@@ -1,4 +1,4 @@
-#include "fem/body.h"
+#include "fem/rigid_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,7 @@ constexpr std::size_t motion_numbers = 13; // displacement 3, rotation 4, veloci
 
 } // namespace
 
-Body::Body(Grid grid, const Material &material, BodyKind kind)
-    : grid_(std::move(grid)), material_(material), kind_(kind) {
+RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
   require(grid_ != nullptr, "no grid");
   check(material, "body");
   GridSurface extracted = extract_surface(grid_);
@@ -39,13 +38,13 @@ Body::Body(Grid grid, const Material &material, BodyKind kind)
       inertia_[3 * i + j] = material.density * ((i == j ? trace : 0.0) - m.second[3 * i + j]);
 }
 
-Point Body::current_position(const Point &reference) const {
+Point RigidBody::current_position(const Point &reference) const {
   // Without rotation the sum is kept plain: a flat face stays flat to the last bit.
   if (is_identity(rotation_)) return reference + displacement_;
   return centre() + rotated(rotation_, reference - reference_centre_);
 }
 
-void Body::place_vertices() {
+void RigidBody::place_vertices() {
   const Point middle = centre();
   const bool turns = angular_velocity_ != Point{};
   surface_.only_shifted = !turns && is_identity(rotation_);
@@ -56,14 +55,15 @@ void Body::place_vertices() {
   }
 }
 
-void Body::set_velocity(const Point &velocity, const Point &angular_velocity) {
+void RigidBody::set_velocity(const Point &velocity, const Point &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   velocity_ = velocity;
   angular_velocity_ = angular_velocity;
   place_vertices();
 }
 
-void Body::drift(double dt) {
+void RigidBody::drift(double dt) {
+  last_move_ = largest_move(dt);
   if (velocity_ == Point{} && angular_velocity_ == Point{}) return;
   displacement_ = displacement_ + dt * velocity_;
   if (angular_velocity_ != Point{})
@@ -71,7 +71,7 @@ void Body::drift(double dt) {
   place_vertices();
 }
 
-double Body::largest_move(double dt) const {
+double RigidBody::largest_move(double dt) const {
   double reach = 0;
   if (angular_velocity_ != Point{})
     for (const Point &v : reference_vertices_)
@@ -79,7 +79,7 @@ double Body::largest_move(double dt) const {
   return std::abs(dt) * (norm(velocity_) + norm(angular_velocity_) * reach);
 }
 
-double Body::kinetic_energy() const {
+double RigidBody::kinetic_energy() const {
   double energy = 0.5 * mass() * dot(velocity_, velocity_);
   if (angular_velocity_ != Point{}) {
     const Point w = rotated({rotation_[0], -rotation_[1], -rotation_[2], -rotation_[3]}, angular_velocity_);
@@ -90,15 +90,11 @@ double Body::kinetic_energy() const {
   return energy;
 }
 
-double Body::internal_energy() const {
-  return 0;
-}
-
-double Body::stable_step() const {
+double RigidBody::stable_step(const VertexSprings &) const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> Body::state() const {
+std::vector<double> RigidBody::state() const {
   std::vector<double> numbers;
   const auto append = [&](const auto &values) {
     numbers.insert(numbers.end(), values.begin(), values.end());
@@ -111,7 +107,7 @@ std::vector<double> Body::state() const {
   return numbers;
 }
 
-void Body::set_state(const std::vector<double> &numbers) {
+void RigidBody::set_state(const std::vector<double> &numbers) {
   require(numbers.size() >= motion_numbers && (numbers.size() - motion_numbers) % 4 == 0,
           "state has " + std::to_string(numbers.size()) + " numbers, expected 13 and four per loaded vertex");
   for (std::size_t k = motion_numbers; k < numbers.size(); k += 4)

@@ -1,0 +1,228 @@
+// Platens that yield: stiff ones are rigid ones, loads go through them, and the machine's book closes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "coupling/problem.h"
+#include "fem/elastic_solid.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/small_cylinder.h"
+
+namespace platen::coupling {
+namespace {
+
+using fem::ElasticMotion;
+using fem::operator+;
+
+constexpr double steel = 200e9; // Pa
+
+const dem::Specimen &cylinder() {
+  static const dem::Specimen s = small_cylinder();
+  return s;
+}
+
+ProblemSettings between(ElasticMotion motion, double young) {
+  ProblemSettings s = elastic_settings(0.5);
+  s.platens.damping = 0.1;
+  s.platens.top = s.platens.bottom = {0.3, 0.2};
+  s.platens.thickness = 4e-3;
+  s.platens.material.young_modulus = young;
+  s.platens.elastic = ElasticPlatens{};
+  s.platens.elastic->motion = motion;
+  return s;
+}
+
+ProblemSettings crushing(ElasticMotion motion) {
+  ProblemSettings s = between(motion, steel);
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 1.0, 0.3};
+  s.model.contact = dem::ContactSettings{};
+  s.model.contact->friction = 0.5;
+  s.model.local_damping = 0.3;
+  s.seat = true;
+  s.loading.rate = 0.5;
+  s.loading.ramp = 5e-6;
+  return s;
+}
+
+void advance_to(Problem &problem, long steps) {
+  while (problem.steps() < steps) {
+    problem.advance(steps - problem.steps());
+    problem.model.take_cracks();
+  }
+}
+
+// The machine goes the same way, so that the load on stiff platens falls short of that on rigid ones by the
+// share of their own compliance: as 1 / E, and by less than 0.1 % at a thousand times steel.
+TEST(elastic_platens, stiff_ones_are_rigid_ones) {
+  ProblemSettings settings = between(ElasticMotion::quasi_static, steel);
+  settings.platens.top = settings.platens.bottom = {}; // friction chooses among paths by the last bits
+  ProblemSettings rigid = settings;
+  rigid.platens.elastic.reset();
+  rigid.fixed_step = settings.fixed_step = 0.5 * Problem(cylinder(), rigid).time_step();
+  Problem reference(cylinder(), rigid);
+  constexpr long steps = 2000;
+  advance_to(reference, steps);
+  const double stress = 0.5 * (reference.stress_top() + reference.stress_bottom());
+  ASSERT_GT(stress, 1e5);
+  std::vector<double> shortfall;
+  for (const double factor : {10.0, 100.0, 1000.0}) {
+    settings.platens.material.young_modulus = factor * steel;
+    Problem problem(cylinder(), settings);
+    advance_to(problem, steps);
+    EXPECT_EQ(problem.grip_closure(), reference.grip_closure());
+    shortfall.push_back(1 - 0.5 * (problem.stress_top() + problem.stress_bottom()) / stress);
+  }
+  EXPECT_GT(shortfall[2], 0);
+  EXPECT_LT(shortfall[2], 1e-3);
+  // What is left of the next order in 1 / E is the shortfall itself.
+  EXPECT_NEAR(shortfall[0] / shortfall[1], 10, 0.5);
+  EXPECT_NEAR(shortfall[1] / shortfall[2], 10, 0.5);
+}
+
+// With inertia or without, after some wave crossings: what is left is the waves.
+TEST(elastic_platens, explicit_and_quasi_static_ones_bear_alike) {
+  double stress[2], closure[2];
+  for (const bool still : {false, true}) {
+    ProblemSettings settings =
+        between(still ? ElasticMotion::quasi_static : ElasticMotion::explicit_steps, 20e9);
+    settings.fixed_step = 4e-8;
+    Problem problem(cylinder(), settings);
+    advance_to(problem, 5000);
+    stress[still] = problem.stress_top();
+    closure[still] = problem.closure_strain();
+    EXPECT_LT(problem.closure_strain() * problem.shape().height, 0.999 * problem.grip_closure());
+    EXPECT_NEAR(problem.top.book().strain, problem.bottom.book().strain, 0.5 * problem.top.book().strain);
+    // Contacts, friction, bonds and platens in one book.
+    const dem::EnergyLedger energy = problem.energy();
+    EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary) << still;
+    EXPECT_GT(energy.bodies, 0.01 * energy.boundary);
+  }
+  EXPECT_NEAR(stress[1] / stress[0], 1, 0.01);
+  EXPECT_NEAR(closure[1] / closure[0], 1, 0.01);
+}
+
+// 8 x 8 spheres, one in the middle of each element of the face: a uniform pressure. What the machine bears is
+// the loads' sum, and so is the mean stress in any cut.
+TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
+  constexpr int across = 8;
+  constexpr double r = 1e-3;
+  dem::Specimen layer;
+  layer.shape = dem::box(across * 2 * r, across * 2 * r, 2 * r);
+  for (int i = 0; i < across * across; ++i) {
+    layer.centre.push_back({(2 * (i % across) - across + 1) * r, (2 * (i / across) - across + 1) * r, r});
+    layer.radius.push_back(r);
+  }
+  ProblemSettings settings = between(ElasticMotion::quasi_static, steel);
+  settings.model.bond.reset();
+  settings.ends = Ends::as_packed;
+  settings.platens.overhang = 1;
+  settings.platens.thickness = 8e-3;
+  settings.platens.elements_across = across;
+  settings.loading.ramp = 2e-5;
+  Problem problem(layer, settings);
+  advance_to(problem, 1000);
+  for (fem::Body *body : {&problem.top, &problem.bottom}) {
+    auto &solid = static_cast<fem::ElasticSolid &>(*body);
+    const fem::Point load = solid.total_force();
+    ASSERT_GT(std::abs(load[2]), 10);
+    solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
+    const std::vector<fem::Point> u = solid.deformation();
+    std::vector<fem::Point> force;
+    solid.model().stiffness.multiply(u, force);
+    fem::Point reaction{};
+    for (const int node : solid.grip_nodes())
+      reaction = reaction + force[static_cast<std::size_t>(node)];
+    EXPECT_LT(fem::norm(reaction + load), 1e-12 * fem::norm(load)) << fem::norm(reaction + load);
+    double mean = 0;
+    int cells = 0;
+    const std::vector<fem::Stress> stress = solid.stress_of_cells();
+    const double middle = (body == &problem.top ? 2 * r : 0) + (body == &problem.top ? 4e-3 : -4e-3);
+    for (std::size_t c = 0; c < stress.size(); ++c) {
+      double z = 0;
+      for (std::size_t k = 0; k < 8; ++k)
+        z += 0.125 * solid.model().nodes[static_cast<std::size_t>(solid.model().cell_nodes[8 * c + k])][2];
+      if (std::abs(z - middle) > 1.5e-3) continue;
+      mean += stress[c][2], ++cells;
+    }
+    ASSERT_GT(cells, 0);
+    const double pressure = std::abs(load[2]) / (across * across * 4 * r * r);
+    EXPECT_NEAR(-mean / cells, pressure, 0.01 * pressure);
+  }
+}
+
+TEST(elastic_platens, the_book_closes_through_a_crush) {
+  for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
+    Problem problem(cylinder(), crushing(motion));
+    advance_to(problem, 3000);
+    EXPECT_GT(problem.model.broken_tension, 20);
+    const dem::EnergyLedger energy = problem.energy();
+    EXPECT_GT(energy.friction, 0);
+    EXPECT_LT(std::abs(energy.residual()), 0.01 * energy.boundary) << static_cast<int>(motion);
+  }
+}
+
+// A mesh so fine that its own steps are shorter than those of the particles.
+TEST(elastic_platens, fine_meshes_take_steps_of_their_own) {
+  ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+  settings.platens.material.young_modulus = 20 * steel;
+  settings.platens.elements_across = 24;
+  settings.platens.stiffness_of_bond = 0.05; // of contacts that let the particles' step stay long
+  settings.platens.thickness = 2e-3;
+  Problem problem(cylinder(), settings);
+  const auto &top = static_cast<const fem::ElasticSolid &>(problem.top);
+  ASSERT_GT(top.substeps(problem.time_step()), 1);
+  advance_to(problem, 1500);
+  const dem::EnergyLedger energy = problem.energy();
+  EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary);
+  EXPECT_LT(energy.bodies, 0.2 * energy.boundary);
+}
+
+void copy(const dem::Table &from, dem::Table &to) {
+  to.resize(from.size());
+  for (std::size_t c = 0; c < from.columns().size(); ++c)
+    std::memcpy(to.columns()[c]->bytes(), from.columns()[c]->bytes(),
+                from.size() * from.columns()[c]->bytes_per_row());
+}
+
+// What a checkpoint keeps.
+void restore(const Problem &from, Problem &to) {
+  copy(from.model.particles.table, to.model.particles.table);
+  copy(from.model.bonds->table, to.model.bonds->table);
+  copy(from.model.bonds->records, to.model.bonds->records);
+  copy(from.model.contacts->table, to.model.contacts->table);
+  to.model.contacts->search_state().set_state(from.model.contacts->search_state().state());
+  to.top.set_state(from.top.state());
+  to.bottom.set_state(from.bottom.state());
+  copy(from.top_layer.history(), to.top_layer.history());
+  copy(from.bottom_layer.history(), to.bottom_layer.history());
+  to.set_numbers(from.numbers());
+  to.restored();
+}
+
+TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
+  for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
+    const ProblemSettings settings = crushing(motion);
+    Problem run(cylinder(), settings);
+    advance_to(run, 1013); // in the middle of the loads' mean
+    Problem resumed(cylinder(), settings);
+    restore(run, resumed);
+    EXPECT_EQ(run.top.state(), resumed.top.state());
+    advance_to(run, 1500);
+    advance_to(resumed, 1500);
+    EXPECT_EQ(run.numbers(), resumed.numbers());
+    EXPECT_EQ(run.top.state(), resumed.top.state());
+    EXPECT_EQ(run.bottom.state(), resumed.bottom.state());
+    EXPECT_EQ(run.energy().boundary, resumed.energy().boundary);
+  }
+}
+
+TEST(elastic_platens, are_not_carried_to_a_start) {
+  Problem problem(cylinder(), between(ElasticMotion::explicit_steps, steel));
+  EXPECT_THROW(problem.carry({}, {}, 1e-6), std::logic_error);
+}
+
+} // namespace
+} // namespace platen::coupling
