@@ -205,8 +205,8 @@ void ElasticSolid::drift(double dt, int steps) {
 }
 
 void ElasticSolid::substep(double dt) {
-  damp(dt);
   internal_kick(0.5 * dt);
+  damp(dt);
   move_frame(dt);
   for (std::size_t i = 0; i < moved_.size(); ++i)
     moved_[i] = moved_[i] + dt * rate_[i];
@@ -238,7 +238,9 @@ void ElasticSolid::internal_kick(double dt) {
   if (turns_freely()) place_held();
 }
 
-// Dashpots to the frame and between the nodes, and at the seat.
+// Dashpots to the frame and between the nodes, and at the seat, on the velocities of the way: between kicks
+// of loads and of internal forces those are off by half a step of either, and what rests under load would be
+// damped. The energy that a step keeps is made of velocities half a kick before.
 void ElasticSolid::damp(double dt) {
   const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
   if (turns_freely() && grip_.damping > 0) {
@@ -261,7 +263,7 @@ void ElasticSolid::damp(double dt) {
         free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * (1 - std::exp(-alpha * dt))) * w);
     const Point gain = (1 / mass) * push;
     rate_[i] = rate_[i] + gain;
-    dissipated_ -= dot(push, w + 0.5 * gain);
+    dissipated_ -= dot(push, w + 0.5 * gain - (0.5 * dt / mass) * free_part(i, force_[i]));
     force = force - push, moment = moment - cross(arm(i), push);
   }
   if (grip_nodes_.empty()) return;

@@ -160,24 +160,8 @@ TEST(elastic_platens, the_book_closes_through_a_crush) {
     EXPECT_GT(problem.model.broken_tension, 20);
     const dem::EnergyLedger energy = problem.energy();
     EXPECT_GT(energy.friction, 0);
-    EXPECT_LT(std::abs(energy.residual()), 0.01 * energy.boundary) << static_cast<int>(motion);
+    EXPECT_LT(std::abs(energy.residual()), 2e-3 * energy.boundary) << static_cast<int>(motion);
   }
-}
-
-// A mesh so fine that its own steps are shorter than those of the particles.
-TEST(elastic_platens, fine_meshes_take_steps_of_their_own) {
-  ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
-  settings.platens.material.young_modulus = 20 * steel;
-  settings.platens.elements_across = 24;
-  settings.platens.stiffness_of_bond = 0.05; // of contacts that let the particles' step stay long
-  settings.platens.thickness = 2e-3;
-  Problem problem(cylinder(), settings);
-  const auto &top = static_cast<const fem::ElasticSolid &>(problem.top);
-  ASSERT_GT(top.substeps(problem.time_step()), 1);
-  advance_to(problem, 1500);
-  const dem::EnergyLedger energy = problem.energy();
-  EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary);
-  EXPECT_LT(energy.bodies, 0.2 * energy.boundary);
 }
 
 void copy(const dem::Table &from, dem::Table &to) {
