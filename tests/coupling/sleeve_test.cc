@@ -1,0 +1,149 @@
+// A sleeve around a bonded cylinder: what the cell presses on it arrives at the particles, and no energy is
+// lost on the way.
+#include "coupling/sleeve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/model.h"
+#include "dem/parallel.h"
+#include "fem/threads.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/small_cylinder.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+SleeveSettings butyl() {
+  SleeveSettings s;
+  s.thickness = 1e-3;
+  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.49)};
+  s.elements_around = 24;
+  s.contact.particle_stiffness = 1e6;
+  s.contact.damping = 0.2;
+  s.contact.skin = 3e-4;
+  s.mass_damping = 2e3;
+  return s;
+}
+
+// Specimen and sleeve on one clock; the pressure rises smoothly.
+struct Cell {
+  dem::Specimen specimen = small_cylinder();
+  dem::Model model;
+  Sleeve sleeve;
+  double ramp = 3e-3, pressure = 1e6, dt;
+
+  explicit Cell(const SleeveSettings &settings = butyl())
+      : model(specimen, with_contacts()),
+        sleeve(model.particles, specimen.shape, 0, specimen.shape.height, settings) {
+    dt = 0.5 * model.stable_step(sleeve.layer.ground_springs(model.particles, sleeve.solid), 0).limit;
+  }
+  static dem::ModelSettings with_contacts() {
+    dem::ModelSettings s = elastic_settings(0.5).model;
+    s.local_damping = 0.3;
+    return s;
+  }
+  void step() {
+    model.begin_step(dt);
+    const double x = std::min(1.0, model.time / ramp);
+    sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
+    sleeve.layer.moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
+    model.compute_forces(dt);
+    sleeve.layer.add_forces(model.particles, sleeve.solid, dt);
+    sleeve.take_loads(dt);
+    model.end_step(dt);
+  }
+  void run(double until) {
+    while (model.time < until)
+      step();
+  }
+  double residual() {
+    dem::EnergyLedger e = model.energy();
+    e.kinetic += sleeve.solid.kinetic_energy();
+    e.bodies += sleeve.solid.internal_energy();
+    e.contacts += sleeve.layer.elastic_energy();
+    e.damping += sleeve.layer.damping_work + sleeve.lost();
+    e.friction += sleeve.layer.friction_work;
+    e.boundary += sleeve.work();
+    return e.residual();
+  }
+};
+
+// Sum of the normal forces on the particles along the radius, N.
+double radial_force(const Cell &cell) {
+  double sum = 0;
+  for (const ActiveContact &c : cell.sleeve.layer.contacts())
+    sum -=
+        c.normal_force * (c.normal.x * c.point.x + c.normal.y * c.point.y) / std::hypot(c.point.x, c.point.y);
+  return sum;
+}
+
+TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
+  Cell cell;
+  cell.run(5e-3);
+  EXPECT_GT(cell.sleeve.layer.closed, 50u);
+  // A rigid ring of radius R would take p 2 pi R h; the faces bear it on the outer face, and the closed tube
+  // keeps what it needs to shrink: little, for the specimen is ten thousand times as stiff. Rims are held,
+  // and bear their part.
+  const dem::Shape &shape = cell.specimen.shape;
+  const double outer = 24 * std::sin(pi / 24) / pi * (shape.radius / std::cos(pi / 24) + 1e-3);
+  const double whole = cell.pressure * 2 * pi * outer * shape.height;
+  EXPECT_NEAR(radial_force(cell) / whole, 1, 0.12);
+  EXPECT_LT(radial_force(cell), whole);
+}
+
+TEST(sleeve, the_energy_of_pressure_is_found_again) {
+  Cell cell;
+  cell.run(5e-3);
+  EXPECT_GT(cell.sleeve.steps_of_interval(), 3); // it is stepped seldom
+  EXPECT_GT(cell.sleeve.work(), 0);
+  EXPECT_LT(std::abs(cell.residual()), 0.01 * cell.sleeve.work());
+}
+
+TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
+  Cell whole, first, second;
+  whole.run(4e-4);
+  first.run(2e-4);
+  const std::vector<double> kept = first.sleeve.state();
+  second.sleeve.set_state(kept);
+  EXPECT_EQ(second.sleeve.state(), kept);
+  EXPECT_EQ(second.sleeve.solid.surface().vertices, first.sleeve.solid.surface().vertices);
+  first.run(4e-4);
+  EXPECT_EQ(first.sleeve.state(), whole.sleeve.state());
+}
+
+TEST(sleeve, threads_change_no_bit) {
+  Cell one, two;
+  {
+    const dem::ThreadLimit limit(1);
+    fem::limit_threads(1);
+    one.run(2e-4);
+  }
+  {
+    const dem::ThreadLimit limit(2);
+    fem::limit_threads(2);
+    two.run(2e-4);
+  }
+  EXPECT_EQ(one.sleeve.state(), two.sleeve.state());
+  EXPECT_EQ(
+      std::vector<dem::Vector3>(one.model.particles.position.begin(), one.model.particles.position.end()),
+      std::vector<dem::Vector3>(two.model.particles.position.begin(), two.model.particles.position.end()));
+}
+
+TEST(sleeve, what_cannot_be_is_refused) {
+  const dem::Specimen s = small_cylinder();
+  const dem::Model model(s, Cell::with_contacts());
+  SleeveSettings settings = butyl();
+  settings.thickness = 0;
+  EXPECT_THROW(Sleeve(model.particles, s.shape, 0, s.shape.height, settings), std::invalid_argument);
+  settings = butyl();
+  settings.mass_scaling = 0.5;
+  EXPECT_THROW(Sleeve(model.particles, s.shape, 0, s.shape.height, settings), std::invalid_argument);
+  EXPECT_THROW(Sleeve(model.particles, dem::box(1, 1, 1), 0, 1, butyl()), std::invalid_argument);
+}
+
+} // namespace
+} // namespace platen::coupling
