@@ -6,6 +6,12 @@
 #include <string>
 
 namespace platen::coupling {
+
+// fem::Point is an array: its operators are not found by its type.
+using fem::operator+;
+using fem::operator-;
+using fem::operator*;
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
