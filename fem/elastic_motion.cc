@@ -132,6 +132,7 @@ void ElasticSolid::give_to_grip(double dt, const Point &force, const Point &mome
 void ElasticSolid::kick(double dt) {
   Point force{}, moment{}; // handed on to the grip
   double relative = 0;     // power in the frame, quasi-static
+  kicked_.clear();
   for (const int v : loaded_) {
     const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
     const Point load = contact_load(v), r = arm(node);
@@ -144,6 +145,7 @@ void ElasticSolid::kick(double dt) {
     const Point gain = (dt / model_.mass[node]) * free;
     load_work_ += dt * dot(free, rate_[node] + 0.5 * gain);
     rate_[node] = rate_[node] + gain;
+    kicked_.push_back({node, gain, {}});
     force = force + kept, moment = moment + cross(r, kept);
   }
   const Point before = angular_velocity_;
@@ -210,7 +212,9 @@ void ElasticSolid::internal_kick(double dt) {
   if (turns_freely()) place_held();
 }
 
-// Dashpots to the frame and between the nodes, and at the seat.
+// Dashpots to the frame and between the nodes, and at the seat. They act where both halves of the loads'
+// impulse meet: the half that has come already is put off meanwhile, else a loaded body at rest would be
+// damped.
 void ElasticSolid::damp(double dt) {
   const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
   if (turns_freely() && grip_.damping > 0) {
@@ -221,6 +225,10 @@ void ElasticSolid::damp(double dt) {
     dissipated_ += before - held_kinetic_energy();
   }
   if (alpha == 0 && beta == 0) return;
+  for (Kicked &k : kicked_) {
+    rate_[k.node] = rate_[k.node] - k.gain;
+    k.before = rate_[k.node];
+  }
   std::vector<Point> relative(rate_.size()), impulse(rate_.size(), Point{});
   for (std::size_t i = 0; i < rate_.size(); ++i)
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
@@ -236,6 +244,11 @@ void ElasticSolid::damp(double dt) {
     dissipated_ -= dot(push, w + 0.5 * gain);
     force = force - push, moment = moment - cross(arm(i), push);
   }
+  for (const Kicked &k : kicked_) {
+    load_work_ += model_.mass[k.node] * dot(k.gain, rate_[k.node] - k.before);
+    rate_[k.node] = rate_[k.node] + k.gain;
+  }
+  kicked_.clear();
   if (grip_nodes_.empty()) return;
   give_to_grip(1, force, moment);
   if (turns_freely()) place_held();

@@ -3,7 +3,6 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -14,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "fem/plain_mapping.h"
 
 namespace platen::fem {
 namespace {
@@ -318,7 +319,8 @@ VolumeMoments volume_moments(const Grid &grid) {
   // exact.
   const dealii::QGauss<3> quadrature(3);
   const dealii::FE_Nothing<3> element;
-  dealii::FEValues<3> values(element, quadrature,
+  const PlainMapping mapping;
+  dealii::FEValues<3> values(mapping, element, quadrature,
                              dealii::update_quadrature_points | dealii::update_JxW_values);
   VolumeMoments m;
   const auto integrate = [&](const auto &add) {

@@ -21,7 +21,7 @@ SleeveSettings butyl() {
   SleeveSettings s;
   s.thickness = 1e-3;
   s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.49)};
-  s.elements_around = 24;
+  s.elements_around = 12; // two spheres wide: faces bridge the gaps between spheres
   s.contact.particle_stiffness = 1e6;
   s.contact.damping = 0.2;
   s.contact.skin = 3e-4;
@@ -34,11 +34,12 @@ struct Cell {
   dem::Specimen specimen = small_cylinder();
   dem::Model model;
   Sleeve sleeve;
-  double ramp = 3e-3, pressure = 1e6, dt;
+  double ramp = 6e-4, pressure = 1e5, dt;
 
   explicit Cell(const SleeveSettings &settings = butyl())
       : model(specimen, with_contacts()),
         sleeve(model.particles, specimen.shape, 0, specimen.shape.height, settings) {
+    sleeve.layer.seat_within(model.particles, sleeve.solid, 1e-3);
     dt = 0.5 * model.stable_step(sleeve.layer.ground_springs(model.particles, sleeve.solid), 0).limit;
   }
   static dem::ModelSettings with_contacts() {
@@ -83,13 +84,13 @@ double radial_force(const Cell &cell) {
 
 TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
   Cell cell;
-  cell.run(5e-3);
+  cell.run(1e-3);
   EXPECT_GT(cell.sleeve.layer.closed, 50u);
   // A rigid ring of radius R would take p 2 pi R h; the faces bear it on the outer face, and the closed tube
   // keeps what it needs to shrink: little, for the specimen is ten thousand times as stiff. Rims are held,
   // and bear their part.
   const dem::Shape &shape = cell.specimen.shape;
-  const double outer = 24 * std::sin(pi / 24) / pi * (shape.radius / std::cos(pi / 24) + 1e-3);
+  const double outer = 12 * std::sin(pi / 12) / pi * (shape.radius / std::cos(pi / 12) + 1e-3);
   const double whole = cell.pressure * 2 * pi * outer * shape.height;
   EXPECT_NEAR(radial_force(cell) / whole, 1, 0.12);
   EXPECT_LT(radial_force(cell), whole);
@@ -97,7 +98,7 @@ TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
 
 TEST(sleeve, the_energy_of_pressure_is_found_again) {
   Cell cell;
-  cell.run(5e-3);
+  cell.run(1e-3);
   EXPECT_GT(cell.sleeve.steps_of_interval(), 3); // it is stepped seldom
   EXPECT_GT(cell.sleeve.work(), 0);
   EXPECT_LT(std::abs(cell.residual()), 0.01 * cell.sleeve.work());
@@ -105,13 +106,13 @@ TEST(sleeve, the_energy_of_pressure_is_found_again) {
 
 TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
   Cell whole, first, second;
-  whole.run(4e-4);
-  first.run(2e-4);
+  whole.run(1e-4);
+  first.run(5e-5);
   const std::vector<double> kept = first.sleeve.state();
   second.sleeve.set_state(kept);
   EXPECT_EQ(second.sleeve.state(), kept);
   EXPECT_EQ(second.sleeve.solid.surface().vertices, first.sleeve.solid.surface().vertices);
-  first.run(4e-4);
+  first.run(1e-4);
   EXPECT_EQ(first.sleeve.state(), whole.sleeve.state());
 }
 
@@ -120,12 +121,12 @@ TEST(sleeve, threads_change_no_bit) {
   {
     const dem::ThreadLimit limit(1);
     fem::limit_threads(1);
-    one.run(2e-4);
+    one.run(5e-5);
   }
   {
     const dem::ThreadLimit limit(2);
     fem::limit_threads(2);
-    two.run(2e-4);
+    two.run(5e-5);
   }
   EXPECT_EQ(one.sleeve.state(), two.sleeve.state());
   for (std::size_t k = 0; k < one.model.particles.size(); ++k)
