@@ -3,6 +3,7 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <utility>
 
 #include "fem/elastic_model.h"
-#include "fem/plain_mapping.h"
+#include "fem/threads.h"
 
 namespace platen::fem {
 namespace {
@@ -142,7 +143,8 @@ std::vector<Point> face_load(const ElasticModel &model, int tag,
   std::vector<Point> load(model.nodes.size(), Point{});
   const std::size_t n = nodes_per_cell(model);
   const dealii::QGauss<2> gauss(static_cast<unsigned int>(model.degree) + 2);
-  const PlainMapping mapping;
+  const NoCellReuse same_for_any_threads;
+  const dealii::MappingQ<3> mapping(1);
   dealii::FEFaceValues<3> values(mapping, model.numbers->get_fe(), gauss,
                                  dealii::update_values | dealii::update_quadrature_points |
                                      dealii::update_normal_vectors | dealii::update_JxW_values);
@@ -192,8 +194,9 @@ double von_mises(const Stress &s) {
 
 std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
   std::vector<Stress> result(model.cell_material.size()), local;
+  const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
-  const PlainMapping mapping;
+  const dealii::MappingQ<3> mapping(1);
   dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss,
                              dealii::update_gradients | dealii::update_JxW_values);
   for (const auto &cell : model.numbers->active_cell_iterators()) {
@@ -213,8 +216,9 @@ std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Poi
 
 std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
   const std::size_t n = nodes_per_cell(model);
+  const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
-  const PlainMapping mapping;
+  const dealii::MappingQ<3> mapping(1);
   dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss, dealii::update_gradients);
   // Shares of the Gauss points in each node: all of one point, or the trilinear through eight.
   std::vector<double> share(n * gauss.size(), 1.0);

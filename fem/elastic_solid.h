@@ -191,7 +191,7 @@ private:
     std::size_t node;
     Point gain, before; // m/s
   };
-  std::vector<Kicked> kicked_; // by the loads since the last drift
+  std::vector<Kicked> kicked_;       // by the loads since the last drift
   std::vector<StaticSolver> solver_; // none until the first aim()
 };
 

@@ -1,8 +1,10 @@
 #include "fem/grids.h"
+#include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -13,8 +15,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
-#include "fem/plain_mapping.h"
 
 namespace platen::fem {
 namespace {
@@ -319,7 +319,8 @@ VolumeMoments volume_moments(const Grid &grid) {
   // exact.
   const dealii::QGauss<3> quadrature(3);
   const dealii::FE_Nothing<3> element;
-  const PlainMapping mapping;
+  const NoCellReuse same_for_any_threads;
+  const dealii::MappingQ<3> mapping(1);
   dealii::FEValues<3> values(mapping, element, quadrature,
                              dealii::update_quadrature_points | dealii::update_JxW_values);
   VolumeMoments m;
