@@ -7,38 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "fem/rotation.h"
+
 namespace platen::fem {
 namespace {
-
-using Quaternion = std::array<double, 4>;
-
-Quaternion product(const Quaternion &a, const Quaternion &b) {
-  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-}
-
-Quaternion normalised(const Quaternion &q) {
-  const double s = 1.0 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  return {s * q[0], s * q[1], s * q[2], s * q[3]};
-}
-
-// Rotation by the vector phi (axis times angle, rad).
-Quaternion exponential(const Point &phi) {
-  const double angle = norm(phi);
-  const double s = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
-  return normalised({std::cos(0.5 * angle), s * phi[0], s * phi[1], s * phi[2]});
-}
-
-Point rotated(const Quaternion &q, const Point &v) {
-  const Point u = {q[1], q[2], q[3]}, t = 2.0 * cross(u, v);
-  return v + q[0] * t + cross(u, t);
-}
-
-bool is_identity(const Quaternion &q) {
-  return q[1] == 0 && q[2] == 0 && q[3] == 0;
-}
 
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("body: " + what);
@@ -51,9 +23,7 @@ constexpr std::size_t motion_numbers = 13; // displacement 3, rotation 4, veloci
 Body::Body(Grid grid, const Material &material, BodyKind kind)
     : grid_(std::move(grid)), material_(material), kind_(kind) {
   require(grid_ != nullptr, "no grid");
-  require(material.density > 0, "density must be positive");
-  require(material.young_modulus > 0, "Young's modulus must be positive");
-  require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5, "Poisson ratio must lie in (-1, 0.5)");
+  check(material, "body");
   GridSurface extracted = extract_surface(grid_);
   set_surface(std::move(extracted.surface));
   grid_vertex_ = std::move(extracted.grid_vertex);

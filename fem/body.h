@@ -9,14 +9,9 @@
 
 #include "fem/grids.h"
 #include "fem/loaded_surface.h"
+#include "fem/material.h"
 
 namespace platen::fem {
-
-struct Material {
-  double density;       // kg/m^3, positive
-  double young_modulus; // Pa, positive
-  double poisson_ratio; // 1, between -1 and 1/2
-};
 
 enum class BodyKind { rigid };
 

@@ -1,9 +1,10 @@
 #include "fem/grids.h"
+#include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -126,6 +128,8 @@ Grid make_grid(const BoxPlate &plate) {
   dealii::GridGenerator::subdivided_hyper_rectangle(
       *grid, {count(0), count(1), count(2)}, dealii::Point<3>(plate.low[0], plate.low[1], plate.low[2]),
       dealii::Point<3>(plate.high[0], plate.high[1], plate.high[2]), true);
+  for (const auto &cell : grid->active_cell_iterators())
+    cell->set_material_id(0); // the generator numbers octants
   return grid;
 }
 
@@ -183,6 +187,101 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
   return grid;
 }
 
+namespace {
+
+void check(const std::vector<Layer> &layers, double whole) {
+  require(!layers.empty(), "there are no layers");
+  double sum = 0;
+  for (const Layer &layer : layers) {
+    require(layer.thickness > 0, "the thickness of a layer must be positive");
+    require(layer.elements >= 1, "at least one element through a layer");
+    sum += layer.thickness;
+  }
+  require(std::abs(sum - whole) <= 1e-9 * whole, "the layers are " + std::to_string(sum) +
+                                                     " m thick together, the plate " + std::to_string(whole) +
+                                                     " m");
+}
+
+int elements_of(const std::vector<Layer> &layers) {
+  int sum = 0;
+  for (const Layer &layer : layers)
+    sum += layer.elements;
+  return sum;
+}
+
+// From even heights between low and high to those of the layers, by whole numbers: ends keep their bits.
+void stretch(dealii::Triangulation<3> &grid, const std::vector<Layer> &layers, double low, double high) {
+  std::vector<double> heights = {low};
+  std::vector<unsigned int> material;
+  double below = low;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    for (int j = 1; j <= layers[k].elements; ++j) {
+      heights.push_back(below + layers[k].thickness * j / layers[k].elements);
+      material.push_back(static_cast<unsigned int>(k));
+    }
+    below = heights.back();
+  }
+  heights.back() = high;
+  const double count = static_cast<double>(material.size());
+  const auto level = [&](double z) { return (z - low) / (high - low) * count; };
+  for (const auto &cell : grid.active_cell_iterators())
+    cell->set_material_id(material[static_cast<std::size_t>(level(cell->center()[2]))]);
+  const auto raise = [&](dealii::Point<3> p) {
+    p[2] = heights[static_cast<std::size_t>(std::lround(level(p[2])))];
+    return p;
+  };
+  dealii::GridTools::transform(raise, grid);
+}
+
+} // namespace
+
+Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers) {
+  check(layers, plate.thickness);
+  CylinderPlate even = plate;
+  even.elements_thick = elements_of(layers);
+  Grid grid = make_grid(even);
+  stretch(*grid, layers, plate.z_low, plate.z_low + plate.thickness);
+  return grid;
+}
+
+Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers) {
+  check(layers, plate.high[2] - plate.low[2]);
+  BoxPlate even = plate;
+  even.elements[2] = elements_of(layers);
+  Grid grid = make_grid(even);
+  stretch(*grid, layers, plate.low[2], plate.high[2]);
+  return grid;
+}
+
+Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place) {
+  auto moved = std::make_shared<dealii::Triangulation<3>>();
+  moved->copy_triangulation(*grid);
+  dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p) {
+        const Point q = place({p[0], p[1], p[2]});
+        return dealii::Point<3>(q[0], q[1], q[2]);
+      },
+      *moved);
+  return moved;
+}
+
+std::string inverted_cell(const Grid &grid) {
+  for (const auto &cell : grid->active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices()) {
+      // Edges along the cell's three axes, of which bits of v tell the direction.
+      std::array<dealii::Tensor<1, 3>, 3> edge;
+      for (unsigned int k = 0; k < 3; ++k)
+        edge[k] = (v >> k & 1U ? -1.0 : 1.0) * (cell->vertex(v ^ (1U << k)) - cell->vertex(v));
+      if (dealii::cross_product_3d(edge[0], edge[1]) * edge[2] > 0) continue;
+      const dealii::Point<3> p = cell->center();
+      std::ostringstream name;
+      name << "cell " << cell->active_cell_index() << " at (" << p[0] << ", " << p[1] << ", " << p[2]
+           << ") m";
+      return name.str();
+    }
+  return "";
+}
+
 GridSurface extract_surface(const Grid &grid) {
   GridSurface result;
   std::vector<int> surface_vertex(grid->n_vertices(), -1);
@@ -220,7 +319,9 @@ VolumeMoments volume_moments(const Grid &grid) {
   // exact.
   const dealii::QGauss<3> quadrature(3);
   const dealii::FE_Nothing<3> element;
-  dealii::FEValues<3> values(element, quadrature,
+  const NoCellReuse same_for_any_threads;
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, element, quadrature,
                              dealii::update_quadrature_points | dealii::update_JxW_values);
   VolumeMoments m;
   const auto integrate = [&](const auto &add) {

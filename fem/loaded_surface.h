@@ -21,6 +21,7 @@ public:
     load_[v] = load_[v] + force;
   }
   const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
+  const std::vector<Point> &contact_loads() const { return load_; }   // N, one per vertex
   const std::vector<int> &loaded_vertices() const { return loaded_; } // in the order of their first load
   Point total_force() const;                                          // N
   Point moment(const Point &about) const;                             // N m

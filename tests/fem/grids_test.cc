@@ -111,6 +111,48 @@ TEST(grids, elements_of_a_disc_are_of_one_size) {
   }
 }
 
+// Prisms over chords: volume n/2 sin(2 pi/n) (B^2 - A^2) h, inner normals point to the axis.
+TEST(grids, a_tube_has_four_sides_and_the_volume_of_its_prisms) {
+  const Tube tube{0.05, 0.003, -0.01, 0.2, 20, 6, 2};
+  const Grid grid = make_grid(tube);
+  const SurfaceMesh surface = extract_surface(grid).surface;
+  const double a = 0.05, b = 0.053, share = 10 * std::sin(pi / 10);
+  EXPECT_NEAR(volume_moments(grid).volume, share * (b * b - a * a) * 0.2, 1e-15);
+  EXPECT_NEAR(enclosed_volume(surface), share * (b * b - a * a) * 0.2, 1e-15);
+  EXPECT_LT(norm(total_area_vector(surface)), 1e-15);
+  std::map<int, double> area;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const Point own = face_area_vector(surface, f),
+                at = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
+    area[surface.face_tags[f]] += norm(own);
+    const double outwards = own[0] * at[0] + own[1] * at[1];
+    switch (surface.face_tags[f]) {
+      case inner_tag:
+        EXPECT_LT(outwards, 0);
+        break;
+      case mantle_tag:
+        EXPECT_GT(outwards, 0);
+        break;
+      case low_end_tag:
+        EXPECT_LT(own[2], 0);
+        break;
+      default:
+        EXPECT_GT(own[2], 0);
+    }
+  }
+  const double chord = 40 * std::sin(pi / 20) * 0.2;
+  const std::map<int, double> expected{{mantle_tag, chord * b},
+                                       {low_end_tag, share * (b * b - a * a)},
+                                       {high_end_tag, share * (b * b - a * a)},
+                                       {inner_tag, chord * a}};
+  ASSERT_EQ(area.size(), expected.size());
+  for (const auto &[tag, size] : expected)
+    EXPECT_NEAR(area[tag], size, 1e-14) << tag;
+  EXPECT_THROW(make_grid(Tube{0, 1, 0, 1, 8, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(make_grid(Tube{1, 1, 0, 1, 2, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(make_grid(Tube{1, 1, 0, -1, 8, 1, 1}), std::invalid_argument);
+}
+
 TEST(grids, sizes_that_make_no_plate_are_refused) {
   EXPECT_THROW(make_grid(CylinderPlate{0, 0.1, 0, 8, 2}), std::invalid_argument);
   EXPECT_THROW(make_grid(CylinderPlate{1, -0.1, 0, 8, 2}), std::invalid_argument);

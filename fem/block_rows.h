@@ -1,0 +1,27 @@
+// A square matrix of 3 x 3 blocks in rows, one row and one column per node.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fem/point.h"
+
+namespace platen::fem {
+
+struct BlockRows {
+  std::vector<std::size_t> begin; // of each row in `column`; one more than there are rows
+  std::vector<int> column;        // ascending within a row
+  std::vector<double> values;     // nine per block, row by row
+
+  std::size_t rows() const { return begin.empty() ? 0 : begin.size() - 1; }
+  // The block at (row, col), which must be there.
+  double *block(std::size_t row, int col);
+  // y = A x. Each row is summed in the order of its blocks by one thread: bitwise the same for any number of
+  // threads. x and y must not be the same vector.
+  void multiply(const std::vector<Point> &x, std::vector<Point> &y) const;
+};
+
+// Sums over nodes, in their order.
+double dot(const std::vector<Point> &a, const std::vector<Point> &b);
+
+} // namespace platen::fem

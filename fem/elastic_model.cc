@@ -1,0 +1,181 @@
+#include "fem/elastic_model.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "fem/threads.h"
+
+namespace platen::fem {
+namespace {
+
+void require(bool holds, const std::string &what) {
+  if (!holds) throw std::invalid_argument("elastic solid: " + what);
+}
+
+template <class Cell>
+std::string name_of(const Cell &cell) {
+  const dealii::Point<3> p = cell->center();
+  return "cell " + std::to_string(cell->active_cell_index()) + " at (" + std::to_string(p[0]) + ", " +
+         std::to_string(p[1]) + ", " + std::to_string(p[2]) + ") m";
+}
+
+void number_nodes(ElasticModel &model, const dealii::FE_Q<3> &element) {
+  const auto numbers = std::make_shared<dealii::DoFHandler<3>>(*model.grid);
+  numbers->distribute_dofs(element);
+  dealii::DoFRenumbering::Cuthill_McKee(*numbers); // neighbours near in memory
+  model.nodes.resize(numbers->n_dofs());
+  std::vector<dealii::Point<3>> points(numbers->n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ<3>(1), *numbers, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    model.nodes[i] = {points[i][0], points[i][1], points[i][2]};
+  std::vector<dealii::types::global_dof_index> ids(element.n_dofs_per_cell());
+  for (const auto &cell : numbers->active_cell_iterators()) {
+    require(cell->material_id() < model.materials.size(),
+            name_of(cell) + " is of material " + std::to_string(cell->material_id()) + ", but there are " +
+                std::to_string(model.materials.size()));
+    model.cell_material.push_back(static_cast<int>(cell->material_id()));
+    cell->get_dof_indices(ids);
+    for (const auto id : ids)
+      model.cell_nodes.push_back(static_cast<int>(id));
+  }
+  model.numbers = numbers;
+}
+
+void lay_out(ElasticModel &model) {
+  const auto n = static_cast<dealii::DynamicSparsityPattern::size_type>(model.nodes.size());
+  dealii::DynamicSparsityPattern pattern(n, n);
+  dealii::DoFTools::make_sparsity_pattern(*model.numbers, pattern);
+  BlockRows &k = model.stiffness;
+  k.begin.push_back(0);
+  for (dealii::DynamicSparsityPattern::size_type row = 0; row < n; ++row) {
+    for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)
+      k.column.push_back(static_cast<int>(entry->column()));
+    k.begin.push_back(k.column.size());
+  }
+  k.values.assign(9 * k.column.size(), 0.0);
+}
+
+// One cell's blocks, row by row of nodes: lambda g_a g_b^T + mu (g_a . g_b I + g_b g_a^T), integrated. Blocks
+// (b, a) are the transposed of (a, b), so that the sum is exactly symmetric.
+void integrate_cell(const dealii::FEValues<3> &values, const Lame &c, std::vector<double> &blocks) {
+  const std::size_t n = values.dofs_per_cell;
+  std::fill(blocks.begin(), blocks.end(), 0.0);
+  for (const unsigned int q : values.quadrature_point_indices())
+    for (std::size_t a = 0; a < n; ++a) {
+      const auto &ga = values.shape_grad(static_cast<unsigned int>(a), q);
+      for (std::size_t b = a; b < n; ++b) {
+        const auto &gb = values.shape_grad(static_cast<unsigned int>(b), q);
+        const double w = values.JxW(q), both = w * c.mu * (ga * gb);
+        double *block = &blocks[9 * (a * n + b)];
+        for (unsigned int i = 0; i < 3; ++i) {
+          for (unsigned int j = 0; j < 3; ++j)
+            block[3 * i + j] += w * (c.lambda * ga[i] * gb[j] + c.mu * gb[i] * ga[j]);
+          block[4 * i] += both;
+        }
+      }
+    }
+  for (std::size_t a = 0; a < n; ++a) {
+    double *own = &blocks[9 * (a * n + a)]; // round-off may tell the two halves apart
+    for (const auto &[i, j] : {std::pair{1, 3}, {2, 6}, {5, 7}})
+      own[j] = own[i];
+    for (std::size_t b = 0; b < a; ++b)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          blocks[9 * (a * n + b) + 3 * i + j] = blocks[9 * (b * n + a) + 3 * j + i];
+  }
+}
+
+// Largest row sum of absolute values of mass^-1 stiffness: no eigenvalue is larger.
+double norm_of(const std::vector<double> &blocks, const std::vector<double> &mass) {
+  const std::size_t n = mass.size();
+  double largest = 0;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t i = 0; i < 3; ++i) {
+      double sum = 0;
+      for (std::size_t b = 0; b < n; ++b)
+        for (std::size_t j = 0; j < 3; ++j)
+          sum += std::abs(blocks[9 * (a * n + b) + 3 * i + j]) / std::sqrt(mass[a] * mass[b]);
+      largest = std::max(largest, sum);
+    }
+  return largest;
+}
+
+// Mass at the nodes. Degree 2: quadrature at the nodes (Gauss-Lobatto), exact for the volume of a trilinear
+// cell and its first moments. Degree 1: the integral of each shape function, since two points are not exact.
+void lump(const dealii::FEValues<3> &values, int degree, std::vector<double> &share) {
+  std::fill(share.begin(), share.end(), 0.0);
+  for (const unsigned int q : values.quadrature_point_indices())
+    for (std::size_t a = 0; a < share.size(); ++a)
+      if (const double shape = values.shape_value(static_cast<unsigned int>(a), q);
+          degree == 1 || shape > 0.5)
+        share[a] += shape * values.JxW(q);
+}
+
+} // namespace
+
+ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> materials) {
+  require(grid != nullptr, "no grid");
+  require(degree == 1 || degree == 2, "degree " + std::to_string(degree) + " is neither 1 nor 2");
+  require(!materials.empty(), "no material");
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    check(materials[m], "elastic solid: material " + std::to_string(m));
+  const std::string inverted = inverted_cell(grid);
+  require(inverted.empty(), inverted + " is inverted or warped through itself");
+  ElasticModel model;
+  model.grid = std::move(grid);
+  model.degree = degree;
+  model.materials = std::move(materials);
+  const dealii::FE_Q<3> element(static_cast<unsigned int>(degree));
+  number_nodes(model, element);
+  lay_out(model);
+
+  const NoCellReuse same_for_any_threads;
+  const dealii::QGauss<3> gauss(static_cast<unsigned int>(degree) + 1);
+  const dealii::Quadrature<3> lobatto = dealii::QGaussLobatto<3>(3);
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, element, gauss, dealii::update_gradients | dealii::update_JxW_values);
+  dealii::FEValues<3> masses(mapping, element, degree == 1 ? dealii::Quadrature<3>(gauss) : lobatto,
+                             dealii::update_values | dealii::update_JxW_values);
+  const std::size_t n = element.n_dofs_per_cell();
+  std::vector<double> blocks(9 * n * n), share(n);
+  model.mass.assign(model.nodes.size(), 0.0);
+  for (const auto &cell : model.numbers->active_cell_iterators()) {
+    const std::size_t number = cell->active_cell_index();
+    values.reinit(cell), masses.reinit(cell);
+    const Material &material = model.materials[cell->material_id()];
+    lump(masses, degree, share);
+    double cell_volume = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+      require(share[a] > 0, name_of(cell) + " is warped through itself");
+      cell_volume += share[a];
+      share[a] *= material.density;
+      model.mass[static_cast<std::size_t>(model.cell_nodes[n * number + a])] += share[a];
+    }
+    model.volume += cell_volume;
+    integrate_cell(values, lame(material), blocks);
+    model.cell_bound = std::max(model.cell_bound, norm_of(blocks, share));
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b) {
+        double *sum = model.stiffness.block(static_cast<std::size_t>(model.cell_nodes[n * number + a]),
+                                            model.cell_nodes[n * number + b]);
+        for (std::size_t k = 0; k < 9; ++k)
+          sum[k] += blocks[9 * (a * n + b) + k];
+      }
+  }
+  return model;
+}
+
+} // namespace platen::fem

@@ -1,0 +1,76 @@
+// A linear elastic solid as numbers: nodes, stiffness, lumped mass. Small strain, hexahedra of degree 1 or 2
+// on trilinear cells (degree 2 bends and nearly keeps its volume without locking, so it is the one for thin
+// sheets and for rubber).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "fem/block_rows.h"
+#include "fem/grids.h"
+#include "fem/material.h"
+
+namespace dealii {
+template <int dim, int spacedim>
+class DoFHandler;
+}
+
+namespace platen::fem {
+
+struct ElasticModel {
+  Grid grid;
+  int degree = 1;
+  std::vector<Material> materials; // by material id of the cells
+  // Numbers the nodes: one per node, of dealii::FE_Q(degree).
+  std::shared_ptr<const dealii::DoFHandler<3, 3>> numbers;
+  std::vector<Point> nodes;       // m
+  std::vector<int> cell_nodes;    // (degree + 1)^3 per cell, in deal.II's order
+  std::vector<int> cell_material; // one per cell
+  BlockRows stiffness;            // N/m, exactly symmetric
+  std::vector<double> mass;       // kg, lumped, positive; the sum is the mass of the solid
+  double volume = 0;              // m^3
+  // Upper bound of the eigenvalues of mass^-1 stiffness (1/s^2): the largest over cells of a norm of the
+  // cell's own (Irons), free of iterations and coarse.
+  double cell_bound = 0;
+};
+
+// Throws std::invalid_argument where the degree is neither 1 nor 2, a cell has a material id that is not in
+// `materials`, a constant is out of range, or a cell is inverted or warped through itself (naming the cell).
+ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> materials);
+
+// The boundary with every node on it as a vertex, so that loads on vertices are loads on nodes: each face of
+// a cell of degree 2 is split in four at its nodes.
+struct NodeSurface {
+  SurfaceMesh surface;   // velocities zero
+  std::vector<int> node; // of each vertex, ascending
+};
+NodeSurface node_surface(const ElasticModel &model);
+
+// Nodes on boundary faces of this tag, ascending.
+std::vector<int> nodes_on(const ElasticModel &model, int tag);
+
+// Nodal loads (N) that do the work of a force per volume (N/m^3, of the reference place).
+std::vector<Point> body_load(const ElasticModel &model, const std::function<Point(const Point &)> &density);
+
+// Nodal loads (N) that do the work of a traction (Pa) at a place with an outward normal, on the faces of a
+// tag.
+std::vector<Point> face_load(const ElasticModel &model, int tag,
+                             const std::function<Point(const Point &, const Point &)> &traction);
+
+// Integral over the reference volume of f(place, value of a field given at the nodes).
+double integral(const ElasticModel &model, const std::vector<Point> &field,
+                const std::function<double(const Point &, const Point &)> &f);
+
+// Stress xx, yy, zz, yz, zx, xy (Pa), tension positive.
+using Stress = std::array<double, 6>;
+double von_mises(const Stress &stress); // Pa
+
+// Of a displacement given at the nodes (m). Taken where it is most accurate, at the Gauss points of the order
+// below (Barlow 1976), and carried from there to the cell's middle or nodes.
+std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Point> &displacement);
+// One per entry of cell_nodes: the mean over all cells of the same material that share the node.
+std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Point> &displacement);
+
+} // namespace platen::fem

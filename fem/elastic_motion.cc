@@ -1,0 +1,271 @@
+// How an elastic solid moves: frame, loads, explicit steps.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fem/elastic_solid.h"
+
+namespace platen::fem {
+namespace {
+
+constexpr double step_share = 0.9; // of the stable step, in a drift that chooses its own
+
+Point product(const std::array<double, 9> &a, const Point &v) {
+  return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[3] * v[0] + a[4] * v[1] + a[5] * v[2],
+          a[6] * v[0] + a[7] * v[1] + a[8] * v[2]};
+}
+
+} // namespace
+
+Point ElasticSolid::carried(std::size_t node) const {
+  if (!turned_) return displacement_; // plain: what is flat stays flat to the last bit
+  const Point r = model_.nodes[node] - pivot_;
+  return displacement_ + (rotated(rotation_, r) - r);
+}
+
+Point ElasticSolid::free_part(std::size_t node, const Point &v) const {
+  const auto &held = held_[node];
+  if (!held[0] && !held[1] && !held[2]) return v;
+  if (held[0] && held[1] && held[2]) return Point{};
+  Point inside = to_frame(v);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (held[k]) inside[k] = 0;
+  return to_space(inside);
+}
+
+void ElasticSolid::set_velocity(const Point &velocity) {
+  set_velocity(velocity, turns_freely() ? angular_velocity_ : Point{});
+}
+
+void ElasticSolid::set_velocity(const Point &velocity, const Point &angular_velocity) {
+  if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
+  if (grip_nodes_.empty()) throw std::logic_error("elastic solid: a body without grip is not led");
+  const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
+  if (turns_freely()) {
+    // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
+    const Point asked = angular_velocity - angular_velocity_;
+    spin_ = spin_ + to_space(product(rotor_, to_frame(asked)));
+    if (!is_static()) spin_ = spin_ - cross(to_space(rotor_arm_), velocity - velocity_);
+    find_angular_velocity();
+  } else {
+    angular_velocity_ = angular_velocity;
+  }
+  velocity_ = velocity;
+  if (!is_static()) place_held();
+  grip_work_ += (is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy()) - before;
+  place_surface();
+}
+
+void ElasticSolid::find_angular_velocity() {
+  angular_velocity_ = to_space(product(rotor_inverse_, to_frame(spin_)));
+}
+
+double ElasticSolid::held_kinetic_energy() const {
+  double twice = grip_.inertia * dot(angular_velocity_, angular_velocity_);
+  for (const int i : grip_nodes_) {
+    const auto node = static_cast<std::size_t>(i);
+    twice += model_.mass[node] * dot(rate_[node], rate_[node]);
+  }
+  return 0.5 * twice;
+}
+
+// A free rotor turns by its angular velocity half-way, since its inertia turns with it.
+void ElasticSolid::move_frame(double dt) {
+  displacement_ = displacement_ + dt * velocity_;
+  if (angular_velocity_ == Point{}) return;
+  const Quaternion before = rotation_;
+  if (turns_freely()) {
+    rotation_ = normalised(fem::product(exponential(0.5 * dt * angular_velocity_), before));
+    turned_ = true;
+    find_angular_velocity();
+  }
+  rotation_ = normalised(fem::product(exponential(dt * angular_velocity_), before));
+  turned_ = !is_identity(rotation_);
+  if (turns_freely()) find_angular_velocity();
+}
+
+void ElasticSolid::place_held() {
+  for (const int i : grip_nodes_) {
+    const auto node = static_cast<std::size_t>(i);
+    const auto &held = held_[node];
+    const Point base = carried(node);
+    if (held[0] && held[1] && held[2]) {
+      moved_[node] = base;
+      rate_[node] = carried_velocity(arm(node));
+      continue;
+    }
+    Point u = to_frame(moved_[node] - base);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (held[k]) u[k] = 0;
+    moved_[node] = base + to_space(u);
+    const Point velocity = carried_velocity(arm(node));
+    rate_[node] = velocity + free_part(node, rate_[node] - velocity);
+  }
+}
+
+void ElasticSolid::place_surface() {
+  const double s = is_static() ? share() : 0;
+  for (std::size_t v = 0; v < node_of_.size(); ++v) {
+    const auto node = static_cast<std::size_t>(node_of_[v]);
+    if (is_static()) {
+      const Point way = target_[node] - start_[node];
+      moved_[node] = carried(node) + to_space(start_[node] + s * way);
+      rate_[node] = carried_velocity(arm(node));
+      if (on_the_way_) rate_[node] = rate_[node] + to_space((1 / duration_) * way);
+    }
+    surface_.vertices[v] = model_.nodes[node] + moved_[node];
+    surface_.velocities[v] = rate_[node];
+  }
+}
+
+// What the body hands to its grip over dt: the machine takes it, or the free seat turns.
+void ElasticSolid::give_to_grip(double dt, const Point &force, const Point &moment) {
+  grip_work_ -= dt * dot(force, velocity_);
+  if (!turns_freely()) {
+    grip_work_ -= dt * dot(moment, angular_velocity_);
+    return;
+  }
+  spin_ = spin_ + dt * moment;
+  find_angular_velocity();
+}
+
+void ElasticSolid::kick(double dt) {
+  Point force{}, moment{}; // handed on to the grip
+  double relative = 0;     // power in the frame, quasi-static
+  kicked_.clear();
+  for (const int v : loaded_) {
+    const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
+    const Point load = contact_load(v), r = arm(node);
+    if (is_static()) {
+      force = force + load, moment = moment + cross(r, load);
+      relative += dot(load, rate_[node] - carried_velocity(r));
+      continue;
+    }
+    const Point free = free_part(node, load), kept = load - free;
+    const Point gain = (dt / model_.mass[node]) * free;
+    load_work_ += dt * dot(free, rate_[node] + 0.5 * gain);
+    rate_[node] = rate_[node] + gain;
+    kicked_.push_back({node, gain, {}});
+    force = force + kept, moment = moment + cross(r, kept);
+  }
+  const Point before = angular_velocity_;
+  give_to_grip(dt, force, moment);
+  load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
+  dissipated_ += dt * relative;
+  if (turns_freely() && !is_static()) place_held();
+  if (turns_freely() || !is_static()) place_surface();
+}
+
+int ElasticSolid::substeps(double dt) const {
+  if (is_static()) return 1;
+  return std::max(1, static_cast<int>(std::ceil(std::abs(dt) / (step_share * stable_step_))));
+}
+
+void ElasticSolid::drift(double dt) {
+  drift(dt, substeps(dt));
+}
+
+void ElasticSolid::drift(double dt, int steps) {
+  const std::vector<Point> before = surface_.vertices;
+  if (is_static())
+    drift_evenly(dt);
+  else
+    for (int k = 0; k < steps; ++k)
+      substep(dt / steps);
+  place_surface();
+  last_move_ = 0;
+  for (std::size_t v = 0; v < before.size(); ++v)
+    last_move_ = std::max(last_move_, norm(surface_.vertices[v] - before[v]));
+}
+
+void ElasticSolid::substep(double dt) {
+  damp(dt);
+  internal_kick(0.5 * dt);
+  move_frame(dt);
+  for (std::size_t i = 0; i < moved_.size(); ++i)
+    moved_[i] = moved_[i] + dt * rate_[i];
+  place_held();
+  find_internal_forces();
+  internal_kick(0.5 * dt);
+  last_step_ = dt;
+}
+
+void ElasticSolid::find_internal_forces() {
+  for (std::size_t i = 0; i < moved_.size(); ++i)
+    strained_[i] = turned_ ? to_frame(arm(i)) - (model_.nodes[i] - pivot_) : moved_[i] - displacement_;
+  model_.stiffness.multiply(strained_, force_);
+  for (Point &f : force_)
+    f = -1.0 * to_space(f);
+}
+
+// The grip answers the forces on free nodes, force and moment: with those on held nodes, the moment of small
+// strain would miss the part of the second order and angular momentum would leak.
+void ElasticSolid::internal_kick(double dt) {
+  Point force{}, moment{};
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    const Point free = free_part(i, force_[i]);
+    rate_[i] = rate_[i] + (dt / model_.mass[i]) * free;
+    force = force - free, moment = moment - cross(arm(i), free);
+  }
+  if (grip_nodes_.empty()) return;
+  give_to_grip(dt, force, moment);
+  if (turns_freely()) place_held();
+}
+
+// Dashpots to the frame and between the nodes, and at the seat. They act where both halves of the loads'
+// impulse meet: the half that has come already is put off meanwhile, else a loaded body at rest would be
+// damped.
+void ElasticSolid::damp(double dt) {
+  const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
+  if (turns_freely() && grip_.damping > 0) {
+    const double before = held_kinetic_energy();
+    spin_ = std::exp(-grip_.damping * dt) * spin_;
+    find_angular_velocity();
+    place_held();
+    dissipated_ += before - held_kinetic_energy();
+  }
+  if (alpha == 0 && beta == 0) return;
+  for (Kicked &k : kicked_) {
+    rate_[k.node] = rate_[k.node] - k.gain;
+    k.before = rate_[k.node];
+  }
+  std::vector<Point> relative(rate_.size()), impulse(rate_.size(), Point{});
+  for (std::size_t i = 0; i < rate_.size(); ++i)
+    relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
+  if (beta > 0) model_.stiffness.multiply(relative, impulse);
+  Point force{}, moment{};
+  for (std::size_t i = 0; i < rate_.size(); ++i) {
+    const double mass = model_.mass[i];
+    const Point w = to_space(relative[i]);
+    const Point push =
+        free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * (1 - std::exp(-alpha * dt))) * w);
+    const Point gain = (1 / mass) * push;
+    rate_[i] = rate_[i] + gain;
+    dissipated_ -= dot(push, w + 0.5 * gain);
+    force = force - push, moment = moment - cross(arm(i), push);
+  }
+  for (const Kicked &k : kicked_) {
+    load_work_ += model_.mass[k.node] * dot(k.gain, rate_[k.node] - k.before);
+    rate_[k.node] = rate_[k.node] + k.gain;
+  }
+  kicked_.clear();
+  if (grip_nodes_.empty()) return;
+  give_to_grip(1, force, moment);
+  if (turns_freely()) place_held();
+}
+
+Point ElasticSolid::momentum() const {
+  Point sum{};
+  for (std::size_t i = 0; i < rate_.size(); ++i)
+    sum = sum + model_.mass[i] * rate_[i];
+  return sum;
+}
+
+Point ElasticSolid::angular_momentum() const {
+  Point sum = grip_.inertia * angular_velocity_;
+  for (std::size_t i = 0; i < rate_.size(); ++i)
+    sum = sum + model_.mass[i] * cross(arm(i), rate_[i]);
+  return sum;
+}
+
+} // namespace platen::fem

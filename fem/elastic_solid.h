@@ -1,0 +1,198 @@
+// A linear elastic body that meets the particles with its surface and a machine with its grip. Strain is
+// small, motion is not: deformation is measured in the frame of the grip, so that the machine may carry and
+// turn the body as far as it likes without stress.
+//
+// Place of node i: x = X + carried + R u, with u its displacement in the frame's axes. Internal forces are
+// -R K u, and the grip answers the moment of the forces on free nodes, so that momentum and angular momentum
+// are kept exactly.
+//
+// Explicit: central differences with lumped mass. Loads act as impulses (kick) around a drift, which takes
+// as many steps of its own as it needs under internal forces alone (impulses of two step sizes: Grubmueller
+// et al. 1991, Tuckerman et al. 1992): of second order in both steps, and velocity Verlet where one is
+// enough. Quasi-static: no inertia of deformation; aim() solves for the shape under given loads, drift goes
+// there evenly.
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <vector>
+
+#include "fem/elastic_model.h"
+#include "fem/largest_frequency.h"
+#include "fem/loaded_surface.h"
+#include "fem/rotation.h"
+#include "fem/static_solver.h"
+
+namespace platen::fem {
+
+constexpr int no_grip = -1;
+
+// How the machine holds a body: by the nodes on the faces of one tag.
+struct Grip {
+  int tag = high_end_tag; // no_grip: a free body, whose frame stays where it is (small motion; explicit only)
+  // Held along the faces' common normal only (greased); otherwise glued. Quasi-static bodies are then held
+  // sideways and against spin at two nodes, which bear nothing unless the loads push sideways.
+  bool slides = false;
+  // Free to turn about the seat, which the machine leads: the frame turns as a rigid rotor under the moment
+  // on the grip (explicit) or of all loads (quasi-static). Needs a glued grip.
+  bool turns = false;
+  Point seat{};       // m, centre of the spherical seat at the start
+  double inertia = 0; // kg m^2 about the seat, of what turns with the grip and is not part of the grid
+  double damping = 0; // 1/s, rate at which turning dies away
+};
+
+enum class ElasticMotion { explicit_steps, quasi_static };
+
+struct ElasticOptions {
+  int degree = 1;
+  ElasticMotion motion = ElasticMotion::explicit_steps;
+  double mass_damping = 0;      // 1/s, rate at which velocities relative to the frame die away; explicit
+  double stiffness_damping = 0; // s, damping stress over stress per rate of strain; explicit
+  LinearSolver solver = LinearSolver::automatic;
+};
+
+// Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
+// grip_work stays what it was.
+struct ElasticBook {
+  // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
+  double kinetic = 0;
+  double strain = 0;
+  double load_work = 0;  // by loads on the surface
+  double grip_work = 0;  // by the machine
+  double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
+};
+
+// Every node of the boundary is a vertex of the surface.
+class ElasticSolid : public LoadedSurface {
+public:
+  // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
+  // no face has the grip's tag, an option is out of range or two exclude each other.
+  ElasticSolid(Grid grid, std::vector<Material> materials, const Grip &grip,
+               const ElasticOptions &options = {});
+
+  const ElasticModel &model() const { return model_; }
+  const std::vector<int> &surface_nodes() const { return node_of_; } // node of each vertex
+  const std::vector<int> &grip_nodes() const { return grip_nodes_; }
+  double mass() const { return mass_; } // kg
+
+  // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
+  // freely: then angular velocities are its own, and the other form keeps them).
+  void set_velocity(const Point &velocity);                                // m/s
+  void set_velocity(const Point &velocity, const Point &angular_velocity); // m/s; rad/s, global axes
+  const Point &velocity() const { return velocity_; }                      // m/s, of centre or seat
+  const Point &angular_velocity() const { return angular_velocity_; }      // rad/s
+  const Point &displacement() const { return displacement_; }              // m, of centre or seat
+  Point centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
+  const Quaternion &rotation() const { return rotation_; }
+
+  // One step of the particles: kick(dt / 2), drift(dt), new loads, kick(dt / 2).
+  void kick(double dt);  // impulse of the loads over dt (s)
+  void drift(double dt); // moves everything over dt in steps of at most 0.9 of the stable one
+  void drift(double dt, int substeps);
+  double stable_step() const { return stable_step_; } // s, of explicit steps; infinite for quasi-static
+  int substeps(double dt) const;                      // that drift(dt) takes
+  // How far the surface may go in a drift over dt (m): velocities now, and accelerations now twice over.
+  double largest_move(double dt) const;
+  double last_move() const { return last_move_; } // m, the farthest that a vertex went in the last drift
+
+  // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
+  // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
+  // std::logic_error for an explicit body.
+  void aim(const std::vector<Point> &vertex_loads, double duration);
+  LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
+  int solver_iterations() const;
+
+  // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
+  // the loads.
+  Point grip_force() const;
+  Point grip_moment() const;
+
+  double kinetic_energy() const;                           // J
+  double internal_energy() const { return book().strain; } // J
+  ElasticBook book() const;
+  Point momentum() const;         // kg m/s, grip nodes included; explicit
+  Point angular_momentum() const; // kg m^2/s about centre or seat, with the seat's rotor; explicit
+
+  // Displacement of each node in the frame's axes (m): what is strained.
+  std::vector<Point> deformation() const;
+  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; held components are
+  // ignored. The book starts anew.
+  void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
+  std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
+
+  // Everything that changes in a run, to the last bit; to be taken between steps.
+  std::vector<double> state() const;
+  // Throws std::invalid_argument where the numbers are not those of such a body.
+  void set_state(const std::vector<double> &numbers);
+
+  // Writes the grid where it is now as VTU (binary, zlib; cells of degree 2 as such) with displacement (m),
+  // stress and von_mises (Pa, in the frame's axes, per material), contact_pressure, contact_shear (Pa) and
+  // slip (m; one value per vertex, or empty for zero).
+  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
+
+private:
+  bool turns_freely() const { return grip_.turns; }
+  bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }
+  void hold(const Grip &grip);
+  void pin_sliding_grip(const Point &middle, std::size_t axis);
+  void weigh_rotor();
+
+  // Frame.
+  Point to_frame(const Point &v) const { return turned_ ? rotated(inverse(rotation_), v) : v; }
+  Point to_space(const Point &v) const { return turned_ ? rotated(rotation_, v) : v; }
+  Point carried(std::size_t node) const; // m, displacement of a node that moves with the frame
+  Point arm(std::size_t node) const { return model_.nodes[node] + moved_[node] - centre(); }
+  Point carried_velocity(const Point &arm_of_node) const {
+    return velocity_ + cross(angular_velocity_, arm_of_node);
+  }
+  Point free_part(std::size_t node, const Point &v) const; // without held components; global axes
+  void move_frame(double dt);
+  void find_angular_velocity();
+  void place_held();
+  void place_surface();
+  double held_kinetic_energy() const;
+
+  // Explicit steps.
+  void substep(double dt);
+  void find_internal_forces();
+  void internal_kick(double dt);
+  void damp(double dt);
+  void give_to_grip(double dt, const Point &force, const Point &moment);
+
+  // Quasi-static.
+  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the way to the target
+  double path_strain() const;
+  void measure_path();
+  void drift_evenly(double dt);
+
+  ElasticModel model_;
+  Grip grip_;
+  ElasticOptions options_;
+  std::vector<int> node_of_, grip_nodes_;
+  Held held_; // components in the frame's axes
+  double mass_ = 0, stable_step_ = 0;
+  Point pivot_{};                 // m, centre of mass or seat at the start
+  std::array<double, 9> rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
+  std::array<double, 9> rotor_inverse_{};
+  Point rotor_arm_{}; // kg m, first moment of the same, frame's axes
+
+  Point displacement_{}, velocity_{}, angular_velocity_{}, spin_{}; // spin_: angular momentum of the rotor
+  Quaternion rotation_{1, 0, 0, 0};
+  bool turned_ = false;
+  std::vector<Point> moved_, rate_;     // m, m/s per node, global axes; explicit
+  std::vector<Point> strained_, force_; // m and N per node: u, and internal forces in global axes
+  std::vector<Point> start_, target_;   // m per node, frame's axes; quasi-static
+  double elapsed_ = 0, duration_ = 0;   // s since the start of the way, and of it
+  bool on_the_way_ = false;             // whether the last drift deformed the body
+  std::array<double, 3> path_{};        // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
+  double last_step_ = 0, last_move_ = 0;
+  double load_work_ = 0, grip_work_ = 0, dissipated_ = 0;
+  struct Kicked {
+    std::size_t node;
+    Point gain, before; // m/s
+  };
+  std::vector<Kicked> kicked_;       // by the loads since the last drift
+  std::vector<StaticSolver> solver_; // none until the first aim()
+};
+
+} // namespace platen::fem

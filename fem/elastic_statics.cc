@@ -1,0 +1,161 @@
+// What an elastic solid stores and bears, and its shape without inertia.
+#include <cmath>
+#include <stdexcept>
+
+#include "fem/elastic_solid.h"
+
+namespace platen::fem {
+
+std::vector<Point> ElasticSolid::deformation() const {
+  if (!is_static()) return strained_;
+  std::vector<Point> u(start_.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = start_[i] + share() * (target_[i] - start_[i]);
+  return u;
+}
+
+void ElasticSolid::set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate) {
+  const std::size_t n = model_.nodes.size();
+  if (displacement.size() != n || (!is_static() && rate.size() != n))
+    throw std::invalid_argument("elastic solid: a deformation has one vector per node");
+  for (std::size_t i = 0; i < n; ++i) {
+    Point u = displacement[i], w = is_static() ? Point{} : rate[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (held_[i][k]) u[k] = 0, w[k] = 0;
+    if (is_static()) {
+      start_[i] = target_[i] = u;
+    } else {
+      moved_[i] = carried(i) + to_space(u);
+      rate_[i] = carried_velocity(arm(i)) + to_space(w);
+    }
+  }
+  elapsed_ = duration_ = last_step_ = 0;
+  on_the_way_ = false;
+  load_work_ = grip_work_ = dissipated_ = 0;
+  if (is_static())
+    measure_path();
+  else
+    find_internal_forces();
+  place_surface();
+}
+
+ElasticBook ElasticSolid::book() const {
+  ElasticBook book;
+  book.load_work = load_work_, book.grip_work = grip_work_, book.dissipated = dissipated_;
+  book.kinetic = kinetic_energy();
+  if (is_static()) {
+    book.strain = path_strain();
+    return book;
+  }
+  double shift = 0;
+  Point moment{};
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    book.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
+    const Point free = free_part(i, force_[i]);
+    shift += dot(free, free) / model_.mass[i];
+    if (turns_freely()) moment = moment - cross(arm(i), free);
+  }
+  if (turns_freely()) {
+    const Point m = to_frame(moment);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        shift += m[a] * rotor_inverse_[3 * a + b] * m[b];
+  }
+  book.kinetic -= last_step_ * last_step_ / 8 * shift;
+  return book;
+}
+
+double ElasticSolid::kinetic_energy() const {
+  if (is_static()) return turns_freely() ? 0.5 * dot(angular_velocity_, spin_) : 0.0;
+  double twice = grip_.inertia * dot(angular_velocity_, angular_velocity_);
+  for (std::size_t i = 0; i < rate_.size(); ++i)
+    twice += model_.mass[i] * dot(rate_[i], rate_[i]);
+  return 0.5 * twice;
+}
+
+Point ElasticSolid::grip_force() const {
+  if (is_static()) return total_force();
+  Point sum{};
+  for (std::size_t i = 0; i < force_.size(); ++i)
+    sum = sum - free_part(i, force_[i]);
+  for (const int v : loaded_) {
+    const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
+    sum = sum + (contact_load(v) - free_part(node, contact_load(v)));
+  }
+  return sum;
+}
+
+Point ElasticSolid::grip_moment() const {
+  if (is_static()) return moment(centre());
+  Point sum{};
+  for (std::size_t i = 0; i < force_.size(); ++i)
+    sum = sum - cross(arm(i), free_part(i, force_[i]));
+  for (const int v : loaded_) {
+    const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
+    sum = sum + cross(arm(node), contact_load(v) - free_part(node, contact_load(v)));
+  }
+  return sum;
+}
+
+double ElasticSolid::path_strain() const {
+  return path_[0] + share() * (path_[1] + share() * path_[2]);
+}
+
+void ElasticSolid::measure_path() {
+  std::vector<Point> way(start_.size()), product;
+  for (std::size_t i = 0; i < way.size(); ++i)
+    way[i] = target_[i] - start_[i];
+  model_.stiffness.multiply(start_, product);
+  path_[0] = 0.5 * dot(start_, product);
+  path_[1] = dot(way, product);
+  model_.stiffness.multiply(way, product);
+  path_[2] = 0.5 * dot(way, product);
+}
+
+void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) {
+  if (!is_static()) throw std::logic_error("elastic solid: only a quasi-static body is solved for");
+  if (vertex_loads.size() != node_of_.size())
+    throw std::invalid_argument("elastic solid: one load per surface vertex, please");
+  if (solver_.empty()) solver_.emplace_back(model_.stiffness, model_.nodes, held_, options_.solver);
+  std::vector<Point> load(model_.nodes.size(), Point{});
+  for (std::size_t v = 0; v < node_of_.size(); ++v)
+    load[static_cast<std::size_t>(node_of_[v])] = to_frame(vertex_loads[v]);
+  start_ = deformation();
+  solver_[0].solve(model_.stiffness, load, target_);
+  elapsed_ = 0, duration_ = duration > 0 ? duration : 0;
+  on_the_way_ = duration_ > 0;
+  measure_path();
+  if (!on_the_way_) { // the loads act in full all the way
+    double work = 0;
+    for (std::size_t i = 0; i < load.size(); ++i)
+      work += dot(load[i], target_[i] - start_[i]);
+    load_work_ += work;
+    dissipated_ += work - path_[1] - path_[2];
+  }
+  place_surface();
+}
+
+void ElasticSolid::drift_evenly(double dt) {
+  if (turns_freely() && grip_.damping > 0) {
+    const double before = kinetic_energy();
+    spin_ = std::exp(-grip_.damping * dt) * spin_;
+    find_angular_velocity();
+    dissipated_ += before - kinetic_energy();
+  }
+  move_frame(dt);
+  on_the_way_ = elapsed_ < duration_;
+  const double before = path_strain();
+  // A way of n steps is n steps long, whatever round-off says of their sum.
+  elapsed_ = elapsed_ + dt * (1 + 1e-9) >= duration_ ? duration_ : elapsed_ + dt;
+  dissipated_ -= path_strain() - before;
+}
+
+LinearSolver ElasticSolid::solver_kind() const {
+  return solver_.empty() ? options_.solver : solver_[0].kind();
+}
+
+int ElasticSolid::solver_iterations() const {
+  return solver_.empty() ? 0 : solver_[0].iterations();
+}
+
+} // namespace platen::fem

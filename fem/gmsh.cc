@@ -1,0 +1,103 @@
+#include "fem/gmsh.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace platen::fem {
+namespace {
+
+constexpr double smallest = 1e-6, largest = 100; // m, across a body that a specimen can be pressed with
+
+[[noreturn]] void refuse(const GmshOptions &options, const std::string &what) {
+  throw std::invalid_argument((options.name.empty() ? "Gmsh file" : options.name) + ": " + what);
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void read(std::istream &stream, const GmshOptions &options, dealii::Triangulation<3> &grid) {
+  dealii::GridIn<3> reader(grid);
+  try {
+    reader.read_msh(stream);
+  } catch (const dealii::ExceptionBase &failure) {
+    std::ostringstream why;
+    failure.print_info(why);
+    std::string text = why.str();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    refuse(options, "is no mesh of hexahedra that can be read:" + text);
+  } catch (const std::exception &failure) {
+    refuse(options, std::string("is no mesh of hexahedra that can be read: ") + failure.what());
+  }
+  if (grid.n_active_cells() == 0) refuse(options, "there are no hexahedra");
+  for (const dealii::ReferenceCell kind : grid.get_reference_cells())
+    if (kind != dealii::ReferenceCells::Hexahedron)
+      refuse(options, "there are cells of the kind " + kind.to_string() +
+                          "; only hexahedra are taken (in Gmsh: transfinite volumes with Recombine, or "
+                          "extrusions with Layers and Recombine)");
+}
+
+void count_materials(dealii::Triangulation<3> &grid) {
+  std::map<dealii::types::material_id, dealii::types::material_id> count;
+  for (const auto &cell : grid.active_cell_iterators())
+    count[cell->material_id()] = 0;
+  dealii::types::material_id next = 0;
+  for (auto &[id, place] : count)
+    place = next++;
+  for (const auto &cell : grid.active_cell_iterators())
+    cell->set_material_id(count[cell->material_id()]);
+}
+
+void tag_ends_if_unnamed(dealii::Triangulation<3> &grid, double low, double high) {
+  for (const dealii::types::boundary_id tag : grid.get_boundary_ids())
+    if (tag != 0) return;
+  const double near = 1e-6 * (high - low);
+  for (const auto &face : grid.active_face_iterators()) {
+    if (!face->at_boundary()) continue;
+    bool at_low = true, at_high = true;
+    for (const unsigned int v : face->vertex_indices()) {
+      at_low = at_low && face->vertex(v)[2] < low + near;
+      at_high = at_high && face->vertex(v)[2] > high - near;
+    }
+    if (at_low) face->set_boundary_id(low_end_tag);
+    if (at_high) face->set_boundary_id(high_end_tag);
+  }
+}
+
+} // namespace
+
+Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
+  if (!(options.unit > 0)) refuse(options, "the unit of length must be positive");
+  auto grid = std::make_shared<dealii::Triangulation<3>>();
+  read(stream, options, *grid);
+  dealii::GridTools::scale(options.unit, *grid);
+  double across = 0, low = grid->get_vertices()[0][2], high = low;
+  for (unsigned int k = 0; k < 3; ++k) {
+    double least = grid->get_vertices()[0][k], most = least;
+    for (const dealii::Point<3> &p : grid->get_vertices())
+      least = std::min(least, p[k]), most = std::max(most, p[k]);
+    across = std::max(across, most - least);
+    if (k == 2) low = least, high = most;
+  }
+  if (!(across > smallest && across < largest))
+    refuse(options, "the body is " + number(across) + " m across; allowed are " + number(smallest) + " to " +
+                        number(largest) + " m. Is " + number(options.unit) + " m the file's unit of length?");
+  const std::string inverted = inverted_cell(grid);
+  if (!inverted.empty()) refuse(options, inverted + " is inverted or warped through itself");
+  count_materials(*grid);
+  tag_ends_if_unnamed(*grid, low, high);
+  return grid;
+}
+
+} // namespace platen::fem

@@ -1,0 +1,195 @@
+// What a HyperelasticSolid does with its faces and with single cells: pressure, volumes, inversion,
+// stiffness.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "fem/hyperelastic_solid.h"
+#include "fem/loop.h"
+
+namespace platen::fem {
+namespace {
+
+constexpr std::size_t cell_grain = 64;
+
+} // namespace
+
+FaceCorners HyperelasticSolid::face_places(const BoundaryFace &face,
+                                           const std::vector<Point> &displacement) const {
+  FaceCorners place;
+  for (std::size_t k = 0; k < 4; ++k)
+    place[k] = mesh_.nodes[index(face.nodes[k])] + displacement[index(face.nodes[k])];
+  return place;
+}
+
+void HyperelasticSolid::add_pressure_forces() {
+  std::fill(pressed_.begin(), pressed_.end(), Point{});
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    if (face_pressure_[f] == 0) continue;
+    const FaceCorners areas = corner_areas(face_places(mesh_.faces[f], displacement_));
+    for (std::size_t k = 0; k < 4; ++k) {
+      Point &sum = pressed_[index(mesh_.faces[f].nodes[k])];
+      sum = sum - face_pressure_[f] * areas[k];
+    }
+  }
+}
+
+Point HyperelasticSolid::pressure_force(int tag) const {
+  Point sum{};
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    if (mesh_.faces[f].tag != tag || face_pressure_[f] == 0) continue;
+    for (const Point &area : corner_areas(face_places(mesh_.faces[f], displacement_)))
+      sum = sum - face_pressure_[f] * area;
+  }
+  return sum;
+}
+
+double HyperelasticSolid::pressure_work_to(const std::vector<Point> &displacement,
+                                           const std::vector<double> &pressures) const {
+  double work = 0;
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+    if (pressures[f] != 0)
+      work -= pressures[f] * swept_volume(face_places(mesh_.faces[f], displacement_),
+                                          face_places(mesh_.faces[f], displacement));
+  return work;
+}
+
+// By the divergence theorem: faces as bilinear patches (exact, flat or warped), then each rim as a fan of
+// triangles about the mean of its nodes.
+double HyperelasticSolid::enclosed_volume(int tag) const {
+  std::set<std::pair<int, int>> edges; // walked one way only
+  double volume = 0;
+  Point origin{}; // a near one loses fewer digits
+  bool found = false;
+  for (const BoundaryFace &face : mesh_.faces) {
+    if (face.tag != tag) continue;
+    const FaceCorners place = face_places(face, displacement_);
+    if (!found) origin = place[0], found = true;
+    const Point middle = 0.25 * ((place[0] + place[1]) + (place[2] + place[3])) - origin;
+    volume += dot(middle, cross(place[2] - place[0], place[3] - place[1])) / 6;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int a = face.nodes[k], b = face.nodes[(k + 1) % 4];
+      if (edges.erase({b, a}) == 0) edges.insert({a, b});
+    }
+  }
+  if (!found) throw std::invalid_argument("solid: no face has the tag " + std::to_string(tag));
+  const std::map<int, int> next(edges.begin(), edges.end());
+  std::set<int> done;
+  for (const auto &start : next) {
+    std::vector<Point> ring;
+    Point middle{};
+    for (int n = start.first; done.insert(n).second; n = next.at(n)) {
+      ring.push_back(node_place(n) - origin);
+      middle = middle + ring.back();
+    }
+    if (ring.empty()) continue;
+    middle = (1.0 / static_cast<double>(ring.size())) * middle;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      volume += dot(middle, cross(ring[(k + 1) % ring.size()], ring[k])) / 6;
+  }
+  return std::abs(volume);
+}
+
+HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Point> &displacement) const {
+  struct First {
+    Worst worst;
+    void operator+=(const First &other) {
+      if (worst.cell < 0) worst = other.worst;
+    }
+  };
+  const auto look = [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const Corners own = mesh_.gather(c, displacement);
+      Corners place;
+      for (std::size_t a = 0; a < 8; ++a)
+        place[a] = mesh_.nodes[index(mesh_.cell_nodes[c][a])] + own[a];
+      const double ratio = smallest_volume_ratio(mesh_.cells[c], own, place);
+      if (is_inverted(ratio)) return First{{static_cast<int>(c), ratio}};
+    }
+    return First{};
+  };
+  return part_sum<First>(mesh_.cells.size(), cell_grain, look).worst;
+}
+
+Point HyperelasticSolid::cell_middle(int cell, const std::vector<Point> &displacement) const {
+  Point middle{};
+  for (const int n : mesh_.cell_nodes[index(cell)])
+    middle = middle + 0.125 * (mesh_.nodes[index(n)] + displacement[index(n)]);
+  return middle;
+}
+
+std::string HyperelasticSolid::describe_loads() const {
+  std::map<int, double> pressures;
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+    if (face_pressure_[f] != 0) pressures[mesh_.faces[f].tag] = face_pressure_[f];
+  std::ostringstream text;
+  for (const auto &[tag, pressure] : pressures)
+    text << "pressure " << pressure << " Pa on side " << tag << ", ";
+  const Point force = total_force();
+  text << "contact force (" << force[0] << ", " << force[1] << ", " << force[2] << ") N";
+  return text.str();
+}
+
+void HyperelasticSolid::check(const std::vector<Point> &displacement) const {
+  const Worst worst = first_inverted(displacement);
+  if (worst.cell < 0) return;
+  const Point at = cell_middle(worst.cell, displacement);
+  std::ostringstream text;
+  text << "solid: cell " << worst.cell << " at (" << at[0] << ", " << at[1] << ", " << at[2]
+       << ") m would turn inside out: volume ratio " << worst.volume_ratio << ", at least " << inverted_share
+       << " is needed; " << describe_loads();
+  throw InvertedElement(text.str(), worst.cell, at, worst.volume_ratio);
+}
+
+CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
+  CellStiffness k = cell_stiffness(material_.law, mesh_.cells[cell], mesh_.gather(cell, displacement_));
+  for (std::size_t f = first_face_[cell]; f < first_face_[cell + 1]; ++f) {
+    if (face_pressure_[f] == 0) continue;
+    const BoundaryFace &face = mesh_.faces[f];
+    const std::array<double, 144> gradient = corner_area_gradient(face_places(face, displacement_));
+    for (std::size_t m = 0; m < 12; ++m)
+      for (std::size_t n = 0; n < 12; ++n)
+        k[24 * (3 * index(face.corners[m / 3]) + m % 3) + 3 * index(face.corners[n / 3]) + n % 3] +=
+            face_pressure_[f] * gradient[12 * m + n];
+  }
+  return k;
+}
+
+std::vector<Point> HyperelasticSolid::stiffness_times(const std::vector<Point> &direction) const {
+  std::vector<Point> result(direction.size(), Point{});
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    const CellStiffness k = total_stiffness(c);
+    const Corners own = mesh_.gather(c, direction);
+    for (std::size_t m = 0; m < 24; ++m) {
+      double sum = 0;
+      for (std::size_t n = 0; n < 24; ++n)
+        sum += k[24 * m + n] * own[n / 3][n % 3];
+      result[index(mesh_.cell_nodes[c][m / 3])][m % 3] += sum;
+    }
+  }
+  return result;
+}
+
+// The largest eigenvalue of the whole is at most the largest of one cell, with the cell's own share of the
+// masses (Irons, Treharne 1971). Each pressed face belongs to one cell.
+double HyperelasticSolid::stable_step() const {
+  struct Largest {
+    double value = 0;
+    void operator+=(const Largest &other) { value = std::max(value, other.value); }
+  };
+  const auto look = [&](std::size_t first, std::size_t last) {
+    Largest largest;
+    for (std::size_t c = first; c < last; ++c)
+      largest += {eigenvalue_bound(total_stiffness(c), mesh_.cells[c].share) / material_.density};
+    return largest;
+  };
+  const double largest = part_sum<Largest>(mesh_.cells.size(), cell_grain, look).value;
+  return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
+}
+
+} // namespace platen::fem

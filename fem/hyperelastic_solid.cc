@@ -1,0 +1,288 @@
+#include "fem/hyperelastic_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "fem/loop.h"
+
+namespace platen::fem {
+namespace {
+
+constexpr std::size_t cell_grain = 64, node_grain = 512; // per part of a loop: some tens of microseconds
+
+void require(bool holds, const std::string &what) {
+  if (!holds) throw std::invalid_argument("solid: " + what);
+}
+
+bool is_finite(const std::vector<Point> &values) {
+  return std::all_of(values.begin(), values.end(), [](const Point &p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  });
+}
+
+} // namespace
+
+HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
+    : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
+  require(material.density > 0 && std::isfinite(material.density), "density must be positive");
+  material_.law = NeoHookean::from_moduli(material.law.shear_modulus, material.law.bulk_modulus);
+  for (const int tag : contact_tags)
+    require(!mesh_.nodes_of(tag).empty(), "no face has the contact tag " + std::to_string(tag));
+  PartSurface part = part_surface(mesh_, contact_tags);
+  set_surface(std::move(part.surface));
+  surface_node_ = std::move(part.node);
+  const std::size_t nodes = mesh_.nodes.size();
+  vertex_of_.assign(nodes, -1);
+  for (std::size_t v = 0; v < surface_node_.size(); ++v)
+    vertex_of_[index(surface_node_[v])] = static_cast<int>(v);
+  first_face_.assign(mesh_.cells.size() + 1, 0);
+  for (const BoundaryFace &face : mesh_.faces)
+    ++first_face_[index(face.cell) + 1];
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    first_face_[c + 1] += first_face_[c];
+  for (const double share : mesh_.node_volume) {
+    mass_.push_back(material_.density * share);
+    volume_ += share;
+  }
+  for (std::vector<Point> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
+    column->assign(nodes, Point{});
+  led_.assign(nodes, 0);
+  face_pressure_.assign(mesh_.faces.size(), 0.0);
+  cell_force_.resize(mesh_.cells.size());
+}
+
+double HyperelasticSolid::largest_move(double dt) const {
+  double squared = 0;
+  for (const Point &v : velocity_)
+    squared = std::max(squared, dot(v, v));
+  return std::abs(dt) * std::sqrt(squared);
+}
+
+void HyperelasticSolid::place_surface() {
+  for (std::size_t v = 0; v < surface_node_.size(); ++v) {
+    const std::size_t n = index(surface_node_[v]);
+    surface_.vertices[v] = mesh_.nodes[n] + displacement_[n];
+    surface_.velocities[v] = velocity_[n];
+  }
+}
+
+void HyperelasticSolid::place_surface_ahead(double dt) {
+  for (std::size_t v = 0; v < surface_node_.size(); ++v) {
+    const std::size_t n = index(surface_node_[v]);
+    surface_.vertices[v] = mesh_.nodes[n] + (displacement_[n] + dt * velocity_[n]);
+  }
+}
+
+int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
+  unsigned char bits = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (components[k]) bits = static_cast<unsigned char>(bits | (1u << k));
+  require(!nodes.empty() && bits != 0, "a lead needs nodes and components");
+  for (const int n : nodes) {
+    require(n >= 0 && index(n) < led_.size(), "there is no node " + std::to_string(n) + " to lead");
+    require((led_[index(n)] & bits) == 0, "node " + std::to_string(n) + " is led already");
+  }
+  for (const int n : nodes)
+    led_[index(n)] = static_cast<unsigned char>(led_[index(n)] | bits);
+  leads_.push_back({nodes, components});
+  return static_cast<int>(leads_.size()) - 1;
+}
+
+const HyperelasticSolid::Lead &HyperelasticSolid::lead_of(int lead) const {
+  require(lead >= 0 && index(lead) < leads_.size(), "there is no lead " + std::to_string(lead));
+  return leads_[index(lead)];
+}
+
+void HyperelasticSolid::set_lead_velocity(int lead, const Point &velocity, const Point &spin,
+                                          const Point &about) {
+  lead_of(lead);
+  Lead &own = leads_[index(lead)];
+  own.velocity = velocity, own.spin = spin, own.about = about;
+}
+
+Point HyperelasticSolid::lead_force(int lead) const {
+  const Lead &own = lead_of(lead);
+  Point sum{};
+  for (const int n : own.nodes) {
+    const Point free = out_of_balance(index(n));
+    for (std::size_t k = 0; k < 3; ++k)
+      if (own.components[k]) sum[k] -= free[k];
+  }
+  return sum;
+}
+
+Point HyperelasticSolid::lead_moment(int lead, const Point &about) const {
+  const Lead &own = lead_of(lead);
+  Point sum{};
+  for (const int n : own.nodes) {
+    Point force = -1.0 * out_of_balance(index(n));
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!own.components[k]) force[k] = 0;
+    sum = sum + cross(node_place(n) - about, force);
+  }
+  return sum;
+}
+
+void HyperelasticSolid::set_pressure(int tag, double pressure) {
+  require(std::isfinite(pressure), "pressure must be finite");
+  bool found = false;
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+    if (mesh_.faces[f].tag == tag) face_pressure_[f] = pressure, found = true;
+  require(found, "no face has the tag " + std::to_string(tag) + " to press on");
+}
+
+double HyperelasticSolid::pressure(int tag) const {
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+    if (mesh_.faces[f].tag == tag) return face_pressure_[f];
+  require(false, "no face has the tag " + std::to_string(tag));
+  return 0;
+}
+
+void HyperelasticSolid::set_damping(double rate) {
+  require(rate >= 0 && std::isfinite(rate), "damping must not be negative");
+  damping_ = rate;
+}
+
+void HyperelasticSolid::half_kick(double dt) {
+  const double h = 0.5 * dt, drag = 0.5 * h * damping_; // by the velocity in the middle of the kick
+  struct Works {
+    double lead = 0, damping = 0;
+    void operator+=(const Works &other) { lead += other.lead, damping += other.damping; }
+  };
+  // What the new velocity of a lead adds to the energy of motion is the lead's work as well.
+  for (const Lead &own : leads_)
+    for (const int n : own.nodes) {
+      const Point given = own.velocity + cross(own.spin, node_place(n) - own.about);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!own.components[k]) continue;
+        double &v = velocity_[index(n)][k];
+        lead_work_ += 0.5 * mass_[index(n)] * (given[k] * given[k] - v * v);
+        v = given[k];
+      }
+    }
+  const Works works = part_sum<Works>(velocity_.size(), node_grain, [&](std::size_t first, std::size_t last) {
+    Works sum;
+    for (std::size_t n = first; n < last; ++n) {
+      const Point force = out_of_balance(n);
+      for (std::size_t k = 0; k < 3; ++k) {
+        double &v = velocity_[n][k];
+        if (is_led(n, k)) {
+          sum.lead -= h * force[k] * v;
+          continue;
+        }
+        const double before = v;
+        v = ((1 - drag) * before + h / mass_[n] * force[k]) / (1 + drag);
+        sum.damping += 0.5 * drag * mass_[n] * (before + v) * (before + v);
+      }
+    }
+    return sum;
+  });
+  lead_work_ += works.lead;
+  damping_work_ += works.damping;
+  for (std::size_t v = 0; v < surface_node_.size(); ++v)
+    surface_.velocities[v] = velocity_[index(surface_node_[v])];
+}
+
+void HyperelasticSolid::drift(double dt) {
+  for_each_part(next_.size(), node_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n)
+      next_[n] = displacement_[n] + dt * velocity_[n];
+  });
+  check(next_);
+  pressure_work_ += pressure_work_to(next_, face_pressure_);
+  std::swap(displacement_, next_);
+  place_surface();
+}
+
+// Each cell's forces go to a row of its own; nodes then add the rows that meet there, in order.
+void HyperelasticSolid::update_forces() {
+  for_each_part(mesh_.cells.size(), cell_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c)
+      cell_force_[c] = cell_force(material_.law, mesh_.cells[c], mesh_.gather(c, displacement_));
+  });
+  for_each_part(internal_.size(), node_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      Point sum{};
+      for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
+        sum = sum + cell_force_[mesh_.corner[k] / 8].force[mesh_.corner[k] % 8];
+      internal_[n] = sum;
+    }
+  });
+  add_pressure_forces();
+}
+
+double HyperelasticSolid::kinetic_energy() const {
+  double energy = 0;
+  for (std::size_t n = 0; n < velocity_.size(); ++n)
+    energy += 0.5 * mass_[n] * dot(velocity_[n], velocity_[n]);
+  return energy;
+}
+
+double HyperelasticSolid::internal_energy() const {
+  double energy = 0;
+  for (const CellForce &cell : cell_force_)
+    energy += cell.energy;
+  return energy;
+}
+
+void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement) {
+  require(displacement.size() == displacement_.size(), "one displacement per node is needed");
+  check(displacement);
+  displacement_ = displacement;
+  place_surface();
+  update_forces();
+}
+
+void HyperelasticSolid::set_velocity(const std::vector<Point> &velocity) {
+  require(velocity.size() == velocity_.size() && is_finite(velocity),
+          "one finite velocity per node is needed");
+  velocity_ = velocity;
+  place_surface();
+}
+
+std::vector<double> HyperelasticSolid::state() const {
+  std::vector<double> numbers = {pressure_work_, lead_work_, damping_work_};
+  const auto append = [&](const auto &values) {
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  };
+  for (const Lead &own : leads_)
+    append(own.velocity), append(own.spin), append(own.about);
+  append(face_pressure_);
+  for (const std::vector<Point> *column : {&displacement_, &velocity_, &load_})
+    for (const Point &value : *column)
+      append(value);
+  return numbers;
+}
+
+void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
+  const std::size_t expected =
+      3 + 9 * leads_.size() + face_pressure_.size() + 6 * displacement_.size() + 3 * load_.size();
+  require(numbers.size() == expected,
+          "state has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(expected));
+  std::vector<Point> displacement(displacement_.size());
+  const std::size_t from = 3 + 9 * leads_.size() + face_pressure_.size();
+  for (std::size_t k = 0; k < 3 * displacement.size(); ++k)
+    displacement[k / 3][k % 3] = numbers[from + k];
+  check(displacement);
+  auto next = numbers.begin();
+  const auto take = [&](auto &values) {
+    for (double &value : values)
+      value = *next++;
+  };
+  pressure_work_ = *next++, lead_work_ = *next++, damping_work_ = *next++;
+  for (Lead &own : leads_)
+    take(own.velocity), take(own.spin), take(own.about);
+  take(face_pressure_);
+  clear_loads();
+  for (std::vector<Point> *column : {&displacement_, &velocity_, &load_})
+    for (Point &value : *column)
+      take(value);
+  for (std::size_t v = 0; v < load_.size(); ++v)
+    if (load_[v] != Point{}) loaded_.push_back(static_cast<int>(v)), is_loaded_[v] = 1;
+  place_surface();
+  update_forces();
+}
+
+} // namespace platen::fem

@@ -1,0 +1,209 @@
+// A solid of rubber at finite strain: the sleeve around a specimen, or a block. Nodes carry mass and motion,
+// cells (mean_dilatation.h) give the internal forces, faces of a tag carry a follower pressure
+// (follower_pressure.h), and one part of the surface meets the particles, as a Body's does.
+//
+// Explicit: velocity Verlet, in the order half_kick, drift, [contact loads], update_forces, half_kick.
+// Quasi-static: solve() (hyperelastic_equilibrium.cc). Either way an element that would turn inside out is
+// found at its new place before the law is asked, and the solid stays where it was.
+//
+// Signs: pressure positive when it pushes into the solid; works positive when done on the solid.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <iosfwd>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fem/loaded_surface.h"
+#include "fem/solid_mesh.h"
+
+namespace platen::fem {
+
+struct Rubber {
+  double density; // kg/m^3, positive
+  NeoHookean law;
+};
+
+// Thrown before an inverted element is used; the text names cell, place, volume ratio and load.
+struct InvertedElement : std::runtime_error {
+  InvertedElement(const std::string &what, int cell_, const Point &place_, double volume_ratio_)
+      : std::runtime_error(what), cell(cell_), place(place_), volume_ratio(volume_ratio_) {}
+  int cell;
+  Point place; // m, middle of the cell where it would have been
+  double volume_ratio;
+};
+
+// No equilibrium was found after all cuts of the step; the text names cell, place, load and last residuals.
+struct EquilibriumFailure : std::runtime_error {
+  EquilibriumFailure(const std::string &what, int cell_, const Point &place_, double share_)
+      : std::runtime_error(what), cell(cell_), place(place_), share(share_) {}
+  int cell;     // that stood in the way
+  Point place;  // m
+  double share; // of the path to the new loads that was reached
+};
+
+struct PressureTarget {
+  int tag;
+  double pressure; // Pa
+};
+struct LeadTarget {
+  int lead;                        // number that lead() gave
+  std::vector<Point> displacement; // m, from the reference place; one per node of the lead, or one for all
+};
+// New loads of solve(); what is not named stays as it is. Contact loads are those that stand on the surface.
+struct EquilibriumTarget {
+  std::vector<PressureTarget> pressures;
+  std::vector<LeadTarget> leads;
+};
+
+struct EquilibriumControl {
+  double tolerance = 1e-10; // residual over the forces in the solid, both as root of the sum of squares
+  int iterations = 15;      // per step
+  int cuts = 10;            // halvings of the step in a row before giving up
+};
+struct EquilibriumReport {
+  int steps = 0, cuts = 0, iterations = 0; // in all
+  std::vector<double> residuals;           // of the last step, relative, the start's first
+};
+
+class HyperelasticSolid : public LoadedSurface {
+public:
+  // `contact_tags`: the part of the surface that meets the particles (inner_tag for a sleeve: its outer face
+  // is then never seen); empty for all of it. Throws std::invalid_argument where a constant is out of range,
+  // a cell folded or a tag has no faces.
+  HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags = {});
+
+  const Rubber &material() const { return material_; }
+  const SolidMesh &mesh() const { return mesh_; }
+  double volume() const { return volume_; }                                // m^3, without load
+  double mass() const { return material_.density * volume_; }              // kg
+  std::vector<int> nodes_of(int tag) const { return mesh_.nodes_of(tag); } // ascending
+
+  // The part that meets the particles: current vertices and velocities, outward normals of the solid (those
+  // of the inner face of a tube point to the axis), is surface().
+  int surface_node(int vertex) const { return surface_node_[static_cast<std::size_t>(vertex)]; }
+  double surface_mass(int vertex) const { return mass_[index(surface_node(vertex))]; } // kg
+  double largest_move(double dt) const; // m, bound on how far any node moves in a drift over dt
+
+  // Nodes whose motion is given. `components` says which of x, y, z: all for an end that is bonded to a
+  // platen, z alone for one that slides along it. Returns the number of the lead. Throws where a component of
+  // a node is led already.
+  int lead(const std::vector<int> &nodes, const std::array<bool, 3> &components);
+  // m/s; rad/s about a point (m). Takes effect at the next half_kick, with the places of now: call it again
+  // each step while a lead turns.
+  void set_lead_velocity(int lead, const Point &velocity, const Point &spin = {}, const Point &about = {});
+  Point lead_force(int lead) const; // N, that the lead does on the solid, without inertia
+  Point lead_moment(int lead, const Point &about) const; // N m
+
+  // Pa, on all faces of a tag from now on. Throws where there is none.
+  void set_pressure(int tag, double pressure);
+  double pressure(int tag) const;      // Pa; 0 where none was set
+  Point pressure_force(int tag) const; // N, sum over its faces where they are now
+  // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where those lie in planes).
+  double enclosed_volume(int tag) const;
+
+  // Rate of mass-proportional damping (1/s): a force of -rate times momentum on free nodes.
+  void set_damping(double rate);
+
+  // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.
+  void half_kick(double dt); // over dt/2, s
+  void drift(double dt);
+  // Shows the surface where a drift over dt would take it, and moves nothing else: for who steps the solid
+  // seldom and looks at its surface often.
+  void place_surface_ahead(double dt);
+  void update_forces(); // internal and pressure forces at the present place
+  // s; from a bound of each cell's largest eigenvalue, load stiffness included, so at or below the true limit
+  // (by 10 % at most for one cell alone). Costs as much as 20 steps: ask now and then. Springs of contacts
+  // come on top: see surface_mass().
+  double stable_step() const;
+
+  // Quasi-static: leads and pressures go straight from their present values to the target, whatever is out of
+  // balance at the start fades along the way; velocities become zero. Throws EquilibriumFailure (the solid is
+  // back where it was).
+  EquilibriumReport solve(const EquilibriumTarget &target, const EquilibriumControl &control = {});
+
+  double kinetic_energy() const;  // J
+  double internal_energy() const; // J, stored, as of the last update_forces
+  // Since the start (J). Pressure: p times the volume swept, exact for a constant p over each drift.
+  double pressure_work() const { return pressure_work_; }
+  double lead_work() const { return lead_work_; }
+  double damping_work() const { return damping_work_; } // lost, positive
+
+  const std::vector<Point> &displacement() const { return displacement_; } // m, one per node
+  const std::vector<Point> &velocity() const { return velocity_; }         // m/s
+  const std::vector<Point> &internal_forces() const { return internal_; }  // N, derivative of the energy
+  const std::vector<Point> &pressure_forces() const { return pressed_; }   // N
+  const std::vector<double> &nodal_mass() const { return mass_; }          // kg
+  Point node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
+  // Places all nodes and updates the forces; books no work. Throws InvertedElement, then nothing has changed.
+  void set_displacement(const std::vector<Point> &displacement);
+  void set_velocity(const std::vector<Point> &velocity);
+  // Derivative of (internal - pressure) forces times a vector, one per node.
+  std::vector<Point> stiffness_times(const std::vector<Point> &direction) const;
+
+  // Cauchy stress (Pa), tension positive. Node values are means over the cells around, by current volume.
+  std::vector<CellStress> cell_stresses() const;
+  std::vector<Tensor> node_stresses() const;
+  // VTU (binary, zlib) of the grid where it is now. Points: displacement (m), stress (tensor), von_mises,
+  // pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per surface vertex
+  // or empty for zero). Cells: J (volume ratio).
+  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
+
+  // Everything that changes in a run, to the last bit: motion, leads' velocities, pressures, loads, works.
+  std::vector<double> state() const;
+  // The solid must have been given the same leads. Throws std::invalid_argument on other numbers.
+  void set_state(const std::vector<double> &numbers);
+
+private:
+  friend class EquilibriumPath; // hyperelastic_equilibrium.cc
+  struct Lead {
+    std::vector<int> nodes;
+    std::array<bool, 3> components;
+    Point velocity{}, spin{}, about{};
+  };
+  struct Worst {
+    int cell = -1; // none
+    double volume_ratio = 1;
+  };
+
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+  const Lead &lead_of(int lead) const;
+  bool is_led(std::size_t node, std::size_t component) const { return (led_[node] >> component & 1) != 0; }
+  Point out_of_balance(std::size_t node) const { return node_load(node) + pressed_[node] - internal_[node]; }
+  Point node_load(std::size_t node) const {
+    return vertex_of_[node] < 0 ? Point{} : load_[index(vertex_of_[node])];
+  }
+  // The inverted cell with the lowest number if nodes were displaced so.
+  Worst first_inverted(const std::vector<Point> &displacement) const;
+  Point cell_middle(int cell, const std::vector<Point> &displacement) const;
+  std::string describe_loads() const;
+  void check(const std::vector<Point> &displacement) const; // throws InvertedElement
+  double pressure_work_to(const std::vector<Point> &displacement, const std::vector<double> &pressures) const;
+  void add_pressure_forces();
+  CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
+  FaceCorners face_places(const BoundaryFace &face, const std::vector<Point> &displacement) const;
+  void place_surface();
+
+  Grid grid_;
+  Rubber material_;
+  SolidMesh mesh_;
+  std::vector<int> surface_node_;       // of each vertex
+  std::vector<int> vertex_of_;          // of each node, -1 where it is not on the surface
+  std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
+  double volume_ = 0;
+  std::vector<double> mass_; // kg, of each node
+
+  std::vector<Point> displacement_, velocity_, next_;
+  std::vector<unsigned char> led_; // bits x, y, z of each node
+  std::vector<Lead> leads_;
+  std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
+  double damping_ = 0;
+
+  std::vector<CellForce> cell_force_;
+  std::vector<Point> internal_, pressed_; // N, of each node
+  double pressure_work_ = 0, lead_work_ = 0, damping_work_ = 0;
+};
+
+} // namespace platen::fem

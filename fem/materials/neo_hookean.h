@@ -1,0 +1,128 @@
+// The neo-Hookean law of rubber at finite strain, split into a part of shape and a part of volume:
+//   W(F) = mu/2 (J^(-2/3) tr F'F - 3) + U(J),   U(J) = kappa/2 ((J^2 - 1)/2 - ln J),   J = det F
+// (Simo, Hughes: Computational Inelasticity, 1998, section 9.2). U grows without bound as J goes to 0 or
+// infinity; for small strains the law is Hooke's with shear modulus mu and bulk modulus kappa. The two parts
+// are told apart because the element takes J at its points for the first and its mean for the second.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace platen::fem {
+
+using Tensor = std::array<double, 9>; // 3 x 3, row by row
+
+constexpr Tensor identity_tensor = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+// Cofactors: the derivative of det F by F, det F times the inverse transposed. Defined for any F.
+inline Tensor cofactor(const Tensor &f) {
+  return {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
+          f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
+          f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
+}
+inline double determinant(const Tensor &f, const Tensor &cof) {
+  return f[0] * cof[0] + f[1] * cof[1] + f[2] * cof[2];
+}
+inline double determinant(const Tensor &f) {
+  return determinant(f, cofactor(f));
+}
+inline double squared_norm(const Tensor &f) {
+  double sum = 0;
+  for (const double x : f)
+    sum += x * x;
+  return sum;
+}
+
+// Volume ratio at which an element counts as turned inside out. Zero is the limit of the law; this close to
+// it no rubber is, and the next step would cross it.
+constexpr double inverted_share = 0.01;
+
+// To be asked before the law is used: what is not larger than `inverted_share`, or no number, is inverted.
+inline bool is_inverted(double volume_ratio) {
+  return !(volume_ratio > inverted_share);
+}
+inline bool is_inverted(const Tensor &f) {
+  return is_inverted(determinant(f));
+}
+
+struct NeoHookean {
+  double shear_modulus; // Pa, mu
+  double bulk_modulus;  // Pa, kappa
+
+  // Both throw std::invalid_argument where a constant is out of range. Young's modulus in Pa, Poisson ratio
+  // between -1 and 1/2: .4995 is a bulk modulus of 1000 shear moduli.
+  static NeoHookean from_moduli(double shear_modulus, double bulk_modulus) {
+    if (!(shear_modulus > 0) || !(bulk_modulus > 0) || std::isinf(shear_modulus) || std::isinf(bulk_modulus))
+      throw std::invalid_argument("neo-Hookean law: shear and bulk modulus must be positive");
+    return {shear_modulus, bulk_modulus};
+  }
+  static NeoHookean from_young(double young_modulus, double poisson_ratio) {
+    if (!(young_modulus > 0) || std::isinf(young_modulus))
+      throw std::invalid_argument("neo-Hookean law: Young's modulus must be positive");
+    if (!(poisson_ratio > -1 && poisson_ratio < 0.5))
+      throw std::invalid_argument("neo-Hookean law: Poisson ratio must lie in (-1, 0.5)");
+    return from_moduli(young_modulus / (2 * (1 + poisson_ratio)),
+                       young_modulus / (3 * (1 - 2 * poisson_ratio)));
+  }
+
+  // J^(-2/3) mu: what multiplies F in the stress of shape.
+  double shape_factor(double j) const {
+    const double root = std::cbrt(j);
+    return shear_modulus / (root * root);
+  }
+  double shape_energy(const Tensor &f, double j) const { // J/m^3
+    return 0.5 * (shape_factor(j) * squared_norm(f) - 3 * shear_modulus);
+  }
+  double volume_energy(double j) const { // J/m^3
+    return 0.5 * bulk_modulus * (0.5 * (j * j - 1) - std::log(j));
+  }
+  double volume_stress(double j) const { return 0.5 * bulk_modulus * (j - 1 / j); }        // Pa, U'(J)
+  double volume_modulus(double j) const { return 0.5 * bulk_modulus * (1 + 1 / (j * j)); } // Pa, U''(J)
+
+  // At one point with its own J in both parts. F must not be inverted.
+  double energy(const Tensor &f) const { // J/m^3
+    const double j = determinant(f);
+    return shape_energy(f, j) + volume_energy(j);
+  }
+  // First Piola-Kirchhoff stress dW/dF, Pa.
+  Tensor first_piola(const Tensor &f) const {
+    const Tensor cof = cofactor(f);
+    const double j = determinant(f, cof), shape = shape_factor(j);
+    const double along = volume_stress(j) - shape * squared_norm(f) / (3 * j);
+    Tensor p;
+    for (std::size_t k = 0; k < 9; ++k)
+      p[k] = shape * f[k] + along * cof[k];
+    return p;
+  }
+  // Kirchhoff stress P F', Pa; over J it is Cauchy's.
+  Tensor kirchhoff(const Tensor &f) const {
+    const double j = determinant(f), shape = shape_factor(j), third = squared_norm(f) / 3;
+    Tensor tau{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double b = f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] + f[3 * i + 2] * f[3 * k + 2];
+        tau[3 * i + k] = shape * (b - (i == k ? third : 0.0)) + (i == k ? j * volume_stress(j) : 0.0);
+      }
+    return tau;
+  }
+  // d P_iJ / d F_kL at [9 (3 i + J) + 3 k + L], Pa.
+  std::array<double, 81> tangent(const Tensor &f) const {
+    const Tensor cof = cofactor(f);
+    const double j = determinant(f, cof), shape = shape_factor(j), third = squared_norm(f) / 3;
+    const double u1 = j * volume_stress(j), u2 = j * j * volume_modulus(j);
+    std::array<double, 81> a;
+    for (std::size_t m = 0; m < 9; ++m)
+      for (std::size_t n = 0; n < 9; ++n) {
+        const std::size_t i = m / 3, jj = m % 3, k = n / 3, l = n % 3;
+        const double gm = cof[m] / j, gn = cof[n] / j, turned = cof[3 * i + l] * cof[3 * k + jj] / (j * j);
+        a[9 * m + n] = shape * ((m == n ? 1.0 : 0.0) - 2.0 / 3.0 * (gn * (f[m] - third * gm) + f[n] * gm) +
+                                third * turned) +
+                       u2 * gm * gn + u1 * (gm * gn - turned);
+      }
+    return a;
+  }
+};
+
+} // namespace platen::fem

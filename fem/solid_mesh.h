@@ -1,0 +1,53 @@
+// A grid as plain arrays for loops over its cells: read off deal.II once, at the start.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "fem/follower_pressure.h"
+#include "fem/grids.h"
+#include "fem/mean_dilatation.h"
+
+namespace platen::fem {
+
+// A face of the boundary.
+struct BoundaryFace {
+  std::array<int, 4> nodes;   // counter-clockwise seen from outside
+  int tag;                    // boundary id
+  int cell;                   // that it belongs to
+  std::array<int, 4> corners; // of that cell
+};
+
+// Nodes are the vertices of the grid, with its numbers.
+struct SolidMesh {
+  std::vector<Point> nodes; // m, reference places
+  std::vector<ReferenceCell> cells;
+  std::vector<std::array<int, 8>> cell_nodes; // x fastest
+  std::vector<double> node_volume;            // m^3, integral of each shape function
+  std::vector<BoundaryFace> faces;
+  // Corners that meet at node n: [first_corner[n], first_corner[n + 1]) of `corner`, each 8 cell + corner,
+  // ascending.
+  std::vector<std::size_t> first_corner, corner;
+
+  Corners gather(std::size_t cell, const std::vector<Point> &values) const {
+    Corners own;
+    for (std::size_t a = 0; a < 8; ++a)
+      own[a] = values[static_cast<std::size_t>(cell_nodes[cell][a])];
+    return own;
+  }
+  // Nodes on faces of a tag, ascending.
+  std::vector<int> nodes_of(int tag) const;
+};
+
+// Throws std::invalid_argument where a cell is folded (naming it) or the grid has hanging or loose nodes.
+SolidMesh read_mesh(const Grid &grid);
+
+// The faces of some tags as a surface of their own; all faces where `tags` is empty.
+struct PartSurface {
+  SurfaceMesh surface;
+  std::vector<int> node; // of each vertex, ascending
+};
+PartSurface part_surface(const SolidMesh &mesh, const std::vector<int> &tags);
+
+} // namespace platen::fem

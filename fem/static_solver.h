@@ -1,0 +1,42 @@
+// Static equations of a solid: stiffness times displacement = load, some components given.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fem/block_rows.h"
+#include "fem/largest_frequency.h"
+
+namespace platen::fem {
+
+// automatic: by size, as bench/results/platen_solve.md found the faster over the solves of a run.
+enum class LinearSolver {
+  automatic,
+  direct,   // UMFPACK, factorised once
+  multigrid // conjugate gradients with smoothed aggregation (Trilinos ML) that is told the rigid motions
+};
+
+class StaticSolver {
+public:
+  // Held components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
+  // held. Sets MPI up where nobody has: Trilinos does not go without.
+  StaticSolver(const BlockRows &stiffness, const std::vector<Point> &nodes, Held held,
+               LinearSolver kind = LinearSolver::automatic);
+  ~StaticSolver();
+  StaticSolver(StaticSolver &&) noexcept;
+  StaticSolver &operator=(StaticSolver &&) noexcept;
+
+  // Displacements (m) under nodal loads (N). Comes with the held components and, for multigrid, a guess of
+  // the others. Residual of the free components at most 1e-12 of the loads' (of what held motions bring,
+  // too). Throws std::runtime_error where the gradients do not get there.
+  void solve(const BlockRows &stiffness, const std::vector<Point> &load, std::vector<Point> &x) const;
+
+  LinearSolver kind() const; // direct or multigrid
+  int iterations() const;    // of the last solve; 0 for a direct one
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace platen::fem
