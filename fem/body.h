@@ -1,4 +1,4 @@
-// A body of finite elements that meets the particles with its surface: a platen today, a sleeve later.
+// A body of finite elements that meets the particles with its surface: a rigid platen.
 // Callers see a surface, loads on its vertices and a few numbers; what happens inside is the kind's own
 // affair.
 #pragma once
