@@ -3,6 +3,7 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "fem/elastic_model.h"
+#include "fem/threads.h"
 
 namespace platen::fem {
 namespace {
@@ -136,6 +138,33 @@ std::vector<Point> body_load(const ElasticModel &model, const std::function<Poin
   return load;
 }
 
+std::vector<Point> face_load(const ElasticModel &model, int tag,
+                             const std::function<Point(const Point &, const Point &)> &traction) {
+  std::vector<Point> load(model.nodes.size(), Point{});
+  const std::size_t n = nodes_per_cell(model);
+  const dealii::QGauss<2> gauss(static_cast<unsigned int>(model.degree) + 2);
+  const NoCellReuse same_for_any_threads;
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEFaceValues<3> values(mapping, model.numbers->get_fe(), gauss,
+                                 dealii::update_values | dealii::update_quadrature_points |
+                                     dealii::update_normal_vectors | dealii::update_JxW_values);
+  for (const auto &cell : model.numbers->active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary() || static_cast<int>(cell->face(f)->boundary_id()) != tag) continue;
+      values.reinit(cell, f);
+      for (const unsigned int q : values.quadrature_point_indices()) {
+        const auto &normal = values.normal_vector(q);
+        const Point force =
+            values.JxW(q) * traction(point(values.quadrature_point(q)), {normal[0], normal[1], normal[2]});
+        for (std::size_t a = 0; a < n; ++a) {
+          Point &sum = load[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
+          sum = sum + values.shape_value(static_cast<unsigned int>(a), q) * force;
+        }
+      }
+    }
+  return load;
+}
+
 double integral(const ElasticModel &model, const std::vector<Point> &field,
                 const std::function<double(const Point &, const Point &)> &f) {
   double sum = 0;
@@ -165,8 +194,10 @@ double von_mises(const Stress &s) {
 
 std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
   std::vector<Stress> result(model.cell_material.size()), local;
+  const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
-  dealii::FEValues<3> values(model.numbers->get_fe(), gauss,
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss,
                              dealii::update_gradients | dealii::update_JxW_values);
   for (const auto &cell : model.numbers->active_cell_iterators()) {
     values.reinit(cell);
@@ -185,8 +216,10 @@ std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Poi
 
 std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
   const std::size_t n = nodes_per_cell(model);
+  const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
-  dealii::FEValues<3> values(model.numbers->get_fe(), gauss, dealii::update_gradients);
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss, dealii::update_gradients);
   // Shares of the Gauss points in each node: all of one point, or the trilinear through eight.
   std::vector<double> share(n * gauss.size(), 1.0);
   if (model.degree == 2)

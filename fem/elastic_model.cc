@@ -6,7 +6,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "fem/threads.h"
 
 namespace platen::fem {
 namespace {
@@ -36,7 +38,7 @@ void number_nodes(ElasticModel &model, const dealii::FE_Q<3> &element) {
   dealii::DoFRenumbering::Cuthill_McKee(*numbers); // neighbours near in memory
   model.nodes.resize(numbers->n_dofs());
   std::vector<dealii::Point<3>> points(numbers->n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<3>(), *numbers, points);
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ<3>(1), *numbers, points);
   for (std::size_t i = 0; i < points.size(); ++i)
     model.nodes[i] = {points[i][0], points[i][1], points[i][2]};
   std::vector<dealii::types::global_dof_index> ids(element.n_dofs_per_cell());
@@ -140,10 +142,12 @@ ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> mat
   number_nodes(model, element);
   lay_out(model);
 
+  const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(degree) + 1);
   const dealii::Quadrature<3> lobatto = dealii::QGaussLobatto<3>(3);
-  dealii::FEValues<3> values(element, gauss, dealii::update_gradients | dealii::update_JxW_values);
-  dealii::FEValues<3> masses(element, degree == 1 ? dealii::Quadrature<3>(gauss) : lobatto,
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, element, gauss, dealii::update_gradients | dealii::update_JxW_values);
+  dealii::FEValues<3> masses(mapping, element, degree == 1 ? dealii::Quadrature<3>(gauss) : lobatto,
                              dealii::update_values | dealii::update_JxW_values);
   const std::size_t n = element.n_dofs_per_cell();
   std::vector<double> blocks(9 * n * n), share(n);

@@ -54,6 +54,11 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag);
 // Nodal loads (N) that do the work of a force per volume (N/m^3, of the reference place).
 std::vector<Point> body_load(const ElasticModel &model, const std::function<Point(const Point &)> &density);
 
+// Nodal loads (N) that do the work of a traction (Pa) at a place with an outward normal, on the faces of a
+// tag.
+std::vector<Point> face_load(const ElasticModel &model, int tag,
+                             const std::function<Point(const Point &, const Point &)> &traction);
+
 // Integral over the reference volume of f(place, value of a field given at the nodes).
 double integral(const ElasticModel &model, const std::vector<Point> &field,
                 const std::function<double(const Point &, const Point &)> &f);

@@ -137,6 +137,7 @@ void ElasticSolid::give_to_grip(double dt, const Point &force, const Point &mome
 void ElasticSolid::kick(double dt) {
   Point force{}, moment{}; // handed on to the grip
   double relative = 0;     // power in the frame, quasi-static
+  kicked_.clear();
   for (const int v : loaded_) {
     const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
     const Point load = contact_load(v), r = arm(node);
@@ -149,6 +150,7 @@ void ElasticSolid::kick(double dt) {
     const Point gain = (dt / model_.mass[node]) * free;
     load_work_ += dt * dot(free, rate_[node] + 0.5 * gain);
     rate_[node] = rate_[node] + gain;
+    kicked_.push_back({node, gain, {}});
     force = force + kept, moment = moment + cross(r, kept);
   }
   const Point before = angular_velocity_;
@@ -205,8 +207,8 @@ void ElasticSolid::drift(double dt, int steps) {
 }
 
 void ElasticSolid::substep(double dt) {
-  internal_kick(0.5 * dt);
   damp(dt);
+  internal_kick(0.5 * dt);
   move_frame(dt);
   for (std::size_t i = 0; i < moved_.size(); ++i)
     moved_[i] = moved_[i] + dt * rate_[i];
@@ -238,9 +240,9 @@ void ElasticSolid::internal_kick(double dt) {
   if (turns_freely()) place_held();
 }
 
-// Dashpots to the frame and between the nodes, and at the seat, on the velocities of the way: between kicks
-// of loads and of internal forces those are off by half a step of either, and what rests under load would be
-// damped. The energy that a step keeps is made of velocities half a kick before.
+// Dashpots to the frame and between the nodes, and at the seat. They act where both halves of the loads'
+// impulse meet: the half that has come already is put off meanwhile, else a loaded body at rest would be
+// damped.
 void ElasticSolid::damp(double dt) {
   const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
   if (turns_freely() && grip_.damping > 0) {
@@ -251,6 +253,10 @@ void ElasticSolid::damp(double dt) {
     dissipated_ += before - held_kinetic_energy();
   }
   if (alpha == 0 && beta == 0) return;
+  for (Kicked &k : kicked_) {
+    rate_[k.node] = rate_[k.node] - k.gain;
+    k.before = rate_[k.node];
+  }
   std::vector<Point> relative(rate_.size()), impulse(rate_.size(), Point{});
   for (std::size_t i = 0; i < rate_.size(); ++i)
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
@@ -263,9 +269,14 @@ void ElasticSolid::damp(double dt) {
         free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * (1 - std::exp(-alpha * dt))) * w);
     const Point gain = (1 / mass) * push;
     rate_[i] = rate_[i] + gain;
-    dissipated_ -= dot(push, w + 0.5 * gain - (0.5 * dt / mass) * free_part(i, force_[i]));
+    dissipated_ -= dot(push, w + 0.5 * gain);
     force = force - push, moment = moment - cross(arm(i), push);
   }
+  for (const Kicked &k : kicked_) {
+    load_work_ += model_.mass[k.node] * dot(k.gain, rate_[k.node] - k.before);
+    rate_[k.node] = rate_[k.node] + k.gain;
+  }
+  kicked_.clear();
   if (grip_nodes_.empty()) return;
   give_to_grip(1, force, moment);
   if (turns_freely()) place_held();

@@ -113,6 +113,7 @@ public:
   void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
+  // Everything that changes in a run, to the last bit; to be taken between steps.
   std::vector<double> state() const override;
   void set_state(const std::vector<double> &numbers) override;
 
@@ -178,6 +179,11 @@ private:
   std::array<double, 3> path_{};        // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
   double last_step_ = 0, last_move_ = 0;
   double load_work_ = 0, grip_work_ = 0, dissipated_ = 0;
+  struct Kicked {
+    std::size_t node;
+    Point gain, before; // m/s
+  };
+  std::vector<Kicked> kicked_;       // by the loads since the last drift
   std::vector<StaticSolver> solver_; // none until the first aim()
 };
 

@@ -1,9 +1,10 @@
 #include "fem/grids.h"
+#include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -318,7 +319,9 @@ VolumeMoments volume_moments(const Grid &grid) {
   // exact.
   const dealii::QGauss<3> quadrature(3);
   const dealii::FE_Nothing<3> element;
-  dealii::FEValues<3> values(element, quadrature,
+  const NoCellReuse same_for_any_threads;
+  const dealii::MappingQ<3> mapping(1);
+  dealii::FEValues<3> values(mapping, element, quadrature,
                              dealii::update_quadrature_points | dealii::update_JxW_values);
   VolumeMoments m;
   const auto integrate = [&](const auto &add) {

@@ -68,6 +68,13 @@ void HyperelasticSolid::place_surface() {
   }
 }
 
+void HyperelasticSolid::place_surface_ahead(double dt) {
+  for (std::size_t v = 0; v < surface_node_.size(); ++v) {
+    const std::size_t n = index(surface_node_[v]);
+    surface_.vertices[v] = mesh_.nodes[n] + (displacement_[n] + dt * velocity_[n]);
+  }
+}
+
 int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
   unsigned char bits = 0;
   for (std::size_t k = 0; k < 3; ++k)

@@ -110,6 +110,9 @@ public:
   // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.
   void half_kick(double dt); // over dt/2, s
   void drift(double dt);
+  // Shows the surface where a drift over dt would take it, and moves nothing else: for who steps the solid
+  // seldom and looks at its surface often.
+  void place_surface_ahead(double dt);
   void update_forces(); // internal and pressure forces at the present place
   // s; from a bound of each cell's largest eigenvalue, load stiffness included, so at or below the true limit
   // (by 10 % at most for one cell alone). Costs as much as 20 steps: ask now and then. Springs of contacts

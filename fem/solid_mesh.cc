@@ -1,4 +1,5 @@
 #include "fem/solid_mesh.h"
+#include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
@@ -17,6 +18,7 @@ void require(bool holds, const std::string &what) {
 }
 
 void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
+  const NoCellReuse same_for_any_threads;
   const dealii::FE_Q<3> element(1);
   const dealii::QGauss<3> points(2);
   dealii::FEValues<3> values(element, points,

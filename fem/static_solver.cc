@@ -25,7 +25,9 @@ namespace platen::fem {
 namespace {
 
 constexpr double residual_share = 1e-12;
-constexpr std::size_t direct_nodes = 4000; // up to here UMFPACK is the faster
+// Up to here UMFPACK solves faster (bench/results/platen_solve.md): nodes of degree 1, whose rows have at
+// most 27 blocks, and of degree 2, whose fuller rows cost the gradients more than the factors.
+constexpr std::size_t direct_nodes_linear = 5000, direct_nodes_quadratic = 10000, linear_blocks = 27;
 
 // MPI belongs to whoever starts it first; a program that never solves never does.
 void ensure_mpi() {
@@ -155,8 +157,11 @@ StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Point> 
   for (const auto &node : held)
     any = any || node[0] || node[1] || node[2];
   if (!any) throw std::invalid_argument("elastic solid: nothing is held, a static solution is not unique");
-  if (kind == LinearSolver::automatic)
-    kind = nodes.size() <= direct_nodes ? LinearSolver::direct : LinearSolver::multigrid;
+  if (kind == LinearSolver::automatic) {
+    const bool linear = stiffness.column.size() <= linear_blocks * nodes.size();
+    const std::size_t most = linear ? direct_nodes_linear : direct_nodes_quadratic;
+    kind = nodes.size() <= most ? LinearSolver::direct : LinearSolver::multigrid;
+  }
   ensure_mpi();
   parts_ = std::make_unique<Parts>();
   parts_->kind = kind;

@@ -9,4 +9,11 @@ void limit_threads(int threads) {
                                                         : dealii::numbers::invalid_unsigned_int);
 }
 
+NoCellReuse::NoCellReuse() : alone_(dealii::MultithreadInfo::n_threads() == 1) {
+  if (alone_) dealii::MultithreadInfo::set_thread_limit(2);
+}
+NoCellReuse::~NoCellReuse() {
+  if (alone_) dealii::MultithreadInfo::set_thread_limit(1);
+}
+
 } // namespace platen::fem

@@ -136,14 +136,8 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
         held[static_cast<std::size_t>(i)][k] = 1;
     };
     hold(2, 1), hold(3, 0), hold(4, 2), hold(5, 2);
-    const NodeSurface s = node_surface(model);
-    std::vector<Point> load(model.nodes.size(), Point{}), x(load.size(), Point{});
-    for (std::size_t f = 0; f < s.surface.faces.size(); ++f)
-      if (s.surface.face_tags[f] == 0)
-        for (const int v : s.surface.faces[f]) {
-          Point &sum = load[static_cast<std::size_t>(s.node[static_cast<std::size_t>(v)])];
-          sum = sum - 0.25 * p * face_area_vector(s.surface, f);
-        }
+    const auto load = face_load(model, 0, [&](const Point &, const Point &normal) { return -p * normal; });
+    std::vector<Point> x(load.size(), Point{});
     StaticSolver(model.stiffness, model.nodes, held).solve(model.stiffness, load, x);
     const double A = p * a * a / (b * b - a * a), B = A * b * b, e = steel.young_modulus,
                  nu = steel.poisson_ratio;

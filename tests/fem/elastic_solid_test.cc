@@ -245,7 +245,8 @@ TEST(elastic_solid, explicit_motion_is_of_second_order) {
 // Shaken at random, energy stays for thousands of steps below the limit and explodes above it.
 TEST(elastic_solid, the_stable_step_is_the_limit) {
   const Grid skew = moved_grid(plate(), [](const Point &p) {
-    return Point{p[0] + 0.3 * p[1] * std::sin(40 * p[2]), p[1] + 5 * p[0] * p[2], p[2] * (1 + 8 * p[0])};
+    return Point{p[0] + 0.3 * p[1] * std::sin(40 * p[2]), p[1] + 5 * p[0] * p[2],
+                 p[2] + 400 * p[0] * p[2] * (0.02 - p[2])};
   });
   for (const int degree : {1, 2})
     for (const bool slides : {false, true}) {
@@ -280,7 +281,7 @@ TEST(elastic_solid, a_free_body_keeps_its_momentum) {
   const double size = std::sqrt(2 * solid.mass() * solid.kinetic_energy()), dt = 0.9 * solid.stable_step();
   for (int k = 0; k < 1000; ++k)
     solid.drift(dt, 1);
-  EXPECT_LT(norm(solid.momentum() - start), 1e-12 * size);
+  EXPECT_LT(norm(solid.momentum() - start), 1e-11 * size); // round-off of a thousand steps
   EXPECT_THROW(solid.set_velocity({1, 0, 0}), std::logic_error);
 }
 

@@ -1,0 +1,163 @@
+// A sleeve around a bonded cylinder: what the cell presses on it arrives at the particles, and no energy is
+// lost on the way.
+#include "coupling/sleeve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/model.h"
+#include "dem/parallel.h"
+#include "fem/threads.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/small_cylinder.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+SleeveSettings butyl() {
+  SleeveSettings s;
+  s.thickness = 1e-3;
+  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.49)};
+  s.elements_around = 12; // two spheres wide: faces bridge the gaps between spheres
+  s.elements_along = 8;
+  s.contact.particle_stiffness = 1e6;
+  s.contact.damping = 0.2;
+  s.contact.skin = 3e-4;
+  s.mass_damping = 2e3;
+  return s;
+}
+
+// Specimen and sleeve on one clock; the pressure rises smoothly.
+struct Cell {
+  dem::Specimen specimen = small_cylinder();
+  dem::Model model;
+  Sleeve sleeve;
+  double ramp = 6e-4, pressure = 1e5, dt;
+
+  explicit Cell(const SleeveSettings &settings = butyl())
+      : model(specimen, with_contacts()),
+        sleeve(model.particles, specimen.shape, 0, specimen.shape.height, settings) {
+    sleeve.layer.seat_within(model.particles, sleeve.solid, 1e-3);
+    dt = 0.5 * model.stable_step(sleeve.layer.ground_springs(model.particles, sleeve.solid), 0).limit;
+  }
+  static dem::ModelSettings with_contacts() {
+    dem::ModelSettings s = elastic_settings(0.5).model;
+    s.local_damping = 0.3;
+    return s;
+  }
+  void step() {
+    model.begin_step(dt);
+    const double x = std::min(1.0, model.time / ramp);
+    sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
+    sleeve.layer.moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
+    model.compute_forces(dt);
+    sleeve.layer.add_forces(model.particles, sleeve.solid, dt);
+    sleeve.take_loads(dt);
+    model.end_step(dt);
+  }
+  void run(double until) {
+    while (model.time < until)
+      step();
+  }
+  double residual() {
+    dem::EnergyLedger e = model.energy();
+    e.kinetic += sleeve.solid.kinetic_energy();
+    e.bodies += sleeve.solid.internal_energy();
+    e.contacts += sleeve.layer.elastic_energy();
+    e.damping += sleeve.layer.damping_work + sleeve.lost();
+    e.friction += sleeve.layer.friction_work;
+    e.boundary += sleeve.work();
+    return e.residual();
+  }
+};
+
+// Sum of the normal forces on the particles along the radius, N.
+double radial_force(const Cell &cell) {
+  double sum = 0;
+  for (const ActiveContact &c : cell.sleeve.layer.contacts())
+    sum -=
+        c.normal_force * (c.normal.x * c.point.x + c.normal.y * c.point.y) / std::hypot(c.point.x, c.point.y);
+  return sum;
+}
+
+TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
+  Cell cell;
+  cell.run(1e-3);
+  EXPECT_GT(cell.sleeve.layer.closed, 50u);
+  // The pressure acts on the polygon of the outer face. Rims are held: they bear an eighth (half an element
+  // at each end of eight) and what spans from the last spheres to them; the tube itself keeps next to
+  // nothing.
+  const dem::Shape &shape = cell.specimen.shape;
+  const double outer = 12 * std::sin(pi / 12) / pi * (shape.radius / std::cos(pi / 12) + 1e-3);
+  const double whole = cell.pressure * 2 * pi * outer * shape.height;
+  EXPECT_GT(radial_force(cell), 0.75 * whole);
+  EXPECT_LT(radial_force(cell), whole);
+  // What the particles got the sleeve has got with the other sign.
+  fem::Point on_particles{}, on_sleeve{};
+  cell.sleeve.solid.clear_loads();
+  for (std::size_t i = 0; i < cell.model.particles.size(); ++i)
+    cell.model.particles.force[i] = {};
+  cell.sleeve.layer.add_forces(cell.model.particles, cell.sleeve.solid, cell.dt);
+  for (std::size_t i = 0; i < cell.model.particles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      on_particles[static_cast<std::size_t>(k)] += cell.model.particles.force[i][k];
+  on_sleeve = cell.sleeve.solid.total_force();
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(on_particles[k] + on_sleeve[k], 0, 1e-12 * whole);
+}
+
+TEST(sleeve, the_energy_of_pressure_is_found_again) {
+  Cell cell;
+  cell.run(1e-3);
+  EXPECT_GT(cell.sleeve.steps_of_interval(), 3); // it is stepped seldom
+  EXPECT_GT(cell.sleeve.work(), 0);
+  EXPECT_LT(std::abs(cell.residual()), 0.01 * cell.sleeve.work());
+}
+
+TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
+  Cell whole, first, second;
+  whole.run(1e-4);
+  first.run(5e-5);
+  const std::vector<double> kept = first.sleeve.state();
+  second.sleeve.set_state(kept);
+  EXPECT_EQ(second.sleeve.state(), kept);
+  EXPECT_EQ(second.sleeve.solid.surface().vertices, first.sleeve.solid.surface().vertices);
+  first.run(1e-4);
+  EXPECT_EQ(first.sleeve.state(), whole.sleeve.state());
+}
+
+TEST(sleeve, threads_change_no_bit) {
+  Cell one, two;
+  {
+    const dem::ThreadLimit limit(1);
+    fem::limit_threads(1);
+    one.run(5e-5);
+  }
+  {
+    const dem::ThreadLimit limit(2);
+    fem::limit_threads(2);
+    two.run(5e-5);
+  }
+  EXPECT_EQ(one.sleeve.state(), two.sleeve.state());
+  for (std::size_t k = 0; k < one.model.particles.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      ASSERT_EQ(one.model.particles.position[k][axis], two.model.particles.position[k][axis]);
+}
+
+TEST(sleeve, what_cannot_be_is_refused) {
+  const dem::Specimen s = small_cylinder();
+  const dem::Model model(s, Cell::with_contacts());
+  SleeveSettings settings = butyl();
+  settings.thickness = 0;
+  EXPECT_THROW(Sleeve(model.particles, s.shape, 0, s.shape.height, settings), std::invalid_argument);
+  settings = butyl();
+  settings.mass_scaling = 0.5;
+  EXPECT_THROW(Sleeve(model.particles, s.shape, 0, s.shape.height, settings), std::invalid_argument);
+  EXPECT_THROW(Sleeve(model.particles, dem::box(1, 1, 1), 0, 1, butyl()), std::invalid_argument);
+}
+
+} // namespace
+} // namespace platen::coupling
