@@ -61,6 +61,7 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double 
   bottom_lead_ = solid.lead(solid.nodes_of(fem::low_end_tag), held);
   top_lead_ = solid.lead(solid.nodes_of(fem::high_end_tag), held);
   solid.set_damping(settings.mass_damping);
+  limit_ = limit();
 }
 
 // Of the elements, and of the contacts that press now: the sum of a row of the contacts' stiffness at a
@@ -88,7 +89,7 @@ double Sleeve::limit() const {
 }
 
 void Sleeve::begin_interval(double dt, const SleeveLead &lead) {
-  planned_ = std::clamp(static_cast<int>(settings_.safety * limit() / dt), 1, settings_.most_steps);
+  planned_ = std::clamp(static_cast<int>(settings_.safety * limit_ / dt), 1, settings_.most_steps);
   solid.set_pressure(fem::mantle_tag, lead.pressure);
   solid.set_lead_velocity(bottom_lead_, lead.bottom);
   solid.set_lead_velocity(top_lead_, lead.top);
@@ -127,10 +128,11 @@ void Sleeve::end_interval() {
   }
   solid.update_forces();
   solid.half_kick(elapsed_);
+  limit_ = limit();
 }
 
 std::vector<double> Sleeve::state() const {
-  std::vector<double> numbers{static_cast<double>(planned_), static_cast<double>(made_), elapsed_};
+  std::vector<double> numbers{static_cast<double>(planned_), static_cast<double>(made_), elapsed_, limit_};
   for (const fem::Point &p : impulse_)
     numbers.insert(numbers.end(), p.begin(), p.end());
   const std::vector<double> own = solid.state();
@@ -139,14 +141,15 @@ std::vector<double> Sleeve::state() const {
 }
 
 void Sleeve::set_state(const std::vector<double> &numbers) {
-  const std::size_t own = 3 + 3 * impulse_.size();
+  const std::size_t own = 4 + 3 * impulse_.size();
   require(numbers.size() > own, "a state of another sleeve");
   solid.set_state({numbers.begin() + static_cast<std::ptrdiff_t>(own), numbers.end()});
   planned_ = static_cast<int>(numbers[0]);
   made_ = static_cast<int>(numbers[1]);
   elapsed_ = numbers[2];
+  limit_ = numbers[3];
   for (std::size_t k = 0; k < 3 * impulse_.size(); ++k)
-    impulse_[k / 3][k % 3] = numbers[3 + k];
+    impulse_[k / 3][k % 3] = numbers[4 + k];
   if (made_ < planned_) solid.place_surface_ahead(elapsed_);
 }
 

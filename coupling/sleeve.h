@@ -76,6 +76,7 @@ private:
   int bottom_lead_ = 0, top_lead_ = 0;
   int planned_ = 0, made_ = 0;      // steps of the interval
   double elapsed_ = 0;              // s, of the interval
+  double limit_ = 0;                // s, of the next interval, by the contacts at the end of this one
   std::vector<fem::Point> impulse_; // N s, of each vertex in the interval
 };
 

@@ -164,10 +164,7 @@ std::vector<double> ElasticSolid::state() const {
   for (const std::vector<Point> *field : {is_static() ? &start_ : &moved_, is_static() ? &target_ : &rate_})
     for (const Point &p : *field)
       append(p);
-  for (const int v : loaded_) {
-    numbers.push_back(v);
-    append(contact_load(v));
-  }
+  append_loads(numbers);
   return numbers;
 }
 
@@ -177,13 +174,7 @@ constexpr std::size_t head_numbers = 8 + 4 * 3 + 4;
 
 void ElasticSolid::set_state(const std::vector<double> &numbers) {
   const std::size_t fixed = head_numbers + 6 * model_.nodes.size();
-  require(numbers.size() >= fixed && (numbers.size() - fixed) % 4 == 0,
-          "state has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(fixed) +
-              " and four per loaded vertex");
-  for (std::size_t k = fixed; k < numbers.size(); k += 4)
-    require(numbers[k] >= 0 && numbers[k] < static_cast<double>(load_.size()) &&
-                numbers[k] == std::floor(numbers[k]),
-            "state names a vertex that the surface does not have");
+  check_loads(numbers, fixed);
   auto next = numbers.begin();
   const auto take = [&](auto &values) {
     for (double &value : values)
@@ -199,13 +190,7 @@ void ElasticSolid::set_state(const std::vector<double> &numbers) {
   for (std::vector<Point> *field : {is_static() ? &start_ : &moved_, is_static() ? &target_ : &rate_})
     for (Point &p : *field)
       take(p);
-  clear_loads();
-  while (next != numbers.end()) {
-    const int vertex = static_cast<int>(*next++);
-    take(load_[static_cast<std::size_t>(vertex)]);
-    is_loaded_[static_cast<std::size_t>(vertex)] = 1;
-    loaded_.push_back(vertex);
-  }
+  set_loads(numbers, fixed);
   if (is_static())
     measure_path();
   else

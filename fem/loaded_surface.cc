@@ -1,5 +1,6 @@
 #include "fem/loaded_surface.h"
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -87,6 +88,31 @@ std::vector<LoadedSurface::Traction> LoadedSurface::contact_tractions() const {
   for (std::size_t v = 0; v < areas.size(); ++v)
     tractions[v] = traction(areas[v], load_[v]);
   return tractions;
+}
+
+void LoadedSurface::append_loads(std::vector<double> &numbers) const {
+  for (const int v : loaded_) {
+    numbers.push_back(v);
+    const Point &load = contact_load(v);
+    numbers.insert(numbers.end(), load.begin(), load.end());
+  }
+}
+
+void LoadedSurface::check_loads(const std::vector<double> &numbers, std::size_t first) const {
+  if (numbers.size() < first || (numbers.size() - first) % 4 != 0)
+    throw std::invalid_argument("body: state has " + std::to_string(numbers.size()) + " numbers, expected " +
+                                std::to_string(first) + " and four per loaded vertex");
+  for (std::size_t k = first; k < numbers.size(); k += 4)
+    if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(load_.size()) &&
+          numbers[k] == std::floor(numbers[k])))
+      throw std::invalid_argument("body: state names a vertex that the surface does not have");
+}
+
+void LoadedSurface::set_loads(const std::vector<double> &numbers, std::size_t first) {
+  check_loads(numbers, first);
+  clear_loads();
+  for (std::size_t k = first; k < numbers.size(); k += 4)
+    add_surface_force(static_cast<int>(numbers[k]), {numbers[k + 1], numbers[k + 2], numbers[k + 3]});
 }
 
 } // namespace platen::fem

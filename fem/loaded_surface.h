@@ -43,6 +43,12 @@ protected:
   // it).
   void set_surface(SurfaceMesh surface);
 
+  // Loads at the end of a state: four numbers per loaded vertex, in the order of their first load. Throws
+  // std::invalid_argument, having changed nothing, where what stands from `first` on is no such list.
+  void append_loads(std::vector<double> &numbers) const;
+  void check_loads(const std::vector<double> &numbers, std::size_t first) const;
+  void set_loads(const std::vector<double> &numbers, std::size_t first);
+
   SurfaceMesh surface_;
   std::vector<Point> load_;     // N, one per vertex
   std::vector<int> loaded_;     // vertices with a load, in the order of their first one

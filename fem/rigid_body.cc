@@ -100,33 +100,19 @@ std::vector<double> RigidBody::state() const {
     numbers.insert(numbers.end(), values.begin(), values.end());
   };
   append(displacement_), append(rotation_), append(velocity_), append(angular_velocity_);
-  for (const int v : loaded_) {
-    numbers.push_back(v);
-    append(contact_load(v));
-  }
+  append_loads(numbers);
   return numbers;
 }
 
 void RigidBody::set_state(const std::vector<double> &numbers) {
-  require(numbers.size() >= motion_numbers && (numbers.size() - motion_numbers) % 4 == 0,
-          "state has " + std::to_string(numbers.size()) + " numbers, expected 13 and four per loaded vertex");
-  for (std::size_t k = motion_numbers; k < numbers.size(); k += 4)
-    require(numbers[k] >= 0 && numbers[k] < static_cast<double>(load_.size()) &&
-                numbers[k] == std::floor(numbers[k]),
-            "state names a vertex that the surface does not have");
+  check_loads(numbers, motion_numbers);
   auto next = numbers.begin();
   const auto take = [&](auto &values) {
     for (double &value : values)
       value = *next++;
   };
   take(displacement_), take(rotation_), take(velocity_), take(angular_velocity_);
-  clear_loads();
-  while (next != numbers.end()) {
-    const int vertex = static_cast<int>(*next++);
-    take(load_[static_cast<std::size_t>(vertex)]);
-    is_loaded_[static_cast<std::size_t>(vertex)] = 1;
-    loaded_.push_back(vertex);
-  }
+  set_loads(numbers, motion_numbers);
   place_vertices();
 }
 

@@ -129,6 +129,27 @@ TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
   EXPECT_EQ(first.sleeve.state(), whole.sleeve.state());
 }
 
+// Stopped in the middle of an interval and between two: what the state does not hold is not there to go on
+// with.
+TEST(sleeve, goes_on_from_its_state_to_the_last_bit) {
+  Cell whole, stopped;
+  int between = 0, within = 0;
+  whole.run(5e-5);
+  stopped.run(5e-5);
+  const std::vector<double> other = Cell().sleeve.state();
+  for (int k = 0; k < 40; ++k) {
+    const std::vector<double> kept = stopped.sleeve.state();
+    ++(kept[0] == kept[1] ? between : within);
+    stopped.sleeve.set_state(other);
+    stopped.sleeve.set_state(kept);
+    whole.step();
+    stopped.step();
+    ASSERT_EQ(stopped.sleeve.state(), whole.sleeve.state()) << k;
+  }
+  EXPECT_GT(between, 0);
+  EXPECT_GT(within, 0);
+}
+
 TEST(sleeve, threads_change_no_bit) {
   Cell one, two;
   {
