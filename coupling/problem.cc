@@ -50,6 +50,12 @@ void Problem::choose_step(bool first) {
     const std::vector<dem::GroundSpring> more = wall_->ground_springs(model.particles);
     springs.insert(springs.end(), more.begin(), more.end());
   }
+  if (sleeve_) {
+    sleeve_->layer.make_list(model.particles, sleeve_->solid);
+    const std::vector<dem::GroundSpring> more =
+        sleeve_->layer.ground_springs(model.particles, sleeve_->solid);
+    springs.insert(springs.end(), more.begin(), more.end());
+  }
   if (deformable())
     for (dem::GroundSpring &s : springs) {
       s.normal_stiffness *= 1 + share_of_bodies;
@@ -131,6 +137,7 @@ void Problem::announce_motion(double dt) {
   try {
     top_layer.moved(particles + top.last_move());
     bottom_layer.moved(particles + bottom.last_move());
+    if (sleeve_) sleeve_->layer.moved(particles + sleeve_->largest_move(dt));
   } catch (const std::runtime_error &e) {
     throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what());
   }
@@ -206,24 +213,33 @@ void Problem::add_forces() {
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
     drift_bodies();
+    if (sleeve_) move_sleeve();
   }
-  std::size_t below = 0, above = 0;
+  std::size_t below = 0, above = 0, around = 0;
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
     announce_motion(dt);
     below = bottom_layer.prepare(model.particles, bottom);
     above = top_layer.prepare(model.particles, top);
+    if (sleeve_) around = sleeve_->layer.prepare(model.particles, sleeve_->solid);
   }
   const auto part = [&](std::size_t p) {
     if (p < below)
       bottom_layer.compute_part(model.particles, bottom, dt, p);
-    else
+    else if (p < below + above)
       top_layer.compute_part(model.particles, top, dt, p - below);
+    else
+      sleeve_->layer.compute_part(model.particles, sleeve_->solid, dt, p - below - above);
   };
-  model.compute_forces(dt, dem::loop_of(below + above, part));
+  model.compute_forces(dt, dem::loop_of(below + above + around, part));
   {
     dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
     give_platen_forces();
+    if (sleeve_) sleeve_->layer.give_forces(model.particles, sleeve_->solid);
+  }
+  if (sleeve_) {
+    dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
+    load_sleeve();
   }
   if (deformable()) {
     dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
@@ -233,6 +249,7 @@ void Problem::add_forces() {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   book_reactions();
   if (confinement_) press_skin();
+  if (cell()) look_at_cell();
   if (wall_) wall_->add_forces(model.particles, model.last_motion().fastest * dt);
   if (!settings_.loading.unload_at.empty() && axial_stage()) turn_round();
 }

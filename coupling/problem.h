@@ -11,6 +11,7 @@
 #include "coupling/contact_layer.h"
 #include "coupling/mean_loads.h"
 #include "coupling/servo.h"
+#include "coupling/sleeve.h"
 #include "dem/confinement.h"
 #include "dem/lateral_wall.h"
 #include "dem/measure/bending.h"
@@ -68,12 +69,17 @@ struct PlatenSettings {
   bool glued = false;
 };
 
-// A cell: pressure on the lateral skin and, while it rises and stands alone, the same stress on the platens.
+// A cell: pressure on the lateral surface and, while it rises and stands alone, the same stress on the
+// platens.
 struct CellSettings {
   double pressure = 0; // Pa
   double ramp = 0;     // s, from none to all of it; 0: sixty wave crossings of the height
   double hold = 0;     // s, how long it stands alone at least
+  // Without a sleeve the pressure acts on the spheres of the skin; with one on its outer face.
   dem::ConfinementArea area = dem::ConfinementArea::voronoi;
+  std::optional<SleeveSettings> sleeve;
+  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: by the pressure
+  double sleeve_seat_depth = 1; // mean radii: spheres no deeper lie flush with its inner face
 };
 
 struct LoadingSettings {
@@ -104,6 +110,8 @@ struct ProblemSettings {
 
 class Problem {
 public:
+  static constexpr double surface_skin = 0.3; // margin of the surfaces' particle lists, in mean radii
+
   Problem(const dem::Specimen &specimen, const ProblemSettings &settings);
 
   void step() { advance(1); }
@@ -151,7 +159,8 @@ public:
   // Pressure of the cell, or on the wall; Pa. Whether the platens have taken over (true without one). They do
   // when the pressure has risen and stood for its time, and the axial stress is within 1 % of it.
   double confining_pressure() const;
-  bool axial_stage() const { return !confinement_ || model.time >= cell_end_; }
+  bool cell() const { return settings_.loading.cell.has_value(); }
+  bool axial_stage() const { return !cell() || model.time >= cell_end_; }
   double cell_ramp() const { return cell_ramp_; } // s
   // From a turn of the platens until the strain of the turn has been reached again.
   bool cycling() const {
@@ -160,6 +169,13 @@ public:
   const dem::LateralWall *wall() const { return wall_.get(); }   // null without a wall
   dem::Confinement *confinement() { return confinement_.get(); } // null without a pressure on the skin
   const dem::Confinement *confinement() const { return confinement_.get(); }
+  Sleeve *sleeve() { return sleeve_.get(); } // null without one
+  const Sleeve *sleeve() const { return sleeve_.get(); }
+  // Of the volume within the sleeve, positive in compression; NaN without one.
+  double sleeve_volumetric_strain() const;
+  // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and
+  // stress_bottom() leave out, beyond the pressure that stands in the rubber anyway. NaN without a sleeve.
+  double sleeve_deviator() const;
   // A bar between one strip above and two below.
   bool bent() const { return settings_.platens.span > 0; }
   dem::ThreePoints three_points() const { return {settings_.platens.span, shape_.width_y, shape_.height}; }
@@ -192,11 +208,17 @@ private:
   void look_at_step();
   void add_forces();
   void press_skin();
+  double sleeve_spring(const CellSettings &cell, double bond) const;
+  void start_sleeve(const CellSettings &cell, double bond, double mass_scaling);
+  double cheap_mass_of_sleeve() const;
+  double cell_pressure(double time) const;
+  void move_sleeve();
+  void load_sleeve();
   void turn_round();
   double loaded_strain() const { return settings_.loading.tension ? -axial_closure() : axial_closure(); }
   void look_at_cell();
   double lead_of_cell(double time) const;
-  void start_cell(const CellSettings &cell);
+  void start_cell(const CellSettings &cell, double bond);
   void give_platen_forces();
   bool platens_apart();
   void book_reactions();
@@ -212,6 +234,7 @@ private:
   ProblemSettings settings_;
   dem::Shape shape_;
   double bottom_plane_ = 0, top_plane_ = 0; // m, z of the platens' faces at the start
+  double mean_radius_ = 0;                  // m
   double packing_fraction_ = 0, grain_density_ = 0, voigt_modulus_ = 0, wave_crossing_ = 0, ramp_ = 0;
   double time_step_ = 0;
   std::string reason_;
@@ -227,6 +250,8 @@ private:
   double cell_ramp_ = 0, cell_end_ = 0;           // s
   double cell_closure_ = 0;                       // closure strain at cell_end_
   std::unique_ptr<dem::Confinement> confinement_;
+  std::unique_ptr<Sleeve> sleeve_;
+  double sleeve_volume_ = 0, sleeve_ring_ = 0; // m^3 within it, m^2 of an end of it, at the start
   std::unique_ptr<dem::LateralWall> wall_;
   struct Cycle {
     double direction = 1, speed = 1; // of loading; what the speed is now, which follows within the ramp

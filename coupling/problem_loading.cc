@@ -28,15 +28,18 @@ double smooth_start(double x) {
 
 } // namespace
 
-void Problem::start_cell(const CellSettings &cell) {
+void Problem::start_cell(const CellSettings &cell, double bond) {
   cell_ramp_ = cell.ramp > 0 ? cell.ramp : crossings_of_cell * wave_crossing_;
   if (!(cell_ramp_ > 0))
     throw BadSetup("Loading/Confining ramp",
                    "has to be given: without bonds there is no wave to take it from.");
   cell_end_ = std::numeric_limits<double>::infinity();
   try {
-    confinement_ = std::make_unique<dem::Confinement>(model.particles, model.bonds.get(), shape_,
-                                                      end_planes(), cell.area);
+    if (cell.sleeve)
+      start_sleeve(cell, bond, std::max(1.0, cell.sleeve->mass_scaling));
+    else
+      confinement_ = std::make_unique<dem::Confinement>(model.particles, model.bonds.get(), shape_,
+                                                        end_planes(), cell.area);
   } catch (const std::invalid_argument &e) {
     throw BadSetup("Loading/Confinement", std::string("cannot be: ") + e.what() + ".");
   }
@@ -44,6 +47,10 @@ void Problem::start_cell(const CellSettings &cell) {
   const double fastest = servo_reserve * cell.pressure / stiffness * shape_.height / cell_ramp_;
   servo_ =
       std::make_unique<Servo>(Servo::Parameters{gain_of_cell, std::max(fastest, settings_.loading.rate)});
+}
+
+double Problem::cell_pressure(double time) const {
+  return smooth_start(time / cell_ramp_) * settings_.loading.cell->pressure;
 }
 
 // Time constant of the servo times the rate of the pressure, Pa.
@@ -54,9 +61,9 @@ double Problem::lead_of_cell(double time) const {
 }
 
 void Problem::look_at_cell() {
-  if (!confinement_ || model.time >= cell_end_) return;
+  if (model.time >= cell_end_) return;
   const double least = cell_ramp_ + settings_.loading.cell->hold;
-  const double stress = 0.5 * (stress_top() + stress_bottom()), pressure = confinement_->pressure();
+  const double stress = 0.5 * (stress_top() + stress_bottom()), pressure = confining_pressure();
   const bool near = std::abs(stress - pressure) < settled_share * pressure;
   if (model.time >= least && (near || model.time >= patience * least)) {
     cell_end_ = model.time;
@@ -67,8 +74,8 @@ void Problem::look_at_cell() {
 void Problem::set_platen_speeds() {
   const LoadingSettings &loading = settings_.loading;
   const double middle = model.time - 0.5 * time_step_;
-  const bool confining = confinement_ && middle < cell_end_;
-  const double begun = confining || !confinement_ ? middle : middle - cell_end_;
+  const bool confining = cell() && middle < cell_end_;
+  const double begun = confining || !cell() ? middle : middle - cell_end_;
   const double whole = confining ? cell_ramp_ : ramp_;
   const double start = whole > 0 ? smooth_start(begun / whole) : 1.0;
   if (servo_ && (confining || loading.servo)) {
@@ -92,6 +99,7 @@ void Problem::set_platen_speeds() {
 
 double Problem::confining_pressure() const {
   if (confinement_) return confinement_->pressure();
+  if (sleeve_) return sleeve_->pressure();
   if (!wall_) return 0;
   const dem::EndPlanes planes = end_planes();
   return wall_->pressure(planes.high - planes.low);
@@ -99,7 +107,7 @@ double Problem::confining_pressure() const {
 
 void Problem::turn_round() {
   const LoadingSettings &loading = settings_.loading;
-  const double pressure = confinement_ ? confinement_->pressure() : 0.0;
+  const double pressure = cell() ? confining_pressure() : 0.0;
   const double deviator = 0.5 * (stress_top() + stress_bottom()) - pressure;
   const double stress = loading.tension ? -deviator : deviator;
   const std::size_t turns = static_cast<std::size_t>(cycle_.turns);
@@ -110,10 +118,9 @@ void Problem::turn_round() {
 }
 
 void Problem::press_skin() {
-  const double pressure = smooth_start(model.time / cell_ramp_) * settings_.loading.cell->pressure;
-  confinement_->add_forces(model.particles, model.bonds.get(), end_planes(), pressure, time_step_,
-                           model.last_motion().fastest * time_step_, steps_ % steps_between_skins == 0);
-  look_at_cell();
+  confinement_->add_forces(model.particles, model.bonds.get(), end_planes(), cell_pressure(model.time),
+                           time_step_, model.last_motion().fastest * time_step_,
+                           steps_ % steps_between_skins == 0);
 }
 
 } // namespace platen::coupling

@@ -28,7 +28,7 @@ double Problem::coordination_number() const {
 }
 
 std::size_t Problem::bytes() const {
-  return model.bytes() + top_layer.bytes() + bottom_layer.bytes();
+  return model.bytes() + top_layer.bytes() + bottom_layer.bytes() + (sleeve_ ? sleeve_->layer.bytes() : 0);
 }
 
 double Problem::closure_strain() const {
@@ -39,7 +39,7 @@ double Problem::grip_closure() const {
   return bottom.displacement()[2] - top.displacement()[2];
 }
 double Problem::axial_closure() const {
-  if (!confinement_) return closure_strain();
+  if (!cell()) return closure_strain();
   return axial_stage() ? closure_strain() - cell_closure_ : 0.0;
 }
 double Problem::stress_top() const {
@@ -63,6 +63,13 @@ double Problem::platen_speed() const {
 dem::EnergyLedger Problem::energy() const {
   dem::EnergyLedger e = model.energy();
   if (wall_) e.contacts += wall_->elastic_energy();
+  if (sleeve_) {
+    e.contacts += sleeve_->layer.elastic_energy();
+    e.friction += sleeve_->layer.friction_work;
+    e.damping += sleeve_->layer.damping_work + sleeve_->lost();
+    e.bodies += sleeve_->stored();
+    e.boundary += sleeve_->work();
+  }
   e.contacts += top_layer.elastic_energy() + bottom_layer.elastic_energy();
   e.friction += top_layer.friction_work + bottom_layer.friction_work;
   e.damping += top_layer.damping_work + bottom_layer.damping_work;

@@ -14,8 +14,6 @@ namespace platen::coupling {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-// Margin of the platens' particle lists, in mean radii.
-constexpr double surface_skin = 0.3;
 // Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
 // hard specimen.
 constexpr double servo_gain = 5;
@@ -135,7 +133,7 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
   c.damping = p.damping;
   c.attachment = p.glued ? Attachment::glued : Attachment::free;
   c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;
-  c.skin = surface_skin * dem::mean_radius(s);
+  c.skin = Problem::surface_skin * dem::mean_radius(s);
   return c;
 }
 
@@ -153,7 +151,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
       settings_(settings),
       shape_(specimen.shape),
       bottom_plane_(platen_plane(specimen, false, settings.ends)),
-      top_plane_(platen_plane(specimen, true, settings.ends)) {
+      top_plane_(platen_plane(specimen, true, settings.ends)),
+      mean_radius_(dem::mean_radius(specimen)) {
   if (deformable()) {
     const auto inside = [&](double x, double y) { return covers(shape_, x, y); };
     top_face_ = MeanPlace(top.surface(), fem::low_end_tag, inside);
@@ -187,7 +186,7 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
                                     : 10 * wave_crossing_;
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
-  if (settings.loading.cell) start_cell(*settings.loading.cell);
+  if (settings.loading.cell) start_cell(*settings.loading.cell, mean_bond_stiffness(model));
   if (settings.loading.wall_stiffness > 0)
     wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,
                                                settings.loading.wall_stiffness * mean_bond_stiffness(model),
@@ -195,6 +194,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
+  if (sleeve_ && settings.loading.cell->sleeve->mass_scaling == 0)
+    start_sleeve(*settings.loading.cell, mean_bond_stiffness(model), cheap_mass_of_sleeve());
 }
 
 } // namespace platen::coupling

@@ -36,20 +36,31 @@ std::vector<double> Problem::numbers() const {
       all.insert(all.end(), more.begin(), more.end());
     }
   if (confinement_) {
-    all.insert(all.end(), {cell_end_, cell_closure_});
     const std::vector<double> more = confinement_->numbers();
     all.insert(all.end(), more.begin(), more.end());
   }
+  if (sleeve_)
+    all.insert(all.end(), {sleeve_->layer.friction_work, sleeve_->layer.damping_work,
+                           static_cast<double>(sleeve_->layer.closed)});
+  if (cell()) all.insert(all.end(), {cell_end_, cell_closure_});
   return all;
 }
 
 void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
+  auto end = n.end();
+  if (cell()) {
+    cell_closure_ = *--end;
+    cell_end_ = *--end;
+  }
+  if (sleeve_) {
+    sleeve_->layer.closed = static_cast<std::size_t>(*--end);
+    sleeve_->layer.damping_work = *--end;
+    sleeve_->layer.friction_work = *--end;
+  }
   if (confinement_) {
     const auto own = static_cast<std::ptrdiff_t>(confinement_->numbers().size());
-    cell_end_ = *(n.end() - own - 2);
-    cell_closure_ = *(n.end() - own - 1);
-    confinement_->set_numbers({n.end() - own, n.end()});
+    confinement_->set_numbers({end - own, end});
   }
   if (!settings_.loading.unload_at.empty()) cycle_ = {n[21], n[22], n[23], n[24], n[25]};
   if (quasi_static()) {
@@ -84,6 +95,7 @@ void Problem::restored() {
   top_layer.restored();
   bottom_layer.restored();
   if (wall_) wall_->forget();
+  if (sleeve_) sleeve_->layer.restored();
   if (model.bonds) model.bonds->restored();
   if (model.contacts) model.contacts->restored();
 }

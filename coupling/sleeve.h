@@ -2,10 +2,10 @@
 // whose outer face bears the cell's pressure, and whose rims go with the platens.
 //
 // Rubber is slow: its own stable step is tens of steps of the particles. So it is kicked once an interval of
-// several steps. Within the interval its nodes move at constant velocity (the surface that particles meet
-// moves smoothly), impulses of contact are added up, and at its end they act as their mean, with the
-// elements' forces and the pressure: velocity Verlet with the interval as step (impulses of two step sizes,
-// as in fem/elastic_solid.h).
+// several steps, by velocity Verlet with the interval as step. Within the interval its nodes move at constant
+// velocity, so that the surface that particles meet moves smoothly; at its end they feel what contacts,
+// elements and pressure are then. The mean of the contacts over the interval would be half an interval late,
+// and a spring that answers late feeds every swing.
 #pragma once
 
 #include <vector>
@@ -19,19 +19,23 @@ namespace platen::coupling {
 struct SleeveSettings {
   double thickness = 3e-3; // m
   fem::Rubber rubber{1100, fem::NeoHookean{0.5e6, 5e8}};
-  int elements_around = 48, elements_along = 0, elements_through = 1; // along 0: as long as wide
+  // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
+  int elements_around = 0, elements_along = 0, elements_through = 1;
   bool bonded_rims = true; // to the platens' rims; else they slide along them
-  double mass_scaling = 1; // of the sleeve alone, whose inertia hardly counts
+  // Of the sleeve alone, whose inertia hardly counts. A Problem takes 0 for what makes it cheap.
+  double mass_scaling = 1;
   double mass_damping = 0; // 1/s, rate at which its velocities die away
   double safety = 0.5;     // interval over its limit
   int most_steps = 200;    // of the particles in an interval
   SurfaceContact contact;  // of its inner face with the particles
 };
 
-// Motion of the ends and pressure for the next interval.
+// Motion of the ends and pressure for the next interval: rims go where platens are, on the velocities that
+// these have now.
 struct SleeveLead {
-  fem::Point bottom{}, top{}; // m/s
-  double pressure = 0;        // Pa, on the outer face
+  fem::Point bottom{}, top{};             // m/s
+  double pressure = 0;                    // Pa, on the outer face
+  fem::Point bottom_place{}, top_place{}; // m, displacements of the platens since the start
 };
 
 class Sleeve {
@@ -47,17 +51,21 @@ public:
   void move(double dt, const SleeveLead &lead);
   // Bound on how far the surface moves over dt (m).
   double largest_move(double dt) const;
-  // After the contact layer has given its forces: takes them, and ends the interval where it is due. Throws
+  // After the contact layer has given its forces: ends the interval where it is due. Throws
   // fem::InvertedElement before an element is used that would be inside out.
-  void take_loads(double dt);
+  void take_loads();
 
   fem::HyperelasticSolid solid;
   ContactLayer layer;
 
   int steps_of_interval() const { return planned_; }
+  int steps_of_next_interval(double dt) const;                              // of dt (s) each
   double axial_force_top() const { return solid.lead_force(top_lead_)[2]; } // N, of the platen on the sleeve
   double axial_force_bottom() const { return solid.lead_force(bottom_lead_)[2]; } // N
+  double pressure() const { return solid.pressure(fem::mantle_tag); }             // Pa
   double inner_volume() const { return solid.enclosed_volume(fem::inner_tag); }   // m^3, of the specimen
+  double mass_scaling() const { return settings_.mass_scaling; }
+  long cuts() const { return static_cast<long>(cuts_); } // halvings of intervals that would invert an element
   // Work of pressure and platens on the sleeve since the start, and what it stores and has lost (J).
   double work() const { return solid.pressure_work() + solid.lead_work(); }
   double stored() const { return solid.kinetic_energy() + solid.internal_energy(); }
@@ -69,15 +77,18 @@ public:
 
 private:
   void begin_interval(double dt, const SleeveLead &lead);
+  void kick_into(double interval, double dt, const SleeveLead &lead);
   void end_interval();
-  double limit() const;
+  double limit();
 
   SleeveSettings settings_;
   int bottom_lead_ = 0, top_lead_ = 0;
-  int planned_ = 0, made_ = 0;      // steps of the interval
-  double elapsed_ = 0;              // s, of the interval
+  std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
+  int planned_ = 0, made_ = 0;               // steps of the interval
+  double elapsed_ = 0;                       // s, of the interval
   double limit_ = 0;                // s, of the next interval, by the contacts at the end of this one
-  std::vector<fem::Point> impulse_; // N s, of each vertex in the interval
+  double own_limit_ = 0;            // s, of the elements alone, asked for now and then
+  double intervals_ = 0, cuts_ = 0; // since the start
 };
 
 } // namespace platen::coupling

@@ -50,6 +50,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
     column->assign(nodes, Point{});
   led_.assign(nodes, 0);
   face_pressure_.assign(mesh_.faces.size(), 0.0);
+  acting_ = face_pressure_;
   cell_force_.resize(mesh_.cells.size());
 }
 
@@ -185,13 +186,22 @@ void HyperelasticSolid::half_kick(double dt) {
     surface_.velocities[v] = velocity_[index(surface_node_[v])];
 }
 
+bool HyperelasticSolid::can_drift(double dt) const {
+  std::vector<Point> there(displacement_);
+  for (std::size_t n = 0; n < there.size(); ++n)
+    there[n] = there[n] + dt * velocity_[n];
+  return first_inverted(there).cell < 0;
+}
+
 void HyperelasticSolid::drift(double dt) {
   for_each_part(next_.size(), node_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n)
       next_[n] = displacement_[n] + dt * velocity_[n];
   });
   check(next_);
-  pressure_work_ += pressure_work_to(next_, face_pressure_);
+  pressure_work_ += acting_ == face_pressure_
+                        ? pressure_work_to(next_, face_pressure_)
+                        : 0.5 * (pressure_work_to(next_, acting_) + pressure_work_to(next_, face_pressure_));
   std::swap(displacement_, next_);
   place_surface();
 }
@@ -211,6 +221,7 @@ void HyperelasticSolid::update_forces() {
     }
   });
   add_pressure_forces();
+  acting_ = face_pressure_;
 }
 
 double HyperelasticSolid::kinetic_energy() const {
@@ -250,6 +261,7 @@ std::vector<double> HyperelasticSolid::state() const {
   for (const Lead &own : leads_)
     append(own.velocity), append(own.spin), append(own.about);
   append(face_pressure_);
+  append(acting_);
   for (const std::vector<Point> *column : {&displacement_, &velocity_, &load_})
     for (const Point &value : *column)
       append(value);
@@ -258,11 +270,11 @@ std::vector<double> HyperelasticSolid::state() const {
 
 void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
   const std::size_t expected =
-      3 + 9 * leads_.size() + face_pressure_.size() + 6 * displacement_.size() + 3 * load_.size();
+      3 + 9 * leads_.size() + 2 * face_pressure_.size() + 6 * displacement_.size() + 3 * load_.size();
   require(numbers.size() == expected,
           "state has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(expected));
   std::vector<Point> displacement(displacement_.size());
-  const std::size_t from = 3 + 9 * leads_.size() + face_pressure_.size();
+  const std::size_t from = 3 + 9 * leads_.size() + 2 * face_pressure_.size();
   for (std::size_t k = 0; k < 3 * displacement.size(); ++k)
     displacement[k / 3][k % 3] = numbers[from + k];
   check(displacement);
@@ -275,6 +287,8 @@ void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
   for (Lead &own : leads_)
     take(own.velocity), take(own.spin), take(own.about);
   take(face_pressure_);
+  std::vector<double> acting(acting_);
+  take(acting);
   clear_loads();
   for (std::vector<Point> *column : {&displacement_, &velocity_, &load_})
     for (Point &value : *column)
@@ -282,7 +296,9 @@ void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
   for (std::size_t v = 0; v < load_.size(); ++v)
     if (load_[v] != Point{}) loaded_.push_back(static_cast<int>(v)), is_loaded_[v] = 1;
   place_surface();
+  std::swap(face_pressure_, acting);
   update_forces();
+  std::swap(face_pressure_, acting);
 }
 
 } // namespace platen::fem

@@ -110,6 +110,7 @@ public:
   // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.
   void half_kick(double dt); // over dt/2, s
   void drift(double dt);
+  bool can_drift(double dt) const; // without an element that would be inside out
   // Shows the surface where a drift over dt would take it, and moves nothing else: for who steps the solid
   // seldom and looks at its surface often.
   void place_surface_ahead(double dt);
@@ -126,7 +127,8 @@ public:
 
   double kinetic_energy() const;  // J
   double internal_energy() const; // J, stored, as of the last update_forces
-  // Since the start (J). Pressure: p times the volume swept, exact for a constant p over each drift.
+  // Since the start (J). Pressure: the volume swept times the mean of the pressures of the last forces and of
+  // the next, as velocity Verlet has them.
   double pressure_work() const { return pressure_work_; }
   double lead_work() const { return lead_work_; }
   double damping_work() const { return damping_work_; } // lost, positive
@@ -199,6 +201,7 @@ private:
   std::vector<unsigned char> led_; // bits x, y, z of each node
   std::vector<Lead> leads_;
   std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
+  std::vector<double> acting_;        // Pa, the same in the forces that stand
   double damping_ = 0;
 
   std::vector<CellForce> cell_force_;

@@ -84,7 +84,7 @@ void load_to_peak(coupling::Problem &problem, TrialKind kind, double target, Tri
   };
   while (!problem.axial_stage())
     problem.advance(between);
-  const bool confined = problem.confinement() != nullptr;
+  const bool confined = problem.cell();
   const Look start = confined ? look() : Look{};
   std::vector<Look> all{{}};
   double peak = 0;

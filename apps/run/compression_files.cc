@@ -45,11 +45,16 @@ std::string CompressionRun::description() const {
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
                       problem_->time_step_reason(), expected_steps_);
-  if (columns_.confined)
+  if (const dem::Confinement *skin = problem_->confinement())
     text += fmt::format(
         "  confinement: {} spheres of the skin with {:.3f} of the lateral area, ramp {:.3g} s\n",
-        problem_->confinement()->size(),
-        problem_->confinement()->coverage(model.particles, problem_->end_planes()), problem_->cell_ramp());
+        skin->size(), skin->coverage(model.particles, problem_->end_planes()), problem_->cell_ramp());
+  if (const coupling::Sleeve *sleeve = problem_->sleeve())
+    text += fmt::format(
+        "  sleeve: {} elements, {} spheres lie flush with it, stepped once in {}, mass times {:.3g}, ramp "
+        "{:.3g} s\n",
+        sleeve->solid.mesh().cells.size(), sleeve->layer.seats(),
+        sleeve->steps_of_next_interval(problem_->time_step()), sleeve->mass_scaling(), problem_->cell_ramp());
   if (const auto *top = dynamic_cast<const fem::ElasticSolid *>(&problem_->top))
     text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
                         top->model().nodes.size(), top->substeps(problem_->time_step()));

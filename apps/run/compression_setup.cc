@@ -89,7 +89,8 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension),
-      columns_{scene.loading.cell(), pressed == Pressed::across_axis, scene.loading.bending()} {
+      columns_{scene.loading.cell(), scene.loading.sleeved(), pressed == Pressed::across_axis,
+               scene.loading.bending()} {
   fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);

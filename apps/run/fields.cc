@@ -26,6 +26,7 @@ FieldSeries::FieldSeries(const std::filesystem::path &folder)
       specimen_(folder / "specimen.pvd"),
       bonds_(folder / "bonds.pvd"),
       platens_(folder / "platens.pvd"),
+      sleeve_(folder / "sleeve.pvd"),
       contacts_(folder / "contacts.pvd") {
   create_folder(folder / "frames");
 }
@@ -35,6 +36,7 @@ void FieldSeries::write(const coupling::Problem &problem) {
   write_specimen(problem);
   if (problem.model.bonds) write_bonds(problem);
   write_platens(problem);
+  if (problem.sleeve() != nullptr) write_sleeve(problem);
   write_contacts(problem);
   last_time_ = problem.time();
   ++count_;
@@ -43,7 +45,7 @@ void FieldSeries::write(const coupling::Problem &problem) {
 void FieldSeries::resume(double last_time, int count) {
   last_time_ = last_time;
   count_ = count;
-  for (PvdSeries *series : {&specimen_, &bonds_, &platens_, &contacts_})
+  for (PvdSeries *series : {&specimen_, &bonds_, &platens_, &sleeve_, &contacts_})
     series->resume(last_time);
 }
 
@@ -137,11 +139,22 @@ void FieldSeries::write_platens(const coupling::Problem &problem) {
   one(problem.top, problem.top_layer, 2 * count_ + 1);
 }
 
+void FieldSeries::write_sleeve(const coupling::Problem &problem) {
+  const coupling::Sleeve &sleeve = *problem.sleeve();
+  const std::string name = OutputPaths::frame_name("sleeve", count_);
+  write_stream_aside(folder_ / name, [&](std::ostream &stream) {
+    sleeve.solid.write_vtu(stream, sleeve.layer.vertex_slip(sleeve.solid));
+  });
+  sleeve_.append(problem.time(), name);
+}
+
 void FieldSeries::write_contacts(const coupling::Problem &problem) {
   std::vector<dem::Vector3> points, normals, shears;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
-  for (const coupling::ContactLayer *layer : {&problem.bottom_layer, &problem.top_layer})
+  std::vector<const coupling::ContactLayer *> layers{&problem.bottom_layer, &problem.top_layer};
+  if (problem.sleeve() != nullptr) layers.push_back(&problem.sleeve()->layer);
+  for (const coupling::ContactLayer *layer : layers)
     for (const coupling::ActiveContact &c : layer->contacts()) {
       points.push_back(c.point);
       normals.push_back(c.normal);

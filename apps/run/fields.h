@@ -1,4 +1,4 @@
-// Frames for ParaView: specimen, bonds, platens and platen contacts on one clock.
+// Frames for ParaView: specimen, bonds, platens, sleeve and the contacts with them on one clock.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +24,11 @@ private:
   void write_specimen(const coupling::Problem &problem);
   void write_bonds(const coupling::Problem &problem);
   void write_platens(const coupling::Problem &problem);
+  void write_sleeve(const coupling::Problem &problem);
   void write_contacts(const coupling::Problem &problem);
 
   std::filesystem::path folder_;
-  PvdSeries specimen_, bonds_, platens_, contacts_;
+  PvdSeries specimen_, bonds_, platens_, sleeve_, contacts_;
   double last_time_ = -1;
   int count_ = 0;
 };

@@ -33,6 +33,7 @@ std::vector<std::string> history_columns(const ExtraColumns &extra) {
                                    "grain_contacts",
                                    "plastic_work_j"};
   if (extra.confined) columns.emplace_back("deviator_pa");
+  if (extra.sleeved) columns.insert(columns.end(), {"volumetric_strain_sleeve", "sleeve_deviator_pa"});
   if (extra.disc) columns.emplace_back("opening_m");
   if (extra.bent) columns.insert(columns.end(), {"deflection_m", "midspan_moment_n_m"});
   return columns;
@@ -68,6 +69,7 @@ std::vector<CsvCell> history_row(const Sample &s, const ExtraColumns &extra) {
                            count(s.touching),
                            s.plastic};
   if (extra.confined) row.emplace_back(s.deviator());
+  if (extra.sleeved) row.insert(row.end(), {s.sleeve_volumetric_strain, s.sleeve_deviator});
   if (extra.disc) row.emplace_back(s.opening);
   if (extra.bent) row.insert(row.end(), {s.deflection, s.midspan_moment});
   return row;
@@ -102,7 +104,11 @@ Sample Sampler::operator()(const coupling::Problem &problem) const {
   s.stress_top = problem.stress_top();
   s.stress_bottom = problem.stress_bottom();
   s.confining_pressure = problem.confining_pressure();
-  if (problem.confinement() != nullptr) s.cell_pressure = s.confining_pressure;
+  if (problem.cell()) s.cell_pressure = s.confining_pressure;
+  if (problem.sleeve() != nullptr) {
+    s.sleeve_volumetric_strain = problem.sleeve_volumetric_strain();
+    s.sleeve_deviator = problem.sleeve_deviator();
+  }
   s.intact_bonds = static_cast<double>(model.intact_bonds());
   s.broken_tension = static_cast<double>(model.broken(dem::BondState::broken_in_tension));
   s.broken_shear = static_cast<double>(model.broken(dem::BondState::broken_in_shear));

@@ -24,6 +24,8 @@ struct Sample {
   double stress_top = 0, stress_bottom = 0;        // Pa
   double confining_pressure = 0;                   // Pa, of a cell or on a wall
   double cell_pressure = 0;                        // Pa, of a cell alone
+  double sleeve_volumetric_strain = 0;             // of the volume within a sleeve
+  double sleeve_deviator = 0;                      // Pa, axial, over the specimen's area
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
          plastic = 0;        // J
@@ -46,6 +48,7 @@ struct Sample {
 // Columns of some tests alone, after the others.
 struct ExtraColumns {
   bool confined = false; // deviator_pa
+  bool sleeved = false;  // volumetric_strain_sleeve, sleeve_deviator_pa
   bool disc = false;     // opening_m
   bool bent = false;     // deflection_m, midspan_moment_n_m
 };

@@ -51,7 +51,8 @@ std::vector<Effect> effects(const Scene &s) {
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
-          {s.loading.cell(), "confinement on particles"},
+          {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
+          {s.loading.sleeved(), "sleeve"},
           {s.loading.walled(), "lateral wall"},
           {!s.loading.unload_at.empty(), "unloading"},
           {s.specimen.seat, "seats"},
@@ -66,6 +67,20 @@ std::vector<std::string> chosen(const Scene &scene, bool on) {
   for (const Effect &e : effects(scene))
     if (e.on == on) words.emplace_back(e.word);
   return words;
+}
+
+coupling::SleeveSettings sleeve_settings(const Sleeve &from) {
+  coupling::SleeveSettings to;
+  to.thickness = from.thickness;
+  to.rubber = {from.density, fem::NeoHookean::from_young(from.modulus, from.poisson_ratio)};
+  to.elements_around = from.elements_around;
+  to.elements_through = from.elements_through;
+  to.bonded_rims = from.rims == SleeveRims::bonded;
+  to.mass_scaling = from.mass_scaling;
+  to.mass_damping = from.damping;
+  to.contact.friction_static = to.contact.friction_dynamic = from.friction;
+  to.contact.damping = from.contact_damping;
+  return to;
 }
 
 coupling::CellSettings cell_settings(const Loading &from) {
@@ -124,6 +139,11 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;
   if (scene.loading.cell()) to.loading.cell = cell_settings(scene.loading);
+  if (scene.loading.sleeved()) {
+    to.loading.cell->sleeve = sleeve_settings(scene.sleeve);
+    to.loading.cell->sleeve_stiffness = scene.sleeve.stiffness;
+    to.loading.cell->sleeve_seat_depth = scene.sleeve.seat_depth;
+  }
   if (scene.loading.walled()) to.loading.wall_stiffness = scene.loading.wall_stiffness;
   to.loading.unload_at = scene.loading.unload_at;
   to.loading.unload_to = scene.loading.unload_to;

@@ -36,7 +36,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::Problem
               : tension        ? "tensile strength"
                                : "compressive strength",
               "{:.2f} MPa", results.strength() / 1e6);
-  if (problem.confinement() != nullptr) {
+  if (problem.cell()) {
     report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
     report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
   }

@@ -48,6 +48,10 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
   to.add("bottom/body", problem.bottom.state());
   to.add_table("top/contacts", problem.top_layer.history());
   to.add_table("bottom/contacts", problem.bottom_layer.history());
+  if (const coupling::Sleeve *sleeve = problem.sleeve()) {
+    to.add("sleeve/body", sleeve->state());
+    to.add_table("sleeve/contacts", sleeve->layer.history());
+  }
   if (problem.confinement() != nullptr) to.add_table("confinement", problem.confinement()->table());
   to.add("samples", results.samples());
   to.add("results", results.progress());
@@ -56,6 +60,7 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
 
 FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results) {
   dem::Model &model = problem.model;
+  std::vector<double> numbers;
   from.read_table("particles", model.particles.table);
   if (model.bonds) {
     from.read_table("bonds", model.bonds->table);
@@ -65,8 +70,12 @@ FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, R
     from.read_table("contacts", model.contacts->table);
     model.contacts->search_state().set_state(load_search(from));
   }
+  if (coupling::Sleeve *sleeve = problem.sleeve()) {
+    from.get("sleeve/body", numbers);
+    sleeve->set_state(numbers);
+    from.read_table("sleeve/contacts", sleeve->layer.history());
+  }
   if (problem.confinement() != nullptr) from.read_table("confinement", problem.confinement()->table());
-  std::vector<double> numbers;
   from.get("top/body", numbers);
   problem.top.set_state(numbers);
   from.get("bottom/body", numbers);

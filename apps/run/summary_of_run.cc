@@ -44,13 +44,24 @@ const char *word_of(LoadingTest test) {
   return "compression";
 }
 
-// Of a pressure on the skin: where it acts, and what the hydrostatic stage says.
+// Of a pressure on the lateral surface: where it acts, and what the hydrostatic stage says.
 void add_cell(Json &to, const coupling::Problem &problem, const Results &results) {
-  const dem::Confinement *skin = problem.confinement();
-  if (skin == nullptr) return;
-  to["confining_pressure_pa"] = skin->pressure();
+  if (!problem.cell()) return;
+  to["confining_pressure_pa"] = problem.confining_pressure();
   to["deviator_strength_pa"] = results.deviator_strength();
   to["bulk_modulus_pa"] = results.bulk_modulus();
+  if (const coupling::Sleeve *sleeve = problem.sleeve()) {
+    to["sleeve_elements"] = sleeve->solid.mesh().cells.size();
+    to["sleeve_seats"] = sleeve->layer.seats();
+    to["sleeve_steps_of_interval"] = sleeve->steps_of_interval();
+    to["sleeve_mass_scaling"] = sleeve->mass_scaling();
+    to["sleeve_interval_cuts"] = sleeve->cuts();
+    to["sleeve_volumetric_strain"] = problem.sleeve_volumetric_strain();
+    to["sleeve_deviator_pa"] = problem.sleeve_deviator();
+    to["confinement_work_j"] = sleeve->solid.pressure_work();
+  }
+  const dem::Confinement *skin = problem.confinement();
+  if (skin == nullptr) return;
   to["skin_spheres"] = skin->size();
   to["skin_coverage"] = skin->coverage(problem.model.particles, problem.end_planes());
   to["confinement_work_j"] = skin->work();

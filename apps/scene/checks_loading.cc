@@ -51,11 +51,6 @@ void SceneCheck::loading() const {
   const Loading &loading = scene_.loading;
   if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic())
     need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
-  if (loading.confining_pressure > 0 && loading.confinement == ConfinementKind::none)
-    refuse("Loading/Confining pressure", "needs Loading/Confinement other than none.");
-  for (const char *key : {"Sleeve/Thickness", "Sleeve/Modulus", "Sleeve/Poisson ratio"})
-    if (parameters_.at(key).changed() && loading.confinement != ConfinementKind::sleeve)
-      refuse(key, "needs Loading/Confinement = sleeve, which is not available in this version.");
 }
 
 void SceneCheck::start() const {
@@ -130,7 +125,8 @@ void SceneCheck::cell() const {
   if (loading.walled() && loading.confinement != ConfinementKind::none)
     refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
   if (loading.hydrostatic() && !loading.cell())
-    refuse("Loading/Test", "needs Loading/Confinement = particles: the lateral surface is pressed too.");
+    refuse("Loading/Test",
+           "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   if (!loading.cell()) return;
   if (loads() && !(loading.confining_pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
@@ -139,8 +135,19 @@ void SceneCheck::cell() const {
            "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
   if (scene_.platens.top_control == PlatenControl::stress)
     refuse("Platens/Top/Control",
-           "does not go with Loading/Confinement = particles: the pressure holds the "
-           "platen at first, then it moves. Allowed: motion.");
+           "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
+           "Allowed: motion.");
+  if (!loading.sleeved()) return;
+  if (app_ != AppKind::compress && app_ != AppKind::study)
+    refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
+  if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)
+    refuse("Loading/Confinement", "goes around a cylinder. Allowed: none, particles.");
+  if (scene_.integration.scheme != Scheme::velocity_verlet)
+    refuse("Integration/Scheme", "does not go with Loading/Confinement = sleeve. Allowed: velocity verlet.");
+  if (scene_.sleeve.mass_scaling > 0 && scene_.sleeve.mass_scaling < 1)
+    refuse("Sleeve/Mass scaling", "makes the sleeve lighter. Allowed: 0, or 1 and more.");
+  if (scene_.sleeve.elements_around > 0 && scene_.sleeve.elements_around < 8)
+    refuse("Sleeve/Elements around", "is too few for a tube. Allowed: 0, or 8 and more.");
 }
 
 } // namespace platen::apps

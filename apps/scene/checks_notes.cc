@@ -88,8 +88,15 @@ void SceneCheck::loading_notes() {
     if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");
   }
   if (!scene_.loading.cell())
-    for (const char *key : {"Loading/Confining ramp", "Loading/Confinement area"})
-      note(key, "Loading/Confinement is not particles");
+    for (const char *key : {"Loading/Confining pressure", "Loading/Confining ramp"})
+      note(key, "Loading/Confinement = none");
+  if (scene_.loading.confinement != ConfinementKind::particles)
+    note("Loading/Confinement area", "Loading/Confinement is not particles");
+  if (!scene_.loading.sleeved())
+    for (const char *key :
+         {"Thickness", "Modulus", "Poisson ratio", "Density", "Rims", "Elements around", "Elements through",
+          "Friction", "Stiffness", "Seat depth", "Contact damping", "Damping", "Mass scaling"})
+      note(std::string("Sleeve/") + key, "Loading/Confinement is not sleeve");
   if (!scene_.loading.bending()) note("Platens/Span", "Loading/Test is not three point bending");
   if (app_ != AppKind::brazilian && !scene_.loading.bending())
     note("Platens/Strip width", "only platen-brazilian and three point bending have strips");

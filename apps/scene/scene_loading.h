@@ -41,10 +41,22 @@ struct Platens {
   Attachment attachment = Attachment::contact;
 };
 
-struct Sleeve {
-  double thickness = not_given; // m
-  double modulus = not_given;   // Pa
-  double poisson_ratio = not_given;
+enum class SleeveRims { bonded, sliding };
+
+struct Sleeve {            // loading.confinement = sleeve
+  double thickness = 3e-3; // m
+  double modulus = 1.5e6;  // Pa
+  double poisson_ratio = 0.4995;
+  double density = 1100; // kg/m3
+  SleeveRims rims = SleeveRims::bonded;
+  int elements_around = 0; // 0: faces five mean radii wide
+  int elements_through = 1;
+  double friction = 0.5;
+  double stiffness = 0;         // of its contacts, multiple of the mean bond's; 0: by the pressure
+  double seat_depth = 1;        // mean radii
+  double contact_damping = 0.2; // fraction of critical
+  double damping = 1000;        // 1/s
+  double mass_scaling = 0;      // 0: such that it is stepped once in eight steps
 };
 
 enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain, three_point_bending };
@@ -68,7 +80,8 @@ struct Loading {
   std::vector<double> unload_at; // closure strains, ascending
   double unload_to = 0.1;        // share of the axial stress at the turn
 
-  bool cell() const { return confinement == ConfinementKind::particles; }
+  bool cell() const { return confinement != ConfinementKind::none; }
+  bool sleeved() const { return confinement == ConfinementKind::sleeve; }
   bool walled() const { return test == LoadingTest::uniaxial_strain; }
   bool bending() const { return test == LoadingTest::three_point_bending; }
   bool hydrostatic() const { return test == LoadingTest::hydrostatic; }

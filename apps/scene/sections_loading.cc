@@ -69,10 +69,30 @@ void declare_platens(Parameters &parameters, Platens &platens) {
 void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
   Section section(parameters, "Sleeve");
   section.quantity("Thickness", sleeve.thickness, "m", above(0),
-                   "Wall of the sleeve (Confinement = sleeve).");
-  section.quantity("Modulus", sleeve.modulus, "Pa", above(0), "Young modulus of the sleeve.");
-  section.number("Poisson ratio", sleeve.poisson_ratio, between_open(-1, 0.5),
-                 "Poisson ratio of the sleeve.");
+                   "Wall of the rubber sleeve (Confinement = sleeve).");
+  section.quantity("Modulus", sleeve.modulus, "Pa", above(0), "Young modulus of the unstrained rubber.");
+  section.number("Poisson ratio", sleeve.poisson_ratio, {0, 0.5, true, false},
+                 "Poisson ratio of the unstrained rubber: the nearer to one half, the less the pressure "
+                 "squeezes it and the shorter its steps.");
+  section.quantity("Density", sleeve.density, "kg/m3", above(0), "Density of the rubber.");
+  section.word<SleeveRims>("Rims", sleeve.rims,
+                           {{"bonded", SleeveRims::bonded}, {"sliding", SleeveRims::sliding}}, {},
+                           "How the ends go with the platens: held on all sides, or along the axis alone.");
+  section.integer("Elements around", sleeve.elements_around, 0, 10000,
+                  "Finite elements around the sleeve, and along it as wide; 0: five mean radii wide. Faces "
+                  "have to bridge the gaps between the spheres of the skin.");
+  section.integer("Elements through", sleeve.elements_through, 1, 20, "The same through its wall.");
+  section.number("Friction", sleeve.friction, between(0, 5), "Coefficient of friction of grains on it.");
+  section.number("Stiffness", sleeve.stiffness, between(0, 1000),
+                 "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: by the pressure, "
+                 "which then presses a sphere in by some 4 % of its radius.");
+  section.number("Seat depth", sleeve.seat_depth, between(0, 10),
+                 "Grains whose surface lies no deeper, in mean radii, lie flush with it from the start.");
+  section.number("Contact damping", sleeve.contact_damping, between(0, 1),
+                 "Fraction of critical damping of grains on it.");
+  section.number("Damping", sleeve.damping, at_least(0), "Rate at which its own velocities die away, 1/s.");
+  section.number("Mass scaling", sleeve.mass_scaling, at_least(0),
+                 "Factor on its mass, 1 or more; 0: such that it is stepped once in eight steps.");
 }
 
 void declare_loading(Parameters &parameters, Loading &loading) {
@@ -107,7 +127,9 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       {{"none", ConfinementKind::none},
        {"particles", ConfinementKind::particles},
        {"sleeve", ConfinementKind::sleeve}},
-      {"sleeve"}, "How the lateral surface is pressed; particles: by forces on those of the surface.");
+      {},
+      "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
+      "through rubber of finite elements.");
   section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0),
                    "Lateral pressure, and that on the platens while it rises.");
   section.quantity("Confining ramp", loading.confining_ramp, "s", at_least(0),

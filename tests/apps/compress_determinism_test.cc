@@ -108,7 +108,7 @@ TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
     EXPECT_LT(found["energy_residual_relative"], 0.01);
     const auto held = column_of(folder_ / whole / "history.csv", "body_energy_j");
     EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
-    EXPECT_NE(content_of(folder_ / whole / "platens_000002.vtu").find("von_mises"), std::string::npos);
+    EXPECT_NE(content_of(folder_ / whole / "frames/platens_000002.vtu").find("von_mises"), std::string::npos);
     std::vector<std::string> stopping{"-t", "2"};
     stopping.insert(stopping.end(), options.begin(), options.end());
     EXPECT_EQ(stop_at(stopped, 70, SIGTERM, stopping), 143);
@@ -119,6 +119,31 @@ TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
     EXPECT_EQ(difference(results_in(folder_ / whole), results_in(folder_ / stopped)), "");
     EXPECT_EQ(figures(whole), figures(stopped));
   }
+}
+
+TEST_F(Determinism, a_sleeve_goes_on_where_it_stopped) {
+  std::vector<std::string> in_cell;
+  for (const char *entry : {"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
+                            "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.02",
+                            "Sleeve/Thickness = 1 mm"})
+    in_cell.insert(in_cell.end(), {"-s", entry});
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.end(), in_cell.begin(), in_cell.end());
+    return options;
+  };
+  crush("whole", "1", in_cell);
+  const nlohmann::json found = summary_in(folder_ / "whole");
+  EXPECT_GT(found["broken_tension"], 500);
+  EXPECT_LT(found["energy_residual_relative"], 0.01);
+  EXPECT_GT(found["sleeve_steps_of_interval"], 1);
+  EXPECT_TRUE(fs::exists(folder_ / "whole/sleeve.pvd"));
+  // In the hydrostatic stage, and after the peak.
+  EXPECT_EQ(stop_at("stopped", 15, SIGTERM, with({"-t", "2"})), 143);
+  EXPECT_EQ(stop_at("stopped", 110, SIGTERM, with({"-t", "1", "--resume"})), 143);
+  const Outcome last = run_compress(with({scene_, "-o", "stopped", "--resume", "--quiet"}), folder_);
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+  EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
 TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {

@@ -86,7 +86,7 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
       "  set Start strain = 0.001\nend\n",
       {"bad.prm:6", "does not go with Effects/Gravity = on"});
   refuse_scene("subsection Loading\n  set Test = hydrostatic\nend\n",
-               {"bad.prm:3", "needs Loading/Confinement = particles"});
+               {"bad.prm:3", "needs Loading/Confinement = particles, sleeve"});
   refuse_scene("subsection Loading\n  set Confinement = particles\nend\n",
                {"bad.prm:3", "needs Loading/Confining pressure > 0"});
   refuse_scene("subsection Loading\n  set Unload at = 0.003, 0.002\nend\n", {"bad.prm:3", "does not ascend"});
@@ -97,10 +97,9 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
 }
 
 TEST_F(Errors, what_is_not_there_yet_is_refused_and_not_ignored) {
-  for (const char *entry : {"Loading/Confinement = sleeve", "Scene/Quality = reference"})
+  for (const char *entry : {"Scene/Quality = reference"})
     refuse({with({entry}),
             {"command line, --set 1: error: " + std::string(entry) + " is not available in this version"}});
-  refuse({with({"Sleeve/Thickness = 2 mm"}), {"Loading/Confinement = sleeve, which is not available"}});
 }
 
 TEST_F(Errors, bad_command_lines_are_refused) {

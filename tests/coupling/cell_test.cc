@@ -25,6 +25,12 @@ ProblemSettings lubricated() {
   return s;
 }
 
+CellSettings cell_of(double pressure) {
+  CellSettings cell;
+  cell.pressure = pressure;
+  return cell;
+}
+
 struct Elastic {
   double young, poisson;
 };
@@ -39,7 +45,7 @@ const Elastic &elastic() {
 
 TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
   ProblemSettings settings = lubricated();
-  settings.loading.cell = CellSettings{2e6, 0, 0, dem::ConfinementArea::voronoi};
+  settings.loading.cell = cell_of(2e6);
   Problem problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
@@ -62,7 +68,7 @@ TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
 
 TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
   ProblemSettings settings = lubricated();
-  settings.loading.cell = CellSettings{2e6, 0, 0, dem::ConfinementArea::voronoi};
+  settings.loading.cell = cell_of(2e6);
   Problem problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())

@@ -55,7 +55,7 @@ struct Cell {
     sleeve.layer.moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
     model.compute_forces(dt);
     sleeve.layer.add_forces(model.particles, sleeve.solid, dt);
-    sleeve.take_loads(dt);
+    sleeve.take_loads();
     model.end_step(dt);
   }
   void run(double until) {

@@ -142,6 +142,7 @@ HyperelasticSolid pressed_all_around(double pressure) {
   HyperelasticSolid solid = sleeve();
   for (const int tag : {mantle_tag, inner_tag, low_end_tag, high_end_tag})
     solid.set_pressure(tag, pressure);
+  solid.update_forces();
   return solid;
 }
 
@@ -187,6 +188,7 @@ TEST(hyperelastic_solid, pressure_inside_a_tube_does_the_work_of_its_lumen) {
   EXPECT_NEAR(solid.enclosed_volume(inner_tag), share * 0.05 * 0.05 * 0.06, 1e-17);
   EXPECT_NEAR(solid.enclosed_volume(mantle_tag), share * 0.055 * 0.055 * 0.06, 1e-17);
   solid.set_pressure(inner_tag, 1e5);
+  solid.update_forces();
   std::vector<Point> v = bent(solid);
   for (std::size_t n = 0; n < v.size(); ++n) {
     const double z = solid.mesh().nodes[n][2];

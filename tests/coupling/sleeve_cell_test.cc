@@ -1,0 +1,120 @@
+// A cell whose oil presses on a rubber sleeve: the specimen feels what it feels under the same pressure on
+// its skin, the book closes, and a stop changes no bit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupling/problem.h"
+#include "dem/measure/gauge.h"
+#include "dem/packing/growth.h"
+#include "dem/parallel.h"
+#include "fem/threads.h"
+#include "tests/coupling/elastic_problem.h"
+
+namespace platen::coupling {
+namespace {
+
+const dem::Specimen &cylinder() {
+  static const dem::Specimen s = dem::random_close_packing(dem::cylinder(11e-3, 26e-3), 1.3e-3, 0.25, 7);
+  return s;
+}
+
+SleeveSettings butyl(bool bonded) {
+  SleeveSettings s;
+  s.thickness = 2e-3;
+  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
+  s.bonded_rims = bonded;
+  s.mass_damping = 1000;
+  s.contact.friction_static = s.contact.friction_dynamic = 0.5;
+  s.contact.damping = 0.2;
+  return s;
+}
+
+ProblemSettings in_cell(double pressure, bool sleeve, bool bonded = false) {
+  ProblemSettings s = elastic_settings(0.3);
+  s.platens.damping = 0;
+  s.loading.cell.emplace();
+  s.loading.cell->pressure = pressure;
+  if (sleeve) s.loading.cell->sleeve = butyl(bonded);
+  return s;
+}
+
+struct Answer {
+  dem::GaugeStrain strain; // when the cell's own stage is over
+  double axial = 0;        // Pa, of the platens at a closure of 4e-4 from there on
+  double gauge_axial = 0, gauge_lateral = 0;
+};
+
+Answer run(Problem &problem) {
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
+  while (!problem.axial_stage())
+    problem.advance(16);
+  Answer a;
+  a.strain = gauge.strain(problem.model.particles);
+  while (problem.axial_closure() < 4e-4)
+    problem.advance(16);
+  const dem::GaugeStrain now = gauge.strain(problem.model.particles);
+  a.axial = 0.5 * (problem.stress_top() + problem.stress_bottom()) - problem.confining_pressure();
+  a.gauge_axial = now.axial - a.strain.axial;
+  a.gauge_lateral = now.lateral() - a.strain.lateral();
+  return a;
+}
+
+TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
+  Problem oil(cylinder(), in_cell(10e6, true)), skin(cylinder(), in_cell(10e6, false));
+  const Answer a = run(oil), b = run(skin);
+  EXPECT_EQ(oil.confining_pressure(), 10e6);
+  EXPECT_EQ(oil.sleeve()->cuts(), 0);
+  // The skin's spheres get the pressure at slightly other places and the rims of the sleeve hang on platens.
+  EXPECT_NEAR(a.strain.axial / b.strain.axial, 1, 0.02);
+  EXPECT_NEAR(a.strain.lateral() / b.strain.lateral(), 1, 0.03);
+  EXPECT_NEAR(a.axial / a.gauge_axial / (b.axial / b.gauge_axial), 1, 0.01);
+  EXPECT_NEAR(a.gauge_lateral / a.gauge_axial / (b.gauge_lateral / b.gauge_axial), 1, 0.05);
+  // Rubber of so small a modulus carries next to nothing of the axial load.
+  EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
+}
+
+TEST(sleeve_cell, the_book_of_sleeve_cell_and_specimen_closes) {
+  for (const bool bonded : {true, false}) {
+    Problem problem(cylinder(), in_cell(10e6, true, bonded));
+    run(problem);
+    const dem::EnergyLedger e = problem.energy();
+    EXPECT_GT(problem.sleeve()->solid.pressure_work(), 0.2 * e.boundary);
+    EXPECT_GT(e.bodies, 0);
+    EXPECT_LT(std::abs(e.residual()), 2e-3 * e.boundary) << bonded;
+  }
+}
+
+TEST(sleeve_cell, its_rims_stay_with_the_platens) {
+  Problem problem(cylinder(), in_cell(5e6, true, true));
+  run(problem);
+  const fem::HyperelasticSolid &solid = problem.sleeve()->solid;
+  for (const bool top : {true, false}) {
+    const auto node =
+        static_cast<std::size_t>(solid.nodes_of(top ? fem::high_end_tag : fem::low_end_tag).front());
+    const double platen = (top ? problem.top : problem.bottom).displacement()[2];
+    // Within what the platen goes in an interval.
+    const double way = problem.platen_speed() * problem.sleeve()->steps_of_interval() * problem.time_step();
+    EXPECT_NEAR(solid.displacement()[node][2], platen, 2 * way) << top;
+    EXPECT_EQ(solid.displacement()[node][0], 0) << top;
+  }
+  EXPECT_GT(problem.sleeve_volumetric_strain(), 0);
+}
+
+TEST(sleeve_cell, threads_change_no_bit) {
+  const auto numbers = [](int threads) {
+    const dem::ThreadLimit limit(threads);
+    fem::limit_threads(threads);
+    Problem problem(cylinder(), in_cell(5e6, true));
+    problem.advance(300);
+    std::vector<double> all = problem.numbers();
+    const std::vector<double> sleeve = problem.sleeve()->state();
+    all.insert(all.end(), sleeve.begin(), sleeve.end());
+    return all;
+  };
+  const std::vector<double> one = numbers(1);
+  EXPECT_EQ(numbers(2), one);
+}
+
+} // namespace
+} // namespace platen::coupling
