@@ -185,7 +185,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
           : bent()                  ? swings_of_ramp * swing()
                                     : 10 * wave_crossing_;
   if (settings.loading.servo)
-    servo_ = std::make_unique<Servo>(Servo::Parameters{servo_gain, settings.loading.rate});
+    servo_ = std::make_unique<Servo>(Servo::Parameters{
+        settings.loading.servo_gain > 0 ? settings.loading.servo_gain : servo_gain, settings.loading.rate});
   if (settings.loading.cell) start_cell(*settings.loading.cell, mean_bond_stiffness(model));
   if (settings.loading.wall_stiffness > 0)
     wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,

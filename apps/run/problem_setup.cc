@@ -138,6 +138,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.ramp = scene.loading.ramp;
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;
+  to.loading.servo_gain = scene.loading.servo_gain;
   if (scene.loading.cell()) to.loading.cell = cell_settings(scene.loading);
   if (scene.loading.sleeved()) {
     to.loading.cell->sleeve = sleeve_settings(scene.sleeve);

@@ -122,6 +122,8 @@ void SceneCheck::cycles() const {
 
 void SceneCheck::cell() const {
   const Loading &loading = scene_.loading;
+  if (loading.servo_gain > 0 && loading.servo_gain < 0.1)
+    refuse("Loading/Servo gain", "is too slow to hold anything. Allowed: 0, or 0.1 ... 10.");
   if (loading.walled() && loading.confinement != ConfinementKind::none)
     refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
   if (loading.hydrostatic() && !loading.cell())

@@ -122,6 +122,10 @@ void declare_loading(Parameters &parameters, Loading &loading) {
                  "Closure over height at which the run is over.");
   section.number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
                  "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
+  section.number(
+      "Servo gain", loading.servo_gain, {0, 10},
+      "Of the servo that holds the top platen at a stress, or at a cell's pressure while that rises: "
+      "0.1 is slow, 10 quick; 0: chosen by the app.");
   section.word<ConfinementKind>(
       "Confinement", loading.confinement,
       {{"none", ConfinementKind::none},

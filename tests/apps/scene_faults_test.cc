@@ -95,7 +95,7 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
       {{"Bond/Modulus = 40 m"}, "Bond/Modulus = 40 m has the unit \"m\", which is not that of a pressure"},
       {{"Platens/Kind = deformable", "Platens/Attachment = glued"},
        "--set 1: error: Platens/Kind = deformable needs Platens/Attachment = contact. Allowed: rigid."},
-      {{"Platens/Degree = 3"}, "--set 1: error: Platens/Degree = 3 is out of range. Allowed: 1 ... 2"},
+      {{"Platens/Degree = 3"}, "--set 1: error: Platens/Degree = 3 is out of range. Allowed: whole, 1 ... 2"},
       {{"Loading/Test = tension"}, "--set 1: error: Loading/Test = tension needs Platens/Attachment = glued"},
       {{"Scene/Title = a # b"}, "--set 1: error: Scene/Title = a # b holds a \"#\""},
       {{"= 3"}, "--set 1: error: "},
