@@ -14,9 +14,11 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Share of the compliance asked for that the spring keeps beside the dent of the mesh, at least: platens that
-// are solved for now and then answer a force by less than itself.
-constexpr double least_share = 0.5;
+// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
+// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
+// dent alone is as much, nothing is taken out.
+constexpr double most_answer = 0.85;
+constexpr double most_dent = most_answer / (1 + most_answer); // k c up to which all of it is taken out
 
 // One minus the cosine of a normal that counts as upright.
 constexpr double aslant = 1e-9;
@@ -41,8 +43,10 @@ double in_series(double a, double b) {
   return 1.0 / (1.0 / a + 1.0 / b);
 }
 
+// N/m, of the spring that makes up the stiffness with a dent (m/N) in series.
 double beside_dent(double stiffness, double dent) {
-  return 1.0 / std::max(1.0 / stiffness - dent, least_share / stiffness);
+  const double share = stiffness * dent;
+  return stiffness * std::min(1 / (1 - std::min(share, most_dent)), std::max(1.0, most_answer / share));
 }
 
 std::size_t index(int row) {
@@ -195,9 +199,10 @@ double ContactLayer::spring(int particle, const SurfacePoint &at) const {
 double ContactLayer::stiffest_spring(int particle, int face) const {
   const double k = stiffness(particle);
   if (parameters_.face_compliance.empty()) return k;
-  // w^T C w is convex, so that nothing within the face dents more than the worst of its corners.
+  // w^T C w is convex, so that nothing within the face dents more than the worst of its corners; where that
+  // is more than can be taken out, some other place is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  return beside_dent(k, std::max({c[0][0], c[1][1], c[2][2], c[3][3]}));
+  return beside_dent(k, std::min(most_dent / k, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 
 std::size_t ContactLayer::bytes() const {

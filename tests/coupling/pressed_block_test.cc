@@ -55,10 +55,10 @@ TEST(pressed_block, yields_twice_where_the_dent_stays_in_the_spring) {
   EXPECT_GT(excess[1], 1.8 * excess[0]);
 }
 
-// Where the mesh alone dents more than the contact should, hardly anything is left for the spring: it is made
-// stiffer twofold and no more. What the stable step is told covers any place in the face; an equilibrium is
-// told of the whole contact.
-TEST(pressed_block, makes_a_spring_stiffer_twofold_at_most) {
+// Where the mesh alone dents more than the contact should, nothing can be taken out; on the way there a
+// spring is made stiffer by 1.85 at most. What the stable step is told covers any place in the face; an
+// equilibrium is told of the whole contact.
+TEST(pressed_block, makes_a_spring_stiffer_within_bounds) {
   constexpr double h = 0.5 * radius, overlap = 0.01 * radius;
   for (const double a : {0.05 * radius, 0.2 * radius}) {
     const double k = hertz_secant(a);
@@ -81,11 +81,14 @@ TEST(pressed_block, makes_a_spring_stiffer_twofold_at_most) {
       EXPECT_LE(spring, sum * (1 + 1e-12));
       EXPECT_EQ(pressed.layer.ground_springs(pressed.particles, pressed.block, true)[0].normal_stiffness, k);
     }
-    EXPECT_GT(smallest, 1.05 * k);
-    if (a > 0.1 * radius)
-      EXPECT_NEAR(largest, 2 * k, 1e-9 * k);
-    else
+    if (a < 0.1 * radius) {
+      EXPECT_GT(smallest, 1.05 * k);
       EXPECT_LT(largest, 1.5 * k);
+    } else { // on a vertex the dent is .9 of the whole, in the middle of the face a third
+      EXPECT_NEAR(smallest, k, 1e-9 * k);
+      EXPECT_GT(largest, 1.4 * k);
+      EXPECT_LE(largest, 1.85 * k);
+    }
   }
 }
 

@@ -147,7 +147,6 @@ TEST(hyperelastic_equilibrium, a_tube_is_inflated_as_the_closed_form_says) {
     const double a = inner_radius(solid);
     error[k] = 0.134626 / closed_form(a) - 1;
     RecordProperty("error_" + std::to_string(through), std::to_string(error[k]));
-    std::printf("elements through %d: a = %.5f, p / closed form - 1 = %.5f\n", through, a, error[k]);
     ++k;
   }
   EXPECT_LT(std::abs(error[2]), 0.01);
@@ -183,8 +182,6 @@ TEST(hyperelastic_equilibrium, volume_at_each_point_would_lock_where_the_mean_do
       plain += cell.weight[q] * law.energy(f);
     }
   }
-  std::printf("energy over exact: mean dilatation %.4f, volume at each point %.4f\n",
-              solid.internal_energy() / (0.1 * exact), plain / (0.1 * exact));
   EXPECT_NEAR(solid.internal_energy() / (0.1 * exact), 1, 0.05);
   EXPECT_GT(plain / (0.1 * exact), 1.5);
 }
@@ -199,8 +196,6 @@ TEST(hyperelastic_equilibrium, a_thin_sleeve_softens_as_it_is_stretched) {
     solid.solve({{{inner_tag, p}}, {}});
     const double a = inner_radius(solid), b = std::sqrt(a * a + 1.02 * 1.02 - 1);
     const double stretch = 0.5 * (a + b) / R0;
-    std::printf("stretch %.4f: p / (mu t0/R0 (1 - stretch^-4)) = %.4f\n", stretch,
-                p / (t0 / R0 * (1 - std::pow(stretch, -4))));
     EXPECT_NEAR(p, t0 / R0 * (1 - std::pow(stretch, -4)), 0.02 * p);
   }
 }
