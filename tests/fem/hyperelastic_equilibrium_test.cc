@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -144,8 +143,7 @@ TEST(hyperelastic_equilibrium, a_tube_is_inflated_as_the_closed_form_says) {
   for (const int through : {1, 2, 4}) {
     HyperelasticSolid solid = plane_tube(0.3, 16 * through, through, law);
     solid.solve({{{inner_tag, 0.134626}}, {}});
-    const double a = inner_radius(solid);
-    error[k] = 0.134626 / closed_form(a) - 1;
+    error[k] = 0.134626 / closed_form(inner_radius(solid)) - 1;
     RecordProperty("error_" + std::to_string(through), std::to_string(error[k]));
     ++k;
   }
@@ -224,13 +222,15 @@ double bending_share(double element_length, int through, double poisson) {
                 force * length / (5.0 / 6 * shear * t * t));
 }
 
+// Linear elements lock: what stays of the deflection falls with their length over the thickness and hardly
+// depends on how many lie through it or on Poisson's ratio.
 TEST(hyperelastic_equilibrium, bending_of_a_thin_strip_is_too_stiff_by_the_known_share) {
-  for (const int through : {1, 2, 3})
-    for (const double aspect : {1.0, 2.0, 4.0})
-      std::printf("%d through, elements %g thick walls long: deflection over theory %.3f (.3), %.3f (.499)\n",
-                  through, aspect, bending_share(0.003 * aspect, through, 0.3),
-                  bending_share(0.003 * aspect, through, 0.499));
-  EXPECT_GT(bending_share(0.003, 2, 0.499), 0.7);
+  for (const int through : {2, 3})
+    for (const double poisson : {0.3, 0.499}) {
+      EXPECT_NEAR(bending_share(0.003, through, poisson), 0.74, 0.03) << through << ' ' << poisson;
+      EXPECT_NEAR(bending_share(0.006, through, poisson), 0.41, 0.02) << through << ' ' << poisson;
+      EXPECT_NEAR(bending_share(0.012, through, poisson), 0.15, 0.02) << through << ' ' << poisson;
+    }
 }
 
 // ---- where there is no way
