@@ -14,6 +14,12 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
+// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
+// dent alone is as much, nothing is taken out.
+constexpr double most_answer = 0.85;
+constexpr double most_dent = most_answer / (1 + most_answer); // k c up to which all of it is taken out
+
 // One minus the cosine of a normal that counts as upright.
 constexpr double aslant = 1e-9;
 
@@ -37,6 +43,12 @@ double in_series(double a, double b) {
   return 1.0 / (1.0 / a + 1.0 / b);
 }
 
+// N/m, of the spring that makes up the stiffness with a dent (m/N) in series.
+double beside_dent(double stiffness, double dent) {
+  const double share = stiffness * dent;
+  return stiffness * std::min(1 / (1 - std::min(share, most_dent)), std::max(1.0, most_answer / share));
+}
+
 std::size_t index(int row) {
   return static_cast<std::size_t>(row);
 }
@@ -50,6 +62,9 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin) {
   check(parameters, particle_stiffness != nullptr, particles.has_rotation());
+  require(
+      parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
+      "a compliance of faces needs one entry per face");
   stiffness_ = in_series(parameters.particle_stiffness, parameters.body_stiffness);
   for (const double r : particles.radius)
     smallest_radius_ = std::min(smallest_radius_, r);
@@ -170,13 +185,34 @@ double ContactLayer::stiffness(int particle) const {
              : in_series((*particle_stiffness_)[index(particle)], parameters_.body_stiffness);
 }
 
+double ContactLayer::spring(int particle, const SurfacePoint &at) const {
+  const double k = stiffness(particle);
+  if (parameters_.face_compliance.empty()) return k;
+  const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
+  const std::array<double, 4> &w = at.local.weights;
+  double dent = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    dent += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
+  return beside_dent(k, dent);
+}
+
+double ContactLayer::stiffest_spring(int particle, int face) const {
+  const double k = stiffness(particle);
+  if (parameters_.face_compliance.empty()) return k;
+  // w^T C w is convex, so that nothing within the face dents more than the worst of its corners; where that
+  // is more than can be taken out, some other place is the stiffest.
+  const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
+  return beside_dent(k, std::min(most_dent / k, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+}
+
 std::size_t ContactLayer::bytes() const {
   return table_.size() * table_.bytes_per_row() + loads_.capacity() * sizeof(RowLoad) +
          contacts_.capacity() * sizeof(RowContact) + search_.bytes();
 }
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,
-                                                            const fem::LoadedSurface &body) const {
+                                                            const fem::LoadedSurface &body,
+                                                            bool whole) const {
   std::vector<dem::GroundSpring> springs;
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];
@@ -186,7 +222,7 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     spring.particle = i;
     spring.normal = at.normal;
     spring.arm = at.local.point;
-    spring.normal_stiffness = stiffness(i);
+    spring.normal_stiffness = whole ? stiffness(i) : stiffest_spring(i, at.face);
     spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
     if (spring_ != nullptr)
       spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
@@ -204,9 +240,9 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];
     const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
-    const double k = stiffness(i);
+    const double k = stiffest_spring(i, at.face);
     const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
-    const double dashpot = 2 * parameters_.damping * std::sqrt(k * particles.mass[index(i)]);
+    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness(i) * particles.mass[index(i)]);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
       springs.stiffness[v] += at.local.weights[corner] * stiffest;

@@ -3,11 +3,17 @@
 // faces, edges and vertices, so that neither force nor friction history notices the mesh.
 //
 // Normal n from body to particle, gap g = distance of the centre - R - offset, positive when open. Force on
-// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k_n m), m the particle's mass
+// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k m), m the particle's mass
 // (the body is taken as much heavier); T after dem/laws/coulomb_friction.h with k_t = ratio k_n. It acts at
 // the closest point. v is the particle's velocity there, minus the surface's, both as they were over the last
 // drift (half-step values: their product with dt is the displacement, and the works below are those that
 // velocity Verlet sees).
+//
+// On a mesh that yields, a force sinks in by c = w^T C w, with the weights w that it gives the corners of the
+// face, and ever deeper as the mesh is refined. Given C, the spring here is what that leaves of the stiffness
+// asked for, 1/k_n = 1/k - c: both together are k wherever on a face the contact lies, and what the body
+// gives way as a whole comes on top. That holds up to k c = .46, which elements of five radii of the contact
+// reach at their vertices; beyond, less is taken out, and from k c = .85 on nothing: the contact is too soft.
 #pragma once
 
 #include <array>
@@ -33,10 +39,13 @@ enum class Attachment {
 struct SurfaceContact {
   double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m; unused where a column is given
   double body_stiffness = std::numeric_limits<double>::infinity(); // N/m, in series: 1/k_n = 1/k_p + 1/k_b
-  double tangential_ratio = 0.8;                                   // k_t / k_n, > 0
-  double friction_static = 0;                                      // 1, >= 0; infinity: never slides
-  double friction_dynamic = 0; // 1; both zero: frictionless, no tangential columns
-  double damping = 0;          // fraction of critical, >= 0
+  // Of a body that yields: the dents of its mesh under single forces, which the stiffness above holds already
+  // and which are therefore taken out of the spring (see below). Empty: none.
+  std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
+  double tangential_ratio = 0.8;                    // k_t / k_n, > 0
+  double friction_static = 0;                       // 1, >= 0; infinity: never slides
+  double friction_dynamic = 0;                      // 1; both zero: frictionless, no tangential columns
+  double damping = 0;                               // fraction of critical, >= 0
   Attachment attachment = Attachment::free;
   // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up
   // to the moment .5 N R. Zero: no seat. Needs rotation.
@@ -114,9 +123,10 @@ public:
   double damping_work = 0;  // lost to dashpots
   std::size_t closed = 0;   // contacts in the last add_forces; a checkpoint saves it with the works
 
-  // Springs of all particles near the surface, for the stable step.
+  // Springs of all particles near the surface: for the stable step as stiff as they may be anywhere on the
+  // face, for equilibria (`whole`) with the dent of the mesh.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
-                                                const fem::LoadedSurface &body) const;
+                                                const fem::LoadedSurface &body, bool whole = false) const;
   // What the same particles would put on each vertex of the surface.
   fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
   // What a servo pushes against: all particles near the surface, touching or not.
@@ -166,7 +176,9 @@ private:
   void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  double stiffness(int particle) const;
+  double stiffness(int particle) const;                      // N/m, of the whole contact
+  double spring(int particle, const SurfacePoint &at) const; // N/m, without the dent of the mesh
+  double stiffest_spring(int particle, int face) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,

@@ -50,6 +50,9 @@ public:
   // holds at rest; infinite where nothing limits it.
   virtual double stable_step(const VertexSprings &springs) const = 0;
 
+  // Of each face of the surface, how the mesh dents under a single force; empty for a body without dents.
+  virtual std::vector<FaceCompliance> face_compliance() const { return {}; }
+
   virtual BodyBook book() const = 0;
 
   // Everything that changes in a run, to the last bit.

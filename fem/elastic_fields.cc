@@ -50,6 +50,22 @@ Point point(const dealii::Point<3> &p) {
   return {p[0], p[1], p[2]};
 }
 
+// visit(shape functions at a place, number of the place, nodes of the cell), for a rule that integrates
+// forces which vary within cells.
+template <class Visit>
+void at_gauss_points(const ElasticModel &model, const Visit &visit) {
+  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2);
+  dealii::FEValues<3> values(
+      model.numbers->get_fe(), gauss,
+      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+  for (const auto &cell : model.numbers->active_cell_iterators()) {
+    values.reinit(cell);
+    const int *nodes = &model.cell_nodes[nodes_per_cell(model) * cell->active_cell_index()];
+    for (const unsigned int q : values.quadrature_point_indices())
+      visit(values, q, nodes);
+  }
+}
+
 // Displacement gradients of a cell at quadrature points, as stress.
 void stresses(const ElasticModel &model, const dealii::FEValues<3> &values, std::size_t cell,
               const std::vector<Point> &displacement, std::vector<Stress> &result) {
@@ -120,21 +136,13 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag) {
 
 std::vector<Point> body_load(const ElasticModel &model, const std::function<Point(const Point &)> &density) {
   std::vector<Point> load(model.nodes.size(), Point{});
-  const std::size_t n = nodes_per_cell(model);
-  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2);
-  dealii::FEValues<3> values(
-      model.numbers->get_fe(), gauss,
-      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-  for (const auto &cell : model.numbers->active_cell_iterators()) {
-    values.reinit(cell);
-    for (const unsigned int q : values.quadrature_point_indices()) {
-      const Point force = values.JxW(q) * density(point(values.quadrature_point(q)));
-      for (std::size_t a = 0; a < n; ++a) {
-        Point &sum = load[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
-        sum = sum + values.shape_value(static_cast<unsigned int>(a), q) * force;
-      }
+  at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
+    const Point force = values.JxW(q) * density(point(values.quadrature_point(q)));
+    for (const unsigned int a : values.dof_indices()) {
+      Point &sum = load[static_cast<std::size_t>(nodes[a])];
+      sum = sum + values.shape_value(a, q) * force;
     }
-  }
+  });
   return load;
 }
 
@@ -168,22 +176,12 @@ std::vector<Point> face_load(const ElasticModel &model, int tag,
 double integral(const ElasticModel &model, const std::vector<Point> &field,
                 const std::function<double(const Point &, const Point &)> &f) {
   double sum = 0;
-  const std::size_t n = nodes_per_cell(model);
-  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2);
-  dealii::FEValues<3> values(
-      model.numbers->get_fe(), gauss,
-      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-  for (const auto &cell : model.numbers->active_cell_iterators()) {
-    values.reinit(cell);
-    for (const unsigned int q : values.quadrature_point_indices()) {
-      Point here{};
-      for (std::size_t a = 0; a < n; ++a)
-        here =
-            here + values.shape_value(static_cast<unsigned int>(a), q) *
-                       field[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
-      sum += values.JxW(q) * f(point(values.quadrature_point(q)), here);
-    }
-  }
+  at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
+    Point here{};
+    for (const unsigned int a : values.dof_indices())
+      here = here + values.shape_value(a, q) * field[static_cast<std::size_t>(nodes[a])];
+    sum += values.JxW(q) * f(point(values.quadrature_point(q)), here);
+  });
   return sum;
 }
 

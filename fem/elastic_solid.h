@@ -83,7 +83,8 @@ public:
   void drift(double dt, int substeps);
   double stable_step() const { return stable_step_; } // s, of explicit steps; infinite for quasi-static
   double stable_step(const VertexSprings &springs) const override;
-  int substeps(double dt) const; // that drift(dt) takes
+  std::vector<FaceCompliance> face_compliance() const override; // as fem/face_compliance.h, at the start
+  int substeps(double dt) const;                                // that drift(dt) takes
   // How far the surface may go in a drift over dt (m): velocities now, and accelerations now twice over.
   double largest_move(double dt) const;
   double last_move() const override { return last_move_; }

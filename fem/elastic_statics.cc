@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "fem/elastic_solid.h"
+#include "fem/face_compliance.h"
 
 namespace platen::fem {
 
@@ -110,6 +111,10 @@ void ElasticSolid::measure_path() {
   path_[1] = dot(way, product);
   model_.stiffness.multiply(way, product);
   path_[2] = 0.5 * dot(way, product);
+}
+
+std::vector<FaceCompliance> ElasticSolid::face_compliance() const {
+  return fem::face_compliance(model_, node_surface(model_), held_);
 }
 
 void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) {

@@ -21,6 +21,10 @@ struct SurfaceMesh {
   bool only_shifted = false;
 };
 
+// (i, j): normal displacement of corner i of a face per normal force on corner j (m/N); symmetric. With the
+// weights w that a force at a place gives the corners, that place gives way by w^T C w.
+using FaceCompliance = std::array<std::array<double, 4>, 4>;
+
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
 Point face_area_vector(const SurfaceMesh &surface, std::size_t face);
 

@@ -275,6 +275,8 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
   EXPECT_NE(refusal(c).find("damping"), std::string::npos);
   c = frictional(0.3, 0.3), c.skin = 0;
   EXPECT_NE(refusal(c).find("skin"), std::string::npos);
+  c = frictional(0.3, 0.3), c.face_compliance.resize(1); // a box has six faces
+  EXPECT_NE(refusal(c).find("one entry per face"), std::string::npos);
   c = frictional(0.3, 0.3), c.seat_modulus = 1e9; // spheres of this scene do not rotate
   EXPECT_NE(refusal(c).find("rotate"), std::string::npos);
 }

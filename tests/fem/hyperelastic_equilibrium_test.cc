@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -144,10 +143,8 @@ TEST(hyperelastic_equilibrium, a_tube_is_inflated_as_the_closed_form_says) {
   for (const int through : {1, 2, 4}) {
     HyperelasticSolid solid = plane_tube(0.3, 16 * through, through, law);
     solid.solve({{{inner_tag, 0.134626}}, {}});
-    const double a = inner_radius(solid);
-    error[k] = 0.134626 / closed_form(a) - 1;
+    error[k] = 0.134626 / closed_form(inner_radius(solid)) - 1;
     RecordProperty("error_" + std::to_string(through), std::to_string(error[k]));
-    std::printf("elements through %d: a = %.5f, p / closed form - 1 = %.5f\n", through, a, error[k]);
     ++k;
   }
   EXPECT_LT(std::abs(error[2]), 0.01);
@@ -183,8 +180,6 @@ TEST(hyperelastic_equilibrium, volume_at_each_point_would_lock_where_the_mean_do
       plain += cell.weight[q] * law.energy(f);
     }
   }
-  std::printf("energy over exact: mean dilatation %.4f, volume at each point %.4f\n",
-              solid.internal_energy() / (0.1 * exact), plain / (0.1 * exact));
   EXPECT_NEAR(solid.internal_energy() / (0.1 * exact), 1, 0.05);
   EXPECT_GT(plain / (0.1 * exact), 1.5);
 }
@@ -199,8 +194,6 @@ TEST(hyperelastic_equilibrium, a_thin_sleeve_softens_as_it_is_stretched) {
     solid.solve({{{inner_tag, p}}, {}});
     const double a = inner_radius(solid), b = std::sqrt(a * a + 1.02 * 1.02 - 1);
     const double stretch = 0.5 * (a + b) / R0;
-    std::printf("stretch %.4f: p / (mu t0/R0 (1 - stretch^-4)) = %.4f\n", stretch,
-                p / (t0 / R0 * (1 - std::pow(stretch, -4))));
     EXPECT_NEAR(p, t0 / R0 * (1 - std::pow(stretch, -4)), 0.02 * p);
   }
 }
@@ -229,13 +222,15 @@ double bending_share(double element_length, int through, double poisson) {
                 force * length / (5.0 / 6 * shear * t * t));
 }
 
+// Linear elements lock: what stays of the deflection falls with their length over the thickness and hardly
+// depends on how many lie through it or on Poisson's ratio.
 TEST(hyperelastic_equilibrium, bending_of_a_thin_strip_is_too_stiff_by_the_known_share) {
-  for (const int through : {1, 2, 3})
-    for (const double aspect : {1.0, 2.0, 4.0})
-      std::printf("%d through, elements %g thick walls long: deflection over theory %.3f (.3), %.3f (.499)\n",
-                  through, aspect, bending_share(0.003 * aspect, through, 0.3),
-                  bending_share(0.003 * aspect, through, 0.499));
-  EXPECT_GT(bending_share(0.003, 2, 0.499), 0.7);
+  for (const int through : {2, 3})
+    for (const double poisson : {0.3, 0.499}) {
+      EXPECT_NEAR(bending_share(0.003, through, poisson), 0.74, 0.03) << through << ' ' << poisson;
+      EXPECT_NEAR(bending_share(0.006, through, poisson), 0.41, 0.02) << through << ' ' << poisson;
+      EXPECT_NEAR(bending_share(0.012, through, poisson), 0.15, 0.02) << through << ' ' << poisson;
+    }
 }
 
 // ---- where there is no way

@@ -1,0 +1,135 @@
+// An elastic solid that the machine carries and turns, or that turns by itself on its seat.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fem/elastic_plate.h"
+
+namespace platen::fem {
+namespace {
+
+// However far the machine carries and turns a body: what is left is round-off of places, 1e-17 m.
+TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
+  for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
+    ElasticSolid solid(plate(), {steel}, Grip{}, {1, kind});
+    const ElasticSolid still(plate(), {steel}, Grip{});
+    const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to swing
+    solid.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
+    std::vector<Point> rate(solid.model().nodes.size(), Point{});
+    solid.set_deformation(rate, rate); // inside moves with the frame
+    if (kind == ElasticMotion::explicit_steps) {
+      // A free inside would feel the turn's centripetal force; one step over all of it is not the test.
+      // Placed:
+      std::vector<double> turned = solid.state();
+      ElasticSolid other(plate(), {steel}, Grip{}, {1, ElasticMotion::quasi_static});
+      other.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
+      for (int k = 0; k < 64; ++k)
+        other.drift(dt);
+      // Frame of the other, and every node carried with it.
+      const std::vector<double> frame = other.state();
+      for (std::size_t k = 8; k < 24; ++k)
+        turned[k] = frame[k];
+      solid.set_state(turned);
+      solid.set_velocity({});
+      solid.set_deformation(rate, rate);
+    } else {
+      for (int k = 0; k < 64; ++k)
+        solid.drift(dt);
+      solid.aim(std::vector<Point>(solid.surface().vertices.size(), Point{}), 0);
+    }
+    EXPECT_NEAR(solid.rotation()[1], std::sqrt(0.5), 1e-12); // a quarter turn about x
+    EXPECT_LT(solid.book().strain, 1e-20);
+    for (const Stress &s : solid.stress_of_cells())
+      EXPECT_LT(von_mises(s), 1e-13 * steel.young_modulus);
+    const Point moved = solid.displacement();
+    EXPECT_NEAR(moved[0], 0.9, 1e-12);
+    for (std::size_t v = 0; v < still.surface().vertices.size(); ++v) {
+      const Point r = still.surface().vertices[v] - still.centre();
+      const Point expected = still.centre() + moved + Point{r[0], -r[2], r[1]};
+      EXPECT_LT(norm(solid.surface().vertices[v] - expected), 1e-13);
+    }
+  }
+}
+
+// Turned by a right angle first, a body bends in its own frame as it would have upright.
+TEST(elastic_solid, a_turned_body_bends_as_an_upright_one) {
+  ElasticSolid upright(plate(), {steel}, Grip{}, {2, ElasticMotion::quasi_static});
+  ElasticSolid turned(plate(), {steel}, Grip{}, {2, ElasticMotion::quasi_static});
+  turned.set_velocity({}, {0, 0.5 * pi, 0});
+  turned.drift(1);
+  std::vector<Point> loads = uneven_loads(upright, 1e3);
+  upright.aim(loads, 0);
+  for (Point &f : loads)
+    f = rotated(turned.rotation(), f);
+  turned.aim(loads, 0);
+  const auto a = upright.deformation(), b = turned.deformation();
+  double size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    size = std::max(size, norm(a[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_LT(norm(a[i] - b[i]), 1e-10 * size);
+}
+
+// On an elastic ground that is tilted, the free seat turns the plate until the ground pushes without moment:
+// the plate lies as the ground does, but for the third of a percent that its face shifts sideways.
+TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
+  for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
+    Grip grip;
+    grip.turns = true;
+    grip.seat = {0.01, 0, 0.02};
+    grip.inertia = 1e-4;
+    grip.damping = 3000;
+    ElasticOptions options{1, kind};
+    if (kind == ElasticMotion::explicit_steps) options.mass_damping = 3000;
+    ElasticSolid solid(make_grid(BoxPlate{{-0.02, -0.03, 0}, {0.04, 0.03, 0.02}, {2, 2, 1}}), {steel}, grip,
+                       options);
+    const double stiffness = 1e7, slope = 2e-3, sink = 1e-4, dt = 1e-6;
+    const auto press = [&] {
+      solid.clear_loads();
+      for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v) {
+        const Point &p = solid.surface().vertices[v];
+        if (std::abs(p[2]) > 5e-3) continue;
+        solid.add_surface_force(static_cast<int>(v),
+                                {0, 0, stiffness * (sink + slope * (p[0] - 0.01) - p[2])});
+      }
+    };
+    press();
+    const double moment_at_start = norm(solid.moment(solid.centre()));
+    EXPECT_GT(moment_at_start, 1);
+    for (int k = 0; k < 20000; ++k) {
+      solid.kick(0.5 * dt), solid.drift(dt);
+      press();
+      solid.kick(0.5 * dt);
+      if (kind == ElasticMotion::quasi_static && k % 50 == 49) solid.aim(solid.contact_loads(), 50 * dt);
+    }
+    EXPECT_LT(norm(solid.moment(solid.centre())), 1e-6 * moment_at_start);
+    const Point normal = rotated(solid.rotation(), {0, 0, 1});
+    EXPECT_NEAR(-normal[0] / normal[2], slope, 5e-3 * slope);
+    EXPECT_NEAR(normal[1], 0, 1e-9);
+    EXPECT_NEAR(norm(solid.displacement()), 0, 1e-15); // the seat is held
+    EXPECT_NEAR(solid.grip_force()[2], solid.total_force()[2], 1e-6 * solid.total_force()[2]);
+  }
+}
+
+// Free to turn and not pushed, a body on its seat keeps its angular momentum about it.
+TEST(elastic_solid, a_body_on_its_seat_keeps_its_angular_momentum) {
+  Grip grip;
+  grip.turns = true;
+  grip.seat = {0.01, 0.005, 0.03};
+  grip.inertia = 1e-4;
+  ElasticSolid solid(plate(), {steel}, grip, {1});
+  const std::vector<Point> none(solid.model().nodes.size(), Point{});
+  solid.set_velocity({}, {20, -10, 30});
+  solid.set_deformation(none, shaken(solid, 1e-2));
+  const Point start = solid.angular_momentum();
+  const double dt = 0.8 * solid.stable_step();
+  solid.drift(dt, 1);
+  const double energy = total(solid.book());
+  for (int k = 0; k < 4000; ++k)
+    solid.drift(dt, 1);
+  EXPECT_LT(norm(solid.angular_momentum() - start), 1e-10 * norm(start));
+  EXPECT_NEAR(total(solid.book()), energy, 1e-4 * energy); // order dt^2 w^2 where it turns
+}
+
+} // namespace
+} // namespace platen::fem

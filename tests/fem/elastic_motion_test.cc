@@ -1,0 +1,183 @@
+// Explicit motion of an elastic solid: swings, steps and books.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fem/elastic_plate.h"
+
+namespace platen::fem {
+namespace {
+
+// Rod of unit length held at its high end, without sideways strain: u = cos(k z), k = pi / 2, swings with the
+// period 4 L / c. Linear elements with lumped mass are too slow by (k h)^2 / 24 = 0.16 %, the step's own
+// error takes part of it back.
+TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
+  for (const int degree : {1, 2}) {
+    ElasticSolid rod(make_grid(BoxPlate{{0, 0, 0}, {0.1, 0.1, 1}, {1, 1, 8}}), {{2000, 8e9, 0}}, Grip{},
+                     {degree});
+    std::vector<Point> u(rod.model().nodes.size(), Point{});
+    for (std::size_t i = 0; i < u.size(); ++i)
+      u[i][2] = 1e-6 * std::cos(0.5 * pi * rod.model().nodes[i][2]);
+    rod.set_deformation(u, std::vector<Point>(u.size(), Point{}));
+    const double c = 2000, dt = 0.5 * rod.stable_step();
+    std::size_t tip = 0;
+    while (rod.model().nodes[tip][2] != 0)
+      ++tip;
+    double time = 0, first = 0, last = 0, before = 1e-6;
+    int crossings = 0;
+    while (crossings < 5) {
+      rod.drift(dt, 1);
+      time += dt;
+      const double now = rod.deformation()[tip][2];
+      if (before * now < 0) {
+        last = time - dt * now / (now - before);
+        if (crossings++ == 0) first = last;
+      }
+      before = now;
+    }
+    EXPECT_NEAR((last - first) / 2, 4 / c, degree == 1 ? 0.002 * 4 / c : 5e-4 * 4 / c) << degree;
+  }
+}
+
+// Slender cantilever (Euler-Bernoulli): w = 1.8751^2 sqrt(E I / (rho A L^4)). Shear and the turning of
+// sections take 0.4 % off at L / h = 20. Degree 2, since linear elements lock in bending.
+TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
+  const double h = 0.05, e = 8e9, rho = 2000;
+  ElasticSolid beam(make_grid(BoxPlate{{0, 0, 0}, {h, h, 1}, {1, 1, 10}}), {{rho, e, 0}}, Grip{}, {2});
+  std::vector<Point> u(beam.model().nodes.size(), Point{});
+  for (std::size_t i = 0; i < u.size(); ++i) { // the shape under a force at the tip
+    const double s = 1 - beam.model().nodes[i][2];
+    u[i][0] = 1e-4 * s * s * (3 - s) / 2;
+    u[i][2] = 1e-4 * (beam.model().nodes[i][0] - h / 2) * (6 * s - 3 * s * s) / 2;
+  }
+  beam.set_deformation(u, std::vector<Point>(u.size(), Point{}));
+  const std::vector<Point> shape = beam.deformation();
+  const double w = 1.8751041 * 1.8751041 * std::sqrt(e * h * h / 12 / rho), dt = 0.9 * beam.stable_step();
+  double time = 0, first = 0, last = 0, before = 0;
+  int crossings = 0;
+  while (crossings < 3) {
+    beam.drift(dt, 1);
+    time += dt;
+    double now = 0; // how much of the shape is left: other modes have little share in it
+    const std::vector<Point> now_at = beam.deformation();
+    for (std::size_t i = 0; i < u.size(); ++i)
+      now += beam.model().mass[i] * dot(shape[i], now_at[i]);
+    if (before * now < 0) {
+      last = time - dt * now / (now - before);
+      if (crossings++ == 0) first = last;
+    }
+    before = now;
+  }
+  EXPECT_NEAR(last - first, 2 * pi / w, 0.008 * 2 * pi / w);
+}
+
+// Central differences keep their energy exactly: what is left is round-off of a thousand steps, on any step.
+TEST(elastic_solid, the_book_of_a_swing_closes) {
+  for (const int degree : {1, 2})
+    for (const bool slides : {false, true}) {
+      ElasticOptions options{degree};
+      options.mass_damping = slides ? 500 : 0;
+      options.stiffness_damping = slides ? 1e-8 : 0;
+      Grip grip;
+      grip.slides = slides;
+      ElasticSolid solid(plate(), {steel}, grip, options);
+      const std::vector<Point> loads = uneven_loads(solid, 1e4);
+      solid.set_velocity({0, 0, -0.5});
+      const double dt = 0.8 * solid.stable_step();
+      solid.drift(dt, 1);
+      const double start = total(solid.book());
+      double largest = 0;
+      for (int k = 0; k < 1000; ++k) {
+        if (k == 300) solid.set_velocity({0, 0, 0.3});
+        std::vector<Point> now = loads;
+        for (Point &f : now)
+          f = (1 + std::sin(0.1 * k)) * f;
+        solid.kick(0.5 * dt);
+        solid.drift(dt, 1);
+        put(solid, now);
+        solid.kick(0.5 * dt);
+        largest = std::max(largest, solid.book().strain);
+        ASSERT_NEAR(total(solid.book()), start, 1e-8 * largest) << k;
+      }
+      const BodyBook b = solid.book();
+      EXPECT_NE(b.load_work, 0);
+      EXPECT_NE(b.grip_work, 0);
+      EXPECT_EQ(b.dissipated != 0, slides);
+    }
+}
+
+// Loads and the machine's velocity held over a time in steps of dt and dt / 2 against far finer ones; drifts
+// of one and of three steps of their own.
+TEST(elastic_solid, explicit_motion_is_of_second_order) {
+  for (const int inner : {1, 3}) {
+    const auto run = [&](int steps) {
+      ElasticSolid solid(plate(), {pad}, Grip{}, {1});
+      const double end = 24 * solid.stable_step() * (inner == 1 ? 1 : 2), dt = end / steps;
+      const std::vector<Point> loads = uneven_loads(solid, 10);
+      solid.set_velocity({0, 0, -0.01});
+      for (int k = 0; k <= steps; ++k) {
+        std::vector<Point> now = loads;
+        for (Point &f : now)
+          f = std::pow(std::sin(2 * pi * k / steps), 2) * f;
+        put(solid, now);
+        if (k > 0) solid.kick(0.5 * dt);
+        if (k == steps) break;
+        solid.kick(0.5 * dt);
+        solid.drift(dt, inner);
+      }
+      return solid.deformation();
+    };
+    const auto fine = run(2048), middle = run(256), coarse = run(128);
+    double near = 0, far = 0;
+    for (std::size_t i = 0; i < fine.size(); ++i)
+      near += dot(middle[i] - fine[i], middle[i] - fine[i]),
+          far += dot(coarse[i] - fine[i], coarse[i] - fine[i]);
+    EXPECT_NEAR(0.5 * std::log2(far / near), 2.0, 0.1) << inner;
+  }
+}
+
+// Shaken at random, energy stays for thousands of steps below the limit and explodes above it.
+TEST(elastic_solid, the_stable_step_is_the_limit) {
+  const Grid skew = moved_grid(plate(), [](const Point &p) {
+    return Point{p[0] + 0.3 * p[1] * std::sin(40 * p[2]), p[1] + 5 * p[0] * p[2],
+                 p[2] + 400 * p[0] * p[2] * (0.02 - p[2])};
+  });
+  for (const int degree : {1, 2})
+    for (const bool slides : {false, true}) {
+      Grip grip;
+      grip.slides = slides;
+      const auto growth = [&](double share) {
+        ElasticSolid solid(skew, {steel}, grip, {degree});
+        const std::vector<Point> none(solid.model().nodes.size(), Point{});
+        solid.set_deformation(none, shaken(solid, 1e-3));
+        const double start = solid.kinetic_energy(), dt = share * solid.stable_step();
+        for (int k = 0; k < 3000; ++k)
+          solid.drift(dt, 1);
+        return solid.kinetic_energy() / start;
+      };
+      EXPECT_LT(growth(0.95), 3) << degree;
+      EXPECT_FALSE(growth(1.05) < 1e6) << degree;
+      const ElasticSolid solid(skew, {steel}, grip, {degree});
+      const double by_cells = 2 / std::sqrt(solid.model().cell_bound);
+      EXPECT_LE(by_cells, solid.stable_step());
+      EXPECT_GT(by_cells, 0.5 * solid.stable_step());
+      EXPECT_EQ(solid.substeps(10 * solid.stable_step()), 12);
+    }
+}
+
+TEST(elastic_solid, a_free_body_keeps_its_momentum) {
+  Grip none;
+  none.tag = no_grip;
+  ElasticSolid solid(plate(), {steel}, none, {2});
+  const std::vector<Point> u = shaken(solid, 1e-7);
+  solid.set_deformation(u, shaken(solid, 1e-2));
+  const Point start = solid.momentum();
+  const double size = std::sqrt(2 * solid.mass() * solid.kinetic_energy()), dt = 0.9 * solid.stable_step();
+  for (int k = 0; k < 1000; ++k)
+    solid.drift(dt, 1);
+  EXPECT_LT(norm(solid.momentum() - start), 1e-11 * size); // round-off of a thousand steps
+  EXPECT_THROW(solid.set_velocity({1, 0, 0}), std::logic_error);
+}
+
+} // namespace
+} // namespace platen::fem

@@ -1,0 +1,153 @@
+// Mass, internal forces and pressure of a solid at finite strain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fem/rubber_sleeve.h"
+
+namespace platen::fem {
+namespace {
+
+TEST(hyperelastic_solid, mass_is_density_times_volume) {
+  const HyperelasticSolid solid = sleeve();
+  const double volume = 8 * std::sin(M_PI / 8) * (0.055 * 0.055 - 0.05 * 0.05) * 0.06;
+  EXPECT_NEAR(solid.volume(), volume, 1e-13 * volume);
+  double sum = 0;
+  for (const double m : solid.nodal_mass())
+    sum += m;
+  EXPECT_NEAR(sum, 1100 * volume, 1e-13 * 1100 * volume);
+}
+
+// Energy in mu V: round-off of 1 - 1; forces in mu A: the bulk modulus is 50 mu.
+TEST(hyperelastic_solid, a_rotation_by_any_angle_stores_nothing) {
+  HyperelasticSolid solid = sleeve();
+  solid.set_displacement(turned_places(solid, std::vector<Point>(solid.mesh().nodes.size())));
+  const double mu = rubber.law.shear_modulus;
+  EXPECT_LT(std::abs(solid.internal_energy()), 1e-14 * mu * solid.volume());
+  EXPECT_LT(largest(solid.internal_forces()), 1e-12 * mu * 1e-4);
+}
+
+TEST(hyperelastic_solid, forces_and_pressure_turn_with_the_solid) {
+  HyperelasticSolid solid = sleeve();
+  solid.set_pressure(mantle_tag, 1e5);
+  solid.set_displacement(bent(solid));
+  const std::vector<Point> inner = solid.internal_forces(), pressed = solid.pressure_forces();
+  const double energy = solid.internal_energy(), size = largest(inner);
+  solid.set_displacement(turned_places(solid, bent(solid)));
+  EXPECT_NEAR(solid.internal_energy(), energy, 1e-12 * energy);
+  for (std::size_t n = 0; n < inner.size(); ++n) {
+    EXPECT_LT(norm(solid.internal_forces()[n] - turned(inner[n])), 1e-11 * size);
+    EXPECT_LT(norm(solid.pressure_forces()[n] - turned(pressed[n])), 1e-11 * size);
+  }
+}
+
+TEST(hyperelastic_solid, internal_forces_have_no_sum_and_no_moment) {
+  HyperelasticSolid solid = sleeve();
+  solid.set_displacement(bent(solid));
+  Point sum{}, moment{};
+  double forces = 0;
+  for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
+    const Point f = solid.internal_forces()[n];
+    sum = sum + f, moment = moment + cross(solid.node_place(static_cast<int>(n)), f);
+    forces += norm(f);
+  }
+  EXPECT_LT(norm(sum), 1e-13 * forces);
+  EXPECT_LT(norm(moment), 1e-13 * forces * 0.08);
+}
+
+TEST(hyperelastic_solid, the_tangent_with_pressure_is_the_slope_of_the_forces) {
+  HyperelasticSolid solid = sleeve();
+  solid.set_pressure(mantle_tag, 2e6), solid.set_pressure(inner_tag, 5e5);
+  const std::vector<Point> u = bent(solid, 0.002), d = random_field(u.size(), 1);
+  solid.set_displacement(u);
+  const std::vector<Point> k = solid.stiffness_times(d);
+  const double h = 1e-8, size = largest(k);
+  const auto forces = [&](double step) {
+    std::vector<Point> place = u;
+    for (std::size_t n = 0; n < u.size(); ++n)
+      place[n] = u[n] + step * d[n];
+    solid.set_displacement(place);
+    std::vector<Point> f = solid.internal_forces();
+    for (std::size_t n = 0; n < f.size(); ++n)
+      f[n] = f[n] - solid.pressure_forces()[n];
+    return f;
+  };
+  const std::vector<Point> up = forces(h), down = forces(-h);
+  for (std::size_t n = 0; n < u.size(); ++n)
+    EXPECT_LT(norm(k[n] - (0.5 / h) * (up[n] - down[n])), 1e-6 * size);
+}
+
+double current_volume(const HyperelasticSolid &solid) {
+  double volume = 0;
+  const std::vector<CellStress> cells = solid.cell_stresses();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    volume += solid.mesh().cells[c].volume * cells[c].volume_ratio;
+  return volume;
+}
+
+// All four sides pressed alike: the surface is closed.
+HyperelasticSolid pressed_all_around(double pressure) {
+  HyperelasticSolid solid = sleeve();
+  for (const int tag : {mantle_tag, inner_tag, low_end_tag, high_end_tag})
+    solid.set_pressure(tag, pressure);
+  solid.update_forces();
+  return solid;
+}
+
+TEST(hyperelastic_solid, pressure_on_a_closed_deformed_surface_sums_to_zero) {
+  HyperelasticSolid solid = pressed_all_around(1e6);
+  solid.set_displacement(bent(solid));
+  Point sum{}, moment{};
+  double forces = 0;
+  for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
+    const Point f = solid.pressure_forces()[n];
+    sum = sum + f, moment = moment + cross(solid.node_place(static_cast<int>(n)), f);
+    forces += norm(f);
+  }
+  EXPECT_LT(norm(sum), 1e-14 * forces);
+  EXPECT_LT(norm(moment), 1e-14 * forces * 0.08);
+  Point sides{};
+  for (const int tag : {mantle_tag, inner_tag, low_end_tag, high_end_tag})
+    sides = sides + solid.pressure_force(tag);
+  EXPECT_LT(norm(sides), 1e-14 * forces);
+}
+
+// Work of the drifts = -p (V after - V before), V from the cells: another integral of the same trilinear
+// geometry. Exact for one long drift, where the trapezoidal rule is off by percents.
+TEST(hyperelastic_solid, pressure_does_the_work_p_dv) {
+  const double p = 1e6;
+  HyperelasticSolid solid = pressed_all_around(p);
+  const double before = current_volume(solid);
+  solid.set_velocity(bent(solid));
+  solid.drift(1);
+  const double first = current_volume(solid);
+  EXPECT_GT(std::abs(first - before), 1e-3 * before);
+  EXPECT_NEAR(solid.pressure_work(), -p * (first - before), 1e-10 * p * std::abs(first - before));
+  for (int step = 0; step < 50; ++step)
+    solid.drift(-0.013);
+  const double last = current_volume(solid);
+  EXPECT_NEAR(solid.pressure_work(), -p * (last - before), 1e-10 * p * std::abs(first - before));
+}
+
+// On the inner face alone, ends in their planes: the same with the volume inside the tube.
+TEST(hyperelastic_solid, pressure_inside_a_tube_does_the_work_of_its_lumen) {
+  HyperelasticSolid solid = sleeve();
+  const double share = 8 * std::sin(M_PI / 8);
+  EXPECT_NEAR(solid.enclosed_volume(inner_tag), share * 0.05 * 0.05 * 0.06, 1e-17);
+  EXPECT_NEAR(solid.enclosed_volume(mantle_tag), share * 0.055 * 0.055 * 0.06, 1e-17);
+  solid.set_pressure(inner_tag, 1e5);
+  solid.update_forces();
+  std::vector<Point> v = bent(solid);
+  for (std::size_t n = 0; n < v.size(); ++n) {
+    const double z = solid.mesh().nodes[n][2];
+    if (z < 1e-9 || z > 0.06 - 1e-9) v[n][2] = 0;
+  }
+  solid.set_velocity(v);
+  const double before = solid.enclosed_volume(inner_tag);
+  solid.drift(1);
+  const double change = solid.enclosed_volume(inner_tag) - before;
+  EXPECT_NEAR(solid.pressure_work(), 1e5 * change, 1e-10 * 1e5 * std::abs(change));
+}
+
+} // namespace
+} // namespace platen::fem

@@ -1,0 +1,134 @@
+// Explicit steps of a solid at finite strain.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/fem/rubber_sleeve.h"
+
+namespace platen::fem {
+namespace {
+
+// Largest eigenvalue of M^-1 K by Lanczos with full orthogonalisation; from below, so that the step from it
+// is an upper bound of the true one.
+double lanczos(const HyperelasticSolid &solid, int steps) {
+  const std::size_t nodes = solid.mesh().nodes.size();
+  const auto count = static_cast<Eigen::Index>(3 * nodes);
+  const auto apply = [&](const Eigen::VectorXd &x) {
+    std::vector<Point> d(nodes);
+    for (std::size_t n = 0; n < nodes; ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        d[n][k] = x[static_cast<Eigen::Index>(3 * n + k)] / std::sqrt(solid.nodal_mass()[n]);
+    const std::vector<Point> f = solid.stiffness_times(d);
+    Eigen::VectorXd y(count);
+    for (std::size_t n = 0; n < nodes; ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        y[static_cast<Eigen::Index>(3 * n + k)] = f[n][k] / std::sqrt(solid.nodal_mass()[n]);
+    return y;
+  };
+  Eigen::MatrixXd basis(count, steps), small = Eigen::MatrixXd::Zero(steps, steps);
+  Eigen::VectorXd v(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    v[k] = std::sin(1.0 + 12.9898 * static_cast<double>(k * k % 1009));
+  v.normalize();
+  for (int s = 0; s < steps; ++s) {
+    basis.col(s) = v;
+    Eigen::VectorXd w = apply(v);
+    small(s, s) = v.dot(w);
+    for (int again = 0; again < 2; ++again)
+      w -= basis.leftCols(s + 1) * (basis.leftCols(s + 1).transpose() * w);
+    const double beta = w.norm();
+    if (s + 1 < steps) small(s, s + 1) = small(s + 1, s) = beta;
+    v = w / beta;
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(small).eigenvalues()[steps - 1];
+}
+
+TEST(hyperelastic_solid, the_stable_step_is_below_that_of_lanczos) {
+  for (const double poisson : {0.3, 0.49, 0.4995}) {
+    HyperelasticSolid solid = sleeve({1100, NeoHookean::from_young(3e6, poisson)});
+    for (const double size : {0.0, 0.003}) {
+      solid.set_displacement(bent(solid, size));
+      const double limit = 2 / std::sqrt(lanczos(solid, 60));
+      EXPECT_LT(solid.stable_step(), limit * (1 + 1e-6));
+      EXPECT_GT(solid.stable_step(), 0.75 * limit);
+    }
+  }
+}
+
+// Energy of motion and strain = works. Velocity Verlet keeps a neighbour of the energy: the difference swings
+// with dt^2 and does not grow. The upper end is led up and down, so all books are in use.
+TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
+  double worst[2] = {0, 0}, book = 0;
+  for (const int fine : {0, 1}) {
+    HyperelasticSolid solid = held_sleeve(2e4);
+    solid.set_damping(50);
+    const double dt = 0.4 * solid.stable_step() / (1 + fine);
+    for (int k = 0; k < 300 * (1 + fine); ++k) {
+      solid.set_lead_velocity(1, {0, 0, -0.5 * std::sin(2e3 * k * dt)});
+      step(solid, dt, 1);
+      worst[fine] = std::max(worst[fine], std::abs(imbalance(solid)));
+    }
+    book = std::abs(solid.pressure_work()) + std::abs(solid.lead_work());
+    EXPECT_GT(std::abs(solid.lead_work()), 0.01 * book);
+    EXPECT_GT(solid.damping_work(), 0.001 * book);
+  }
+  EXPECT_LT(worst[0], 0.01 * book);
+  EXPECT_NEAR(worst[0] / worst[1], 4, 1.5); // second order
+}
+
+TEST(hyperelastic_solid, steps_below_the_limit_stay_bounded_and_above_it_do_not) {
+  const double limit = 2 / std::sqrt(lanczos(held_sleeve(0), 60));
+  HyperelasticSolid calm = held_sleeve(2e3), wild = held_sleeve(2e3);
+  const double dt = calm.stable_step();
+  double energy = 0, work = 0;
+  for (int k = 0; k < 2000; ++k) {
+    step(calm, dt, 1);
+    energy = std::max(energy, calm.kinetic_energy() + calm.internal_energy());
+    work = std::max(work, calm.pressure_work());
+  }
+  EXPECT_LT(energy, 2 * work);
+  EXPECT_THROW(step(wild, 1.2 * limit, 2000), InvertedElement);
+}
+
+TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {
+  HyperelasticSolid explicit_one = held_sleeve(2e4), implicit = held_sleeve(0);
+  explicit_one.set_damping(800);
+  step(explicit_one, 0.9 * explicit_one.stable_step(), 6000);
+  implicit.solve({{{inner_tag, 2e4}}, {}});
+  const double size = largest(implicit.displacement());
+  EXPECT_GT(size, 1e-4);
+  for (std::size_t n = 0; n < implicit.displacement().size(); ++n)
+    EXPECT_LT(norm(explicit_one.displacement()[n] - implicit.displacement()[n]), 1e-6 * size);
+}
+
+TEST(hyperelastic_solid, an_inverted_element_is_found_before_it_is_used) {
+  HyperelasticSolid solid = held_sleeve(2e4);
+  step(solid, 0.9 * solid.stable_step(), 20);
+  const std::vector<double> before = solid.state();
+  std::vector<Point> v = solid.velocity();
+  const int node = solid.mesh().cell_nodes[37][6];
+  v[static_cast<std::size_t>(node)] = {0, 0, -100};
+  solid.set_velocity(v);
+  const std::vector<double> state = solid.state();
+  try {
+    solid.drift(1e-3); // 10 cm through cells of 1 cm
+    FAIL() << "an inverted element was used";
+  } catch (const InvertedElement &error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("cell " + std::to_string(error.cell) + " at ("), std::string::npos) << text;
+    EXPECT_NE(text.find("pressure 20000 Pa on side 6"), std::string::npos) << text;
+    EXPECT_LE(error.volume_ratio, inverted_share);
+    const auto &nodes = solid.mesh().cell_nodes[static_cast<std::size_t>(error.cell)];
+    EXPECT_NE(std::find(nodes.begin(), nodes.end(), node), nodes.end());
+  }
+  EXPECT_EQ(solid.state(), state); // nothing has moved
+  solid.set_state(before);
+  step(solid, 0.5 * solid.stable_step(), 5); // and it goes on from there
+}
+
+} // namespace
+} // namespace platen::fem

@@ -1,0 +1,83 @@
+// A rubber sleeve and fields on it for the tests of HyperelasticSolid.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "fem/hyperelastic_solid.h"
+
+namespace platen::fem {
+
+inline const Rubber rubber{1100, NeoHookean::from_young(3e6, 0.49)};
+
+inline HyperelasticSolid sleeve(const Rubber &material = rubber,
+                                const std::vector<int> &contact = {inner_tag}) {
+  return HyperelasticSolid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}), material, contact);
+}
+
+inline std::vector<Point> random_field(std::size_t nodes, double size, unsigned seed = 3) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> spread(-size, size);
+  std::vector<Point> field(nodes);
+  for (Point &p : field)
+    p = {spread(engine), spread(engine), spread(engine)};
+  return field;
+}
+
+// A smooth field as large as the wall is thick.
+inline std::vector<Point> bent(const HyperelasticSolid &solid, double size = 0.005) {
+  std::vector<Point> field;
+  for (const Point &x : solid.mesh().nodes)
+    field.push_back({size * std::sin(40 * x[1] + 20 * x[2]), size * std::cos(30 * x[2] + 10 * x[0]),
+                     size * std::sin(30 * x[0])});
+  return field;
+}
+
+inline Point turned(const Point &p) { // 2.3 rad about (2, 3, 6)/7
+  const Point axis = {2.0 / 7, 3.0 / 7, 6.0 / 7};
+  const double c = std::cos(2.3), s = std::sin(2.3);
+  return c * p + s * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
+}
+
+inline double largest(const std::vector<Point> &field) {
+  double most = 0;
+  for (const Point &p : field)
+    most = std::max(most, norm(p));
+  return most;
+}
+
+inline std::vector<Point> turned_places(const HyperelasticSolid &solid,
+                                        const std::vector<Point> &displacement) {
+  std::vector<Point> moved = displacement;
+  for (std::size_t n = 0; n < moved.size(); ++n)
+    moved[n] = turned(solid.mesh().nodes[n] + displacement[n]) - solid.mesh().nodes[n];
+  return moved;
+}
+
+// Blown up from inside with its ends held; rings as it is let go. (From outside it would buckle at 7 kPa.)
+inline HyperelasticSolid held_sleeve(double pressure, double poisson = 0.45) {
+  HyperelasticSolid solid = sleeve({1100, NeoHookean::from_young(3e6, poisson)});
+  solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
+  solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
+  solid.set_pressure(inner_tag, pressure);
+  solid.update_forces();
+  return solid;
+}
+
+inline void step(HyperelasticSolid &solid, double dt, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    solid.half_kick(dt);
+    solid.drift(dt);
+    solid.update_forces();
+    solid.half_kick(dt);
+  }
+}
+
+inline double imbalance(const HyperelasticSolid &solid) {
+  return solid.kinetic_energy() + solid.internal_energy() + solid.damping_work() - solid.pressure_work() -
+         solid.lead_work();
+}
+
+} // namespace platen::fem
