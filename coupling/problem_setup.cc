@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "coupling/bending.h"
 #include "coupling/problem.h"
 #include "coupling/text_of.h"
 #include "dem/measure/moduli.h"
 #include "fem/grids.h"
+#include "fem/platen_mesh.h"
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
@@ -65,27 +68,51 @@ Strips bending_strips(const dem::Specimen &s, const ProblemSettings &settings, b
   return strips;
 }
 
+// Elements of elastic platens are about as thick as wide; a sheet of one would not bulge at degree 1.
+std::vector<fem::Layer> layers_of(const PlatenSettings &p, double half_width, bool top) {
+  const auto layer = [&](double thickness, int least) {
+    const double alike = 0.5 * p.elements_across * thickness / half_width;
+    return fem::Layer{thickness, std::max(least, static_cast<int>(std::lround(alike)))};
+  };
+  if (p.elastic->pad_thickness == 0) return {layer(p.thickness, 2)};
+  const fem::Layer pad = layer(p.elastic->pad_thickness, 2 / p.elastic->degree),
+                   rest = layer(p.thickness - p.elastic->pad_thickness, 1);
+  return top ? std::vector{pad, rest} : std::vector{rest, pad};
+}
+
 fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
-  // Elements of elastic platens are about as thick as wide.
-  const auto layers = [&](double half_width) {
-    if (!p.elastic) return 2;
-    return std::max(2, static_cast<int>(std::lround(0.5 * p.elements_across * p.thickness / half_width)));
-  };
+  if (const fem::Grid &given = top ? p.top.grid : p.bottom.grid) return fem::laid_platen(given, !top, plane);
   if (p.span > 0) return make_grid(bending_strips(s, settings, top));
-  if (s.shape.kind == dem::ShapeKind::cylinder)
-    return fem::make_grid(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across,
-                                             layers(p.overhang * s.shape.radius)});
+  if (s.shape.kind == dem::ShapeKind::cylinder) {
+    const fem::CylinderPlate plate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2};
+    return p.elastic ? fem::make_grid(plate, layers_of(p, plate.radius, top)) : fem::make_grid(plate);
+  }
   const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
   const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
                y = 0.5 * p.overhang * s.shape.width_y;
-  return fem::make_grid(fem::BoxPlate{{-x, -y, low},
-                                      {x, y, low + p.thickness},
-                                      {p.elements_across, p.elements_across, layers(std::max(x, y))}});
+  const fem::BoxPlate plate{
+      {-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}};
+  return p.elastic ? fem::make_grid(plate, layers_of(p, std::max(x, y), top)) : fem::make_grid(plate);
 }
 
-std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+// From the low end; of a given grid in the order of its materials.
+std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::Grid &given, bool top) {
+  std::vector<fem::Material> materials{p.material};
+  if (given && fem::materials_of(given) > 1 && !(p.elastic->pad.young_modulus > 0))
+    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
+                                " physical volumes: the second needs Platens/Pad modulus, Pad Poisson ratio "
+                                "and Pad density");
+  if (given && fem::materials_of(given) > 2)
+    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
+                                " physical volumes: at most two are known, platen and pad");
+  if (given ? fem::materials_of(given) > 1 : p.elastic->pad_thickness > 0)
+    materials.insert(!given && top ? materials.begin() : materials.end(), p.elastic->pad);
+  return materials;
+}
+
+std::unique_ptr<fem::Body> new_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   if (!p.elastic) return std::make_unique<fem::RigidBody>(platen_grid(s, settings, top), p.material);
   fem::Grip grip;
@@ -94,8 +121,17 @@ std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSett
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
-  return std::make_unique<fem::ElasticSolid>(platen_grid(s, settings, top), std::vector{p.material}, grip,
-                                             options);
+  return std::make_unique<fem::ElasticSolid>(
+      platen_grid(s, settings, top), platen_materials(p, (top ? p.top : p.bottom).grid, top), grip, options);
+}
+
+std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  if (!(top ? settings.platens.top : settings.platens.bottom).grid) return new_platen(s, settings, top);
+  try {
+    return new_platen(s, settings, top);
+  } catch (const std::invalid_argument &e) {
+    throw BadSetup(top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file", std::string(e.what()) + ".");
+  }
 }
 
 // What the specimen covers of a platen.

@@ -1,8 +1,12 @@
 #include "apps/run/problem_setup.h"
 
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
 
 #include "apps/run/model_setup.h"
+#include "apps/scene/errors.h"
+#include "fem/gmsh.h"
 
 namespace platen::apps {
 namespace {
@@ -68,6 +72,18 @@ std::vector<std::string> chosen(const Scene &scene, bool on) {
   return words;
 }
 
+fem::Grid platen_grid(const Scene &scene, bool top) {
+  const std::string &path = (top ? scene.platens.top : scene.platens.bottom).mesh_file;
+  if (path.empty()) return nullptr;
+  std::ifstream file(path, std::ios::binary);
+  try {
+    if (!file) throw std::invalid_argument(path + ": cannot be read");
+    return fem::read_gmsh(file, {scene.platens.mesh_unit, path});
+  } catch (const std::invalid_argument &e) {
+    throw InputError(e.what());
+  }
+}
+
 coupling::CellSettings cell_settings(const Loading &from) {
   coupling::CellSettings to;
   to.pressure = from.confining_pressure;
@@ -94,8 +110,8 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
-  to.platens.top = {from.top.friction_static, from.top.friction_dynamic};
-  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic};
+  to.platens.top = {from.top.friction_static, from.top.friction_dynamic, platen_grid(scene, true)};
+  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic, platen_grid(scene, false)};
   if (from.stiffness.kind == Stiffness::Kind::absolute)
     to.platens.stiffness_absolute = from.stiffness.value;
   else
@@ -115,6 +131,9 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
                                                                : fem::ElasticMotion::explicit_steps;
     elastic.damping = from.body_damping;
     elastic.steps_per_solve = from.steps_per_solve;
+    elastic.pad_thickness = from.pad_thickness;
+    if (!std::isnan(from.pad_modulus))
+      elastic.pad = {from.pad_density, from.pad_modulus, from.pad_poisson_ratio};
     to.platens.elastic = elastic;
   }
   to.platens.glued = from.attachment == Attachment::glued;

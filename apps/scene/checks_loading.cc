@@ -31,6 +31,7 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.kind == PlatenKind::deformable) deformable_platens();
+  if (loads()) meshes();
 }
 
 void SceneCheck::deformable_platens() const {
@@ -45,6 +46,32 @@ void SceneCheck::deformable_platens() const {
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
     refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
+  pads();
+}
+
+// A mesh may bring a second material of its own.
+void SceneCheck::pads() const {
+  const Platens &platens = scene_.platens;
+  const bool meshed = !platens.top.mesh_file.empty() || !platens.bottom.mesh_file.empty();
+  const bool wanted = platens.pad_thickness > 0;
+  if (wanted && platens.pad_thickness >= platens.thickness)
+    refuse("Platens/Pad thickness", "leaves nothing of the platen. Allowed: 0 ... " +
+                                        shortest_text(platens.thickness) + " m, Platens/Thickness.");
+  if (!wanted && !(meshed && given(platens.pad_modulus))) return;
+  need("Platens/Pad modulus", platens.pad_modulus, "the pad has to have one.");
+  need("Platens/Pad Poisson ratio", platens.pad_poisson_ratio, "the pad has to have one.");
+  need("Platens/Pad density", platens.pad_density, "the pad has to have one.");
+}
+
+void SceneCheck::meshes() const {
+  for (const bool top : {true, false}) {
+    const std::string &file = (top ? scene_.platens.top : scene_.platens.bottom).mesh_file;
+    const char *path = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
+    if (file.empty()) continue;
+    readable(path, file, "");
+    if (scene_.loading.bending()) refuse(path, "does not go with Loading/Test = three point bending.");
+    if (scene_.platens.strip_width > 0) refuse(path, "does not go with Platens/Strip width. Allowed: 0.");
+  }
 }
 
 void SceneCheck::loading() const {

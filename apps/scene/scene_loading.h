@@ -1,6 +1,7 @@
 // Sections of a scene that say what is done with the specimen. NaN means "not given" where a member says so.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "apps/scene/quantities.h"
@@ -14,6 +15,7 @@ enum class PlatenControl { motion, stress };
 
 struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
   double friction_static = not_given, friction_dynamic = not_given;
+  std::string mesh_file; // Gmsh; empty: a plate
 };
 
 struct Platens {
@@ -36,8 +38,13 @@ struct Platens {
   double poisson_ratio = 0.3;
   PlatenMotion motion = PlatenMotion::explicit_steps; // this and the next: kind = deformable
   int degree = 1;
-  double body_damping = 0.05; // fraction of critical, of the fastest mode; motion = explicit_steps
-  int steps_per_solve = 20;   // motion = quasi_static
+  double body_damping = 0.05;     // fraction of critical, of the fastest mode; motion = explicit_steps
+  int steps_per_solve = 20;       // motion = quasi_static
+  double pad_thickness = 0;       // m, of a sheet between platen and specimen, part of the thickness; 0: none
+  double pad_modulus = not_given; // Pa
+  double pad_poisson_ratio = not_given;
+  double pad_density = not_given; // kg/m3
+  double mesh_unit = 1;           // m, of the mesh files
   Attachment attachment = Attachment::contact;
 };
 

@@ -108,7 +108,7 @@ TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
     EXPECT_LT(found["energy_residual_relative"], 0.01);
     const auto held = column_of(folder_ / whole / "history.csv", "body_energy_j");
     EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
-    EXPECT_NE(content_of(folder_ / whole / "platens_000002.vtu").find("von_mises"), std::string::npos);
+    EXPECT_NE(content_of(folder_ / whole / "frames/platens_000002.vtu").find("von_mises"), std::string::npos);
     std::vector<std::string> stopping{"-t", "2"};
     stopping.insert(stopping.end(), options.begin(), options.end());
     EXPECT_EQ(stop_at(stopped, 70, SIGTERM, stopping), 143);

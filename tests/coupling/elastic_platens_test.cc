@@ -203,6 +203,63 @@ TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
   }
 }
 
+// A sheet between platen and specimen is in series: it takes p t (1 + nu)(1 - 2 nu) / (E (1 - nu)) of the
+// closure where it cannot spread sideways, more where it can, and p t / E at most.
+TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
+  ProblemSettings settings = between(ElasticMotion::quasi_static, steel);
+  settings.platens.elastic->steps_per_solve = 4; // a sheet that is soft answers to its last loads
+  settings.platens.overhang = 1;
+  settings.platens.elastic->pad_thickness = 1e-3;
+  settings.platens.elastic->pad = {1200, 5e9, 0.3};
+  Problem problem(cylinder(), settings);
+  advance_to(problem, 5000);
+  const double pressure = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  ASSERT_GT(pressure, 1e5);
+  const double yielded = 0.5 * (problem.grip_closure() - problem.closure_strain() * problem.shape().height);
+  const double most = pressure * 1e-3 / 5e9, least = most * (1 + 0.3) * (1 - 2 * 0.3) / (1 - 0.3);
+  EXPECT_GT(yielded, least);
+  EXPECT_LT(yielded, most);
+}
+
+// A grid of one's own that is the plate which would have been made presses as that does, wherever it lay:
+// but for the last bits of its nodes' places, by which friction chooses among paths.
+TEST(elastic_platens, a_given_mesh_of_the_same_plate_presses_alike) {
+  for (const bool yields : {false, true}) {
+    ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+    if (!yields) settings.platens.elastic.reset();
+    Problem plain(cylinder(), settings);
+    const double radius = settings.platens.overhang * cylinder().shape.radius;
+    const fem::Grid somewhere = fem::make_grid(
+        fem::CylinderPlate{radius, settings.platens.thickness, 3, settings.platens.elements_across,
+                           yields ? static_cast<int>(std::lround(settings.platens.elements_across *
+                                                                 settings.platens.thickness / (2 * radius)))
+                                  : 2});
+    settings.platens.top.grid = settings.platens.bottom.grid = somewhere;
+    Problem given(cylinder(), settings);
+    advance_to(plain, 600);
+    advance_to(given, 600);
+    ASSERT_GT(plain.stress_top(), 1e4);
+    EXPECT_NEAR(given.stress_top() / plain.stress_top(), 1, 1e-4) << yields;
+    EXPECT_NEAR(given.stress_bottom() / plain.stress_bottom(), 1, 1e-4) << yields;
+    EXPECT_NEAR(given.closure_strain() / plain.closure_strain(), 1, 1e-4) << yields;
+  }
+}
+
+TEST(elastic_platens, a_mesh_that_cannot_be_held_is_refused_by_name) {
+  ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+  const fem::Grid plate = fem::make_grid(fem::CylinderPlate{5e-3, 4e-3, 0, 4, 2});
+  settings.platens.top.grid = fem::moved_grid(plate, [](const fem::Point &p) {
+    return fem::Point{p[0], p[1], p[2] * (1 + 20 * p[0])}; // its upper side slants
+  });
+  try {
+    Problem problem(cylinder(), settings);
+    FAIL();
+  } catch (const BadSetup &e) {
+    EXPECT_EQ(e.entry(), "Platens/Top/Mesh file");
+    EXPECT_NE(std::string(e.what()).find("nothing to hold"), std::string::npos) << e.what();
+  }
+}
+
 TEST(elastic_platens, are_not_carried_to_a_start) {
   Problem problem(cylinder(), between(ElasticMotion::explicit_steps, steel));
   EXPECT_THROW(problem.carry({}, {}, 1e-6), std::logic_error);
