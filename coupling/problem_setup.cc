@@ -231,6 +231,13 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);
+  if (!quasi_static()) return;
+  // Lists that choose_step has made.
+  const auto support = [&](const ContactLayer &layer, fem::Body &body) {
+    static_cast<fem::ElasticSolid &>(body).set_support(layer.vertex_springs(model.particles, body).stiffness);
+  };
+  support(top_layer, top);
+  support(bottom_layer, bottom);
 }
 
 } // namespace platen::coupling
