@@ -126,11 +126,13 @@ std::unique_ptr<fem::Body> new_platen(const dem::Specimen &s, const ProblemSetti
 }
 
 std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
-  if (!(top ? settings.platens.top : settings.platens.bottom).grid) return new_platen(s, settings, top);
+  const bool given = (top ? settings.platens.top : settings.platens.bottom).grid != nullptr;
   try {
     return new_platen(s, settings, top);
   } catch (const std::invalid_argument &e) {
-    throw BadSetup(top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file", std::string(e.what()) + ".");
+    const std::string mesh = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
+    if (given) throw BadSetup(mesh, std::string(e.what()) + ".");
+    throw BadSetup("Platens/Elements across", std::string("is not possible: ") + e.what() + ".");
   }
 }
 

@@ -39,7 +39,8 @@ void SceneCheck::deformable_platens() const {
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
   if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
   if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
-  if (loading.confinement != ConfinementKind::none) refuse_kind("needs Loading/Confinement = none.");
+  if (loading.confinement == ConfinementKind::sleeve)
+    refuse_kind("does not go with Loading/Confinement = sleeve.");
   if (scene_.platens.top_control == PlatenControl::stress) refuse_kind("needs Platens/Top/Control = motion.");
   if (scene_.platens.attachment == Attachment::glued) refuse_kind("needs Platens/Attachment = contact.");
   if (scene_.integration.scheme != Scheme::velocity_verlet)
