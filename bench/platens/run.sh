@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Elastic platens on the cylinder of scenes/elastic_platens.prm: steel beside rigid on three seeds, meshes of 2 to 16
+# Elastic platens on the cylinder of scenes/elastic_platens.prm: steel beside rigid on three seeds, meshes of 3 (the least that a round plate has) to 16
 # elements across, platens from ten times to a twentieth as stiff as the concrete, and what they cost side by side.
 # Ends with the tables of table.py. Runs that are whole are not made again, costs are.
 # Usage: bench/platens/run.sh BUILD FOLDER [THREADS]
@@ -28,7 +28,7 @@ rigid="Platens/Kind = rigid"
 for seed in 1 2 3; do
   run "rigid_$seed" "Scene/Seed = $seed" "$rigid"
   packed=("Scene/Seed = $seed" "Specimen/Packing = file" "Specimen/File = $(realpath "$folder")/rigid_$seed/specimen.csv")
-  for across in 8 4 2 16; do
+  for across in 8 4 3 16; do
     run "across_${across}_$seed" "${packed[@]}" "Platens/Elements across = $across"
   done
 done
