@@ -164,6 +164,23 @@ TEST(elastic_platens, the_book_closes_through_a_crush) {
   }
 }
 
+// Pressure on the particles, the servo at the grip, then the platens alone.
+TEST(elastic_platens, the_book_closes_in_a_cell) {
+  ProblemSettings settings = crushing(ElasticMotion::explicit_steps);
+  settings.loading.cell = CellSettings{};
+  settings.loading.cell->pressure = 1e6;
+  settings.loading.cell->ramp = 5e-5;
+  Problem problem(cylinder(), settings);
+  while (!problem.axial_stage() && problem.steps() < 20000)
+    advance_to(problem, problem.steps() + 100);
+  ASSERT_TRUE(problem.axial_stage());
+  // They take over within 1 %, and have pressed for up to a hundred steps since.
+  EXPECT_NEAR(0.5 * (problem.stress_top() + problem.stress_bottom()), 1e6, 5e4);
+  advance_to(problem, problem.steps() + 1000);
+  EXPECT_GT(problem.stress_top(), 1.5e6);
+  EXPECT_LT(std::abs(problem.energy().residual()), 5e-3 * problem.energy().boundary);
+}
+
 void copy(const dem::Table &from, dem::Table &to) {
   to.resize(from.size());
   for (std::size_t c = 0; c < from.columns().size(); ++c)
