@@ -48,6 +48,7 @@ struct PlatenSide {
 // springs are then the particles' share alone: what the platen gives way is in its mesh.
 struct ElasticPlatens {
   int degree = 1;
+  bool seat = false; // spherical, under the top platen's grip: turns freely about the middle of its face
   fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
   double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
   int steps_per_solve = 20; // quasi-static: of the particles

@@ -117,6 +117,10 @@ std::unique_ptr<fem::Body> new_platen(const dem::Specimen &s, const ProblemSetti
   if (!p.elastic) return std::make_unique<fem::RigidBody>(platen_grid(s, settings, top), p.material);
   fem::Grip grip;
   grip.tag = top ? fem::high_end_tag : fem::low_end_tag;
+  if (top && p.elastic->seat) {
+    grip.turns = true;
+    grip.seat = {0, 0, platen_plane(s, true, settings.ends)};
+  }
   fem::ElasticOptions options;
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;

@@ -52,6 +52,7 @@ std::vector<Effect> effects(const Scene &s) {
           {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
            "contact dashpots"},
           {s.platens.kind == PlatenKind::deformable, "elastic platens"},
+          {s.platens.top_seat == PlatenSeat::spherical, "spherical seat"},
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
@@ -131,6 +132,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
                                                                : fem::ElasticMotion::explicit_steps;
     elastic.damping = from.body_damping;
     elastic.steps_per_solve = from.steps_per_solve;
+    elastic.seat = from.top_seat == PlatenSeat::spherical;
     elastic.pad_thickness = from.pad_thickness;
     if (!std::isnan(from.pad_modulus))
       elastic.pad = {from.pad_density, from.pad_modulus, from.pad_poisson_ratio};

@@ -31,6 +31,8 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.kind == PlatenKind::deformable) deformable_platens();
+  if (platens.kind == PlatenKind::rigid && platens.top_seat == PlatenSeat::spherical)
+    refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
   if (loads()) meshes();
 }
 

@@ -11,6 +11,7 @@ namespace platen::apps {
 enum class PlatenKind { rigid, deformable };
 enum class PlatenMotion { explicit_steps, quasi_static };
 enum class Attachment { contact, glued };
+enum class PlatenSeat { fixed, spherical };
 enum class PlatenControl { motion, stress };
 
 struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
@@ -24,14 +25,15 @@ struct Platens {
   double friction_dynamic = not_given; // common to both; not given: as the static one
   PlatenSide top, bottom;
   PlatenControl top_control = PlatenControl::motion;
-  double top_stress = 0;         // Pa, pressing; top_control = stress
-  Stiffness stiffness;           // of_bond (of the mean bond) or absolute
-  double tangential_ratio = 0.8; // tangential over normal penalty stiffness
-  double damping = 0.2;          // fraction of critical
-  double strip_width = 0;        // m, platen-brazilian, bending; 0: as wide as the platens
-  double span = not_given;       // m, test = three_point_bending
-  double overhang = 1.2;         // platen half-width over that of the specimen
-  double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
+  PlatenSeat top_seat = PlatenSeat::fixed; // kind = deformable
+  double top_stress = 0;                   // Pa, pressing; top_control = stress
+  Stiffness stiffness;                     // of_bond (of the mean bond) or absolute
+  double tangential_ratio = 0.8;           // tangential over normal penalty stiffness
+  double damping = 0.2;                    // fraction of critical
+  double strip_width = 0;                  // m, platen-brazilian, bending; 0: as wide as the platens
+  double span = not_given;                 // m, test = three_point_bending
+  double overhang = 1.2;                   // platen half-width over that of the specimen
+  double thickness = 0;                    // m; where the file gives 0, a tenth of the specimen's height
   int elements_across = 8;
   double density = 7830;        // kg/m3
   double young_modulus = 200e9; // Pa

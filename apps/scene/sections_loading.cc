@@ -73,6 +73,9 @@ void declare_platens(Parameters &parameters, Platens &platens) {
   top.word<PlatenControl>("Control", platens.top_control,
                           {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}}, {},
                           "What is prescribed on the top platen.");
+  top.word<PlatenSeat>(
+      "Seat", platens.top_seat, {{"fixed", PlatenSeat::fixed}, {"spherical", PlatenSeat::spherical}}, {},
+      "Spherical: the top platen turns freely about the middle of its face (Kind = deformable).");
   top.quantity("Stress", platens.top_stress, "Pa", at_least(0), "Pressing stress (Control = stress).");
   declare_side(parameters, "Platens/Bottom", platens.bottom);
 }
