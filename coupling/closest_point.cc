@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace platen::coupling {
 
@@ -82,6 +83,25 @@ Foot foot_on_flat_quad(const Quad &q, const Vector3 &across) {
 
 bool inside(double u, double v) {
   return u > 0 && u < 1 && v > 0 && v < 1;
+}
+
+// Whether a convex quad that is warped has one minimum all the same, as a face of a strained body has. Over
+// its mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards everywhere
+// where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v) and |z_u|,
+// |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J. det J is
+// linear in u and v, least at a corner.
+bool one_minimum(const Quad &q, const Vector3 &twist, const Vector3 &across, double area) {
+  const Vector3 n = across / area;
+  double least = std::numeric_limits<double>::infinity(), edge = 0, far = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 out = q[(k + 1) % 4] - q[k], back = q[(k + 3) % 4] - q[k];
+    least = std::min(least, dot(cross(out, back), n));
+    edge = std::max(edge, norm_squared(out));
+    far = std::max(far, std::abs(dot(q[k], n)));
+  }
+  if (!(least > 0)) return false;
+  const double inverse = std::sqrt(2 * edge) / least, out_of_plane = std::abs(dot(twist, n));
+  return far * out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse < 0.5;
 }
 
 // Projection onto the plane of a parallelogram. False where it falls on or outside the rim, or there is no
@@ -210,6 +230,10 @@ ClosestPoint closest_point(const Quad &q) {
   // A flat convex quad has one minimum.
   if (foot == Foot::inside) invert_flat_quad(q, twist, across, u, v);
   if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
+  if (!flat && area > 0 && one_minimum(q, twist, across, area)) {
+    invert_flat_quad(q, twist, across, u, v);
+    return descend(q, twist, u, v) ? at(q, u, v) : on_boundary(q);
+  }
 
   ClosestPoint best = on_boundary(q);
   const auto try_from = [&](double start_u, double start_v) {

@@ -87,6 +87,7 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
     vertices_.push_back(static_cast<int>(v));
     shares_.push_back(area[v] / (covered > 0 ? covered : all));
   }
+  start_ = height(surface);
 }
 
 double MeanPlace::height(const fem::SurfaceMesh &surface) const {

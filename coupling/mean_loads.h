@@ -33,11 +33,13 @@ public:
   // Of the faces of a tag, over their area where `covers` holds at (x, y); over all of it where it never
   // does.
   MeanPlace(const fem::SurfaceMesh &surface, int tag, const std::function<bool(double, double)> &covers);
-  double height(const fem::SurfaceMesh &surface) const; // m, z now
+  double height(const fem::SurfaceMesh &surface) const;                                   // m, z now
+  double rise(const fem::SurfaceMesh &surface) const { return height(surface) - start_; } // m
 
 private:
   std::vector<int> vertices_;
   std::vector<double> shares_; // sum 1
+  double start_ = 0;           // m
 };
 
 } // namespace platen::coupling

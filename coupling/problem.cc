@@ -31,7 +31,7 @@ std::vector<dem::GroundSpring> Problem::springs_at(bool top_platen) {
   ContactLayer &layer = top_platen ? top_layer : bottom_layer;
   const fem::Body &body = top_platen ? top : bottom;
   layer.make_list(model.particles, body);
-  return layer.ground_springs(model.particles, body);
+  return layer.ground_springs(model.particles, body, true);
 }
 
 std::size_t Problem::springs_near() const {
@@ -124,11 +124,14 @@ void Problem::solve_bodies() {
 }
 
 void Problem::drift_bodies() {
-  kick_bodies();
-  top.drift(time_step_);
-  bottom.drift(time_step_);
-  top.clear_loads();
-  bottom.clear_loads();
+  const auto move = [&](fem::Body &body) {
+    body.kick(0.5 * time_step_);
+    body.drift(time_step_);
+    body.clear_loads();
+  };
+  if (deformable()) return dem::both([&] { move(top); }, [&] { move(bottom); });
+  move(top);
+  move(bottom);
 }
 
 // A layer refuses a motion that could carry a particle through a face unseen.

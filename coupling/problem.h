@@ -42,15 +42,19 @@ enum class Ends { as_packed, ground };
 
 struct PlatenSide {
   double friction_static = 0, friction_dynamic = 0;
+  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/platen_mesh.h says
 };
 
 // Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
 // springs are then the particles' share alone: what the platen gives way is in its mesh.
 struct ElasticPlatens {
   int degree = 1;
+  bool seat = false; // spherical, under the top platen's grip: turns freely about the middle of its face
   fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
   double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
   int steps_per_solve = 20; // quasi-static: of the particles
+  double pad_thickness = 0; // m, of a sheet on the specimen's side that is part of the thickness; 0: none
+  fem::Material pad{};      // of that sheet, or of the second material of a given grid; modulus 0: none
 };
 
 struct PlatenSettings {
@@ -228,7 +232,7 @@ private:
   void kick_bodies();
   void solve_bodies();
   double limit_of_bodies() const;
-  double face_move(const fem::Body &body, const MeanPlace &face, double plane) const;
+  double face_move(const fem::Body &body, const MeanPlace &face) const;
   void announce_motion(double dt);
   std::vector<dem::GroundSpring> ground_springs() const;
 

@@ -13,12 +13,11 @@ constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 dem::EndPlanes Problem::end_planes() const {
-  return {bottom_plane_ + face_move(bottom, bottom_face_, bottom_plane_),
-          top_plane_ + face_move(top, top_face_, top_plane_)};
+  return {bottom_plane_ + face_move(bottom, bottom_face_), top_plane_ + face_move(top, top_face_)};
 }
 
-double Problem::face_move(const fem::Body &body, const MeanPlace &face, double plane) const {
-  return deformable() ? face.height(body.surface()) - plane : body.displacement()[2];
+double Problem::face_move(const fem::Body &body, const MeanPlace &face) const {
+  return deformable() ? face.rise(body.surface()) : body.displacement()[2];
 }
 
 double Problem::coordination_number() const {
@@ -32,8 +31,7 @@ std::size_t Problem::bytes() const {
 }
 
 double Problem::closure_strain() const {
-  return (face_move(bottom, bottom_face_, bottom_plane_) - face_move(top, top_face_, top_plane_)) /
-         shape_.height;
+  return (face_move(bottom, bottom_face_) - face_move(top, top_face_)) / shape_.height;
 }
 double Problem::grip_closure() const {
   return bottom.displacement()[2] - top.displacement()[2];

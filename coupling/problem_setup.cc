@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "coupling/bending.h"
 #include "coupling/problem.h"
 #include "coupling/text_of.h"
 #include "dem/measure/moduli.h"
 #include "fem/grids.h"
+#include "fem/platen_mesh.h"
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
@@ -63,37 +66,76 @@ Strips bending_strips(const dem::Specimen &s, const ProblemSettings &settings, b
   return strips;
 }
 
+// Elements of elastic platens are about as thick as wide; a sheet of one would not bulge at degree 1.
+std::vector<fem::Layer> layers_of(const PlatenSettings &p, double half_width, bool top) {
+  const auto layer = [&](double thickness, int least) {
+    const double alike = 0.5 * p.elements_across * thickness / half_width;
+    return fem::Layer{thickness, std::max(least, static_cast<int>(std::lround(alike)))};
+  };
+  if (p.elastic->pad_thickness == 0) return {layer(p.thickness, 2)};
+  const fem::Layer pad = layer(p.elastic->pad_thickness, 2 / p.elastic->degree),
+                   rest = layer(p.thickness - p.elastic->pad_thickness, 1);
+  return top ? std::vector{pad, rest} : std::vector{rest, pad};
+}
+
 fem::Grid platen_grid(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
-  // Elements of elastic platens are about as thick as wide.
-  const auto layers = [&](double half_width) {
-    if (!p.elastic) return 2;
-    return std::max(2, static_cast<int>(std::lround(0.5 * p.elements_across * p.thickness / half_width)));
-  };
+  if (const fem::Grid &given = top ? p.top.grid : p.bottom.grid) return fem::laid_platen(given, !top, plane);
   if (p.span > 0) return make_grid(bending_strips(s, settings, top));
-  if (s.shape.kind == dem::ShapeKind::cylinder)
-    return fem::make_grid(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across,
-                                             layers(p.overhang * s.shape.radius)});
+  if (s.shape.kind == dem::ShapeKind::cylinder) {
+    const fem::CylinderPlate plate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2};
+    return p.elastic ? fem::make_grid(plate, layers_of(p, plate.radius, top)) : fem::make_grid(plate);
+  }
   const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
   const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
                y = 0.5 * p.overhang * s.shape.width_y;
-  return fem::make_grid(fem::BoxPlate{{-x, -y, low},
-                                      {x, y, low + p.thickness},
-                                      {p.elements_across, p.elements_across, layers(std::max(x, y))}});
+  const fem::BoxPlate plate{
+      {-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}};
+  return p.elastic ? fem::make_grid(plate, layers_of(p, std::max(x, y), top)) : fem::make_grid(plate);
 }
 
-std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+// From the low end; of a given grid in the order of its materials.
+std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::Grid &given, bool top) {
+  std::vector<fem::Material> materials{p.material};
+  if (given && fem::materials_of(given) > 1 && !(p.elastic->pad.young_modulus > 0))
+    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
+                                " physical volumes: the second needs Platens/Pad modulus, Pad Poisson ratio "
+                                "and Pad density");
+  if (given && fem::materials_of(given) > 2)
+    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
+                                " physical volumes: at most two are known, platen and pad");
+  if (given ? fem::materials_of(given) > 1 : p.elastic->pad_thickness > 0)
+    materials.insert(!given && top ? materials.begin() : materials.end(), p.elastic->pad);
+  return materials;
+}
+
+std::unique_ptr<fem::Body> new_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
   const PlatenSettings &p = settings.platens;
   if (!p.elastic) return std::make_unique<fem::RigidBody>(platen_grid(s, settings, top), p.material);
   fem::Grip grip;
   grip.tag = top ? fem::high_end_tag : fem::low_end_tag;
+  if (top && p.elastic->seat) {
+    grip.turns = true;
+    grip.seat = {0, 0, platen_plane(s, true, settings.ends)};
+  }
   fem::ElasticOptions options;
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
-  return std::make_unique<fem::ElasticSolid>(platen_grid(s, settings, top), std::vector{p.material}, grip,
-                                             options);
+  return std::make_unique<fem::ElasticSolid>(
+      platen_grid(s, settings, top), platen_materials(p, (top ? p.top : p.bottom).grid, top), grip, options);
+}
+
+std::unique_ptr<fem::Body> make_platen(const dem::Specimen &s, const ProblemSettings &settings, bool top) {
+  const bool given = (top ? settings.platens.top : settings.platens.bottom).grid != nullptr;
+  try {
+    return new_platen(s, settings, top);
+  } catch (const std::invalid_argument &e) {
+    const std::string mesh = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
+    if (given) throw BadSetup(mesh, std::string(e.what()) + ".");
+    throw BadSetup("Platens/Elements across", std::string("is not possible: ") + e.what() + ".");
+  }
 }
 
 // What the specimen covers of a platen.
@@ -123,10 +165,12 @@ double platen_stiffness(const dem::Model &model, const ProblemSettings &settings
 }
 
 SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
-                              const ProblemSettings &settings, const PlatenSide &side) {
+                              const ProblemSettings &settings, const PlatenSide &side,
+                              const fem::Body &body) {
   const PlatenSettings &p = settings.platens;
   SurfaceContact c;
   c.particle_stiffness = platen_stiffness(model, settings);
+  c.face_compliance = body.face_compliance();
   c.tangential_ratio = p.tangential_ratio;
   c.friction_static = side.friction_static;
   c.friction_dynamic = side.friction_dynamic;
@@ -145,9 +189,9 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
       bottom_body_(make_platen(specimen, settings, false)),
       top(*top_body_),
       bottom(*bottom_body_),
-      top_layer(model.particles, top, layer_settings(model, specimen, settings, settings.platens.top)),
+      top_layer(model.particles, top, layer_settings(model, specimen, settings, settings.platens.top, top)),
       bottom_layer(model.particles, bottom,
-                   layer_settings(model, specimen, settings, settings.platens.bottom)),
+                   layer_settings(model, specimen, settings, settings.platens.bottom, bottom)),
       settings_(settings),
       shape_(specimen.shape),
       bottom_plane_(platen_plane(specimen, false, settings.ends)),
@@ -197,6 +241,13 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   choose_step(true);
   if (sleeve_ && settings.loading.cell->sleeve->mass_scaling == 0)
     start_sleeve(*settings.loading.cell, mean_bond_stiffness(model), cheap_mass_of_sleeve());
+  if (!quasi_static()) return;
+  // Lists that choose_step has made.
+  const auto support = [&](const ContactLayer &layer, fem::Body &body) {
+    static_cast<fem::ElasticSolid &>(body).set_support(layer.vertex_springs(model.particles, body).stiffness);
+  };
+  support(top_layer, top);
+  support(bottom_layer, bottom);
 }
 
 } // namespace platen::coupling

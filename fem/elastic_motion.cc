@@ -150,6 +150,7 @@ void ElasticSolid::kick(double dt) {
     const Point gain = (dt / model_.mass[node]) * free;
     load_work_ += dt * dot(free, rate_[node] + 0.5 * gain);
     rate_[node] = rate_[node] + gain;
+    surface_.velocities[static_cast<std::size_t>(v)] = rate_[node];
     kicked_.push_back({node, gain, {}});
     force = force + kept, moment = moment + cross(r, kept);
   }
@@ -158,7 +159,7 @@ void ElasticSolid::kick(double dt) {
   load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
   dissipated_ += dt * relative;
   if (turns_freely() && !is_static()) place_held();
-  if (turns_freely() || !is_static()) place_surface();
+  if (turns_freely()) place_surface();
 }
 
 // Steps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free

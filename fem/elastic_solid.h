@@ -93,6 +93,11 @@ public:
   // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
   // std::logic_error for an explicit body.
   void aim(const std::vector<Point> &vertex_loads, double duration);
+  // Springs by which the loads answer to the way of each vertex (N/m, at least half of what they are): solved
+  // for with a duration, the body then takes as much of them into account as if they stood on ground where
+  // it was on the mean under the loads. Loads that are not followed so swing up from solve to solve where the
+  // body is softer than its contacts. At rest nothing is left of them. Quasi-static, before the first aim().
+  void set_support(const std::vector<double> &vertex_stiffness);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
   int solver_iterations() const;
 
@@ -186,6 +191,9 @@ private:
   };
   std::vector<Kicked> kicked_;       // by the loads since the last drift
   std::vector<StaticSolver> solver_; // none until the first aim()
+  std::vector<double> support_;      // N/m per node; empty without
+  BlockRows supported_;              // stiffness and support
+  std::vector<StaticSolver> supported_solver_;
 };
 
 } // namespace platen::fem

@@ -121,12 +121,18 @@ void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) 
   if (!is_static()) throw std::logic_error("elastic solid: only a quasi-static body is solved for");
   if (vertex_loads.size() != node_of_.size())
     throw std::invalid_argument("elastic solid: one load per surface vertex, please");
-  if (solver_.empty()) solver_.emplace_back(model_.stiffness, model_.nodes, held_, options_.solver);
+  const bool follows = duration > 0 && !support_.empty();
+  std::vector<StaticSolver> &solver = follows ? supported_solver_ : solver_;
+  const BlockRows &stiffness = follows ? supported_ : model_.stiffness;
+  if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, held_, options_.solver);
   std::vector<Point> load(model_.nodes.size(), Point{});
   for (std::size_t v = 0; v < node_of_.size(); ++v)
     load[static_cast<std::size_t>(node_of_[v])] = to_frame(vertex_loads[v]);
+  if (follows)
+    for (std::size_t i = 0; i < load.size(); ++i)
+      load[i] = load[i] + (0.5 * support_[i]) * (start_[i] + target_[i]);
   start_ = deformation();
-  solver_[0].solve(model_.stiffness, load, target_);
+  solver[0].solve(stiffness, load, target_);
   elapsed_ = 0, duration_ = duration > 0 ? duration : 0;
   on_the_way_ = duration_ > 0;
   measure_path();
@@ -155,12 +161,30 @@ void ElasticSolid::drift_evenly(double dt) {
   dissipated_ -= path_strain() - before;
 }
 
+void ElasticSolid::set_support(const std::vector<double> &vertex_stiffness) {
+  if (!is_static() || !solver_.empty() || !supported_solver_.empty())
+    throw std::logic_error("elastic solid: a quasi-static body is supported before its first solve");
+  if (vertex_stiffness.size() != node_of_.size())
+    throw std::invalid_argument("elastic solid: one support per surface vertex, please");
+  support_.assign(model_.nodes.size(), 0.0);
+  supported_ = model_.stiffness;
+  for (std::size_t v = 0; v < node_of_.size(); ++v) {
+    const int node = node_of_[v];
+    support_[static_cast<std::size_t>(node)] = vertex_stiffness[v];
+    double *block = supported_.block(static_cast<std::size_t>(node), node);
+    for (const std::size_t k : {0, 4, 8})
+      block[k] += vertex_stiffness[v];
+  }
+}
+
 LinearSolver ElasticSolid::solver_kind() const {
-  return solver_.empty() ? options_.solver : solver_[0].kind();
+  const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
+  return used.empty() ? options_.solver : used[0].kind();
 }
 
 int ElasticSolid::solver_iterations() const {
-  return solver_.empty() ? 0 : solver_[0].iterations();
+  const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
+  return used.empty() ? 0 : used[0].iterations();
 }
 
 } // namespace platen::fem

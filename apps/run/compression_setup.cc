@@ -96,7 +96,9 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
   std::vector<std::filesystem::path> inputs{command.scene};
   if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
-  if (!scene.phases.file.empty()) inputs.emplace_back(scene.phases.file);
+  for (const std::string &file :
+       {scene.phases.file, scene.platens.top.mesh_file, scene.platens.bottom.mesh_file})
+    if (!file.empty()) inputs.emplace_back(file);
   if (!command.dry_run) check_output_folder(paths_.folder, use, inputs);
   if (command.resume && !command.dry_run) require_same_scene(scene, paths_);
   // A resumed run takes the packing that the first part wrote, to the last bit.

@@ -1,8 +1,12 @@
 #include "apps/run/problem_setup.h"
 
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
 
 #include "apps/run/model_setup.h"
+#include "apps/scene/errors.h"
+#include "fem/gmsh.h"
 
 namespace platen::apps {
 namespace {
@@ -48,6 +52,7 @@ std::vector<Effect> effects(const Scene &s) {
           {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
            "contact dashpots"},
           {s.platens.kind == PlatenKind::deformable, "elastic platens"},
+          {s.platens.top_seat == PlatenSeat::spherical, "spherical seat"},
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
@@ -83,6 +88,18 @@ coupling::SleeveSettings sleeve_settings(const Sleeve &from) {
   return to;
 }
 
+fem::Grid platen_grid(const Scene &scene, bool top) {
+  const std::string &path = (top ? scene.platens.top : scene.platens.bottom).mesh_file;
+  if (path.empty()) return nullptr;
+  std::ifstream file(path, std::ios::binary);
+  try {
+    if (!file) throw std::invalid_argument(path + ": cannot be read");
+    return fem::read_gmsh(file, {scene.platens.mesh_unit, path});
+  } catch (const std::invalid_argument &e) {
+    throw InputError(e.what());
+  }
+}
+
 coupling::CellSettings cell_settings(const Loading &from) {
   coupling::CellSettings to;
   to.pressure = from.confining_pressure;
@@ -109,8 +126,8 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
-  to.platens.top = {from.top.friction_static, from.top.friction_dynamic};
-  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic};
+  to.platens.top = {from.top.friction_static, from.top.friction_dynamic, platen_grid(scene, true)};
+  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic, platen_grid(scene, false)};
   if (from.stiffness.kind == Stiffness::Kind::absolute)
     to.platens.stiffness_absolute = from.stiffness.value;
   else
@@ -130,6 +147,10 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
                                                                : fem::ElasticMotion::explicit_steps;
     elastic.damping = from.body_damping;
     elastic.steps_per_solve = from.steps_per_solve;
+    elastic.seat = from.top_seat == PlatenSeat::spherical;
+    elastic.pad_thickness = from.pad_thickness;
+    if (!std::isnan(from.pad_modulus))
+      elastic.pad = {from.pad_density, from.pad_modulus, from.pad_poisson_ratio};
     to.platens.elastic = elastic;
   }
   to.platens.glued = from.attachment == Attachment::glued;

@@ -31,6 +31,9 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.kind == PlatenKind::deformable) deformable_platens();
+  if (platens.kind == PlatenKind::rigid && platens.top_seat == PlatenSeat::spherical)
+    refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
+  if (loads()) meshes();
 }
 
 void SceneCheck::deformable_platens() const {
@@ -38,13 +41,38 @@ void SceneCheck::deformable_platens() const {
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
   if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
   if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
-  if (loading.confinement != ConfinementKind::none) refuse_kind("needs Loading/Confinement = none.");
   if (scene_.platens.top_control == PlatenControl::stress) refuse_kind("needs Platens/Top/Control = motion.");
   if (scene_.platens.attachment == Attachment::glued) refuse_kind("needs Platens/Attachment = contact.");
   if (scene_.integration.scheme != Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
     refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
+  pads();
+}
+
+// A mesh may bring a second material of its own.
+void SceneCheck::pads() const {
+  const Platens &platens = scene_.platens;
+  const bool meshed = !platens.top.mesh_file.empty() || !platens.bottom.mesh_file.empty();
+  const bool wanted = platens.pad_thickness > 0;
+  if (wanted && platens.pad_thickness >= platens.thickness)
+    refuse("Platens/Pad thickness", "leaves nothing of the platen. Allowed: 0 ... " +
+                                        shortest_text(platens.thickness) + " m, Platens/Thickness.");
+  if (!wanted && !(meshed && given(platens.pad_modulus))) return;
+  need("Platens/Pad modulus", platens.pad_modulus, "the pad has to have one.");
+  need("Platens/Pad Poisson ratio", platens.pad_poisson_ratio, "the pad has to have one.");
+  need("Platens/Pad density", platens.pad_density, "the pad has to have one.");
+}
+
+void SceneCheck::meshes() const {
+  for (const bool top : {true, false}) {
+    const std::string &file = (top ? scene_.platens.top : scene_.platens.bottom).mesh_file;
+    const char *path = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
+    if (file.empty()) continue;
+    readable(path, file, "");
+    if (scene_.loading.bending()) refuse(path, "does not go with Loading/Test = three point bending.");
+    if (scene_.platens.strip_width > 0) refuse(path, "does not go with Platens/Strip width. Allowed: 0.");
+  }
 }
 
 void SceneCheck::loading() const {
@@ -140,6 +168,9 @@ void SceneCheck::cell() const {
            "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
            "Allowed: motion.");
   if (!loading.sleeved()) return;
+  if (scene_.platens.top_seat == PlatenSeat::spherical)
+    refuse("Platens/Top/Seat",
+           "does not go with Loading/Confinement = sleeve, whose rims do not turn. Allowed: fixed.");
   if (app_ != AppKind::compress && app_ != AppKind::study)
     refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
   if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)

@@ -76,13 +76,19 @@ void SceneCheck::contact_notes() {
 
 void SceneCheck::loading_notes() {
   if (scene_.platens.kind == PlatenKind::rigid)
-    for (const char *key : {"Platens/Young modulus", "Platens/Poisson ratio", "Platens/Motion",
-                            "Platens/Degree", "Platens/Body damping", "Platens/Steps per solve"})
+    for (const char *key :
+         {"Platens/Young modulus", "Platens/Poisson ratio", "Platens/Motion", "Platens/Degree",
+          "Platens/Body damping", "Platens/Steps per solve", "Platens/Pad thickness"})
       note(key, "Platens/Kind = rigid");
   else if (scene_.platens.motion == PlatenMotion::quasi_static)
     note("Platens/Body damping", "Platens/Motion = quasi-static");
   else
     note("Platens/Steps per solve", "Platens/Motion = explicit");
+  const bool meshed = !scene_.platens.top.mesh_file.empty() || !scene_.platens.bottom.mesh_file.empty();
+  if (!meshed) note("Platens/Mesh unit", "no platen has a Mesh file");
+  if (scene_.platens.kind == PlatenKind::rigid || (scene_.platens.pad_thickness == 0 && !meshed))
+    for (const char *key : {"Platens/Pad modulus", "Platens/Pad Poisson ratio", "Platens/Pad density"})
+      note(key, "platens have no pad");
   if (scene_.platens.top_control == PlatenControl::motion) {
     note("Platens/Top/Stress", "Platens/Top/Control = motion");
     if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");

@@ -25,6 +25,8 @@ void inherit(Scene &scene, const Parameters &parameters) {
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.stiffness_ratio};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
+  scene.platens.top.mesh_file = resolved_path(parameters.at("Platens/Top/Mesh file"));
+  scene.platens.bottom.mesh_file = resolved_path(parameters.at("Platens/Bottom/Mesh file"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
 }

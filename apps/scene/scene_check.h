@@ -55,6 +55,8 @@ private:
   void cross_section() const;
   void spheres_fit() const;
   void deformable_platens() const;
+  void pads() const;
+  void meshes() const;
   void friction(const std::string &name, const PlatenSide &side) const;
   void note(const std::string &path, const std::string &why);
   void specimen_notes();

@@ -1,6 +1,7 @@
 // Sections of a scene that say what is done with the specimen. NaN means "not given" where a member says so.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "apps/scene/quantities.h"
@@ -10,10 +11,12 @@ namespace platen::apps {
 enum class PlatenKind { rigid, deformable };
 enum class PlatenMotion { explicit_steps, quasi_static };
 enum class Attachment { contact, glued };
+enum class PlatenSeat { fixed, spherical };
 enum class PlatenControl { motion, stress };
 
 struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
   double friction_static = not_given, friction_dynamic = not_given;
+  std::string mesh_file; // Gmsh; empty: a plate
 };
 
 struct Platens {
@@ -22,22 +25,28 @@ struct Platens {
   double friction_dynamic = not_given; // common to both; not given: as the static one
   PlatenSide top, bottom;
   PlatenControl top_control = PlatenControl::motion;
-  double top_stress = 0;         // Pa, pressing; top_control = stress
-  Stiffness stiffness;           // of_bond (of the mean bond) or absolute
-  double tangential_ratio = 0.8; // tangential over normal penalty stiffness
-  double damping = 0.2;          // fraction of critical
-  double strip_width = 0;        // m, platen-brazilian, bending; 0: as wide as the platens
-  double span = not_given;       // m, test = three_point_bending
-  double overhang = 1.2;         // platen half-width over that of the specimen
-  double thickness = 0;          // m; where the file gives 0, a tenth of the specimen's height
+  PlatenSeat top_seat = PlatenSeat::fixed; // kind = deformable
+  double top_stress = 0;                   // Pa, pressing; top_control = stress
+  Stiffness stiffness;                     // of_bond (of the mean bond) or absolute
+  double tangential_ratio = 0.8;           // tangential over normal penalty stiffness
+  double damping = 0.2;                    // fraction of critical
+  double strip_width = 0;                  // m, platen-brazilian, bending; 0: as wide as the platens
+  double span = not_given;                 // m, test = three_point_bending
+  double overhang = 1.2;                   // platen half-width over that of the specimen
+  double thickness = 0;                    // m; where the file gives 0, a tenth of the specimen's height
   int elements_across = 8;
   double density = 7830;        // kg/m3
   double young_modulus = 200e9; // Pa
   double poisson_ratio = 0.3;
   PlatenMotion motion = PlatenMotion::explicit_steps; // this and the next: kind = deformable
   int degree = 1;
-  double body_damping = 0.05; // fraction of critical, of the fastest mode; motion = explicit_steps
-  int steps_per_solve = 20;   // motion = quasi_static
+  double body_damping = 0.05;     // fraction of critical, of the fastest mode; motion = explicit_steps
+  int steps_per_solve = 20;       // motion = quasi_static
+  double pad_thickness = 0;       // m, of a sheet between platen and specimen, part of the thickness; 0: none
+  double pad_modulus = not_given; // Pa
+  double pad_poisson_ratio = not_given;
+  double pad_density = not_given; // kg/m3
+  double mesh_unit = 1;           // m, of the mesh files
   Attachment attachment = Attachment::contact;
 };
 

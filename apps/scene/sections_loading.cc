@@ -10,6 +10,9 @@ void declare_side(Parameters &parameters, const std::string &name, PlatenSide &s
                  "As Platens/Friction static where not given.");
   section.number("Friction dynamic", side.friction_dynamic, between(0, 5),
                  "As Platens/Friction dynamic where not given.");
+  section.file("Mesh file", side.mesh_file,
+               "Gmsh mesh of hexahedra (.msh, 2.2 or 4.1) in place of a plate: its extreme plane towards the "
+               "specimen is laid on the end, the far plane is the machine's.");
 }
 
 } // namespace
@@ -54,6 +57,14 @@ void declare_platens(Parameters &parameters, Platens &platens) {
       "(Motion = explicit).");
   section.integer("Steps per solve", platens.steps_per_solve, 1, 100000,
                   "Time steps over which loads are averaged for each solve (Motion = quasi-static).");
+  section.quantity("Pad thickness", platens.pad_thickness, "m", at_least(0),
+                   "Of a sheet of another material that faces the specimen, part of the thickness of a "
+                   "deformable platen; 0: none.");
+  section.quantity("Pad modulus", platens.pad_modulus, "Pa", above(0), "Young modulus of that sheet.");
+  section.number("Pad Poisson ratio", platens.pad_poisson_ratio, between_open(-1, 0.5),
+                 "Poisson ratio of that sheet.");
+  section.quantity("Pad density", platens.pad_density, "kg/m3", above(0), "Density of that sheet.");
+  section.quantity("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.");
   section.word<Attachment>("Attachment", platens.attachment,
                            {{"contact", Attachment::contact}, {"glued", Attachment::glued}}, {},
                            "Glued: the end grains are held by the platens, in tension too.");
@@ -62,6 +73,9 @@ void declare_platens(Parameters &parameters, Platens &platens) {
   top.word<PlatenControl>("Control", platens.top_control,
                           {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}}, {},
                           "What is prescribed on the top platen.");
+  top.word<PlatenSeat>(
+      "Seat", platens.top_seat, {{"fixed", PlatenSeat::fixed}, {"spherical", PlatenSeat::spherical}}, {},
+      "Spherical: the top platen turns freely about the middle of its face (Kind = deformable).");
   top.quantity("Stress", platens.top_stress, "Pa", at_least(0), "Pressing stress (Control = stress).");
   declare_side(parameters, "Platens/Bottom", platens.bottom);
 }

@@ -123,9 +123,9 @@ TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
 
 TEST_F(Determinism, a_sleeve_goes_on_where_it_stopped) {
   std::vector<std::string> in_cell;
-  for (const char *entry : {"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
-                            "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.02",
-                            "Sleeve/Thickness = 1 mm"})
+  for (const char *entry :
+       {"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
+        "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.02", "Sleeve/Thickness = 1 mm"})
     in_cell.insert(in_cell.end(), {"-s", entry});
   const auto with = [&](std::vector<std::string> options) {
     options.insert(options.end(), in_cell.begin(), in_cell.end());

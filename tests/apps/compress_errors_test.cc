@@ -151,6 +151,22 @@ TEST_F(Errors, specimen_files_are_refused_by_line_or_sphere) {
   refuse({{"bad.prm"}, {"bad.prm:4: error: Specimen/File = spheres.csv cannot be read"}});
 }
 
+TEST_F(Errors, platens_that_cannot_be_meshed_are_refused_by_key_or_file) {
+  refuse({with({"Platens/Kind = deformable", "Platens/Elements across = 2"}),
+          {"--set 2: error: Platens/Elements across = 2", "at least 3"}});
+  refuse({with({"Platens/Top/Mesh file = nowhere.msh"}),
+          {"--set 1: error: Platens/Top/Mesh file = nowhere.msh cannot be read"}});
+  put(folder_ / "bad.msh", "$Mess\n");
+  refuse({with({"Platens/Top/Mesh file = bad.msh"}), {"bad.msh: is no mesh of hexahedra that can be read"}});
+  // A cube whose upper side slants: as a top platen it cannot be held.
+  put(folder_ / "slant.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 -15 -15 0\n2 15 -15 0\n3 15 15 0\n4 -15 15 0\n"
+      "5 -15 -15 10\n6 15 -15 12\n7 15 15 12\n8 -15 15 10\n$EndNodes\n$Elements\n1\n"
+      "1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n");
+  refuse({with({"Platens/Mesh unit = 1 mm", "Platens/Top/Mesh file = slant.msh"}),
+          {"--set 2: error: Platens/Top/Mesh file = slant.msh has no face", "nothing to hold"}});
+}
+
 TEST_F(Errors, output_folders_are_guarded) {
   put(folder_ / "file", "mine");
   refuse({{scene_}, {"is not a folder"}}, "file");

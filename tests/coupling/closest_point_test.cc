@@ -141,6 +141,13 @@ Quad flat_trapezoid(Draw &d) {
   return {o, o + a, o + d.number(0.3, 1.5) * a + d.number(0.3, 1.5) * b, o + b};
 }
 
+Quad strained_trapezoid(Draw &d) { // a face of a mesh, out of its plane by up to a hundredth
+  Quad q = flat_trapezoid(d);
+  for (Vector3 &corner : q)
+    corner += d.vector(std::pow(10, d.number(-8, -2)));
+  return q;
+}
+
 Quad flat_re_entrant(Draw &d) {
   const Vector3 o = d.vector(1.5), a = d.vector(1), b = d.vector(1);
   return {o, o + a, o + 0.2 * a + 0.2 * b, o + b};
@@ -199,13 +206,16 @@ TEST_P(ClosestPointOfAnyQuad, is_square_to_the_surface_on_the_face) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    quads, ClosestPointOfAnyQuad,
-    testing::Values(QuadKind{"any_warped", any_warped}, QuadKind{"slightly_warped", slightly_warped},
-                    QuadKind{"flat_trapezoid", flat_trapezoid}, QuadKind{"flat_re_entrant", flat_re_entrant},
-                    QuadKind{"needle", needle}, QuadKind{"triangle", triangle}, QuadKind{"line", line},
-                    QuadKind{"folded", folded}, QuadKind{"point", point}),
-    [](const auto &quad) { return quad.param.name; });
+INSTANTIATE_TEST_SUITE_P(quads, ClosestPointOfAnyQuad,
+                         testing::Values(QuadKind{"any_warped", any_warped},
+                                         QuadKind{"slightly_warped", slightly_warped},
+                                         QuadKind{"flat_trapezoid", flat_trapezoid},
+                                         QuadKind{"strained_trapezoid", strained_trapezoid},
+                                         QuadKind{"flat_re_entrant", flat_re_entrant},
+                                         QuadKind{"needle", needle}, QuadKind{"triangle", triangle},
+                                         QuadKind{"line", line}, QuadKind{"folded", folded},
+                                         QuadKind{"point", point}),
+                         [](const auto &quad) { return quad.param.name; });
 
 TEST(closest_point, weights_add_up_to_one_exactly) {
   Draw draw(3);

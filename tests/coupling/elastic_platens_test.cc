@@ -165,6 +165,51 @@ TEST(elastic_platens, the_book_closes_through_a_crush) {
   }
 }
 
+// Few spheres bear, never evenly: a platen that may not turn takes a moment from them, one on a seat turns
+// away until little is left, and stays where it is led.
+TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
+  for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
+    double arm[2]; // m, of the load about the seat, mean over the last steps
+    for (const bool seat : {false, true}) {
+      ProblemSettings settings = between(motion, steel);
+      settings.platens.elastic->seat = seat;
+      Problem problem(cylinder(), settings);
+      advance_to(problem, 2000);
+      fem::Point moment{};
+      double force = 0;
+      for (int k = 0; k < 1000; ++k) {
+        advance_to(problem, problem.steps() + 1);
+        const fem::Point seat_now = fem::Point{0, 0, problem.shape().height} + problem.top.displacement();
+        moment = moment + problem.top.moment(seat_now);
+        force += problem.top.total_force()[2];
+      }
+      arm[seat] = fem::norm(fem::Point{moment[0], moment[1], 0}) / force;
+      EXPECT_LT(std::abs(problem.energy().residual()), 2e-3 * problem.energy().boundary);
+      EXPECT_EQ(problem.grip_closure() > 0, true);
+      const double turned = static_cast<fem::ElasticSolid &>(problem.top).rotation()[0];
+      EXPECT_EQ(turned == 1, !seat);
+    }
+    EXPECT_LT(arm[1], 0.1 * arm[0]) << static_cast<int>(motion) << " " << arm[0] << " " << arm[1];
+  }
+}
+
+// Pressure on the particles, the servo at the grip, then the platens alone.
+TEST(elastic_platens, the_book_closes_in_a_cell) {
+  ProblemSettings settings = crushing(ElasticMotion::explicit_steps);
+  settings.loading.cell = CellSettings{};
+  settings.loading.cell->pressure = 1e6;
+  settings.loading.cell->ramp = 5e-5;
+  Problem problem(cylinder(), settings);
+  while (!problem.axial_stage() && problem.steps() < 20000)
+    advance_to(problem, problem.steps() + 100);
+  ASSERT_TRUE(problem.axial_stage());
+  // They take over within 1 %, and have pressed for up to a hundred steps since.
+  EXPECT_NEAR(0.5 * (problem.stress_top() + problem.stress_bottom()), 1e6, 5e4);
+  advance_to(problem, problem.steps() + 1000);
+  EXPECT_GT(problem.stress_top(), 1.5e6);
+  EXPECT_LT(std::abs(problem.energy().residual()), 5e-3 * problem.energy().boundary);
+}
+
 void copy(const dem::Table &from, dem::Table &to) {
   to.resize(from.size());
   for (std::size_t c = 0; c < from.columns().size(); ++c)
@@ -189,7 +234,8 @@ void restore(const Problem &from, Problem &to) {
 
 TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
   for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
-    const ProblemSettings settings = crushing(motion);
+    ProblemSettings settings = crushing(motion);
+    settings.platens.elastic->seat = true;
     Problem run(cylinder(), settings);
     advance_to(run, 1013); // in the middle of the loads' mean
     Problem resumed(cylinder(), settings);
@@ -201,6 +247,64 @@ TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
     EXPECT_EQ(run.top.state(), resumed.top.state());
     EXPECT_EQ(run.bottom.state(), resumed.bottom.state());
     EXPECT_EQ(run.energy().boundary, resumed.energy().boundary);
+  }
+}
+
+// A sheet between platen and specimen is in series: it takes p t (1 + nu)(1 - 2 nu) / (E (1 - nu)) of the
+// closure where it cannot spread sideways, more where it can, and p t / E at most.
+TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
+  ProblemSettings settings = between(ElasticMotion::quasi_static, steel);
+  settings.platens.overhang = 1;
+  settings.platens.elastic->pad_thickness = 1e-3;
+  settings.platens.elastic->pad = {1200, 1e9, 0.3};
+  Problem problem(cylinder(), settings);
+  advance_to(problem, 5000);
+  const double pressure = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  ASSERT_GT(pressure, 1e5);
+  const double yielded = 0.5 * (problem.grip_closure() - problem.closure_strain() * problem.shape().height);
+  const double most = pressure * 1e-3 / 1e9, least = most * (1 + 0.3) * (1 - 2 * 0.3) / (1 - 0.3);
+  EXPECT_GT(yielded, least);
+  EXPECT_LT(yielded, most);
+  // Softer than its contacts, and still at rest from solve to solve.
+  EXPECT_LT(std::abs(problem.energy().residual()), 1e-4 * problem.energy().boundary);
+}
+
+// A grid of one's own that is the plate which would have been made presses as that does, wherever it lay:
+// but for the last bits of its nodes' places, by which friction chooses among paths.
+TEST(elastic_platens, a_given_mesh_of_the_same_plate_presses_alike) {
+  for (const bool yields : {false, true}) {
+    ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+    if (!yields) settings.platens.elastic.reset();
+    Problem plain(cylinder(), settings);
+    const double radius = settings.platens.overhang * cylinder().shape.radius;
+    const fem::Grid somewhere = fem::make_grid(
+        fem::CylinderPlate{radius, settings.platens.thickness, 3, settings.platens.elements_across,
+                           yields ? static_cast<int>(std::lround(settings.platens.elements_across *
+                                                                 settings.platens.thickness / (2 * radius)))
+                                  : 2});
+    settings.platens.top.grid = settings.platens.bottom.grid = somewhere;
+    Problem given(cylinder(), settings);
+    advance_to(plain, 600);
+    advance_to(given, 600);
+    ASSERT_GT(plain.stress_top(), 1e4);
+    EXPECT_NEAR(given.stress_top() / plain.stress_top(), 1, 1e-4) << yields;
+    EXPECT_NEAR(given.stress_bottom() / plain.stress_bottom(), 1, 1e-4) << yields;
+    EXPECT_NEAR(given.closure_strain() / plain.closure_strain(), 1, 1e-4) << yields;
+  }
+}
+
+TEST(elastic_platens, a_mesh_that_cannot_be_held_is_refused_by_name) {
+  ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+  const fem::Grid plate = fem::make_grid(fem::CylinderPlate{5e-3, 4e-3, 0, 4, 2});
+  settings.platens.top.grid = fem::moved_grid(plate, [](const fem::Point &p) {
+    return fem::Point{p[0], p[1], p[2] * (1 + 20 * p[0])}; // its upper side slants
+  });
+  try {
+    Problem problem(cylinder(), settings);
+    FAIL();
+  } catch (const BadSetup &e) {
+    EXPECT_EQ(e.entry(), "Platens/Top/Mesh file");
+    EXPECT_NE(std::string(e.what()).find("nothing to hold"), std::string::npos) << e.what();
   }
 }
 
