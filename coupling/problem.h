@@ -92,7 +92,7 @@ struct LoadingSettings {
   double ramp = 0;    // s; 0: ten wave crossings of the height
   bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
-  double servo_gain = 0; // 0.1 ... 10, as Servo has it; 0: 5, and 10 against a cell
+  double servo_gain = 0; // of top_stress, 0.1 ... 10 as Servo has it; 0: 5
   std::optional<CellSettings> cell;
   double wall_stiffness = 0; // multiple of the mean bond's; 0: no wall around the specimen
   double wall_layer = 1;     // mean radii: deeper spheres are not seated on the wall

@@ -13,7 +13,7 @@ constexpr double crossings_of_cell = 60;
 // Of a specimen in contact the servo may be as quick as it can. Its time constant is then that of its
 // dashpot, ten impedances, over the specimen's stiffness: ten wave crossings, more where ends are soft. What
 // it is told runs ahead by that, so that the stress on the platens keeps up with the pressure.
-constexpr double gain_of_cell = 10, crossings_ahead_per_gain = 90;
+constexpr double gain_of_cell = 10, crossings_ahead = 9;
 // The platens take over when the axial stress is as near to the pressure as this share of it, or after as
 // much time again as pressure and hold have had.
 constexpr double settled_share = 0.01, patience = 2;
@@ -21,10 +21,6 @@ constexpr double settled_share = 0.01, patience = 2;
 constexpr double servo_reserve = 10;
 // Areas of the skin are looked at in every step that is a multiple of this.
 constexpr long steps_between_skins = 400;
-
-double gain_in_cell(const LoadingSettings &loading) {
-  return loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell;
-}
 
 double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
@@ -49,8 +45,8 @@ void Problem::start_cell(const CellSettings &cell, double bond) {
   }
   const double stiffness = voigt_modulus_ > 0 ? voigt_modulus_ : std::numeric_limits<double>::infinity();
   const double fastest = servo_reserve * cell.pressure / stiffness * shape_.height / cell_ramp_;
-  servo_ = std::make_unique<Servo>(
-      Servo::Parameters{gain_in_cell(settings_.loading), std::max(fastest, settings_.loading.rate)});
+  servo_ =
+      std::make_unique<Servo>(Servo::Parameters{gain_of_cell, std::max(fastest, settings_.loading.rate)});
 }
 
 double Problem::cell_pressure(double time) const {
@@ -61,7 +57,7 @@ double Problem::cell_pressure(double time) const {
 double Problem::lead_of_cell(double time) const {
   const double x = time / cell_ramp_;
   const double rate = x < 1 ? 6 * x * (1 - x) / cell_ramp_ * settings_.loading.cell->pressure : 0.0;
-  return crossings_ahead_per_gain / gain_in_cell(settings_.loading) * wave_crossing_ * rate;
+  return crossings_ahead * wave_crossing_ * rate;
 }
 
 void Problem::look_at_cell() {

@@ -55,8 +55,8 @@ void Problem::move_sleeve() {
   lead.bottom = bottom.velocity();
   lead.top = top.velocity();
   lead.pressure = cell_pressure(model.time);
-  lead.bottom_place = {0, 0, face_move(bottom, bottom_face_, bottom_plane_)};
-  lead.top_place = {0, 0, face_move(top, top_face_, top_plane_)};
+  lead.bottom_place = {0, 0, face_move(bottom, bottom_face_)};
+  lead.top_place = {0, 0, face_move(top, top_face_)};
   sleeve_->move(time_step_, lead);
 }
 

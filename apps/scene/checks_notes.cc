@@ -96,8 +96,8 @@ void SceneCheck::loading_notes() {
   if (!scene_.loading.cell())
     for (const char *key : {"Loading/Confining pressure", "Loading/Confining ramp"})
       note(key, "Loading/Confinement = none");
-  if (!scene_.loading.cell() && scene_.platens.top_control == PlatenControl::motion)
-    note("Loading/Servo gain", "no platen holds a stress");
+  if (scene_.platens.top_control == PlatenControl::motion)
+    note("Loading/Servo gain", "Platens/Top/Control = motion");
   if (scene_.loading.confinement != ConfinementKind::particles)
     note("Loading/Confinement area", "Loading/Confinement is not particles");
   if (!scene_.loading.sleeved())

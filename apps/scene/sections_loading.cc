@@ -138,8 +138,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
                  "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
   section.number(
       "Servo gain", loading.servo_gain, {0, 10},
-      "Of the servo that holds the top platen at a stress, or at a cell's pressure while that rises: "
-      "0.1 is slow, 10 quick; 0: chosen by the app.");
+      "Of the servo that holds the top platen at Platens/Top/Stress: 0.1 is slow, 10 quick; 0: chosen "
+      "by the app.");
   section.word<ConfinementKind>(
       "Confinement", loading.confinement,
       {{"none", ConfinementKind::none},

@@ -85,22 +85,17 @@ TEST(sleeve_cell, the_book_of_sleeve_cell_and_specimen_closes) {
   }
 }
 
-// The platens follow the rising pressure, and have reached it when their own stage begins.
-TEST(sleeve_cell, the_servo_holds_the_pressure_for_gains_over_two_decades) {
-  for (const double gain : {0.1, 1.0, 10.0}) {
-    ProblemSettings settings = in_cell(10e6, true);
-    settings.loading.servo_gain = gain;
-    Problem problem(cylinder(), settings);
-    double largest = 0, stress = 0;
-    while (!problem.axial_stage()) {
-      problem.advance(8);
-      if (problem.axial_stage()) break;
-      stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
-      largest = std::max(largest, stress);
-    }
-    EXPECT_NEAR(stress / 10e6, 1, 0.01) << gain;
-    EXPECT_LT(largest / 10e6, 1.05) << gain;
+// The platens follow the rising pressure, and have reached it within 1 % when their own stage begins.
+TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
+  Problem problem(cylinder(), in_cell(10e6, true));
+  double largest = 0, stress = 0;
+  while (!problem.axial_stage()) {
+    problem.advance(1);
+    stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+    largest = std::max(largest, stress);
   }
+  EXPECT_NEAR(stress / 10e6, 1, 0.01);
+  EXPECT_LT(largest / 10e6, 1.05);
 }
 
 TEST(sleeve_cell, its_rims_stay_with_the_platens) {
