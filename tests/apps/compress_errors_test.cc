@@ -252,6 +252,23 @@ TEST_F(Errors, an_expected_number_that_does_not_come_out_is_status_one) {
   EXPECT_EQ(summary_in(folder_ / "results")["status"], "done");
 }
 
+// Narrow faces of a thin sleeve are driven into the gaps between spheres.
+TEST_F(Errors, a_sleeve_that_would_turn_inside_out_stops_the_run) {
+  std::vector<std::string> options{scene_, "-o", "turned", "--quiet"};
+  for (const char *entry :
+       {"Loading/Confinement = sleeve", "Loading/Confining pressure = 40 MPa",
+        "Loading/Confining ramp = 0.1 ms", "Sleeve/Thickness = 1 mm", "Sleeve/Elements around = 90",
+        "Sleeve/Seat depth = 0", "Sleeve/Poisson ratio = 0.45", "Checkpoint/Every = 100"})
+    options.insert(options.end(), {"-s", entry});
+  const Outcome outcome = run_compress(options, folder_);
+  EXPECT_EQ(outcome.status, 3);
+  for (const char *part :
+       {"the sleeve would turn inside out", "cell ", "volume ratio", "Sleeve/Elements around"})
+    EXPECT_TRUE(contains(outcome.error, part)) << outcome.error;
+  EXPECT_EQ(summary_in(folder_ / "turned")["status"], "failed");
+  EXPECT_FALSE(fs::is_empty(folder_ / "turned/checkpoint")); // the last whole one is kept
+}
+
 TEST_F(Errors, numerics_that_stop_are_status_three) {
   const Outcome outcome = run_compress(
       {scene_, "-o", "results", "--quiet", "-s", "Loading/Axial rate = 20 km/s", "-s", "Loading/Ramp = 1 ns"},
