@@ -150,7 +150,7 @@ public:
   std::vector<Tensor> node_stresses() const;
   // VTU (binary, zlib) of the grid where it is now. Points: displacement (m), stress (tensor), von_mises,
   // pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per surface vertex
-  // or empty for zero). Cells: J (volume ratio).
+  // or empty for zero), J (volume ratio of the cell).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
 
   // Everything that changes in a run, to the last bit: motion, leads' velocities, pressures, loads, works.
