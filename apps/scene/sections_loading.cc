@@ -106,7 +106,7 @@ void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
                  "Fraction of critical damping of grains on it.");
   section.number("Damping", sleeve.damping, at_least(0), "Rate at which its own velocities die away, 1/s.");
   section.number("Mass scaling", sleeve.mass_scaling, at_least(0),
-                 "Factor on its mass, 1 or more; 0: such that it is stepped once in eight steps.");
+                 "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps.");
 }
 
 void declare_loading(Parameters &parameters, Loading &loading) {

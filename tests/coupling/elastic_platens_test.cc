@@ -250,14 +250,18 @@ TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
   }
 }
 
-// A sheet between platen and specimen is in series: it takes p t (1 + nu)(1 - 2 nu) / (E (1 - nu)) of the
-// closure where it cannot spread sideways, more where it can, and p t / E at most.
-TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
-  ProblemSettings settings = between(ElasticMotion::explicit_steps, steel);
+ProblemSettings on_pads(ElasticMotion motion) {
+  ProblemSettings settings = between(motion, steel);
   settings.platens.overhang = 1;
   settings.platens.elastic->pad_thickness = 1e-3;
   settings.platens.elastic->pad = {1200, 1e9, 0.3};
-  Problem problem(cylinder(), settings);
+  return settings;
+}
+
+// A sheet between platen and specimen is in series: it takes p t (1 + nu)(1 - 2 nu) / (E (1 - nu)) of the
+// closure where it cannot spread sideways, more where it can, and p t / E at most.
+TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
+  Problem problem(cylinder(), on_pads(ElasticMotion::explicit_steps));
   advance_to(problem, 5000);
   const double pressure = 0.5 * (problem.stress_top() + problem.stress_bottom());
   ASSERT_GT(pressure, 1e5);
@@ -271,11 +275,7 @@ TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
 
 // Softer than its contacts, and still at rest from solve to solve.
 TEST(elastic_platens, a_soft_pad_without_inertia_does_not_swing) {
-  ProblemSettings settings = between(ElasticMotion::quasi_static, steel);
-  settings.platens.overhang = 1;
-  settings.platens.elastic->pad_thickness = 1e-3;
-  settings.platens.elastic->pad = {1200, 1e9, 0.3};
-  Problem problem(cylinder(), settings);
+  Problem problem(cylinder(), on_pads(ElasticMotion::quasi_static));
   advance_to(problem, 5000);
   EXPECT_LT(std::abs(problem.energy().residual()), 1e-4 * problem.energy().boundary);
 }
