@@ -85,25 +85,6 @@ bool inside(double u, double v) {
   return u > 0 && u < 1 && v > 0 && v < 1;
 }
 
-// Whether a convex quad that is warped has one minimum all the same, as a face of a strained body has. Over
-// its mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards everywhere
-// where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v) and |z_u|,
-// |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J. det J is
-// linear in u and v, least at a corner.
-bool one_minimum(const Quad &q, const Vector3 &twist, const Vector3 &across, double area) {
-  const Vector3 n = across / area;
-  double least = std::numeric_limits<double>::infinity(), edge = 0, far = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 out = q[(k + 1) % 4] - q[k], back = q[(k + 3) % 4] - q[k];
-    least = std::min(least, dot(cross(out, back), n));
-    edge = std::max(edge, norm_squared(out));
-    far = std::max(far, std::abs(dot(q[k], n)));
-  }
-  if (!(least > 0)) return false;
-  const double inverse = std::sqrt(2 * edge) / least, out_of_plane = std::abs(dot(twist, n));
-  return far * out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse < 0.5;
-}
-
 // Projection onto the plane of a parallelogram. False where it falls on or outside the rim, or there is no
 // plane.
 bool project_parallelogram(const Quad &q, double &u, double &v) {
@@ -180,7 +161,30 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
   return inside(u, v);
 }
 
+// The corners' largest distance from the plane with this normal through the query point.
+double farthest(const Quad &q, const Vector3 &n) {
+  return std::max(
+      {std::abs(dot(q[0], n)), std::abs(dot(q[1], n)), std::abs(dot(q[2], n)), std::abs(dot(q[3], n))});
+}
+
 } // namespace
+
+// Over the mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards
+// everywhere where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v)
+// and |z_u|, |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J.
+// det J is linear in u and v, least at a corner.
+double single_foot_within(const Quad &q, const Vector3 &n) {
+  const Vector3 twist = (q[0] - q[1]) + (q[2] - q[3]);
+  double least = std::numeric_limits<double>::infinity(), edge = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 out = q[(k + 1) % 4] - q[k], back = q[(k + 3) % 4] - q[k];
+    least = std::min(least, dot(cross(out, back), n));
+    edge = std::max(edge, norm_squared(out));
+  }
+  if (!(least > 0)) return -1;
+  const double inverse = std::sqrt(2 * edge) / least, out_of_plane = std::abs(dot(twist, n));
+  return 0.5 / (out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse);
+}
 
 double preference(const ClosestPoint &point) {
   constexpr double per_feature = 1e-14;
@@ -230,7 +234,8 @@ ClosestPoint closest_point(const Quad &q) {
   // A flat convex quad has one minimum.
   if (foot == Foot::inside) invert_flat_quad(q, twist, across, u, v);
   if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
-  if (!flat && area > 0 && one_minimum(q, twist, across, area)) {
+  const Vector3 normal = across / area;
+  if (!flat && area > 0 && farthest(q, normal) < single_foot_within(q, normal)) {
     invert_flat_quad(q, twist, across, u, v);
     return descend(q, twist, u, v) ? at(q, u, v) : on_boundary(q);
   }

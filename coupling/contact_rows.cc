@@ -63,6 +63,7 @@ void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &bod
 
 std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::LoadedSurface &body) {
   update_search(particles, body);
+  search_.look(body.surface());
   find_due_rows();
   return dem::number_of_blocks(due_.size(), rows_per_part);
 }

@@ -9,6 +9,7 @@
 #include "coupling/box_tree.h"
 #include "coupling/closest_point.h"
 #include "coupling/flat_faces.h"
+#include "coupling/moving_faces.h"
 #include "dem/particles.h"
 #include "fem/surface_mesh.h"
 
@@ -20,6 +21,8 @@ struct SurfacePoint {
   ClosestPoint local;  // point relative to the centre; weights of the face's corners
   dem::Vector3 normal; // unit, out of the body; from the surface to the centre where the centre is outside
   double distance = 0; // m, of the centre; negative inside the body
+  // m, of the face by u and v; where a surface only shifts nobody asks, and they are zero.
+  dem::Vector3 along_u, along_v;
 };
 
 dem::Vector3 vertex_at(const fem::SurfaceMesh &surface, int vertex); // m
@@ -37,7 +40,10 @@ public:
   double skin() const { return skin_; }
   // Tells that no particle has moved relative to the surface by more than `distance` (m) since the last call:
   // largest particle displacement plus largest surface displacement.
-  void moved(double distance) { travelled_ += distance; }
+  void moved(double distance) {
+    travelled_ += distance;
+    looked_ = false;
+  }
   void forget() { travelled_ = std::numeric_limits<double>::infinity(); }
   bool stale() const { return !(travelled_ <= skin_); }
 
@@ -45,6 +51,10 @@ public:
   // (ascending rows) at any distance. Visits every particle once.
   void rebuild(const fem::SurfaceMesh &surface, const dem::Column<dem::Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
+
+  // Looks at the faces near particles as they are now, so that until moved() is called again closest() need
+  // not do so for each particle. Nothing to do for a surface that only shifts.
+  void look(const fem::SurfaceMesh &surface);
 
   long lists_made() const { return lists_made_; }
   // Rows of the particles listed, ascending.
@@ -70,6 +80,9 @@ private:
   };
   std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
   void collect(const fem::SurfaceMesh &surface, const dem::Vector3 &centre, double limit);
+  // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
+  bool nearest_on(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
+                  const MovingFace *moving, SurfacePoint &nearest) const;
   bool foot(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
             SurfacePoint &result) const;
   bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const dem::Vector3 &centre,
@@ -90,6 +103,9 @@ private:
   std::vector<int> particles_;
   std::vector<std::size_t> first_near_; // entry k has near_[first_near_[k] ... first_near_[k + 1])
   std::vector<NearFace> near_;          // ascending distance
+  std::vector<int> near_faces_;         // all of them once, ascending
+  std::vector<MovingFace> moving_;      // of all faces; those near particles are up to date if looked_
+  bool looked_ = false;
 };
 
 } // namespace platen::coupling

@@ -56,23 +56,17 @@ Vector3 turn_by_arms(const Quad &r, const Vector3 &b) {
 
 SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint &point) {
   if (surface.only_shifted) return {vector(surface.velocities[0])};
+  // Written so that equal velocities give that velocity without rounding.
   const Quad v = corner_velocities(surface, point.face);
+  const Vector3 by_u = derivative_u(v, point.local.v), by_v = derivative_v(v, point.local.u);
   SurfaceMotion motion;
-  // The sum w_i v_i, written so that equal velocities give that velocity without rounding.
-  for (std::size_t k = 1; k < 4; ++k)
-    motion.velocity += point.local.weights[k] * (v[k] - v[0]);
-  const Vector3 gradient = motion.velocity;
-  motion.velocity += v[0];
-  if (norm_squared(gradient) == 0 && norm_squared(v[2] - v[0]) == 0 && norm_squared(v[3] - v[1]) == 0)
-    return motion;
-
+  motion.velocity = v[0] + (point.local.u * (v[1] - v[0]) + point.local.v * by_v);
   // For tangents a, b that move with w: (va . b - vb . a) / 2 = w . (a x b), the antisymmetric part of the
   // gradient.
-  const Quad corners = face_corners(surface, point.face, vector(surface.vertices[0]));
-  const double pu = point.local.u, pv = point.local.v;
-  const Vector3 a = derivative_u(corners, pv), b = derivative_v(corners, pu);
-  const double area = norm(cross(a, b));
-  if (area > 0) motion.spin = 0.5 * (dot(derivative_u(v, pv), b) - dot(derivative_v(v, pu), a)) / area;
+  const double turning = dot(by_u, point.along_v) - dot(by_v, point.along_u);
+  if (turning == 0) return motion;
+  const double area = norm(cross(point.along_u, point.along_v));
+  if (area > 0) motion.spin = 0.5 * turning / area;
   return motion;
 }
 

@@ -24,9 +24,15 @@ inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, cons
   return length > 0 ? (norm(flat) / length) * turned : Vector3{};
 }
 
-// The vector after the plane has spun about its unit normal by `angle` (rad); exact for any angle.
+// The vector after the plane has spun about its unit normal by `angle` (rad); exact for any angle. For those
+// of a step the first terms of the series are the functions to the last bit.
 inline Vector3 spin_in_plane(const Vector3 &vector, const Vector3 &normal, double angle) {
   if (angle == 0) return vector;
+  constexpr double of_a_step = 1e-4;
+  if (std::abs(angle) < of_a_step) {
+    const double square = angle * angle;
+    return (1 - 0.5 * square) * vector + (angle * (1 - square / 6)) * cross(normal, vector);
+  }
   return std::cos(angle) * vector + std::sin(angle) * cross(normal, vector);
 }
 

@@ -1,0 +1,123 @@
+#include "coupling/moving_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::coupling {
+
+using dem::cross;
+using dem::dot;
+using dem::norm;
+using dem::norm_squared;
+using dem::Vector3;
+
+namespace {
+
+// Share of the rim, in u and v, that is left to the general search, which knows edges.
+constexpr double rim = 1e-9;
+// A start this far off the face does not come back onto it: the warp moves a foot by less.
+constexpr double far_off = 0.05;
+// A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
+constexpr double last_move = 1e-6;
+constexpr int most_steps = 8;
+constexpr double round_off = 1e-12; // of a face: a box holds it for certain
+
+// Axes of the mean plane, the box and where a foot is single. False: no area.
+bool set_plane(const Quad &q, MovingFace &face) {
+  const Vector3 across = cross(q[2] - q[0], q[3] - q[1]);
+  const double area = norm(across);
+  const Vector3 along = face.e + 0.5 * face.t;
+  if (!(area > 0)) return false;
+  face.normal = across / area;
+  const Vector3 flat = along - dot(along, face.normal) * face.normal;
+  const double length = norm(flat);
+  if (!(length > 0)) return false;
+  face.along = flat / length;
+  face.across = cross(face.normal, face.along);
+  return true;
+}
+
+void set_box(const Quad &q, MovingFace &face) {
+  const Vector3 axes[3] = {face.along, face.across, face.normal};
+  const double noise = round_off * (norm(face.e) + norm(face.f));
+  face.middle = face.corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = 0, high = 0; // of the first corner
+    for (std::size_t k = 1; k < 4; ++k) {
+      const double at = dot(q[k] - q[0], axes[axis]);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    face.middle += 0.5 * (low + high) * axes[axis];
+    face.half[axis] = 0.5 * (high - low) + noise;
+  }
+}
+
+} // namespace
+
+MovingFace moving_face(const Quad &q) {
+  MovingFace face;
+  face.corner = q[0];
+  face.e = q[1] - q[0];
+  face.f = q[3] - q[0];
+  face.t = (q[0] - q[1]) + (q[2] - q[3]);
+  if (!set_plane(q, face)) {
+    // Any axes hold for the box of a face without area.
+    face.along = {1, 0, 0}, face.across = {0, 1, 0}, face.normal = {0, 0, 1};
+    set_box(q, face);
+    return face;
+  }
+  set_box(q, face);
+  face.single_foot = single_foot_within(q, face.normal) - 2 * face.half.z;
+  // (r - v f) and (e + v t) are parallel in the plane.
+  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), face.normal); };
+  face.linear = cross(face.t, face.normal);
+  face.free = cross(face.e, face.normal);
+  face.square = -plane(face.f, face.t);
+  face.constant = -plane(face.f, face.e);
+  return face;
+}
+
+double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
+  const Vector3 r = centre - face.middle;
+  const double a = std::max(0.0, std::abs(dot(r, face.along)) - face.half.x),
+               b = std::max(0.0, std::abs(dot(r, face.across)) - face.half.y),
+               c = std::max(0.0, std::abs(dot(r, face.normal)) - face.half.z);
+  return a * a + b * b + c * c;
+}
+
+bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
+  const Vector3 r = centre - face.corner;
+  if (!(std::abs(dot(r, face.normal)) <= face.single_foot)) return false;
+  const double linear = dot(r, face.linear) + face.constant, free = dot(r, face.free);
+  const double discriminant = linear * linear - 4 * face.square * free;
+  if (!(discriminant >= 0)) return false;
+  double v = -2 * free / (linear + std::copysign(std::sqrt(discriminant), linear));
+  if (!(v > -far_off && v < 1 + far_off)) return false;
+  const Vector3 start = face.e + v * face.t;
+  double u = dot(r - v * face.f, start) / norm_squared(start);
+  if (!(u > -far_off && u < 1 + far_off)) return false;
+  double moved = 1;
+  for (int step = 0; step < most_steps && moved > last_move; ++step) {
+    const Vector3 a = face.e + v * face.t, b = face.f + u * face.t;
+    const Vector3 out = r - u * face.e - v * b; // from the face to the centre
+    const double gu = dot(out, a), gv = dot(out, b);
+    const double aa = norm_squared(a), bb = norm_squared(b), off = dot(a, b) - dot(out, face.t);
+    const double scale = 1 / (aa * bb - off * off);
+    const double du = (gu * bb - gv * off) * scale, dv = (gv * aa - gu * off) * scale;
+    u += du;
+    v += dv;
+    moved = std::max(std::abs(du), std::abs(dv));
+  }
+  if (!(moved <= last_move && u > rim && u < 1 - rim && v > rim && v < 1 - rim)) return false;
+  foot.u = u;
+  foot.v = v;
+  foot.along_u = face.e + v * face.t;
+  foot.along_v = face.f + u * face.t;
+  foot.out = r - u * face.e - v * foot.along_v;
+  const Vector3 n = cross(foot.along_u, foot.along_v);
+  foot.normal = n / norm(n);
+  return true;
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,125 @@
+#include "coupling/moving_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "coupling/surface_search.h"
+#include "sphere_scene.h"
+
+namespace platen::coupling {
+namespace {
+
+// A square of side one, its corners moved by up to `by` in all directions, somewhere in space.
+Quad strained_square(double by, std::mt19937 &engine) {
+  std::uniform_real_distribution<double> draw(-1, 1);
+  const Vector3 turn = {draw(engine), draw(engine), draw(engine)}, place = {draw(engine), draw(engine), 7};
+  const dem::Quaternion q = dem::rotation_quaternion(3 * turn);
+  Quad corners = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+  for (Vector3 &c : corners)
+    c = place + rotate(q, c + by * Vector3{draw(engine), draw(engine), draw(engine)});
+  return corners;
+}
+
+Quad about(const Quad &q, const Vector3 &centre) {
+  return {q[0] - centre, q[1] - centre, q[2] - centre, q[3] - centre};
+}
+
+// Centres within a fifth of the face on both sides of it, over it and beyond its rim.
+TEST(moving_faces, a_foot_is_the_closest_point_of_a_warped_face) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> along(-0.3, 1.3), off(-0.2, 0.2);
+  int feet[2] = {}, inside[2] = {}; // on faces warped a little and much
+  for (int trial = 0; trial < 20000; ++trial) {
+    const int much = trial % 2;
+    const Quad q = strained_square(much ? 0.15 : 0.02, engine);
+    const MovingFace face = moving_face(q);
+    const double u = along(engine), v = along(engine);
+    const std::array<double, 4> w = bilinear_weights(u, v);
+    const Vector3 centre =
+        w[0] * q[0] + w[1] * q[1] + w[2] * q[2] + w[3] * q[3] + off(engine) * bilinear_normal(q, 0.5, 0.5);
+    const ClosestPoint best = closest_point(about(q, centre));
+    EXPECT_LE(least_distance_squared(face, centre), best.distance_squared * (1 + 1e-12));
+    if (best.feature == Feature::face) ++inside[much];
+    Foot foot;
+    if (!find_foot(face, centre, foot)) continue;
+    ++feet[much];
+    ASSERT_EQ(best.feature, Feature::face);
+    ASSERT_NEAR(norm(foot.out), std::sqrt(best.distance_squared), 4e-15);
+    ASSERT_NEAR(foot.u, best.u, 1e-11);
+    ASSERT_NEAR(foot.v, best.v, 1e-11);
+    ASSERT_LT(norm(cross(foot.out, foot.normal)), 1e-11);
+    ASSERT_NEAR(norm(foot.normal), 1, 1e-15);
+  }
+  EXPECT_GT(inside[0], 3000);
+  EXPECT_EQ(feet[0], inside[0]);
+  EXPECT_GT(feet[1], 0.85 * inside[1]); // the rest goes the general way
+}
+
+TEST(moving_faces, faces_without_area_have_a_box_and_no_foot) {
+  const Vector3 o = {1, 2, 3}, a = {0.5, 0, 0}, b = {0, 0.25, 0};
+  for (const Quad &q : {Quad{o, o, o, o}, Quad{o, o + a, o + 0.5 * a, o + 0.25 * a}, Quad{o, o + a, o, o + a},
+                        Quad{o, o + b, o + b, o}}) {
+    const MovingFace face = moving_face(q);
+    for (const Vector3 &centre : {o, o + a + b, o - b, Vector3{}}) {
+      Foot foot;
+      EXPECT_FALSE(find_foot(face, centre, foot));
+      EXPECT_LE(least_distance_squared(face, centre),
+                closest_point(about(q, centre)).distance_squared * (1 + 1e-12));
+    }
+  }
+}
+
+// A disc that is bent and twisted more and more: what the list and the look at its faces find is, bit for
+// bit, what all faces have, and that is the nearest point of all.
+TEST(moving_faces, a_strained_surface_has_one_answer) {
+  fem::SurfaceMesh surface =
+      fem::RigidBody(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel).surface();
+  surface.only_shifted = false;
+  const std::vector<fem::Point> start = surface.vertices;
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> draw(-0.6, 0.6), high(-0.2, 0.2);
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 300; ++k)
+    centres.push_back({draw(engine), draw(engine), high(engine)});
+  const dem::Particles particles(spheres(centres, 0.05), 1000, false);
+  SurfaceSearch search(surface, 0.04);
+  int compared = 0;
+  for (int step = 0; step < 40; ++step) {
+    const double bend = 0.01 * step;
+    double farthest = 0;
+    for (std::size_t v = 0; v < start.size(); ++v) {
+      const fem::Point &p = start[v];
+      const fem::Point now = {p[0] * (1 + 0.2 * bend) - bend * p[1] * p[2], p[1] + bend * p[0] * p[2],
+                              p[2] + bend * (p[0] * p[0] + p[0] * p[1])};
+      double squared = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        squared += (now[c] - surface.vertices[v][c]) * (now[c] - surface.vertices[v][c]);
+      farthest = std::max(farthest, std::sqrt(squared));
+      surface.vertices[v] = now;
+    }
+    search.moved(farthest);
+    if (search.stale())
+      search.rebuild(surface, particles.position, std::vector<double>(particles.size(), 0.05), {});
+    search.look(surface);
+    for (std::size_t k = 0; k < search.particles().size(); ++k) {
+      const Vector3 &centre = particles.position[static_cast<std::size_t>(search.particles()[k])];
+      const SurfacePoint s = search.closest(surface, k, centre), all = search.closest_of_all(surface, centre);
+      ASSERT_EQ(s.face, all.face);
+      ASSERT_EQ(s.distance, all.distance);
+      ASSERT_EQ(norm(s.normal - all.normal), 0);
+      ASSERT_EQ(s.local.weights, all.local.weights);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face)
+        nearest = std::min(nearest, closest_point(face_corners(surface, face, centre)).distance_squared);
+      ASSERT_NEAR(std::abs(s.distance), std::sqrt(nearest), 1e-14);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+} // namespace
+} // namespace platen::coupling
