@@ -77,8 +77,9 @@ struct PlatenSettings {
 // platens.
 struct CellSettings {
   double pressure = 0; // Pa
-  double ramp = 0;     // s, from none to all of it; 0: sixty wave crossings of the height
-  double hold = 0;     // s, how long it stands alone at least
+  double ramp = 0; // s, from none to all of it; 0: sixty wave crossings of the height, more for slow servos
+  double hold = 0; // s, how long it stands alone at least
+  double path = 0; // 1, what the pressure gains per deviator of the axial stage; -1/3: constant mean stress
   // Without a sleeve the pressure acts on the spheres of the skin; with one on its outer face.
   dem::ConfinementArea area = dem::ConfinementArea::voronoi;
   std::optional<SleeveSettings> sleeve;
@@ -92,7 +93,7 @@ struct LoadingSettings {
   double ramp = 0;    // s; 0: ten wave crossings of the height
   bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
-  double servo_gain = 0; // of top_stress, 0.1 ... 10 as Servo has it; 0: 5
+  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell
   std::optional<CellSettings> cell;
   double wall_stiffness = 0; // multiple of the mean bond's; 0: no wall around the specimen
   double wall_layer = 1;     // mean radii: deeper spheres are not seated on the wall
@@ -216,7 +217,7 @@ private:
   double sleeve_spring(const CellSettings &cell, double bond) const;
   void start_sleeve(const CellSettings &cell, double bond, double mass_scaling);
   double cheap_mass_of_sleeve() const;
-  double cell_pressure(double time) const;
+  double cell_pressure() const;
   void move_sleeve();
   void load_sleeve();
   void turn_round();
@@ -254,6 +255,8 @@ private:
   std::unique_ptr<Servo> servo_;                  // null where both platens are always driven
   double cell_ramp_ = 0, cell_end_ = 0;           // s
   double cell_closure_ = 0;                       // closure strain at cell_end_
+  double slowness_ = 1;                           // of a cell's servo, against the quickest
+  double path_deviator_ = 0;                      // Pa, that the cell's path follows
   std::unique_ptr<dem::Confinement> confinement_;
   std::unique_ptr<Sleeve> sleeve_;
   double sleeve_volume_ = 0, sleeve_ring_ = 0; // m^3 within it, m^2 of an end of it, at the start

@@ -12,13 +12,17 @@ namespace {
 constexpr double crossings_of_cell = 60;
 // Of a specimen in contact the servo may be as quick as it can. Its time constant is then that of its
 // dashpot, ten impedances, over the specimen's stiffness: ten wave crossings, more where ends are soft. What
-// it is told runs ahead by that, so that the stress on the platens keeps up with the pressure.
+// it is told runs ahead by that, so that the stress on the platens keeps up with the pressure. A slower servo
+// gets as much more time.
 constexpr double gain_of_cell = 10, crossings_ahead = 9;
 // The platens take over when the axial stress is as near to the pressure as this share of it, or after as
 // much time again as pressure and hold have had.
 constexpr double settled_share = 0.01, patience = 2;
 // The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
 constexpr double servo_reserve = 10;
+// A path follows the deviator with this lag in wave crossings: long enough for waves to pass, and for the
+// specimen's own answer to the pressure, which would ring otherwise.
+constexpr double lag_of_path = 4;
 // Areas of the skin are looked at in every step that is a multiple of this.
 constexpr long steps_between_skins = 400;
 
@@ -29,7 +33,9 @@ double smooth_start(double x) {
 } // namespace
 
 void Problem::start_cell(const CellSettings &cell, double bond) {
-  cell_ramp_ = cell.ramp > 0 ? cell.ramp : crossings_of_cell * wave_crossing_;
+  const double gain = settings_.loading.servo_gain > 0 ? settings_.loading.servo_gain : gain_of_cell;
+  slowness_ = gain_of_cell / gain;
+  cell_ramp_ = cell.ramp > 0 ? cell.ramp : slowness_ * crossings_of_cell * wave_crossing_;
   if (!(cell_ramp_ > 0))
     throw BadSetup("Loading/Confining ramp",
                    "has to be given: without bonds there is no wave to take it from.");
@@ -45,25 +51,30 @@ void Problem::start_cell(const CellSettings &cell, double bond) {
   }
   const double stiffness = voigt_modulus_ > 0 ? voigt_modulus_ : std::numeric_limits<double>::infinity();
   const double fastest = servo_reserve * cell.pressure / stiffness * shape_.height / cell_ramp_;
-  servo_ =
-      std::make_unique<Servo>(Servo::Parameters{gain_of_cell, std::max(fastest, settings_.loading.rate)});
+  servo_ = std::make_unique<Servo>(Servo::Parameters{gain, std::max(fastest, settings_.loading.rate)});
 }
 
-double Problem::cell_pressure(double time) const {
-  return smooth_start(time / cell_ramp_) * settings_.loading.cell->pressure;
+double Problem::cell_pressure() const {
+  const CellSettings &cell = *settings_.loading.cell;
+  if (cell.path != 0 && axial_stage()) return std::max(0.0, cell.pressure + cell.path * path_deviator_);
+  return smooth_start(model.time / cell_ramp_) * cell.pressure;
 }
 
 // Time constant of the servo times the rate of the pressure, Pa.
 double Problem::lead_of_cell(double time) const {
   const double x = time / cell_ramp_;
   const double rate = x < 1 ? 6 * x * (1 - x) / cell_ramp_ * settings_.loading.cell->pressure : 0.0;
-  return crossings_ahead * wave_crossing_ * rate;
+  return slowness_ * crossings_ahead * wave_crossing_ * rate;
 }
 
 void Problem::look_at_cell() {
-  if (model.time >= cell_end_) return;
-  const double least = cell_ramp_ + settings_.loading.cell->hold;
   const double stress = 0.5 * (stress_top() + stress_bottom()), pressure = confining_pressure();
+  if (model.time >= cell_end_) {
+    const double share = std::min(1.0, time_step_ / (lag_of_path * wave_crossing_));
+    path_deviator_ += share * (stress - pressure - path_deviator_);
+    return;
+  }
+  const double least = cell_ramp_ + settings_.loading.cell->hold;
   const bool near = std::abs(stress - pressure) < settled_share * pressure;
   if (model.time >= least && (near || model.time >= patience * least)) {
     cell_end_ = model.time;
@@ -118,9 +129,8 @@ void Problem::turn_round() {
 }
 
 void Problem::press_skin() {
-  confinement_->add_forces(model.particles, model.bonds.get(), end_planes(), cell_pressure(model.time),
-                           time_step_, model.last_motion().fastest * time_step_,
-                           steps_ % steps_between_skins == 0);
+  confinement_->add_forces(model.particles, model.bonds.get(), end_planes(), cell_pressure(), time_step_,
+                           model.last_motion().fastest * time_step_, steps_ % steps_between_skins == 0);
 }
 
 } // namespace platen::coupling

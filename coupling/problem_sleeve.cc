@@ -54,7 +54,7 @@ void Problem::move_sleeve() {
   SleeveLead lead;
   lead.bottom = bottom.velocity();
   lead.top = top.velocity();
-  lead.pressure = cell_pressure(model.time);
+  lead.pressure = cell_pressure();
   lead.bottom_place = {0, 0, face_move(bottom, bottom_face_)};
   lead.top_place = {0, 0, face_move(top, top_face_)};
   sleeve_->move(time_step_, lead);

@@ -42,7 +42,7 @@ std::vector<double> Problem::numbers() const {
   if (sleeve_)
     all.insert(all.end(), {sleeve_->layer.friction_work, sleeve_->layer.damping_work,
                            static_cast<double>(sleeve_->layer.closed)});
-  if (cell()) all.insert(all.end(), {cell_end_, cell_closure_});
+  if (cell()) all.insert(all.end(), {cell_end_, cell_closure_, path_deviator_});
   return all;
 }
 
@@ -50,6 +50,7 @@ void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
   auto end = n.end();
   if (cell()) {
+    path_deviator_ = *--end;
     cell_closure_ = *--end;
     cell_end_ = *--end;
   }

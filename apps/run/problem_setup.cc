@@ -104,6 +104,7 @@ coupling::CellSettings cell_settings(const Loading &from) {
   coupling::CellSettings to;
   to.pressure = from.confining_pressure;
   to.ramp = from.confining_ramp;
+  to.path = from.pressure_path;
   to.hold = from.hold;
   to.area = from.confinement_area == ConfinementArea::sphere ? dem::ConfinementArea::sphere
                                                              : dem::ConfinementArea::voronoi;

@@ -94,9 +94,10 @@ void SceneCheck::loading_notes() {
     if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");
   }
   if (!scene_.loading.cell())
-    for (const char *key : {"Loading/Confining pressure", "Loading/Confining ramp"})
+    for (const char *key : {"Loading/Confining pressure", "Loading/Confining ramp", "Loading/Pressure path"})
       note(key, "Loading/Confinement = none");
-  if (scene_.platens.top_control == PlatenControl::motion)
+  if (scene_.loading.hydrostatic()) note("Loading/Pressure path", "Loading/Test = hydrostatic");
+  if (scene_.platens.top_control == PlatenControl::motion && !scene_.loading.cell())
     note("Loading/Servo gain", "Platens/Top/Control = motion");
   if (scene_.loading.confinement != ConfinementKind::particles)
     note("Loading/Confinement area", "Loading/Confinement is not particles");

@@ -80,10 +80,11 @@ struct Loading {
   double start_strain = 0;     // closure of a static solve that the run begins with; 0: from nothing
   double target_strain = 0.01; // closure of the platens over the height of the specimen
   double stop_at_residual = 0.02; // fraction of the peak stress; 0: never
-  double servo_gain = 0;          // of a platen that holds a stress; 0: the app chooses
+  double servo_gain = 0;          // 0: the app chooses
   ConfinementKind confinement = ConfinementKind::none;
   double confining_pressure = 0; // Pa
   double confining_ramp = 0;     // s; 0: the app chooses
+  double pressure_path = 0;      // pressure gained per deviator after the cell's own stage
   ConfinementArea confinement_area = ConfinementArea::voronoi;
 
   double wall_stiffness = 10;    // of the mean bond's; test = uniaxial_strain

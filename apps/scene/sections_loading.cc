@@ -138,8 +138,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
                  "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
   section.number(
       "Servo gain", loading.servo_gain, {0, 10},
-      "Of the servo that holds the top platen at Platens/Top/Stress: 0.1 is slow, 10 quick; 0: chosen "
-      "by the app.");
+      "Of the servo that holds the top platen at Platens/Top/Stress or, while a cell's pressure rises, at "
+      "that pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell 10).");
   section.word<ConfinementKind>(
       "Confinement", loading.confinement,
       {{"none", ConfinementKind::none},
@@ -150,8 +150,12 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "through rubber of finite elements.");
   section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0),
                    "Lateral pressure, and that on the platens while it rises.");
-  section.quantity("Confining ramp", loading.confining_ramp, "s", at_least(0),
-                   "Time in which the pressure rises smoothly; 0: chosen by the app.");
+  section.quantity(
+      "Confining ramp", loading.confining_ramp, "s", at_least(0),
+      "Time in which the pressure rises smoothly; 0: chosen by the app, longer for a slow servo.");
+  section.number("Pressure path", loading.pressure_path, {-0.5, 3},
+                 "What the pressure gains per deviator of the axial stage: 0 holds it, -1/3 holds the mean "
+                 "stress, positive values load proportionally.");
   section.number("Wall stiffness", loading.wall_stiffness, above_up_to(0, 1000),
                  "Of each sphere at the wall, as a multiple of the mean bond's (Test = uniaxial strain).");
   section.list("Unload at", loading.unload_at, "1", above_up_to(0, 1),

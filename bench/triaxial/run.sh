@@ -2,15 +2,16 @@
 # Triaxial compression at the cell pressures of Sfer et al. 2002 (0 ... 60 MPa): a concrete of parallel bonds and one of
 # elasto-damage-plastic interfaces, in a rubber sleeve and with the pressure on the skin. Ends with the table of table.py.
 # Runs that are whole are not made again.
-# Usage: bench/triaxial/run.sh BUILD FOLDER [SEED [THREADS]]
+# Usage: bench/triaxial/run.sh BUILD FOLDER [SEED [THREADS [KINDS]]], kinds by default "sleeve particles"
 set -euo pipefail
-[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED [THREADS]]" >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED [THREADS [KINDS]]]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 scenes=$here/../../scenes
 apps=$1/apps
 folder=$2
 seed=${3:-1}
 threads=${4:-1}
+kinds=${5:-sleeve particles}
 mkdir -p "$folder"
 
 # run LAW SCENE CONFINEMENT PRESSURE_IN_MPa TARGET_STRAIN AXIAL_RATE
@@ -25,7 +26,7 @@ run() {
 }
 
 # A specimen without pressure has fallen before the others have come to their peak; those take the time for more haste.
-for kind in sleeve particles; do
+for kind in $kinds; do
   run parallel_bond triaxial_concrete none 0 0.01 0.08
   run parallel_bond triaxial_concrete $kind 4.5 0.015 0.1
   run parallel_bond triaxial_concrete $kind 60 0.04 0.2

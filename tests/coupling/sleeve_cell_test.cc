@@ -98,6 +98,49 @@ TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
   EXPECT_LT(largest / 10e6, 1.05);
 }
 
+// A slow servo gets a longer ramp, and does as well.
+TEST(sleeve_cell, slow_and_quick_servos_keep_up_with_the_pressure) {
+  const dem::Specimen small = dem::random_close_packing(dem::cylinder(6e-3, 12e-3), 1.3e-3, 0.25, 7);
+  for (const double gain : {0.1, 1.0, 10.0}) {
+    ProblemSettings settings = in_cell(4e6, false);
+    settings.loading.servo_gain = gain;
+    for (PlatenSide *end : {&settings.platens.top, &settings.platens.bottom})
+      end->friction_static = end->friction_dynamic = 0.5; // or it slides off in time
+    Problem problem(small, settings);
+    double largest = 0, stress = 0;
+    while (!problem.axial_stage()) {
+      problem.advance(1);
+      stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+      largest = std::max(largest, stress);
+    }
+    EXPECT_NEAR(stress / 4e6, 1, 0.01) << gain;
+    EXPECT_LT(largest / 4e6, 1.05) << gain;
+    EXPECT_LT(problem.time(), 1.5 * problem.cell_ramp()) << gain;
+  }
+}
+
+// Pressure and deviator go up a straight line; with -1/3 the mean stress stays.
+TEST(sleeve_cell, a_stress_path_is_followed) {
+  for (const bool sleeve : {false, true})
+    for (const double path : {-1.0 / 3, 0.5}) {
+      ProblemSettings settings = in_cell(10e6, sleeve);
+      settings.loading.cell->path = path;
+      Problem problem(cylinder(), settings);
+      while (!problem.axial_stage())
+        problem.advance(16);
+      double worst = 0, last = 0;
+      while (problem.axial_closure() < 6e-4) {
+        problem.advance(16);
+        last = 0.5 * (problem.stress_top() + problem.stress_bottom()) - problem.confining_pressure();
+        worst = std::max(worst, std::abs(problem.confining_pressure() - 10e6 - path * last));
+      }
+      EXPECT_GT(last, 8e6) << path;
+      EXPECT_LT(worst, 0.02 * 10e6) << path << (sleeve ? " sleeve" : " skin");
+      const dem::EnergyLedger e = problem.energy();
+      EXPECT_LT(std::abs(e.residual()), 2e-3 * e.boundary) << path;
+    }
+}
+
 TEST(sleeve_cell, its_rims_stay_with_the_platens) {
   Problem problem(cylinder(), in_cell(5e6, true, true));
   run(problem);
