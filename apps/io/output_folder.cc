@@ -75,7 +75,7 @@ bool is_output_name(const fs::path &relative) {
       "[0-9]+)(\\."
       "part)?\\.csv"
       "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
-      "|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
+      "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
   static const std::regex frame("(specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu");
   const std::string name = relative.filename().string();
   const fs::path parent = relative.parent_path();

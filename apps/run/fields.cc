@@ -8,6 +8,7 @@
 #include "apps/io/file.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/vtu.h"
+#include "apps/run/view_script.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/stress.h"
@@ -29,6 +30,7 @@ FieldSeries::FieldSeries(const std::filesystem::path &folder)
       sleeve_(folder / "sleeve.pvd"),
       contacts_(folder / "contacts.pvd") {
   create_folder(folder / "frames");
+  write_text_aside(OutputPaths(folder).view(), view_script);
 }
 
 void FieldSeries::write(const coupling::Problem &problem) {

@@ -10,7 +10,7 @@ namespace platen::apps {
 
 class FieldSeries {
 public:
-  // Frames land in `folder`/frames, the .pvd files in `folder`.
+  // Frames land in `folder`/frames, the .pvd files and the script that shows them in `folder`.
   explicit FieldSeries(const std::filesystem::path &folder);
 
   // Writes one frame of everything; a second call at the same time does nothing. Throws OutputError.
