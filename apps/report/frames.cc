@@ -123,6 +123,9 @@ Spheres read_spheres(const Frame &frame) {
   spheres.broken_bonds = point_field(*grid, "broken_bonds", 0, 1, where);
   for (const double id : point_field(*grid, "id", 0, 1, where))
     spheres.id.push_back(std::llround(id));
+  if (grid->GetPointData()->HasArray("fragment"))
+    for (const double fragment : point_field(*grid, "fragment", 0, 1, where))
+      spheres.fragment.push_back(static_cast<int>(fragment));
   std::vector<double> *const now[] = {&spheres.x, &spheres.y, &spheres.z};
   std::vector<double> *const before[] = {&spheres.x0, &spheres.y0, &spheres.z0};
   for (int d = 0; d < 3; ++d) {

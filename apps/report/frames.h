@@ -37,6 +37,7 @@ struct Spheres {
   std::vector<double> x0, y0, z0;                 // m, before the test: position less displacement
   std::vector<double> intact_bonds, broken_bonds; // each counts for both its ends
   std::vector<long long> id;
+  std::vector<int> fragment; // 0: the largest; empty where the frame does not tell
 
   std::size_t size() const { return x.size(); }
   double outward_displacement(std::size_t k) const; // m, away from the axis x = y = 0, in the plane across it

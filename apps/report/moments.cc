@@ -27,6 +27,7 @@ Moments moments_of(const CsvTable &history) {
       found = true;
     }
   if (!found) throw InputError(history.file.string() + ": no sample with an axial stress");
+  moments.peak_time = time[moments.peak_row];
   moments.end_time = time.back();
 
   const double size = std::abs(moments.peak_stress), fallen = post_peak_share * size;

@@ -15,6 +15,7 @@ constexpr double post_peak_share = 0.8;
 struct Moments {
   std::size_t peak_row = 0;             // row of the history
   double peak_stress = 0;               // Pa, mean of both platens; negative for a tension test
+  double peak_time = 0;                 // s
   std::optional<double> post_peak_time; // s; nothing where the stress never fell so far
   double end_time = 0;                  // s
 };

@@ -22,6 +22,10 @@ void draw_energies(const Run &run, const std::filesystem::path &png);
 void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png);
 void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
+// Pieces of 30 and more spheres that bonds hold together at the end, in colours. The frames must tell
+// fragments.
+void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png);
+
 // Damage of several runs side by side, each at its Run::pattern_time(). Runs without frames are left out.
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
 // Outward displacement of several runs at their ends, in one scale: what the platens held is dark.
@@ -35,5 +39,11 @@ void draw_cracks(const Run &run, const Spheres &before_test, const std::filesyst
 // The same, counted over radius and height: as a share of the initial bonds where bonds.pvd is there, else
 // per volume.
 void draw_crack_density(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
+// Pressure on both platens and shear on the ends of the specimen against the distance from the axis, in the
+// frame nearest to the peak. Round specimens; the run must have contacts.
+void draw_platen_profiles(const Run &run, const Extent &extent, const std::filesystem::path &png);
+// Every sphere at a platen in the same frame, seen along the axis: whether it sticks or slides.
+void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
 } // namespace platen::apps::report

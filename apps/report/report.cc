@@ -32,6 +32,16 @@ void draw_comparison(const std::vector<Run> &runs, const fs::path &folder, std::
                               "Half specimens coloured by the share of each sphere's bonds that is broken."));
 }
 
+void draw_ends(const Run &run, const Extent &extent, const fs::path &folder, std::vector<Picture> &drawn) {
+  if (run.contacts.empty() || extent.form != Extent::Form::cylinder) return;
+  draw_platen_profiles(run, extent,
+                       next(drawn, folder, "platen_pressure.png",
+                            "Pressure on the platens and shear on the ends over the radius, near the peak."));
+  draw_stick_and_slip(run, extent,
+                      next(drawn, folder, "stick_slip.png",
+                           "Spheres at the platens near the peak: which stick and which slide."));
+}
+
 void draw_one_run(const Run &run, const fs::path &folder, std::vector<Picture> &drawn) {
   draw_stress_strain({run},
                      next(drawn, folder, "stress_strain.png",
@@ -47,6 +57,10 @@ void draw_one_run(const Run &run, const fs::path &folder, std::vector<Picture> &
   draw_damage(run, extent,
               next(drawn, folder, "damage.png",
                    "Half specimen coloured by the share of each sphere's bonds that is broken."));
+  if (!before_test.fragment.empty())
+    draw_fragments(run, extent,
+                   next(drawn, folder, "fragments.png", "Half specimen at the end, its pieces in colours."));
+  draw_ends(run, extent, folder, drawn);
   if (!run.cracks) return;
   draw_cracks(
       run, before_test,

@@ -90,6 +90,7 @@ Run read_run(const fs::path &folder) {
   run.bonds =
       optional_series(run, "bonds.pvd", "crack density is given per volume, not as a share of the bonds");
   run.platens = optional_series(run, "platens.pvd", "pictures are drawn without platens");
+  run.contacts = optional_series(run, "contacts.pvd", "no pictures of what presses on the platens");
   return run;
 }
 

@@ -19,10 +19,10 @@ struct Run {
   std::string title; // Scene / Title; the name where the scene gives none
   CsvTable history;
   Moments moments;
-  nlohmann::json summary;               // null where the run wrote none
-  std::optional<CsvTable> cracks;       // "mode" as words
-  FrameSeries specimen, bonds, platens; // empty where the run wrote none
-  std::vector<std::string> remarks;     // what is not there, one sentence each
+  nlohmann::json summary;                         // null where the run wrote none
+  std::optional<CsvTable> cracks;                 // "mode" as words
+  FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
+  std::vector<std::string> remarks;               // what is not there, one sentence each
 
   // Time at which cracks are looked at: the fall to 0.8 of the peak, or the end where it did not come.
   double pattern_time() const { return moments.post_peak_time.value_or(moments.end_time); }

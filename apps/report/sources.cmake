@@ -17,6 +17,8 @@ set(PLATEN_REPORT_SOURCES
   report/heat_map.cc
   report/html_page.cc
   report/moments.cc
+  report/platen_contacts.cc
+  report/platen_pictures.cc
   report/report.cc
   report/run_folder.cc
   report/specimen_pictures.cc

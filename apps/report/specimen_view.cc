@@ -84,6 +84,7 @@ std::vector<double> ticks_for(const std::vector<CutView> &views) {
 }
 
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left) {
+  if (colouring.ramp == Ramp::pieces) return; // their colours mean nothing
   vtkRenderer *renderer = canvas.add_renderer({left, 0, 1, 1});
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()));

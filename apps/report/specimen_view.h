@@ -45,7 +45,7 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
 // A parallel view from +y, a little from above, that holds the extent and what lies up to `margin` (m) around
 // it.
 void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin);
-// A bar of the colours in the part of the canvas to the right of `left` (fraction).
+// A bar of the colours (none for pieces) in the part of the canvas to the right of `left` (fraction).
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);

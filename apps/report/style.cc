@@ -22,7 +22,26 @@ void set_letters(vtkTextProperty *property, int size, bool bold) {
   property->SetShadow(false);
 }
 
+namespace {
+
+vtkSmartPointer<vtkColorTransferFunction> steps(double high) {
+  static const std::vector<Colour> pieces = {{225, 225, 225},    colours::blue,   colours::orange,
+                                             colours::green,     colours::purple, colours::sky_blue,
+                                             colours::vermilion, colours::black};
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  constexpr double edge = 0.4999;
+  for (int k = 0; k <= static_cast<int>(high); ++k) {
+    const Colour &c = pieces[static_cast<std::size_t>(k) % pieces.size()];
+    for (const double x : {k - edge, k + edge})
+      function->AddRGBPoint(x, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
+  }
+  return function;
+}
+
+} // namespace
+
 vtkSmartPointer<vtkColorTransferFunction> colour_ramp(Ramp ramp, double low, double high) {
+  if (ramp == Ramp::pieces) return steps(high);
   static const std::vector<Colour> viridis = {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142},
                                               {38, 130, 142}, {31, 158, 137}, {53, 183, 121}, {109, 205, 89},
                                               {180, 222, 44}, {253, 231, 37}};

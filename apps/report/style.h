@@ -34,7 +34,8 @@ void set_letters(vtkTextProperty *property, int size, bool bold = false);
 
 enum class Ramp {
   displacement, // dark blue over green to yellow (viridis), even steps of lightness
-  damage        // pale grey over orange to dark red
+  damage,       // pale grey over orange to dark red
+  pieces        // steps, one for each whole number from 0 (grey) on: set low = 0
 };
 
 // Colours from `low` to `high`, ends held beyond.

@@ -101,7 +101,8 @@ void write_spheres(const fs::path &file, const Example &example, double time) {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   const auto radius = column("radius", 1), moved = column("displacement", 3),
-             intact = column("intact_bonds", 1), broken = column("broken_bonds", 1), id = column("id", 1);
+             intact = column("intact_bonds", 1), broken = column("broken_bonds", 1), id = column("id", 1),
+             fragment = column("fragment", 1);
   std::vector<std::array<int, 2>> counts(example.centres.size(), {0, 0});
   for (const Bond &bond : example.bonds)
     for (const std::size_t end : {bond.a, bond.b})
@@ -114,9 +115,10 @@ void write_spheres(const fs::path &file, const Example &example, double time) {
     intact->InsertNextValue(counts[k][0]);
     broken->InsertNextValue(counts[k][1]);
     id->InsertNextValue(static_cast<double>(100 + k));
+    fragment->InsertNextValue(p[2] > example.run.first_height + 0.5 * example.run.height ? 0 : 1);
   }
   grid->SetPoints(points);
-  for (const auto &array : {radius, moved, intact, broken, id})
+  for (const auto &array : {radius, moved, intact, broken, id, fragment})
     grid->GetPointData()->AddArray(array);
   for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
     grid->InsertNextCell(VTK_VERTEX, 1, &k);
@@ -158,10 +160,44 @@ void write_platens(const fs::path &file, const ExampleRun &run, double time) {
   write_vtu(file, grid);
 }
 
+// A sunflower of contacts at each end and a few of a sleeve's at mid-height.
+void write_contacts(const fs::path &file, const ExampleRun &run, double time) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  const auto normal = column("normal", 3), shear = column("shear", 3), force = column("normal_force", 1),
+             sliding = column("sliding", 1);
+  constexpr int count = 2000;
+  const double each = run.peak_stress * time * 3.14159265358979 * run.radius * run.radius / count;
+  for (const double up : {1.0, -1.0})
+    for (int k = 0; k < count; ++k) {
+      const double share = (k + 0.5) / count, r = run.radius * std::sqrt(share), turn = 2.399963 * k;
+      const double x = std::cos(turn), y = std::sin(turn),
+                   inward = example_inward_shear * each * r / run.radius;
+      points->InsertNextPoint(r * x, r * y, run.first_height + (up > 0 ? 0 : run.height));
+      normal->InsertNextTuple3(0, 0, up);
+      shear->InsertNextTuple3(-inward * x, -inward * y, 0);
+      force->InsertNextValue(each);
+      sliding->InsertNextValue(share > example_sticking_share ? 1 : 0);
+    }
+  for (int k = 0; k < 5; ++k) {
+    points->InsertNextPoint(run.radius, 0, run.first_height + 0.1 * k * run.height);
+    normal->InsertNextTuple3(-1, 0, 0);
+    shear->InsertNextTuple3(0, 0, 0);
+    force->InsertNextValue(1e3);
+    sliding->InsertNextValue(0);
+  }
+  grid->SetPoints(points);
+  for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
+    grid->InsertNextCell(VTK_VERTEX, 1, &k);
+  for (const auto &array : {normal, shear, force, sliding})
+    grid->GetPointData()->AddArray(array);
+  write_vtu(file, grid);
+}
+
 void write_frames(const fs::path &folder, const Example &example) {
   std::ofstream specimen(folder / "specimen.pvd"), bonds(folder / "bonds.pvd"),
-      platens(folder / "platens.pvd");
-  for (std::ofstream *list : {&specimen, &bonds, &platens})
+      platens(folder / "platens.pvd"), contacts(folder / "contacts.pvd");
+  for (std::ofstream *list : {&specimen, &bonds, &platens, &contacts})
     *list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   int number = 0;
   for (const double time : {0.0, example_peak_time, example_fall_time, example_end_time}) {
@@ -173,9 +209,10 @@ void write_frames(const fs::path &folder, const Example &example) {
     write_spheres(entry(specimen, "specimen_"), example, time);
     write_bonds(entry(bonds, "bonds_"), example, time);
     write_platens(entry(platens, "platens_"), example.run, time);
+    write_contacts(entry(contacts, "contacts_"), example.run, time);
     ++number;
   }
-  for (std::ofstream *list : {&specimen, &bonds, &platens})
+  for (std::ofstream *list : {&specimen, &bonds, &platens, &contacts})
     *list << "</Collection>\n</VTKFile>\n";
 }
 

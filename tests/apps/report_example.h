@@ -17,6 +17,11 @@ struct ExampleRun {
 // What the example is made of; times in s.
 constexpr double example_peak_time = 1.0, example_fall_time = 1.5, example_end_time = 2.0;
 
+// Contacts with the platens press evenly, with the peak stress times the time over 1 s; they are drawn
+// inwards by this share of it at the rim, in proportion to the radius, and stick within this share of the
+// area.
+constexpr double example_inward_shear = 0.2, example_sticking_share = 0.64;
+
 // Stress falls linearly from the peak at 1 s to 0.6 of it at 2 s, so that 0.8 is met at 1.5 s; strain is
 // 0.0025 t. Frames lie at 0, 1, 1.5 and 2 s. Bonds join neighbours; those within a quarter of the height from
 // the middle (or from an end, without hourglass) are broken from 1.5 s on, nine in ten of them in tension.

@@ -120,10 +120,11 @@ TEST(ReportReading, what_is_not_there_is_said_and_only_the_history_is_a_must) {
   const TestFolder folder;
   write_example(folder / "run", {});
   EXPECT_TRUE(read_run(folder / "run").remarks.empty());
-  for (const char *name : {"summary.json", "cracks.csv", "specimen.pvd", "bonds.pvd", "platens.pvd"})
+  for (const char *name :
+       {"summary.json", "cracks.csv", "specimen.pvd", "bonds.pvd", "platens.pvd", "contacts.pvd"})
     std::filesystem::remove(folder / "run" / name);
   const auto bare = read_run(folder / "run");
-  EXPECT_EQ(bare.remarks.size(), 5u);
+  EXPECT_EQ(bare.remarks.size(), 6u);
   EXPECT_FALSE(bare.cracks.has_value());
   EXPECT_TRUE(bare.summary.is_null());
   std::filesystem::remove(folder / "run" / "history.csv");
