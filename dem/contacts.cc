@@ -7,6 +7,7 @@
 #include "dem/laws/hertz_contact.h"
 #include "dem/laws/linear_contact.h"
 #include "dem/laws/rotating_plane.h"
+#include "dem/mean_radius.h"
 #include "dem/parallel.h"
 #include "dem/phases.h"
 
@@ -18,13 +19,6 @@ namespace {
 constexpr double wide_skin = 0.5, close_skin = 0.06;
 // Overlap in smaller radii at which a Hertz contact that is about to form is counted in the time step.
 constexpr double early_overlap = 2e-3;
-
-double mean_radius(const Particles &particles) {
-  double sum = 0;
-  for (const double r : particles.radius)
-    sum += r;
-  return particles.size() == 0 ? 1.0 : sum / static_cast<double>(particles.size());
-}
 
 double elastic_energy(NormalContact law, double coefficient, double overlap) {
   return law == NormalContact::linear ? LinearContact::energy(coefficient, overlap)

@@ -70,7 +70,8 @@ fs::path default_output_folder(const fs::path &scene_file) {
 
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
-      "((scene|found)(\\.part)?\\.prm|(history|cracks|bond_stress|directions|specimen|study|costs|trials|"
+      "((scene|found)(\\.part)?\\.prm|(history|cracks|events|bond_stress|directions|specimen|study|costs|"
+      "trials|"
       "abacus|packing_"
       "[0-9]+)(\\."
       "part)?\\.csv"

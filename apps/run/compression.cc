@@ -59,8 +59,9 @@ int CompressionRun::run() {
                                     kept ? "the last checkpoint is in " + paths_.checkpoints().string()
                                          : "no checkpoint had been written"));
   }
-  results_.finish(*problem_);
+  results_.finish(*problem_, event_window());
   if (problem_->model.bonds) write_bond_stress();
+  if (scene_.effects.crack_log) write_events();
   if (fields_) fields_->write(*problem_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));

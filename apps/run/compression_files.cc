@@ -6,6 +6,7 @@
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
+#include "dem/mean_radius.h"
 #include "dem/measure/bond_stress.h"
 #include "fem/elastic_solid.h"
 
@@ -104,8 +105,10 @@ void CompressionRun::keep(const Sample &s) {
 }
 
 void CompressionRun::write_cracks() {
-  for (const dem::Crack &c : problem_->model.take_cracks())
+  for (const dem::Crack &c : problem_->model.take_cracks()) {
     cracks_->row(crack_row(c, problem_->closure_strain()));
+    results_.listen(c);
+  }
 }
 
 void CompressionRun::checkpoint() {
@@ -134,6 +137,20 @@ void CompressionRun::write_bond_stress() const {
        dem::bond_stress_by_direction(problem_->model.particles, *problem_->model.bonds, classes))
     table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,
                c.mean_pressed / axial});
+}
+
+dem::EventWindow CompressionRun::event_window() const {
+  return dem::event_window(dem::mean_radius(problem_->model.particles),
+                           problem_->shape().height / problem_->wave_crossing(), scene_.output.event_reach,
+                           scene_.output.event_time);
+}
+
+void CompressionRun::write_events() const {
+  CsvWriter table(paths_.events(),
+                  {"time_s", "duration_s", "x_m", "y_m", "z_m", "size_m", "cracks", "energy_j", "magnitude"});
+  for (const dem::AcousticEvent &e : results_.emission().events)
+    table.row(
+        {e.time, e.duration, e.centre.x, e.centre.y, e.centre.z, e.size, e.cracks, e.energy, e.magnitude});
 }
 
 void CompressionRun::save_summary(const std::string &status) {

@@ -60,6 +60,8 @@ private:
   bool by_time() const; // the run ends after a time (hydrostatic: or a little later), not at a strain
   double end_time() const;
   void write_bond_stress() const;
+  dem::EventWindow event_window() const;
+  void write_events() const;
   void save_summary(const std::string &status);
   RunCosts costs() const;
 

@@ -88,7 +88,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       paths_(command.output),
       log_(loudness(command)),
       threads_(command.threads),
-      results_(scene.loading.test == LoadingTest::tension),
+      results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}),
       columns_{scene.loading.cell(), scene.loading.sleeved(), pressed == Pressed::across_axis,
                scene.loading.bending()} {
   fem::limit_threads(command.threads);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/run/at_peak.h"
+#include "apps/run/failure_summary.h"
 #include "apps/run/summary_of_run.h"
 #include "dem/measure/bending.h"
 #include "dem/measure/split.h"
@@ -19,6 +20,7 @@ public:
     if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
     text_ += fmt::format("  {:<36}{}\n", what, fmt::format(fmt::runtime(format), numbers...));
   }
+  void words(const char *what, const std::string &said) { text_ += fmt::format("  {:<36}{}\n", what, said); }
   const std::string &text() const { return text_; }
 
 private:
@@ -84,9 +86,23 @@ void report_damage(Report &report, const Scene &scene, const coupling::Problem &
   }
   const Pattern &p = results.pattern();
   if (std::isnan(p.strain) || scene.loading.test == LoadingTest::tension) return;
-  report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}", p.end_top,
-              p.end_bottom, p.middle);
+  report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}",
+              p.failure.damage.end_top, p.failure.damage.end_bottom, p.failure.damage.middle);
   report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak());
+  if (!tells_pattern(scene, problem)) return;
+  report.words("cone on top", cone_words(p.failure.cones[dem::top_end]));
+  report.words("cone on the bottom", cone_words(p.failure.cones[dem::bottom_end]));
+  const dem::FailureVerdict verdict = dem::judge_failure(p.failure);
+  report.words("pattern", fmt::format("{}: {}", dem::word_of(verdict.pattern), reason_words(p.failure)));
+}
+
+void report_emission(Report &report, const Results &results) {
+  const Emission &e = results.emission();
+  if (e.events.empty()) return;
+  report.line("acoustic events", "{}, the largest of magnitude {:.1f}", e.events.size(),
+              largest_magnitude(e));
+  report.line("b-value before the peak", "{:.2f} +- {:.2f}", e.before.b, e.before.error);
+  report.line("b-value after the peak", "{:.2f} +- {:.2f}", e.after.b, e.after.error);
 }
 
 } // namespace
@@ -97,6 +113,7 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   report_strength(report, scene, problem, results);
   report_stiffness(report, problem, results);
   report_damage(report, scene, problem, results);
+  report_emission(report, results);
   report.line("energy residual over work", "{:.2e}", results.energy_residual_relative());
   report.line("kinetic over internal, to peak", "{:.2e}", results.kinetic_to_internal_max());
   const double crossings = crossings_to_peak(problem, results);

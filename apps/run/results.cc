@@ -15,16 +15,13 @@ constexpr double modulus_share = 0.4;
 
 } // namespace
 
-Pattern measure_pattern(const coupling::Problem &problem) {
+Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness) {
   Pattern p;
   p.time = problem.time();
   p.strain = problem.closure_strain();
   if (!problem.model.bonds) return p;
   const dem::Bonds &bonds = *problem.model.bonds;
-  const dem::DamageByRegion damage = dem::damage_by_region(problem.model.particles, bonds, problem.shape());
-  p.end_top = damage.end_top;
-  p.end_bottom = damage.end_bottom;
-  p.middle = damage.middle;
+  p.failure = dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness);
   p.end_spread = dem::end_spread(dem::skin_opening(problem.model.particles, bonds, problem.shape()));
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
@@ -44,11 +41,26 @@ bool Results::add(const Sample &sample, const coupling::Problem &problem) {
     return false;
   }
   if (peak_ > 0 && now < pattern_share * peak_ && measured_for_ != peak_) {
-    at_eighty_ = measure_pattern(problem);
+    at_eighty_ = measure_pattern(problem, soundness_);
     measured_for_ = peak_;
     return true;
   }
   return false;
+}
+
+void Results::listen(const dem::Crack &c) {
+  emission_.rose.add(c.normal, c.area);
+  emission_.pulses.push_back({c.time, c.point, c.energy});
+}
+
+void Results::finish(const coupling::Problem &problem, const dem::EventWindow &window) {
+  last_ = measure_pattern(problem, soundness_);
+  emission_.events = dem::gather_events(emission_.pulses, window);
+  std::vector<double> before, after;
+  for (const dem::AcousticEvent &event : emission_.events)
+    (event.time > time_at_peak() ? after : before).push_back(event.magnitude);
+  emission_.before = dem::b_value(before);
+  emission_.after = dem::b_value(after);
 }
 
 bool Results::fallen_to(double share) const {
@@ -177,7 +189,10 @@ double Results::kinetic_to_internal_max() const {
   return largest;
 }
 
-void Results::restore(std::vector<Sample> samples, const Progress &progress) {
+void Results::restore(std::vector<Sample> samples, const Progress &progress,
+                      std::vector<dem::CrackPulse> pulses, const dem::CrackRose &rose) {
+  emission_.pulses = std::move(pulses);
+  emission_.rose = rose;
   samples_ = std::move(samples);
   at_eighty_ = progress.at_eighty;
   barrel_ = progress.barrel;

@@ -6,32 +6,47 @@
 
 #include "apps/run/history.h"
 #include "coupling/problem.h"
+#include "dem/measure/acoustic_emission.h"
+#include "dem/measure/crack_rose.h"
+#include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-// Damage and opening when the stress has fallen to 0.8 of the peak (or at the end of a run).
+// Damage, opening, cones and cracks when the stress has fallen to 0.8 of the peak (or at the end of a run).
 struct Pattern {
   double time = not_measured, strain = not_measured; // s, platen strain
-  double end_top = not_measured, end_bottom = not_measured, middle = not_measured, end_spread = not_measured;
+  dem::FailureMeasures failure;
+  double end_spread = not_measured;
   double broken_tension = not_measured, broken_shear = not_measured;
 };
-Pattern measure_pattern(const coupling::Problem &problem);
+Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness);
+
+// What cracks told while they came.
+struct Emission {
+  dem::CrackRose rose;
+  std::vector<dem::CrackPulse> pulses;
+  std::vector<dem::AcousticEvent> events; // of a finished run
+  dem::BValue before, after;              // of events that began before and after the peak
+};
 
 class Results {
 public:
   // Stresses and strains are taken with this sign: +1 compression, -1 tension. Peak, moduli and strains are
   // of the deviator (axial stress minus confining pressure), from the end of the hydrostatic stage on, as
   // laboratories count them.
-  explicit Results(bool tension) : sign_(tension ? -1.0 : 1.0) {}
+  explicit Results(bool tension, const dem::Soundness &soundness = {})
+      : sign_(tension ? -1.0 : 1.0), soundness_(soundness) {}
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
   bool add(const Sample &sample, const coupling::Problem &problem);
   // The stress has fallen to this share of the peak, after it.
   bool fallen_to(double share) const;
-  void finish(const coupling::Problem &problem) { last_ = measure_pattern(problem); }
+  void listen(const dem::Crack &crack);
+  // The state at the end, and events of the cracks so far.
+  void finish(const coupling::Problem &problem, const dem::EventWindow &window);
 
   // Of all samples; NaN where the run did not get there.
   double strength() const;          // Pa, positive: largest axial stress, or that at the largest deviator
@@ -56,6 +71,7 @@ public:
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
   const Pattern &last_pattern() const { return last_; }
   double barrel_at_peak() const { return barrel_; }
+  const Emission &emission() const { return emission_; }
   const std::vector<Sample> &samples() const { return samples_; }
 
   // For checkpoints.
@@ -66,7 +82,8 @@ public:
     double measured_for = -1; // the peak that at_eighty belongs to, Pa
   };
   Progress progress() const { return {at_eighty_, barrel_, peak_, measured_for_}; }
-  void restore(std::vector<Sample> samples, const Progress &progress);
+  void restore(std::vector<Sample> samples, const Progress &progress, std::vector<dem::CrackPulse> pulses,
+               const dem::CrackRose &rose);
 
 private:
   std::size_t peak_row() const;
@@ -85,8 +102,10 @@ private:
   std::size_t whole_book_from() const; // first sample where the book says more than noise
 
   double sign_;
+  dem::Soundness soundness_;
   std::vector<Sample> samples_;
   Pattern at_eighty_, last_;
+  Emission emission_;
   double barrel_ = not_measured, peak_ = 0, measured_for_ = -1;
 };
 

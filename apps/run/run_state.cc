@@ -55,6 +55,8 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
   if (problem.confinement() != nullptr) to.add_table("confinement", problem.confinement()->table());
   to.add("samples", results.samples());
   to.add("results", results.progress());
+  to.add("cracks/pulses", results.emission().pulses);
+  to.add("cracks/rose", results.emission().rose);
   to.add("marks", marks);
 }
 
@@ -88,7 +90,10 @@ FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, R
   problem.restored();
   std::vector<Sample> samples;
   from.get("samples", samples);
-  results.restore(std::move(samples), from.value<Results::Progress>("results"));
+  std::vector<dem::CrackPulse> pulses;
+  from.get("cracks/pulses", pulses);
+  results.restore(std::move(samples), from.value<Results::Progress>("results"), std::move(pulses),
+                  from.value<dem::CrackRose>("cracks/rose"));
   return from.value<FileMarks>("marks");
 }
 

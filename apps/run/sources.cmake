@@ -6,6 +6,7 @@ set(PLATEN_RUN_SOURCES
   run/compression_setup.cc
   run/estimate.cc
   run/expectations.cc
+  run/failure_summary.cc
   run/fields.cc
   run/history.cc
   run/model_setup.cc

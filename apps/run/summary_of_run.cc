@@ -2,6 +2,7 @@
 
 #include "apps/io/machine.h"
 #include "apps/run/at_peak.h"
+#include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/version.h"
 #include "dem/measure/bending.h"
@@ -22,9 +23,9 @@ Json stage_seconds(const dem::StageClock &clock) {
 
 void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   const std::string start = prefix;
-  to[start + "end_damage_top"] = p.end_top;
-  to[start + "end_damage_bottom"] = p.end_bottom;
-  to[start + "middle_damage"] = p.middle;
+  to[start + "end_damage_top"] = p.failure.damage.end_top;
+  to[start + "end_damage_bottom"] = p.failure.damage.end_bottom;
+  to[start + "middle_damage"] = p.failure.damage.middle;
   to[start + "end_spread"] = p.end_spread;
 }
 
@@ -180,8 +181,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   const dem::Fragments fragments = dem::find_fragments(model.particles, model.bonds.get());
   s["fragments"] = fragments.count;
   s["loose_particles"] = fragments.single;
-  s["cone_top"] = nullptr; // not measured by this app yet
-  s["cone_bottom"] = nullptr;
+  add_failure(s, scene, problem, results);
   return s;
 }
 

@@ -49,6 +49,13 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
   section.interval("Fields every", output.fields_every,
                    "Frames for ParaView: steps or simulated time; 0: chosen by the app.");
   section.flag("Fields", output.fields, "Write frames for ParaView.");
+  section.number("Sound share", output.sound_share, between(0.01, 1),
+                 "Share of its bonds that a sphere has kept to be of a cone.");
+  section.number(
+      "Event reach", output.event_reach, between(0.1, 1000),
+      "Cracks this near are of one acoustic event, in mean sphere radii; larger joins more of them.");
+  section.number("Event time", output.event_time, between(0, 1000),
+                 "And this soon after each other, in times that a wave takes over the reach.");
   Section checkpoints(parameters, "Checkpoint");
   checkpoints.interval("Every", checkpoint.every,
                        "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");

@@ -28,10 +28,6 @@ Vector3 outward(const Vector3 &x, const Shape &shape) {
                                         : Vector3{0, std::copysign(1.0, x.y), 0};
 }
 
-bool is_broken(int state) {
-  return state >= static_cast<int>(BondState::broken_in_tension);
-}
-
 Vector3 reference_midpoint(const Particles &p, const Bonds &b, std::size_t record) {
   return 0.5 * (p.reference_position[b.record_first[record]] + p.reference_position[b.record_second[record]]);
 }
@@ -43,6 +39,10 @@ struct Count {
 };
 
 } // namespace
+
+bool is_broken(int state) {
+  return state >= static_cast<int>(BondState::broken_in_tension);
+}
 
 DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape &shape) {
   const double rc = half_width(shape), h = shape.height;

@@ -10,6 +10,8 @@
 
 namespace platen::dem {
 
+bool is_broken(int state); // of Bonds::state
+
 // Broken over initial bonds whose reference midpoint lies in a region; NaN where it holds none.
 struct DamageByRegion {
   double end_top = 0, end_bottom = 0; // r < R_c/2 and within R_c/2 of the end plane

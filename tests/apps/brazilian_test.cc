@@ -43,6 +43,10 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
   const auto opening = column_of(folder_ / "disc/history.csv", "opening_m");
   EXPECT_GT(opening.back(), 5 * s["opening_at_peak_m"].get<double>()); // the halves part
+  // A disc has events, but no cones.
+  for (const char *key : {"cone_top", "cone_bottom", "pattern", "final_pattern"})
+    EXPECT_TRUE(s.at(key).is_null()) << key;
+  EXPECT_EQ(s["acoustic"]["cracks"], s["broken_tension"].get<int>() + s["broken_shear"].get<int>());
 }
 
 TEST_F(Brazilian, a_disc_from_a_file_is_the_disc_that_was_packed) {

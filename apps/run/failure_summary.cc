@@ -1,0 +1,133 @@
+#include "apps/run/failure_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+Json json_of(const dem::ConePiece &piece) {
+  if (!piece.is_cone()) return nullptr;
+  return {{"height_m", piece.height},
+          {"half_angle_deg", piece.half_angle / degree},
+          {"volume_fraction", piece.volume_fraction},
+          {"apex_depth_m", piece.apex_depth},
+          {"tilt_deg", piece.tilt / degree},
+          {"confidence", piece.confidence}};
+}
+
+Json json_of(const dem::CrackPlanes &planes) {
+  const dem::CrackPlane &largest = planes.largest;
+  Json j{{"count", static_cast<int>(planes.count)},
+         {"share", planes.share},
+         {"steep_share", planes.steep_share},
+         {"mean_inclination_deg", planes.mean_inclination / degree},
+         {"largest", nullptr}};
+  if (planes.count > 0)
+    j["largest"] = {{"share", largest.bonds / planes.broken},
+                    {"inclination_deg", largest.inclination / degree},
+                    {"flatness", largest.flatness},
+                    {"extent_m", largest.extent}};
+  return j;
+}
+
+void add_b(Json &to, const std::string &when, const dem::BValue &value) {
+  to["b_" + when] = value.b;
+  to["b_" + when + "_error"] = value.error;
+  to["b_" + when + "_events"] = static_cast<long>(value.events);
+  to["b_" + when + "_limit"] = value.limit;
+}
+
+Json json_of(const Emission &e) {
+  int most = 0;
+  for (const dem::AcousticEvent &event : e.events)
+    most = std::max(most, event.cracks);
+  Json j{{"cracks", e.pulses.size()},
+         {"events", e.events.size()},
+         {"largest_cracks", most},
+         {"largest_magnitude", largest_magnitude(e)}};
+  add_b(j, "before", e.before);
+  add_b(j, "after", e.after);
+  return j;
+}
+
+// Of a state that was measured.
+void add_state(Json &to, const std::string &start, const Pattern &p, bool pattern) {
+  const bool measured = !std::isnan(p.failure.broken_share), told = pattern && measured;
+  const dem::ConePiece &top = p.failure.cones[dem::top_end], &bottom = p.failure.cones[dem::bottom_end];
+  to[start + "cone_top"] = told ? json_of(top) : Json();
+  to[start + "cone_bottom"] = told ? json_of(bottom) : Json();
+  to[start + "pattern"] = told ? Json(dem::word_of(dem::judge_failure(p.failure).pattern)) : Json();
+  to[start + "pattern_reasons"] =
+      told ? Json{reason_words(p.failure), "top: " + cone_words(top), "bottom: " + cone_words(bottom)}
+           : Json();
+  to[start + "crack_planes"] = measured ? json_of(p.failure.planes) : Json();
+}
+
+} // namespace
+
+bool tells_pattern(const Scene &scene, const coupling::Problem &problem) {
+  return scene.loading.test == LoadingTest::compression && problem.shape().kind != dem::ShapeKind::disc &&
+         !problem.bent();
+}
+
+void add_failure(Json &to, const Scene &scene, const coupling::Problem &problem, const Results &results) {
+  const bool pattern = tells_pattern(scene, problem);
+  add_state(to, "", results.pattern(), pattern);
+  add_state(to, "final_", results.last_pattern(), pattern);
+  const Emission &e = results.emission();
+  to["crack_rose"] = e.pulses.empty() ? Json() : Json(e.rose.over_isotropic());
+  const bool heard =
+      scene.effects.crack_log && problem.model.bonds && !std::isnan(results.last_pattern().time);
+  to["acoustic"] = heard ? json_of(e) : Json();
+}
+
+std::string cone_words(const dem::ConePiece &c) {
+  if (!c.is_cone()) return fmt::format("none: {}", dem::words_of(c.verdict));
+  return fmt::format("{:.1f} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
+                     1e3 * c.height, c.half_angle / degree, c.volume_fraction, c.confidence);
+}
+
+std::string reason_words(const dem::FailureMeasures &m) {
+  const dem::CrackPlane &plane = m.planes.largest;
+  switch (dem::judge_failure(m).by) {
+    case dem::DecidedBy::two_cones:
+      return "a cone stands on each platen";
+    case dem::DecidedBy::hourglass:
+      return fmt::format(
+          "the ends are sound (damage {:.2f} at most), the middle is not ({:.2f}), and a sound "
+          "piece narrows away from each platen",
+          m.damage.worse_end(), m.damage.middle);
+    case dem::DecidedBy::one_plane:
+      return fmt::format("{:.0f} % of the broken bonds lie in one plane, {:.0f} degrees from the axis",
+                         100 * plane.bonds / m.planes.broken, plane.inclination / degree);
+    case dem::DecidedBy::columns:
+      return fmt::format("{:.0f} sound pieces reach from platen to platen", m.columns);
+    case dem::DecidedBy::steep_planes:
+      return fmt::format("{:.0f} % of the broken bonds lie in planes within 15 degrees of the axis",
+                         100 * m.planes.steep_share);
+    case dem::DecidedBy::few_broken:
+      return fmt::format("{:.1f} % of the bonds are broken", 100 * m.broken_share);
+    case dem::DecidedBy::crushed_end:
+      return fmt::format("one end has lost {:.0f} % of its bonds", 100 * m.damage.worse_end());
+    case dem::DecidedBy::nothing:
+      break;
+  }
+  return fmt::format("damage of the ends {:.2f} and {:.2f}, of the middle {:.2f}: no rule holds",
+                     m.damage.end_top, m.damage.end_bottom, m.damage.middle);
+}
+
+double largest_magnitude(const Emission &e) {
+  double largest = not_measured;
+  for (const dem::AcousticEvent &event : e.events)
+    largest = std::fmax(largest, event.magnitude);
+  return largest;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,113 @@
+#include "dem/measure/crack_planes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dem/cell_grid.h"
+#include "dem/mean_radius.h"
+#include "dem/measure/damage.h"
+#include "dem/measure/disjoint_sets.h"
+
+namespace platen::dem {
+namespace {
+
+CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vector3> &points) {
+  CrackPlane plane;
+  plane.bonds = static_cast<double>(members.size());
+  for (const int k : members)
+    plane.centre += points[k] / static_cast<double>(members.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const int k : members) {
+    const Vector3 d = points[k] - plane.centre;
+    const Eigen::Vector3d v(d.x, d.y, d.z);
+    scatter += v * v.transpose() / static_cast<double>(members.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter); // ascending
+  const Eigen::Vector3d lengths = axes.eigenvalues().cwiseMax(0).cwiseSqrt(), n = axes.eigenvectors().col(0);
+  plane.normal = {n[0], n[1], n[2]};
+  plane.flatness = lengths[1] > 0 ? 1 - lengths[0] / lengths[1] : 0;
+  plane.inclination = std::asin(std::min(1.0, std::abs(n[2])));
+  plane.extent = std::sqrt(12.0) * lengths[2];
+  return plane;
+}
+
+// Shares of broken bonds around one, below which it is left out: of the first look and of the next ones.
+constexpr std::array<double, 5> least_damage{0, 0.5, 0.6, 0.7, 0.8};
+
+struct Midpoints {
+  std::vector<Vector3> at;     // m
+  std::vector<IndexPair> near; // of broken bonds
+  std::vector<double> damage;  // share of broken bonds around each, itself counted
+};
+
+Midpoints midpoints(const Particles &p, const Bonds &b, double reach) {
+  Midpoints m;
+  const std::size_t n = b.initial_count();
+  m.at.resize(n);
+  for (std::size_t k = 0; k < n; ++k)
+    m.at[k] = 0.5 * (p.reference_position[b.record_first[k]] + p.reference_position[b.record_second[k]]);
+  std::vector<int> all(n, 1), broken(n, 1);
+  const std::vector<double> points(n, 0.0);
+  for (const IndexPair &pair : near_pairs(m.at.data(), points.data(), n, reach)) {
+    const bool one = is_broken(b.state[pair.first]), other = is_broken(b.state[pair.second]);
+    ++all[pair.first], ++all[pair.second];
+    broken[pair.first] += other, broken[pair.second] += one;
+    if (one && other) m.near.push_back(pair);
+  }
+  m.damage.resize(n);
+  for (std::size_t k = 0; k < n; ++k)
+    m.damage[k] = static_cast<double>(broken[k]) / all[k];
+  return m;
+}
+
+} // namespace
+
+std::vector<CrackPlane> find_crack_planes(const Particles &p, const Bonds &b, const CrackPlaneRules &rules) {
+  const std::size_t n = b.initial_count();
+  std::vector<CrackPlane> planes;
+  if (n == 0) return planes;
+  const Midpoints m = midpoints(p, b, rules.reach * mean_radius(p));
+  std::vector<char> left(n);
+  for (std::size_t k = 0; k < n; ++k)
+    left[k] = is_broken(b.state[k]);
+  for (const double least : least_damage) {
+    DisjointSets sets(n);
+    for (std::size_t k = 0; k < n; ++k)
+      left[k] = left[k] && m.damage[k] >= least;
+    for (const IndexPair &pair : m.near)
+      if (left[pair.first] && left[pair.second]) sets.join(pair.first, pair.second);
+    for (const std::vector<int> &cluster : sets.all(left)) {
+      const bool small = static_cast<int>(cluster.size()) < rules.least_bonds;
+      const CrackPlane plane = small ? CrackPlane{} : plane_through(cluster, m.at);
+      if (!small && plane.flatness < rules.least_flatness) continue; // looked at again
+      if (!small) planes.push_back(plane);
+      for (const int k : cluster)
+        left[k] = 0;
+    }
+  }
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const CrackPlane &one, const CrackPlane &other) { return one.bonds > other.bonds; });
+  return planes;
+}
+
+CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &b) {
+  CrackPlanes s;
+  double inside = 0, steep = 0, inclination = 0;
+  for (const CrackPlane &plane : planes) {
+    inside += plane.bonds;
+    inclination += plane.bonds * plane.inclination;
+    if (plane.inclination < CrackPlanes::steep) steep += plane.bonds;
+  }
+  s.count = static_cast<double>(planes.size());
+  s.broken = static_cast<double>(std::count_if(b.state.begin(), b.state.end(), is_broken));
+  s.share = inside / s.broken;
+  s.steep_share = steep / s.broken;
+  s.mean_inclination = inclination / inside;
+  if (!planes.empty()) s.largest = planes.front();
+  return s;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,78 @@
+#include "dem/measure/failure_pattern.h"
+
+#include <cmath>
+
+namespace platen::dem {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double least_column = 0.05;                 // of the volume
+constexpr double sound_end = 0.3, gone_middle = 0.45; // damage
+constexpr double crushed_end = 0.4;                   // damage
+constexpr double most_of_it = 0.5;                    // of all broken bonds
+constexpr double largest_of_shear = 1.13;             // rad: 65 degrees
+constexpr double as_good_as_whole = 0.02;             // broken share
+
+bool narrows(const ConePiece &piece) {
+  return piece.is_cone() || piece.verdict == NoCone::leans || piece.verdict == NoCone::one_sided ||
+         piece.verdict == NoCone::ragged;
+}
+
+// A plane through the whole specimen and nearly nothing beside it.
+bool one_plane(const FailureMeasures &m) {
+  return m.planes.count > 0 && m.planes.largest.bonds >= most_of_it * m.planes.broken &&
+         m.planes.largest.extent >= 0.9 * m.width && m.planes.largest.inclination <= largest_of_shear;
+}
+
+} // namespace
+
+const char *word_of(FailurePattern pattern) {
+  switch (pattern) {
+    case FailurePattern::none:
+      return "none";
+    case FailurePattern::cones:
+      return "cones";
+    case FailurePattern::shear_plane:
+      return "shear plane";
+    case FailurePattern::splitting:
+      return "splitting";
+    case FailurePattern::crushing:
+      return "crushing";
+    case FailurePattern::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,
+                                const Soundness &soundness) {
+  FailureMeasures m;
+  const SoundPieces pieces = find_sound_pieces(p, b, shape, soundness);
+  m.damage = damage_by_region(p, b, shape);
+  m.cones = measure_cones(p, b, pieces, shape);
+  m.planes = sum_up(find_crack_planes(p, b), b);
+  for (std::size_t k = 0; k < pieces.volume.size(); ++k)
+    m.columns += pieces.spans(static_cast<int>(k)) && pieces.share(static_cast<int>(k)) >= least_column;
+  m.broken_share = m.planes.broken / static_cast<double>(b.initial_count());
+  m.width = 2 * std::sqrt(shape.cross_section() / pi);
+  m.height = shape.height;
+  return m;
+}
+
+FailureVerdict judge_failure(const FailureMeasures &m) {
+  const ConePiece &bottom = m.cones[bottom_end], &top = m.cones[top_end];
+  if (bottom.is_cone() && top.is_cone()) return {FailurePattern::cones, DecidedBy::two_cones};
+  if (m.damage.worse_end() < sound_end && m.damage.middle > gone_middle && narrows(bottom) && narrows(top))
+    return {FailurePattern::cones, DecidedBy::hourglass};
+  if (one_plane(m))
+    return {m.planes.largest.inclination < CrackPlanes::steep ? FailurePattern::splitting
+                                                              : FailurePattern::shear_plane,
+            DecidedBy::one_plane};
+  if (m.columns >= 2) return {FailurePattern::splitting, DecidedBy::columns};
+  if (m.planes.steep_share > most_of_it) return {FailurePattern::splitting, DecidedBy::steep_planes};
+  if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
+  if (m.damage.worse_end() > crushed_end) return {FailurePattern::crushing, DecidedBy::crushed_end};
+  return {};
+}
+
+} // namespace platen::dem

@@ -1,0 +1,51 @@
+// How a specimen pressed along its axis has failed, in one word, and by which measure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "dem/measure/cone.h"
+#include "dem/measure/crack_planes.h"
+#include "dem/measure/damage.h"
+
+namespace platen::dem {
+
+// What the word is told from.
+struct FailureMeasures {
+  DamageByRegion damage{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::quiet_NaN()};
+  std::array<ConePiece, 2> cones; // [bottom_end], [top_end]
+  CrackPlanes planes;
+  double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
+  double broken_share = std::numeric_limits<double>::quiet_NaN(); // of all bonds
+  double width = 0, height = 0; // m, of the specimen; width of a circle as large as its section
+};
+FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
+                                const Soundness &soundness = {});
+
+enum class FailurePattern : std::int64_t { none, cones, shear_plane, splitting, crushing, undecided };
+enum class DecidedBy : std::int64_t {
+  nothing,      // no rule below holds
+  two_cones,    // a cone on each platen
+  hourglass,    // both ends sound, the middle gone, a narrowing piece on each platen
+  one_plane,    // half of all broken bonds lie in one plane that crosses the specimen
+  columns,      // two pieces or more from platen to platen
+  steep_planes, // half of all broken bonds lie in planes along the axis
+  few_broken,   // 2 % of the bonds at most
+  crushed_end   // the worse end has lost more than 0.4 of its bonds
+};
+struct FailureVerdict {
+  FailurePattern pattern = FailurePattern::undecided;
+  DecidedBy by = DecidedBy::nothing;
+};
+const char *word_of(FailurePattern pattern);
+
+// The first rule that holds, in the order of DecidedBy from `two_cones` on. The plane of `one_plane` splits
+// where it lies within 15 degrees of the axis and shears up to 65 degrees. The bounds of damage (0.3 of an
+// end and 0.45 of the middle of an hourglass, 0.4 of a crushed end) stand between what dry and lubricated
+// platens leave of cylinders twice as high as wide; of cubes, whose ends are damaged under any platen, little
+// is told.
+FailureVerdict judge_failure(const FailureMeasures &measures);
+
+} // namespace platen::dem

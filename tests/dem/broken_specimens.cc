@@ -1,0 +1,41 @@
+#include "tests/dem/broken_specimens.h"
+
+#include "dem/packing/advancing_front.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem::examples {
+namespace {
+
+const Specimen &packed() {
+  static const Specimen specimen = advancing_front(
+      cylinder(Cylinder::width * radius, Cylinder::length * radius), uniform_radii_of_spread(radius, .25), 5);
+  return specimen;
+}
+
+// Closer than touching alone, so that a sphere has six bonds and more.
+BondLayout layout() {
+  BondLayout l = bonded().bond_layout;
+  l.gap = .05;
+  return l;
+}
+
+} // namespace
+
+Cylinder::Cylinder()
+    : shape(packed().shape), particles(packed(), 2400, true), bonds(particles, layout(), *bonded().bond) {}
+
+void Cylinder::cut_rows(const std::function<int(std::size_t row)> &label) {
+  std::vector<BondBreak> breaks;
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    const int one = label(bonds.first[k]), other = label(bonds.second[k]);
+    if (one != other || one == crumbs) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  }
+  bonds.break_rows(breaks, particles, 0);
+  bonds.compact();
+}
+
+void Cylinder::cut(const std::function<int(const Vector3 &centre)> &label) {
+  cut_rows([&](std::size_t row) { return label(particles.reference_position[row]); });
+}
+
+} // namespace platen::dem::examples
