@@ -9,6 +9,7 @@
 #include "apps/io/seed_statistics.h"
 #include "apps/io/summary.h"
 #include "apps/study/cases.h"
+#include "apps/study/comparisons.h"
 #include "apps/study/runs.h"
 
 namespace platen::apps {
@@ -24,6 +25,8 @@ public:
   int failed() const; // runs
   // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
   Json cases() const;
+  // Of a study of platens, once all rows are there; else nothing.
+  std::vector<Comparison> comparisons() const;
   // For the screen, with what a run of each case cost.
   std::string text() const;
 
@@ -31,6 +34,7 @@ private:
   struct OfCase {
     int runs = 0, failed = 0;
     std::vector<SeedStatistics> figures;
+    std::vector<double> strengths; // Pa, by seed; NaN: failed
     SeedStatistics seconds, bytes;
   };
   const SeedStatistics &figure(const OfCase &of, const std::string &key) const;
