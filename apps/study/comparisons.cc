@@ -143,18 +143,21 @@ Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) 
 }
 
 std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) {
-  std::string text;
-  const auto size = [&](std::size_t k) {
+  const auto specimen = [&](std::size_t k) {
     const double pressure = label(plan, k, "confining_pressure_pa");
-    return fmt::format("{:.3g}", label(plan, k, "slenderness")) +
-           (pressure > 0 ? fmt::format(", {:.3g} MPa", 1e-6 * pressure) : "");
+    return fmt::format("{} {:.3g}", plan.cases[k].surface, label(plan, k, "slenderness")) +
+           (pressure > 0 ? fmt::format(" {:.3g} MPa", 1e-6 * pressure) : "");
   };
+  std::size_t widths[2] = {0, 0};
   for (const Comparison &c : comparisons) {
-    text += fmt::format("  {}, {}, slenderness {} over {}, {}: {}", word(c.effect), plan.cases[c.of].surface,
-                        size(c.of), plan.cases[c.over].surface, size(c.over), text_of(c.ratio, 1));
-    if (c.laboratory != nullptr) text += "; laboratory " + words(*c.laboratory);
-    text += '\n';
+    widths[0] = std::max(widths[0], specimen(c.of).size());
+    widths[1] = std::max(widths[1], specimen(c.over).size());
   }
+  std::string text;
+  for (const Comparison &c : comparisons)
+    text += fmt::format("  {:<35}  {:<{}} / {:<{}}  {:<16}{}\n", word(c.effect), specimen(c.of), widths[0],
+                        specimen(c.over), widths[1], text_of(c.ratio, 1),
+                        c.laboratory == nullptr ? "" : "  laboratory " + words(*c.laboratory));
   return text;
 }
 
