@@ -91,7 +91,7 @@ void draw_friction(const StudyResults &study, const std::vector<std::size_t> &ca
     const StudiedCase *free_ends = nullptr;
     for (const std::size_t k : cases) {
       const StudiedCase &one = study.cases[k];
-      if (!one.plain || one.slenderness != slenderness) continue;
+      if (!one.plain || one.without_peak > 0 || one.slenderness != slenderness) continue;
       strengths.push_back({one.friction, one.strength});
       const StudiedRatio *ratio = study.ratio_of(k, gain);
       if (ratio == nullptr) continue;
@@ -134,7 +134,7 @@ void draw_slenderness(const StudyResults &study, const std::vector<std::size_t> 
     std::vector<Point> strengths, ratios;
     for (const std::size_t k : cases) {
       const StudiedCase &one = study.cases[k];
-      if (one.surface != surface) continue;
+      if (one.without_peak > 0 || one.surface != surface) continue;
       strengths.push_back({one.slenderness, one.strength});
       if (const StudiedRatio *found = study.ratio_of(k, relative))
         ratios.push_back({one.slenderness, found->ratio});

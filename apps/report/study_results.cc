@@ -50,6 +50,7 @@ StudiedCase case_of(const Json &from) {
   one.sphere_radius = number(from.at("sphere_radius_m"));
   one.pressure = number(from.at("confining_pressure_pa"));
   one.strength = over_seeds(from.at("strength_pa"), pa_per_mpa);
+  one.without_peak = from.at("without_peak");
   one.runs = from.at("strength_pa").at("runs");
   one.plain = one.surface != "brush" && one.surface != "rubber sheet" && !std::isnan(one.friction);
   return one;
@@ -83,6 +84,12 @@ StudyResults results_of(const Json &study, const std::string &title) {
                                   one.at("platens") == "free ends",
                                   number(one.at("slenderness")),
                                   {number(one.at("mean")), number(one.at("low")), number(one.at("high"))}});
+  for (const StudiedCase &one : results.cases)
+    if (one.without_peak > 0)
+      results.remarks.push_back(
+          one.surface + words(", height/width %.3g: ", one.slenderness) +
+          words("%.0f of %.0f runs bore ever more up to the target strain: no strength is drawn",
+                one.without_peak, one.runs));
   const int failed = study.at("failed_runs"), runs = study.at("runs");
   if (failed > 0)
     results.remarks.push_back(std::to_string(failed) + " of " + std::to_string(runs) +
@@ -151,7 +158,7 @@ TableOfFigures table_of_study(const StudyResults &study) {
     if (radii) row.push_back(words("%.3g", 1e3 * one.sphere_radius));
     if (pressures) row.push_back(words("%.3g", one.pressure / pa_per_mpa));
     row.push_back(std::to_string(one.runs));
-    row.push_back(words(one.strength, "%.1f", "%.1f +- %.1f"));
+    row.push_back((one.without_peak > 0 ? "> " : "") + words(one.strength, "%.1f", "%.1f +- %.1f"));
     for (const char *effect : effects) {
       const StudiedRatio *ratio = study.ratio_of(k, effect);
       row.push_back(ratio == nullptr ? "-" : words(ratio->ratio, "%.3f", "%.3f +- %.3f"));

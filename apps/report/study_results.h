@@ -19,6 +19,7 @@ struct StudiedCase {
   double friction, slenderness;   // 1; friction NaN where platens hold otherwise
   double sphere_radius, pressure; // m, Pa
   Spread strength;                // MPa, mean and standard deviation over the seeds
+  int without_peak = 0;           // runs whose stress did not fall: the strength is what they bore
   int runs = 0;                   // that came to their end
   bool plain = true;              // what holds is friction alone: no brush, no sheet
 };

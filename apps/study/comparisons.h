@@ -19,9 +19,9 @@ struct Comparison {
   const LaboratoryFigure *laboratory = nullptr; // null: none is known
 };
 
-// Strengths of all runs of a study of platens (Pa; NaN: failed), by case, then by seed. Ends count as free
-// where friction is at most 0.05; of several such platens those with the least friction are what the others
-// are compared with.
+// Strengths of all runs of a study of platens (Pa; NaN: failed or never peaked), by case, then by seed. Ends
+// count as free where friction is at most 0.05; of several such platens those with the least friction are
+// what the others are compared with.
 std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths);
 
 // For study.json; repeats to the byte.

@@ -10,6 +10,8 @@
 namespace platen::apps {
 namespace {
 
+constexpr double peak_fall = 0.8; // of the peak: where damage is measured (middle_damage)
+
 double width(const SpecimenSection &s) {
   return s.shape == SpecimenShape::box ? std::min(s.width_x, s.width_y) : 2 * s.radius; // m
 }
@@ -17,6 +19,14 @@ double width(const SpecimenSection &s) {
 std::string with_underscores(std::string words) {
   std::replace(words.begin(), words.end(), ' ', '_');
   return words;
+}
+
+void check_test(const Scene &scene) {
+  if (scene.loading.test != LoadingTest::compression)
+    scene.parameters->refuse("Loading/Test", "is no test that platens end. Allowed: compression.");
+  if (scene.loading.stop_at_residual >= peak_fall)
+    scene.parameters->refuse("Loading/Stop at residual",
+                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
 }
 
 void check_surfaces(const Scene &scene) {
@@ -95,6 +105,7 @@ void set_pressure(double pressure, StudyCase &one) {
 
 StudyPlan plan_platens(const Scene &scene) {
   const Study &study = scene.study;
+  check_test(scene);
   check_surfaces(scene);
   check_heights(scene);
   check_pressures(scene);

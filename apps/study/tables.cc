@@ -125,9 +125,14 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   costs_.row(cost_cells);
   sums.seconds.add(number_in(outcome.summary, "wall_seconds"));
   sums.bytes.add(number_in(outcome.summary, "peak_memory_bytes"));
-  sums.strengths.push_back(number_in(outcome.summary, "strength_pa"));
+  sums.strengths.push_back(peaked(outcome.summary) ? number_in(outcome.summary, "strength_pa") : not_given);
+  if (outcome.done && !peaked(outcome.summary)) ++sums.without_peak;
   ++sums.runs;
   if (!outcome.done) ++sums.failed;
+}
+
+bool StudyTables::peaked(const Json &summary) {
+  return !std::isnan(number_in(summary, "middle_damage"));
 }
 
 int StudyTables::failed() const {
@@ -153,6 +158,7 @@ Json StudyTables::cases() const {
     one["overrides"] = plan_.cases[c].overrides;
     one["runs"] = cases_[c].runs;
     one["failed"] = cases_[c].failed;
+    if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
     for (std::size_t k = 0; k < figures.size(); ++k)
       one[figures[k]] = json_of(cases_[c].figures[k]);
     all.push_back(std::move(one));

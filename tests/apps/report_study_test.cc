@@ -27,6 +27,7 @@ Json case_of(const std::string &surface, const Json &friction, double slendernes
           {"slenderness", slenderness},
           {"sphere_radius_m", 0.002},
           {"confining_pressure_pa", 0.0},
+          {"without_peak", 0},
           {"strength_pa", spread(strength, 2e6)}};
 }
 
@@ -67,13 +68,18 @@ Json example() {
 
 TEST(ReportStudy, its_table_has_a_row_for_each_case_with_the_laboratory_beside_it) {
   const TestFolder folder;
-  folder.write("study.json", example().dump());
+  Json file = example();
+  file["cases"][2]["without_peak"] = 2;
+  folder.write("study.json", file.dump());
   const StudyResults study = read_study(folder.path());
   ASSERT_EQ(study.cases.size(), 6u);
   EXPECT_DOUBLE_EQ(study.cases[0].strength.high, 62);
   EXPECT_FALSE(study.cases[2].plain);
-  ASSERT_EQ(study.remarks.size(), 1u);
-  EXPECT_EQ(study.remarks[0], "1 of 18 runs failed and count in no mean");
+  ASSERT_EQ(study.remarks.size(), 2u);
+  EXPECT_EQ(
+      study.remarks[0],
+      "glued, height/width 1: 2 of 3 runs bore ever more up to the target strain: no strength is drawn");
+  EXPECT_EQ(study.remarks[1], "1 of 18 runs failed and count in no mean");
   const TableOfFigures table = table_of_study(study);
   ASSERT_EQ(table.rows.size(), 6u);
   for (const auto &row : table.rows)
@@ -81,6 +87,7 @@ TEST(ReportStudy, its_table_has_a_row_for_each_case_with_the_laboratory_beside_i
   EXPECT_EQ(table.rows[0],
             (std::vector<std::string>{"dry steel", "1", "3", "60.0 +- 2.0", "1.500 +- 0.050",
                                       "1.42 (1.21 to 1.59)", "1.360 +- 0.040", "-", "-", "-"}));
+  EXPECT_EQ(table.rows[2][3], "> 70.0 +- 2.0");
   EXPECT_EQ(table.rows[5][4], "-");
 }
 

@@ -126,6 +126,9 @@ TEST(PlatenStudyPlan, what_cannot_be_varied_is_refused) {
           "holds several: a study of slenderness has one kind of platens");
   refused({"Study/Surface list = 0", "Platens/Top/Friction static = 0.4"}, friction,
           "Platens/Top/Friction static = 0.4 contradicts Study/Surface list");
+  refused({"Study/Surface list = 0", "Loading/Stop at residual = 0.9"}, friction,
+          "Loading/Stop at residual = 0.9 ends a run before it is known to have peaked. Allowed: below 0.8.");
+  refused({"Study/Surface list = 0", "Loading/Test = uniaxial strain"}, friction, "Allowed: compression.");
   refused({"Study/Surface list = 0", "Study/Confining pressure list = 1 MPa"}, friction,
           "needs Loading/Confinement = particles, sleeve");
   refused({"Study/Surface list = dry steel, brush"}, friction,
@@ -199,7 +202,9 @@ const std::vector<std::string> small{"--quiet",
                                      "-s",
                                      "Study/Sphere radius list =",
                                      "-s",
-                                     "Study/Seeds = 1"};
+                                     "Study/Seeds = 1",
+                                     "-s",
+                                     "Loading/Target strain = 0.03"};
 
 std::vector<std::string> also(std::vector<std::string> options, const std::vector<std::string> &more) {
   options.insert(options.end(), more.begin(), more.end());
@@ -270,6 +275,19 @@ TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
   EXPECT_EQ(content_of(folder_ / "killed/study.json"), content_of(folder_ / "whole/study.json"));
 }
 
+TEST_F(Study, of_friction_compares_nothing_that_never_peaked) {
+  const Outcome outcome =
+      run("a",
+          also(small, {"-s", "Study/Slenderness list =", "-s", "Study/Surface list = 0.3, grease", "-s",
+                       "Loading/Target strain = 2e-4"}),
+          "friction");
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_TRUE(contains(content_of(folder_ / "a/run.log"), "grease_seed_3: its stress did not fall to 0.8"));
+  EXPECT_EQ(json("a")["cases"][0]["without_peak"], 1);
+  EXPECT_GT(json("a")["cases"][0]["strength_pa"]["mean"], 0); // what it bore
+  EXPECT_TRUE(json("a")["comparisons"][0]["mean"].is_null());
+}
+
 TEST_F(Study, of_friction_survives_a_case_that_fails) {
   // One step for all, above the limit of the smaller spheres.
   const Outcome outcome =
@@ -285,6 +303,7 @@ TEST_F(Study, of_friction_survives_a_case_that_fails) {
   EXPECT_TRUE(comparisons[0]["mean"].is_null());
   EXPECT_EQ(comparisons[0]["runs"], 0);
   EXPECT_GT(comparisons[1]["mean"], 0);
+  EXPECT_EQ(json("a")["cases"][0]["without_peak"], 0);
 }
 
 } // namespace
