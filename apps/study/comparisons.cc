@@ -154,10 +154,14 @@ std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &compar
     widths[1] = std::max(widths[1], specimen(c.over).size());
   }
   std::string text;
-  for (const Comparison &c : comparisons)
-    text += fmt::format("  {:<35}  {:<{}} / {:<{}}  {:<16}{}\n", word(c.effect), specimen(c.of), widths[0],
-                        specimen(c.over), widths[1], text_of(c.ratio, 1),
-                        c.laboratory == nullptr ? "" : "  laboratory " + words(*c.laboratory));
+  for (const Comparison &c : comparisons) {
+    text += fmt::format("  {:<35}  {:<{}} / {:<{}}  ", word(c.effect), specimen(c.of), widths[0],
+                        specimen(c.over), widths[1]);
+    if (c.laboratory == nullptr)
+      text += text_of(c.ratio, 1) + '\n';
+    else
+      text += fmt::format("{:<16}  laboratory {}\n", text_of(c.ratio, 1), words(*c.laboratory));
+  }
   return text;
 }
 
