@@ -63,6 +63,20 @@ std::string laboratory_words(const Json &from) {
                     : words("%.2f", number(from.at("mean")));
 }
 
+// Whose figures stand in the table, a line each.
+std::vector<std::string> sources_in(const Json &comparisons) {
+  std::vector<std::string> lines;
+  for (const Json &one : comparisons) {
+    const Json &figure = one.at("laboratory");
+    if (figure.is_null()) continue;
+    const std::string line = "laboratory, " + one.at("effect").get<std::string>() + ", " +
+                             figure.at("platens").get<std::string>() + ": " +
+                             figure.at("source").get<std::string>();
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
 StudyResults results_of(const Json &study, const std::string &title) {
   StudyResults results;
   results.title = title;
@@ -90,6 +104,8 @@ StudyResults results_of(const Json &study, const std::string &title) {
           one.surface + words(", height/width %.3g: ", one.slenderness) +
           words("%.0f of %.0f runs bore ever more up to the target strain: no strength is drawn",
                 one.without_peak, one.runs));
+  for (const std::string &line : sources_in(study.at("comparisons")))
+    results.remarks.push_back(line);
   const int failed = study.at("failed_runs"), runs = study.at("runs");
   if (failed > 0)
     results.remarks.push_back(std::to_string(failed) + " of " + std::to_string(runs) +

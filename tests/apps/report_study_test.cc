@@ -75,11 +75,12 @@ TEST(ReportStudy, its_table_has_a_row_for_each_case_with_the_laboratory_beside_i
   ASSERT_EQ(study.cases.size(), 6u);
   EXPECT_DOUBLE_EQ(study.cases[0].strength.high, 62);
   EXPECT_FALSE(study.cases[2].plain);
-  ASSERT_EQ(study.remarks.size(), 2u);
+  ASSERT_EQ(study.remarks.size(), 3u);
   EXPECT_EQ(
       study.remarks[0],
       "glued, height/width 1: 2 of 3 runs bore ever more up to the target strain: no strength is drawn");
-  EXPECT_EQ(study.remarks[1], "1 of 18 runs failed and count in no mean");
+  EXPECT_EQ(study.remarks[1], "laboratory, gain over free ends, steel: Hughes");
+  EXPECT_EQ(study.remarks[2], "1 of 18 runs failed and count in no mean");
   const TableOfFigures table = table_of_study(study);
   ASSERT_EQ(table.rows.size(), 6u);
   for (const auto &row : table.rows)
