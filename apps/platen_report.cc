@@ -6,6 +6,7 @@
 
 #include "apps/report/display.h"
 #include "apps/report/report.h"
+#include "apps/report/study_pictures.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
 
@@ -20,14 +21,22 @@ struct Wishes {
 };
 
 void report_on(const Wishes &wishes, char **argv) {
+  const std::filesystem::path beside = std::filesystem::path(wishes.folder) / "pictures",
+                              pictures =
+                                  wishes.pictures.empty() ? beside : std::filesystem::path(wishes.pictures);
+  std::ostringstream unread;
+  std::ostream &out = wishes.quiet ? static_cast<std::ostream &>(unread) : std::cout;
+  if (report::holds_study(wishes.folder)) {
+    if (!wishes.others.empty()) throw InputError("--compare is for runs; " + wishes.folder + " is a study");
+    const report::StudyResults study = report::read_study(wishes.folder);
+    report::ensure_display(argv);
+    return report::write_study_report(study, pictures, out);
+  }
   std::vector<report::Run> runs{report::read_run(wishes.folder)};
   for (const std::string &other : wishes.others)
     runs.push_back(report::read_run(other));
   report::ensure_display(argv);
-  const std::filesystem::path beside = std::filesystem::path(wishes.folder) / "pictures";
-  std::ostringstream unread;
-  report::write_report(runs, wishes.pictures.empty() ? beside : std::filesystem::path(wishes.pictures),
-                       wishes.quiet ? static_cast<std::ostream &>(unread) : std::cout);
+  report::write_report(runs, pictures, out);
 }
 
 int fail(const std::exception &error, int status) {
@@ -40,9 +49,10 @@ int fail(const std::exception &error, int status) {
 
 int main(int argc, char **argv) {
   CLI::App app{
-      "Turns an output folder of a run into pictures (PNG) and one HTML page, and compares several runs."};
+      "Turns an output folder of a run, or of a study of platens, into pictures (PNG) and one HTML page, and "
+      "compares several runs."};
   Wishes wishes;
-  app.add_option("folder", wishes.folder, "Output folder of a run")->required();
+  app.add_option("folder", wishes.folder, "Output folder of a run or a study")->required();
   app.add_option("-c,--compare", wishes.others, "Further output folders, drawn and tabled beside the first");
   app.add_option("-o,--output", wishes.pictures, "Folder for pictures and page; default: FOLDER/pictures");
   app.add_flag("-q,--quiet", wishes.quiet, "Print errors only");

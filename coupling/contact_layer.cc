@@ -33,6 +33,11 @@ void check(const SurfaceContact &p, bool column, bool rotation) {
   require(p.tangential_ratio > 0, "tangential stiffness ratio must be positive");
   require(p.friction_static >= 0, "static friction must not be negative");
   require(p.friction_dynamic >= 0, "dynamic friction must not be negative");
+  using By = dem::Weakening::By;
+  require(p.weakening.by == By::nothing || p.friction_dynamic <= p.friction_static,
+          "friction that weakens must not grow");
+  require(p.weakening.by != By::slip || p.weakening.slip_length > 0, "slip length must be positive");
+  require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0, "slip velocity must be positive");
   require(p.damping >= 0 && p.damping < infinite, "damping must not be negative");
   require(p.seat_modulus >= 0 && p.seat_modulus < infinite, "seat modulus must not be negative");
   require(p.seat_modulus == 0 || rotation, "seats need particles that rotate");
@@ -58,6 +63,8 @@ std::size_t index(int row) {
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
                            const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness)
     : parameters_(parameters),
+      friction_(
+          dem::friction_law(parameters.friction_static, parameters.friction_dynamic, parameters.weakening)),
       particle_stiffness_(particle_stiffness),
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin) {

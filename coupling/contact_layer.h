@@ -4,7 +4,7 @@
 //
 // Normal n from body to particle, gap g = distance of the centre - R - offset, positive when open. Force on
 // the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k m), m the particle's mass
-// (the body is taken as much heavier); T after dem/laws/coulomb_friction.h with k_t = ratio k_n. It acts at
+// (the body is taken as much heavier); T after dem/laws/friction_law.h with k_t = ratio k_n. It acts at
 // the closest point. v is the particle's velocity there, minus the surface's, both as they were over the last
 // drift (half-step values: their product with dt is the displacement, and the works below are those that
 // velocity Verlet sees).
@@ -23,7 +23,7 @@
 
 #include "coupling/servo.h"
 #include "coupling/surface_search.h"
-#include "dem/laws/coulomb_friction.h"
+#include "dem/laws/friction_law.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "dem/table.h"
@@ -45,6 +45,7 @@ struct SurfaceContact {
   double tangential_ratio = 0.8;                    // k_t / k_n, > 0
   double friction_static = 0;                       // 1, >= 0; infinity: never slides
   double friction_dynamic = 0;                      // 1; both zero: frictionless, no tangential columns
+  dem::Weakening weakening;                         // from static to dynamic
   double damping = 0;                               // fraction of critical, >= 0
   Attachment attachment = Attachment::free;
   // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up
@@ -190,6 +191,7 @@ private:
   void keep_result(std::size_t k, const RowForce &row, const dem::Vector3 &centre);
 
   SurfaceContact parameters_;
+  dem::FrictionLaw friction_;
   const dem::Column<double> *particle_stiffness_;
   double stiffness_ = 0; // N/m, without a column
   double smallest_radius_;

@@ -191,17 +191,15 @@ void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, doubl
 void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   const Vector3 &n = result.at.normal;
   const bool touched = norm_squared((*normal_)[row]) > 0;
-  CoulombFriction::State state{(*spring_)[row], (*sliding_)[row]};
+  CoulombFriction::State state{(*spring_)[row], (*sliding_)[row], (*slip_)[row]};
   if (touched)
     state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
-  CoulombFriction friction{{parameters_.friction_static, parameters_.friction_dynamic}};
-  double pressing = result.active ? result.normal_force : 0;
-  if (tied(row)) {
-    friction.parameters = {infinite, infinite};
-    pressing = 1; // any force that presses: glue has no limit
-  }
-  const double k_t = parameters_.tangential_ratio * motion.k_n;
-  const CoulombFriction::Result t = friction(state, -dt * motion.slide, pressing, k_t);
+  const Vector3 stretch = -dt * motion.slide;
+  const double k_t = parameters_.tangential_ratio * motion.k_n,
+               pressing = result.active ? result.normal_force : 0;
+  // Glue has no limit, and any force presses it.
+  const CoulombFriction::Result t = tied(row) ? CoulombFriction{{infinite, infinite}}(state, stretch, 1, k_t)
+                                              : dem::slide(friction_, state, stretch, pressing, k_t, dt);
   result.spring = state;
   result.shear = t.force;
   result.slip = t.slip;

@@ -43,6 +43,7 @@ enum class Ends { as_packed, ground };
 struct PlatenSide {
   double friction_static = 0, friction_dynamic = 0;
   fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/platen_mesh.h says
+  dem::Weakening weakening{};
 };
 
 // Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty

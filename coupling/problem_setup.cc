@@ -174,6 +174,7 @@ SurfaceContact layer_settings(const dem::Model &model, const dem::Specimen &s,
   c.tangential_ratio = p.tangential_ratio;
   c.friction_static = side.friction_static;
   c.friction_dynamic = side.friction_dynamic;
+  c.weakening = side.weakening;
   c.damping = p.damping;
   c.attachment = p.glued ? Attachment::glued : Attachment::free;
   c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;

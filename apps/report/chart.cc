@@ -79,8 +79,9 @@ void add_mark(vtkChartXY &chart, const Mark &mark) {
   // A plot of one point is not drawn by VTK; the same point twice is.
   plot->SetInputData(table_of({mark.x, mark.x}, {mark.y, mark.y}), 0, 1);
   plot->SetColor(mark.colour[0], mark.colour[1], mark.colour[2], 255);
+  plot->SetWidth(7 * oversampling); // the legend's sign is 2.3 times as large
   auto *points = vtkPlotPoints::SafeDownCast(plot);
-  points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  points->SetMarkerStyle(mark.shape == MarkShape::circle ? vtkPlotPoints::CIRCLE : vtkPlotPoints::DIAMOND);
   points->SetMarkerSize(16 * oversampling);
   plot->SetLabel(" " + mark.label);
   plot->SetLegendVisibility(!mark.label.empty());
@@ -117,9 +118,9 @@ void set_legend(vtkChartXY &chart, bool left) {
 }
 
 vtkSmartPointer<vtkChartXY> chart_item(const Chart &chart, const PlotArea &area) {
-  const bool given = chart.x_range[0] != 0 || chart.x_range[1] != 0;
-  const std::array<double, 2> x = given ? chart.x_range : x_range_of(chart),
-                              y = range_of(chart, &Curve::y, &Mark::y);
+  const auto given = [](const std::array<double, 2> &range) { return range[0] != 0 || range[1] != 0; };
+  const std::array<double, 2> x = given(chart.x_range) ? chart.x_range : x_range_of(chart),
+                              y = given(chart.y_range) ? chart.y_range : range_of(chart, &Curve::y, &Mark::y);
   const auto [legend_width, legend_height] = legend_size(chart);
   const LegendPlace place = place_legend(chart, x, y, legend_width / area.width, legend_height / area.height);
 
@@ -138,6 +139,14 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &chart, const PlotArea &area)
 
 std::array<double, 2> x_range_of(const Chart &chart) {
   return range_of(chart, &Curve::x, &Mark::x);
+}
+
+void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour) {
+  if (!(high > low)) return;
+  constexpr double width = 3; // pixels
+  chart.curves.push_back({"", {x, x}, {low, high}, colour, Stroke::solid, width});
+  for (const double end : {low, high})
+    chart.curves.push_back({"", {x - half_cap, x + half_cap}, {end, end}, colour, Stroke::solid, width});
 }
 
 LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array<double, 2> y, double width,

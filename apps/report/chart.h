@@ -23,10 +23,13 @@ struct Curve {
   double width = 4; // pixels
 };
 
+enum class MarkShape { circle, diamond };
+
 struct Mark { // a dot
   double x = 0, y = 0;
   std::string label; // as above
   Colour colour = colours::black;
+  MarkShape shape = MarkShape::circle;
 };
 
 struct Chart {
@@ -34,7 +37,12 @@ struct Chart {
   std::vector<Curve> curves;
   std::vector<Mark> marks;
   std::array<double, 2> x_range{0, 0}; // both 0: from the curves
+  std::array<double, 2> y_range{0, 0}; // the same
 };
+
+// A bar of scatter from `low` to `high`, with caps of half a width in units of x; nothing where both are the
+// same.
+void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour);
 
 // The x range that a chart takes from its curves and marks; holds zero.
 std::array<double, 2> x_range_of(const Chart &chart);

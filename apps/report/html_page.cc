@@ -59,23 +59,19 @@ std::string escaped(const std::string &text) {
   return html;
 }
 
-void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,
-                const std::vector<Picture> &pictures, const std::filesystem::path &html) {
+void write_page(const std::string &title, const TableOfFigures &figures,
+                const std::vector<std::string> &remarks, const std::vector<Picture> &pictures,
+                const std::filesystem::path &html) {
   std::ofstream out(html);
-  const std::string title = escaped(runs.front().title);
-  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" << title
+  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" << escaped(title)
       << "</title>\n"
-      << look << "</head>\n<body>\n<h1>" << title << "</h1>\n<table>\n"
+      << look << "</head>\n<body>\n<h1>" << escaped(title) << "</h1>\n<table>\n"
       << row_of(figures.header, "th");
   for (const auto &row : figures.rows)
     out << row_of(row, "td");
   out << "</table>\n<ul>\n";
-  for (const Run &run : runs) {
-    if (run.summary.contains("version") && run.summary["version"].is_string())
-      out << "<li>" << escaped(run.name + ": " + run.summary["version"].get<std::string>()) << "</li>\n";
-    for (const std::string &remark : run.remarks)
-      out << "<li>" << escaped(run.name + ": " + remark) << "</li>\n";
-  }
+  for (const std::string &remark : remarks)
+    out << "<li>" << escaped(remark) << "</li>\n";
   out << "</ul>\n";
   for (const Picture &picture : pictures)
     out << "<figure><img alt=\"" << escaped(picture.caption) << "\" src=\"data:image/png;base64,"
@@ -84,6 +80,18 @@ void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,
   out << "</body>\n</html>\n";
   out.close();
   if (!out) throw OutputError(html.string() + ": could not be written");
+}
+
+void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,
+                const std::vector<Picture> &pictures, const std::filesystem::path &html) {
+  std::vector<std::string> remarks;
+  for (const Run &run : runs) {
+    if (run.summary.contains("version") && run.summary["version"].is_string())
+      remarks.push_back(run.name + ": " + run.summary["version"].get<std::string>());
+    for (const std::string &remark : run.remarks)
+      remarks.push_back(run.name + ": " + remark);
+  }
+  write_page(runs.front().title, figures, remarks, pictures, html);
 }
 
 } // namespace platen::apps::report

@@ -19,6 +19,11 @@ struct Picture {
 void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,
                 const std::vector<Picture> &pictures, const std::filesystem::path &html);
 
+// The same of anything else: a list of remarks in place of what is known of the runs.
+void write_page(const std::string &title, const TableOfFigures &figures,
+                const std::vector<std::string> &remarks, const std::vector<Picture> &pictures,
+                const std::filesystem::path &html);
+
 // Text that stands in HTML for `text`.
 std::string escaped(const std::string &text);
 

@@ -23,4 +23,7 @@ set(PLATEN_REPORT_SOURCES
   report/run_folder.cc
   report/specimen_pictures.cc
   report/specimen_view.cc
+  report/study_curves.cc
+  report/study_report.cc
+  report/study_results.cc
   report/style.cc)

@@ -6,6 +6,7 @@
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
+#include "apps/scene/surfaces.h"
 #include "dem/mean_radius.h"
 #include "dem/measure/bond_stress.h"
 #include "fem/elastic_solid.h"
@@ -43,6 +44,7 @@ std::string CompressionRun::description() const {
                       problem_->packing_fraction());
   text += fmt::format("  seated spheres: bottom {}, top {}\n", problem_->bottom_layer.seats(),
                       problem_->top_layer.seats());
+  text += text_of(scene_.platens);
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
                       problem_->time_step_reason(), expected_steps_);

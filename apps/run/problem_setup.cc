@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
@@ -55,6 +56,9 @@ std::vector<Effect> effects(const Scene &s) {
           {s.platens.top_seat == PlatenSeat::spherical, "spherical seat"},
           {s.platens.damping > 0, "platen dashpots"},
           {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
+          {s.platens.top.friction_law != FrictionLaw::constant ||
+               s.platens.bottom.friction_law != FrictionLaw::constant,
+           "weakening friction"},
           {s.platens.attachment == Attachment::glued, "glued ends"},
           {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
           {s.loading.sleeved(), "sleeve"},
@@ -100,6 +104,17 @@ fem::Grid platen_grid(const Scene &scene, bool top) {
   }
 }
 
+coupling::PlatenSide platen_side(const PlatenSide &from, fem::Grid grid) {
+  using By = dem::Weakening::By;
+  coupling::PlatenSide to{from.friction_static, from.friction_dynamic, std::move(grid), {}};
+  to.weakening.by = from.friction_law == FrictionLaw::slip_weakening       ? By::slip
+                    : from.friction_law == FrictionLaw::velocity_weakening ? By::velocity
+                                                                           : By::nothing;
+  to.weakening.slip_length = from.slip_length;
+  to.weakening.slip_velocity = from.slip_velocity;
+  return to;
+}
+
 coupling::CellSettings cell_settings(const Loading &from) {
   coupling::CellSettings to;
   to.pressure = from.confining_pressure;
@@ -127,8 +142,8 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
-  to.platens.top = {from.top.friction_static, from.top.friction_dynamic, platen_grid(scene, true)};
-  to.platens.bottom = {from.bottom.friction_static, from.bottom.friction_dynamic, platen_grid(scene, false)};
+  to.platens.top = platen_side(from.top, platen_grid(scene, true));
+  to.platens.bottom = platen_side(from.bottom, platen_grid(scene, false));
   if (from.stiffness.kind == Stiffness::Kind::absolute)
     to.platens.stiffness_absolute = from.stiffness.value;
   else

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/scene/units.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 
@@ -144,11 +145,23 @@ void SceneCheck::bar_test() const {
 void SceneCheck::study() const {
   if (app_ != AppKind::study) return;
   const Study &study = scene_.study;
-  const auto once = [&](const std::string &path, std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto twice = std::adjacent_find(values.begin(), values.end());
-    if (twice != values.end()) refuse(path, "holds " + shortest_text(*twice) + " twice. Allowed: each once.");
+  const auto words_once = [&](const std::string &path, std::vector<std::string> words) {
+    std::sort(words.begin(), words.end());
+    const auto twice = std::adjacent_find(words.begin(), words.end());
+    if (twice != words.end()) refuse(path, "holds " + *twice + " twice. Allowed: each once.");
   };
+  const auto once = [&](const std::string &path, const std::vector<double> &values) {
+    std::vector<std::string> words;
+    for (const double value : values)
+      words.push_back(shortest_text(value));
+    words_once(path, std::move(words));
+  };
+  std::vector<std::string> platens;
+  for (const StudySurface &one : study.surfaces)
+    platens.push_back(text_of(one));
+  words_once("Study/Surface list", std::move(platens));
+  once("Study/Slenderness list", study.slendernesses);
+  once("Study/Confining pressure list", study.pressures);
   once("Study/Sphere radius list", study.sphere_radii);
   once("Study/Radius multiplier list", study.radius_multipliers);
   once("Study/Radius spread list", study.radius_spreads);

@@ -16,10 +16,25 @@ void SceneCheck::friction(const std::string &name, const PlatenSide &side) const
                      shortest_text(side.friction_static) + ".");
 }
 
+void SceneCheck::weakening(const std::string &name, const PlatenSide &side) const {
+  if (side.friction_law == FrictionLaw::constant) return;
+  const bool by_slip = side.friction_law == FrictionLaw::slip_weakening;
+  const std::string own = "Platens/" + name + "/Friction law",
+                    blamed = parameters_.at(own).changed() ? own : "Platens/Friction law";
+  if (!given(by_slip ? side.slip_length : side.slip_velocity))
+    refuse(blamed, std::string("needs Platens/Slip ") + (by_slip ? "length > 0 m." : "velocity > 0 m/s."));
+  if (side.friction_dynamic == side.friction_static)
+    refuse(blamed, "has nothing to fall to. Allowed: a Friction dynamic below the static one, " +
+                       shortest_text(side.friction_static) + ".");
+}
+
 void SceneCheck::platens() const {
   const Platens &platens = scene_.platens;
+  if (loads() && app_ != AppKind::study) surfaces();
   friction("Top", platens.top);
   friction("Bottom", platens.bottom);
+  weakening("Top", platens.top);
+  weakening("Bottom", platens.bottom);
   const bool tension = scene_.loading.test == LoadingTest::tension,
              glued = platens.attachment == Attachment::glued;
   if (loads() && tension && !glued)
@@ -34,6 +49,25 @@ void SceneCheck::platens() const {
   if (platens.kind == PlatenKind::rigid && platens.top_seat == PlatenSeat::spherical)
     refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
   if (loads()) meshes();
+}
+
+// What a word needs besides the entries that it stands for.
+void SceneCheck::surfaces() const {
+  const Platens &platens = scene_.platens;
+  const bool rubber = platens.surface == SurfaceKind::rubber_sheet,
+             brush = platens.surface == SurfaceKind::brush;
+  if ((rubber || brush) && platens.kind == PlatenKind::rigid)
+    refuse("Platens/Surface", "yields, but Platens/Kind = rigid. Allowed: deformable.");
+  if (rubber && platens.pad_thickness == 0)
+    refuse("Platens/Surface",
+           "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
+           "density, which have no defaults.");
+  if (brush && (platens.top.mesh_file.empty() || platens.bottom.mesh_file.empty()))
+    refuse("Platens/Surface",
+           "needs the brushes: Platens/Top/Mesh file and Platens/Bottom/Mesh file, as "
+           "scripts/brush_platen.py writes them.");
+  if (platens.surface == SurfaceKind::glued && platens.attachment != Attachment::glued)
+    refuse("Platens/Surface", "ties the ends, but Platens/Attachment = contact. Allowed: glued.");
 }
 
 void SceneCheck::deformable_platens() const {

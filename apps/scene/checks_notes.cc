@@ -5,7 +5,7 @@ namespace platen::apps {
 
 void SceneCheck::note(const std::string &path, const std::string &why) {
   const Entry &entry = parameters_.at(path);
-  if (!entry.changed()) return;
+  if (!entry.changed() || entry.origin.file.empty()) return;
   scene_.notes.push_back(entry.origin.text() + ": note: " + path + " = " + entry.text +
                          " has no effect: " + why + ".");
 }
@@ -74,7 +74,20 @@ void SceneCheck::contact_notes() {
     note("Contact/Rolling friction", "Effects/Tangential is not coulomb with rolling resistance");
 }
 
+void SceneCheck::friction_notes() {
+  const auto none = [&](FrictionLaw law) {
+    return scene_.platens.top.friction_law != law && scene_.platens.bottom.friction_law != law;
+  };
+  for (const char *side : {"Platens/", "Platens/Top/", "Platens/Bottom/"}) {
+    if (none(FrictionLaw::slip_weakening))
+      note(std::string(side) + "Slip length", "no Friction law is slip weakening");
+    if (none(FrictionLaw::velocity_weakening))
+      note(std::string(side) + "Slip velocity", "no Friction law is velocity weakening");
+  }
+}
+
 void SceneCheck::loading_notes() {
+  friction_notes();
   if (scene_.platens.kind == PlatenKind::rigid)
     for (const char *key :
          {"Platens/Young modulus", "Platens/Poisson ratio", "Platens/Motion", "Platens/Degree",

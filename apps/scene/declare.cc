@@ -80,6 +80,13 @@ void Section::domains(const std::string &key, std::vector<DomainSize> &to, const
           [&to](const std::string &text) { to = read_domains(text); });
 }
 
+void Section::study_surfaces(const std::string &key, std::vector<StudySurface> &to,
+                             const std::string &documentation) {
+  declare(key, "", "",
+          "words of Platens/Surface and coefficients of friction (0 ... 5) with commas between them",
+          documentation, [&to](const std::string &text) { to = read_surfaces(text); });
+}
+
 void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                           const std::string &documentation) {
   declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {

@@ -42,6 +42,8 @@ public:
             const std::string &documentation);
   void gaps(const std::string &key, std::vector<Gap> &to, const std::string &documentation);
   void domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation);
+  void study_surfaces(const std::string &key, std::vector<StudySurface> &to,
+                      const std::string &documentation);
   // A range for a number of summary.json; what is given is kept in `to`, once for each key.
   void expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                    const std::string &documentation);

@@ -213,6 +213,13 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
   entry.origin = origin;
 }
 
+void Parameters::supply(const std::string &path, const std::string &text) {
+  Entry &entry = entries_.at(position(path));
+  if (!entry.origin.file.empty()) return;
+  entry.read(text);
+  entry.text = text;
+}
+
 void Parameters::override_entry(const std::string &assignment, int number) {
   const Origin origin{"command line, --set " + std::to_string(number), 0, -1};
   const auto equals = assignment.find('=');

@@ -56,6 +56,8 @@ public:
   // same or a smaller depth: a file may override what the files it includes have set, the command line
   // everything.
   void set(const std::string &path, const std::string &text, const Origin &origin);
+  // Gives a value to an entry that nobody has set, as if it were the default; one that is set stays.
+  void supply(const std::string &path, const std::string &text);
   // Applies "Section/Key = value"; number is that of the option, from 1.
   void override_entry(const std::string &assignment, int number);
 

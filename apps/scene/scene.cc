@@ -6,17 +6,22 @@
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/scene_files.h"
+#include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
 
 // Fills what one entry takes from another, so that the apps need not know the rules.
-void inherit(Scene &scene, const Parameters &parameters) {
+void inherit(Scene &scene, Parameters &parameters) {
+  supply_surfaces(parameters, scene.platens);
   Platens &platens = scene.platens;
   for (PlatenSide *side : {&platens.top, &platens.bottom}) {
     if (std::isnan(side->friction_static)) side->friction_static = platens.friction_static;
     if (std::isnan(side->friction_dynamic)) side->friction_dynamic = platens.friction_dynamic;
     if (std::isnan(side->friction_dynamic)) side->friction_dynamic = side->friction_static;
+    if (side->friction_law == FrictionLaw::common) side->friction_law = platens.friction_law;
+    if (std::isnan(side->slip_length)) side->slip_length = platens.slip_length;
+    if (std::isnan(side->slip_velocity)) side->slip_velocity = platens.slip_velocity;
   }
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;

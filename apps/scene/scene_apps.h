@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/scene/quantities.h"
+#include "apps/scene/scene_loading.h"
 
 namespace platen::apps {
 
@@ -67,11 +68,19 @@ struct DomainSize {              // of a cylinder
   double height = 0, radius = 0; // m
 };
 
-struct Study {                      // platen-study; a list that is empty leaves the scene's own value
-  int seeds = 5;                    // runs of each case: Scene/Seed and those after it
-  std::vector<double> sphere_radii; // m; size
-  std::vector<DomainSize> domains;  // size; at the scene's sphere radius
-  std::vector<Gap> gaps;            // packing
+struct StudySurface { // a word, or a coefficient of friction
+  SurfaceKind kind = SurfaceKind::custom;
+  double friction = not_given; // static and dynamic; not given: what the word says
+};
+
+struct Study {                        // platen-study; a list that is empty leaves the scene's own value
+  int seeds = 5;                      // runs of each case: Scene/Seed and those after it
+  std::vector<StudySurface> surfaces; // friction
+  std::vector<double> slendernesses;  // height over width; friction, slenderness
+  std::vector<double> pressures;      // Pa, of the cell; friction, slenderness
+  std::vector<double> sphere_radii;   // m; size, friction, slenderness
+  std::vector<DomainSize> domains;    // size; at the scene's sphere radius
+  std::vector<Gap> gaps;              // packing
   std::vector<double> radius_multipliers, radius_spreads; // packing
   std::vector<double> axial_rates;                        // m/s; rate
 };

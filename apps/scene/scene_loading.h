@@ -13,16 +13,25 @@ enum class PlatenMotion { explicit_steps, quasi_static };
 enum class Attachment { contact, glued };
 enum class PlatenSeat { fixed, spherical };
 enum class PlatenControl { motion, stress };
+// What a platen's face is (apps/scene/surfaces.h); common: of one platen, what both are.
+enum class SurfaceKind { common, custom, dry_steel, thesis, teflon, grease, brush, rubber_sheet, glued };
+enum class FrictionLaw { common, constant, slip_weakening, velocity_weakening }; // common: as above
 
 struct PlatenSide { // of one platen; where the file gives none, the common value (never NaN in a scene read)
+  SurfaceKind surface = SurfaceKind::common;
   double friction_static = not_given, friction_dynamic = not_given;
-  std::string mesh_file; // Gmsh; empty: a plate
+  FrictionLaw friction_law = FrictionLaw::common;
+  double slip_length = not_given, slip_velocity = not_given; // m, m/s; not given where no law needs them
+  std::string mesh_file;                                     // Gmsh; empty: a plate
 };
 
 struct Platens {
   PlatenKind kind = PlatenKind::rigid;
-  double friction_static = 0.3;        // common to both; the apps use top and bottom
-  double friction_dynamic = not_given; // common to both; not given: as the static one
+  SurfaceKind surface = SurfaceKind::custom;
+  double friction_static = 0.3;                              // common to both; the apps use top and bottom
+  double friction_dynamic = not_given;                       // common to both; not given: as the static one
+  FrictionLaw friction_law = FrictionLaw::constant;          // this and the next: common to both
+  double slip_length = not_given, slip_velocity = not_given; // m, m/s
   PlatenSide top, bottom;
   PlatenControl top_control = PlatenControl::motion;
   PlatenSeat top_seat = PlatenSeat::fixed; // kind = deformable

@@ -132,9 +132,16 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
 void declare_study(Parameters &parameters, Study &study) {
   Section section(parameters, "Study");
   section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
+  section.study_surfaces("Surface list", study.surfaces,
+                         "Study of friction: platens, in place of all that Platens says of friction; "
+                         "custom: what the scene says. A number: constant friction of that coefficient.");
+  section.list("Slenderness list", study.slendernesses, "1", between(0.1, 20),
+               "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
+  section.list("Confining pressure list", study.pressures, "Pa", at_least(0),
+               "Studies of friction and slenderness, in place of Loading/Confining pressure; 0: no cell.");
   section.list("Sphere radius list", study.sphere_radii, "m", above(0),
-               "Study of size: mean radii, in place of Specimen/Sphere radius. With Domain list empty too: "
-               "0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
+               "Studies of size, friction and slenderness: mean radii, in place of Specimen/Sphere radius. "
+               "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
   section.domains("Domain list", study.domains,
                   "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
   section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");

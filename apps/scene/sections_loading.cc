@@ -1,15 +1,42 @@
 // What the specimen meets: platens, sleeve and loading.
 #include "apps/scene/sections.h"
+#include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
 
+void declare_friction_law(Section &section, FrictionLaw &law, double &length, double &velocity,
+                          bool of_one_side) {
+  std::vector<std::pair<std::string, FrictionLaw>> words{
+      {"constant", FrictionLaw::constant},
+      {"slip weakening", FrictionLaw::slip_weakening},
+      {"velocity weakening", FrictionLaw::velocity_weakening}};
+  if (of_one_side) words.insert(words.begin(), {"common", FrictionLaw::common});
+  const auto as = [&](const std::string &key) {
+    return "As Platens/" + key + (key == "Friction law" ? "; common: as both." : " where not given.");
+  };
+  section.word<FrictionLaw>(
+      "Friction law", law, words, {},
+      of_one_side ? as("Friction law")
+                  : "How friction falls from static to dynamic. Constant: at once, and back at rest; slip "
+                    "weakening: dynamic + (static - dynamic) s0 / (s0 + s), s the path that the contact has "
+                    "slid (Cusatis et al. 2011); velocity weakening: dynamic + (static - dynamic) exp(-v / "
+                    "v0), v its speed (Andersson et al. 2007).");
+  section.quantity("Slip length", length, "m", above(0),
+                   of_one_side ? as("Slip length") : "s0: the slip that takes half (Friction law).");
+  section.quantity("Slip velocity", velocity, "m/s", above(0),
+                   of_one_side ? as("Slip velocity") : "v0 (Friction law).");
+}
+
 void declare_side(Parameters &parameters, const std::string &name, PlatenSide &side) {
   Section section(parameters, name);
+  section.word<SurfaceKind>("Surface", side.surface, surface_words(true), {},
+                            "As Platens/Surface, of this platen alone; common: as both.");
   section.number("Friction static", side.friction_static, between(0, 5),
                  "As Platens/Friction static where not given.");
   section.number("Friction dynamic", side.friction_dynamic, between(0, 5),
                  "As Platens/Friction dynamic where not given.");
+  declare_friction_law(section, side.friction_law, side.slip_length, side.slip_velocity, true);
   section.file("Mesh file", side.mesh_file,
                "Gmsh mesh of hexahedra (.msh, 2.2 or 4.1) in place of a plate: its extreme plane towards the "
                "specimen is laid on the end, the far plane is the machine's.");
@@ -22,10 +49,15 @@ void declare_platens(Parameters &parameters, Platens &platens) {
   section.word<PlatenKind>("Kind", platens.kind,
                            {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}}, {},
                            "Rigid bodies, or elastic ones by finite elements.");
+  section.word<SurfaceKind>("Surface", platens.surface, surface_words(false), {},
+                            "What both platens' faces are: the entries that a word stands for, each where "
+                            "the scene does not give it. " +
+                                surface_documentation());
   section.number("Friction static", platens.friction_static, between(0, 5),
                  "Coefficient of friction of grains on both platens while they stick.");
   section.number("Friction dynamic", platens.friction_dynamic, between(0, 5),
                  "The same while they slide; as the static one where not given.");
+  declare_friction_law(section, platens.friction_law, platens.slip_length, platens.slip_velocity, false);
   section.stiffness("Stiffness", platens.stiffness, false,
                     "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
   section.number("Tangential ratio", platens.tangential_ratio, between(0, 5),

@@ -21,6 +21,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_notes.cc
   scene/checks_specimen.cc
   scene/scene.cc
+  scene/surfaces.cc
   scene/expect.cc
   scene/command_line.cc
   scene/run_app.cc

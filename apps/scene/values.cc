@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/scene/parameters.h"
+#include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
@@ -115,6 +116,17 @@ std::vector<DomainSize> read_domains(const std::string &text) {
   });
 }
 
+std::vector<StudySurface> read_surfaces(const std::string &text) {
+  return read_items<StudySurface>(text, [](const std::string &item) -> StudySurface {
+    const bool number = item.find_first_of("0123456789.") == 0;
+    if (number) return {SurfaceKind::custom, read_quantity(item, "1", between(0, 5))};
+    std::vector<std::string> words;
+    for (const Surface &one : surfaces())
+      words.push_back(one.word);
+    return {surfaces()[read_word(item, words, {})].kind, not_given};
+  });
+}
+
 Expectation read_expectation(const std::string &text, const std::string &si_unit) {
   Expectation expectation;
   expectation.text = text;
@@ -156,6 +168,11 @@ std::string text_of(const Stiffness &stiffness) {
                      : stiffness.kind == Stiffness::Kind::of_bulk ? " bulk"
                                                                   : "";
   return shortest_text(stiffness.value) + unit;
+}
+
+std::string text_of(const StudySurface &surface) {
+  return std::isnan(surface.friction) ? platen::apps::surface(surface.kind).word
+                                      : shortest_text(surface.friction);
 }
 
 std::string joined(const std::vector<std::string> &words) {

@@ -64,6 +64,8 @@ std::vector<double> read_list(const std::string &text, const std::string &si_uni
 std::vector<Gap> read_gaps(const std::string &text);
 // "72 mm x 22.5 mm, 65 mm x 20 mm": heights and radii; "" is none.
 std::vector<DomainSize> read_domains(const std::string &text);
+// "dry steel, 0.1": words of Platens/Surface, or coefficients of friction; "" is none.
+std::vector<StudySurface> read_surfaces(const std::string &text);
 // "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
 // The place of a word in `words`; `not_yet` are words that this version knows and cannot do.
@@ -73,6 +75,7 @@ std::size_t read_word(const std::string &text, const std::vector<std::string> &w
 std::string text_of(const Interval &interval);
 std::string text_of(const Gap &gap);
 std::string text_of(const Stiffness &stiffness);
+std::string text_of(const StudySurface &surface);
 std::string joined(const std::vector<std::string> &words); // "a, b, c"
 
 } // namespace platen::apps

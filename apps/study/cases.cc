@@ -1,41 +1,16 @@
 #include "apps/study/cases.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/units.h"
 #include "apps/scene/values.h"
+#include "apps/study/entries.h"
+#include "apps/study/platen_cases.h"
 
 namespace platen::apps {
 namespace {
 
 // Table 14 of Tannu 2017, on a cylinder of 80 mm x 25 mm.
 const std::vector<double> radii_of_the_thesis{0.0005, 0.00075, 0.001, 0.00125}; // m
-
-std::string set(const std::string &path, double value, const std::string &unit) {
-  return path + " = " + shortest_text(value) + (unit.empty() ? "" : " " + unit);
-}
-
-// For a name: without the last bit that a unit's conversion may leave (0.9 mm is 0.0009000000000000001 m).
-std::string in_name(double value) {
-  return fmt::format("{:.12g}", value);
-}
-
-// The list, or the one value that the scene has.
-template <class Value>
-std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
-  return list.empty() ? std::vector<Value>{own} : list;
-}
-
-void add(StudyPlan &plan, StudyCase one) {
-  const bool known = std::any_of(plan.cases.begin(), plan.cases.end(),
-                                 [&](const StudyCase &other) { return other.name == one.name; });
-  if (!known) plan.cases.push_back(std::move(one)); // the same by two lists: runs once
-}
 
 StudyPlan plan_size(const Scene &scene) {
   const SpecimenSection &s = scene.specimen;
@@ -115,6 +90,10 @@ StudyPlan plan_rate(const Scene &scene) {
 
 StudyPlan plan_of(StudyKind kind, const Scene &scene) {
   switch (kind) {
+    case StudyKind::friction:
+      return plan_friction(scene);
+    case StudyKind::slenderness:
+      return plan_slenderness(scene);
     case StudyKind::packing:
       return plan_packing(scene);
     case StudyKind::rate:
@@ -129,6 +108,10 @@ StudyPlan plan_of(StudyKind kind, const Scene &scene) {
 
 const char *word(StudyKind kind) {
   switch (kind) {
+    case StudyKind::friction:
+      return "friction";
+    case StudyKind::slenderness:
+      return "slenderness";
     case StudyKind::packing:
       return "packing";
     case StudyKind::rate:
@@ -140,7 +123,8 @@ const char *word(StudyKind kind) {
 }
 
 const std::vector<StudyKind> &known_study_kinds() {
-  static const std::vector<StudyKind> kinds{StudyKind::size, StudyKind::packing, StudyKind::rate};
+  static const std::vector<StudyKind> kinds{StudyKind::friction, StudyKind::slenderness, StudyKind::size,
+                                            StudyKind::packing, StudyKind::rate};
   return kinds;
 }
 
@@ -157,9 +141,11 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
   plan.kind = kind;
   for (int k = 0; k < scene.study.seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
-  for (const StudyCase &one : plan.cases)
+  for (StudyCase &one : plan.cases)
     try {
-      read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
+      const Scene led_to =
+          read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
+      if (of_platens(kind)) label_platens(one, led_to);
     } catch (const InputError &error) {
       throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
                        ", which cannot be run:\n" + error.what());

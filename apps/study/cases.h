@@ -8,12 +8,17 @@
 
 namespace platen::apps {
 
-enum class StudyKind { size, packing, rate };
+enum class StudyKind { friction, slenderness, size, packing, rate };
+// Those that tell what platens do, and have StudyCase::surface.
+inline bool of_platens(StudyKind kind) {
+  return kind == StudyKind::friction || kind == StudyKind::slenderness;
+}
 
 struct StudyCase {
   std::string name;                   // of folders and tables: "sphere_radius_0.001"
   std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
   std::vector<std::string> overrides; // "Section/Key = value"
+  std::string surface = {};           // what the platens are, in words; studies of platens
 };
 
 struct StudyPlan {

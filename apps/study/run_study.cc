@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
 
@@ -20,6 +21,7 @@
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
 #include "apps/study/cases.h"
+#include "apps/study/folder_lock.h"
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/tables.h"
@@ -61,7 +63,7 @@ public:
         scene_(scene),
         plan_(plan_study(kind_of(command.kind), scene, command.overrides)),
         paths_(command.output),
-        runs_(runs_of(plan_, command.scene, command.overrides, paths_)),
+        runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads())),
         log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)) {}
 
   int run();
@@ -72,6 +74,7 @@ private:
   int tell_costs() const;
   void open();
   void open_anew();
+  void take_folder(); // where it is there
   void require_same_study() const;
   void keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome);
   int finish(const StudyTables &tables);
@@ -81,6 +84,7 @@ private:
   StudyPlan plan_;
   Clock::time_point start_ = Clock::now();
   OutputPaths paths_;
+  std::unique_ptr<FolderLock> lock_;
   std::vector<StudyRun> runs_;
   RunLog log_;
   std::vector<std::string> missed_; // of what the scene expects of each run
@@ -90,7 +94,8 @@ std::string StudyApp::description() const {
   std::string text =
       fmt::format("{}\n  study of {}: {} cases on seeds {} to {}, {} runs, {} at a time\n",
                   scene_.general.title.empty() ? scene_.name : scene_.general.title, word(plan_.kind),
-                  plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(), threads());
+                  plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(),
+                  std::min<std::size_t>(runs_.size(), static_cast<std::size_t>(threads())));
   for (const StudyCase &one : plan_.cases) {
     text += "  " + one.name + ":";
     for (const std::string &entry : one.overrides)
@@ -148,12 +153,21 @@ void StudyApp::open_anew() {
     fs::remove(entry.path(), none); // only where nothing of the user's is left in it
   }
   open_output_folder(paths_.folder, use, inputs);
+  take_folder();
   create_folder(paths_.runs());
   write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
   write_summary(paths_.study_json(), Json{{"kind", word(plan_.kind)}, {"status", "running"}});
 }
 
+void StudyApp::take_folder() {
+  if (lock_ == nullptr && fs::is_directory(paths_.folder))
+    lock_ = std::make_unique<FolderLock>(paths_.folder, [&] {
+      log_.info("waits for runs of an earlier study in {}", paths_.folder.string());
+    });
+}
+
 void StudyApp::open() {
+  take_folder();
   if (command_.resume)
     require_same_study();
   else
@@ -175,6 +189,11 @@ void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcom
   };
   log_.info("{}: {:.4g} MPa, {:.0f} s{}", head, number("strength_pa", 1e6), number("wall_seconds", 1),
             outcome.kept ? ", kept" : "");
+  if (of_platens(plan_.kind) && !StudyTables::peaked(outcome.summary))
+    log_.warning(
+        "{}: its stress did not fall to 0.8 of the largest up to Loading/Target strain: it has no strength "
+        "to compare",
+        run.name);
   for (const std::string &line : check_expectations(scene_, outcome.summary).failed) {
     missed_.push_back(run.name + ": " + line);
     log_.error("expected: {}", missed_.back());
@@ -191,6 +210,11 @@ int StudyApp::finish(const StudyTables &tables) {
   study["runs"] = runs_.size();
   study["failed_runs"] = tables.failed();
   study["cases"] = tables.cases();
+  const std::vector<Comparison> comparisons = tables.comparisons();
+  if (of_platens(plan_.kind)) {
+    study["comparisons"] = json_of(plan_, comparisons);
+    study["laboratory"] = json_of(laboratory_figures());
+  }
   write_summary(paths_.study_json(), study);
   Json s;
   s["status"] = study["status"];
@@ -204,7 +228,7 @@ int StudyApp::finish(const StudyTables &tables) {
   s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
   s["peak_memory_bytes"] = peak_memory_bytes();
   write_summary(paths_.summary(), s);
-  log_.info("{}", tables.text());
+  log_.info("{}{}", tables.text(), text_of(plan_, comparisons));
   if (tables.failed() > 0) log_.warning("{} of {} runs failed", tables.failed(), runs_.size());
   log_.info("results are in {}", paths_.folder.string());
   if (!any) {

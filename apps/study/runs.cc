@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <list>
@@ -162,8 +163,11 @@ fs::path compress_program() {
 }
 
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
-                              const std::vector<std::string> &overrides, const OutputPaths &paths) {
+                              const std::vector<std::string> &overrides, const OutputPaths &paths,
+                              int threads) {
   const std::string program = compress_program().string();
+  const int count = static_cast<int>(plan.cases.size() * plan.seeds.size());
+  const std::string share = std::to_string(std::max(1, threads / count));
   std::vector<StudyRun> runs;
   for (std::size_t k = 0; k < plan.cases.size(); ++k)
     for (const unsigned long seed : plan.seeds) {
@@ -172,7 +176,7 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
       run.seed = seed;
       run.name = plan.cases[k].name + "_seed_" + std::to_string(seed);
       run.folder = paths.runs() / run.name;
-      run.command = {program, scene, "-o", run.folder.string(), "-t", "1", "--quiet"};
+      run.command = {program, scene, "-o", run.folder.string(), "-t", share, "--quiet"};
       for (const std::string &entry : overrides_of(plan.cases[k], seed, overrides))
         run.command.insert(run.command.end(), {"-s", entry});
       runs.push_back(std::move(run));

@@ -32,9 +32,11 @@ struct RunOutcome {
 // The program beside this one. Throws InputError where it is not there.
 std::filesystem::path compress_program();
 
-// Every case on every seed, case by case; `overrides` are those of the command line.
+// Every case on every seed, case by case; `overrides` are those of the command line. Of `threads` each run
+// gets one, or its share where there are fewer runs.
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
-                              const std::vector<std::string> &overrides, const OutputPaths &paths);
+                              const std::vector<std::string> &overrides, const OutputPaths &paths,
+                              int threads);
 
 struct StudyStopped {
   int signal = 0;

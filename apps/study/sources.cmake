@@ -1,6 +1,10 @@
 # Sources of platen-study but for its main, apps/platen_study.cc; linked with platen_run.
 set(PLATEN_STUDY_SOURCES
   study/cases.cc
+  study/comparisons.cc
+  study/folder_lock.cc
+  study/laboratory.cc
+  study/platen_cases.cc
   study/process.cc
   study/run_study.cc
   study/runs.cc

@@ -34,6 +34,7 @@ const std::vector<std::string> costs{"steps", "wall_seconds", "setup_seconds", "
 
 std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std::string> &numbers) {
   std::vector<std::string> columns{"kind", "case"};
+  if (of_platens(plan.kind)) columns.emplace_back("surface");
   columns.insert(columns.end(), plan.varied.begin(), plan.varied.end());
   columns.insert(columns.end(), {"seed", "status"});
   columns.insert(columns.end(), numbers.begin(), numbers.end());
@@ -54,7 +55,10 @@ struct Shown {
   const char *column, *head;
   double unit;
 };
-constexpr Shown shown[] = {{"sphere_radius_m", "sphere, mm", 1e-3},
+constexpr Shown shown[] = {{"friction_static", "friction", 1},
+                           {"slenderness", "height/width", 1},
+                           {"confining_pressure_pa", "cell, MPa", 1e6},
+                           {"sphere_radius_m", "sphere, mm", 1e-3},
                            {"height_m", "height, mm", 1e-3},
                            {"radius_m", "radius, mm", 1e-3},
                            {"gap_over_radius", "gap/R", 1},
@@ -106,6 +110,7 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   const StudyCase &of = plan_.cases[run.of];
   OfCase &sums = cases_[run.of];
   std::vector<CsvCell> cells{word(plan_.kind), of.name};
+  if (of_platens(plan_.kind)) cells.emplace_back(of.surface);
   cells.insert(cells.end(), of.labels.begin(), of.labels.end());
   cells.insert(cells.end(), {run.seed, outcome.done ? "done" : "failed"});
   std::vector<CsvCell> cost_cells = cells;
@@ -120,8 +125,14 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   costs_.row(cost_cells);
   sums.seconds.add(number_in(outcome.summary, "wall_seconds"));
   sums.bytes.add(number_in(outcome.summary, "peak_memory_bytes"));
+  sums.strengths.push_back(peaked(outcome.summary) ? number_in(outcome.summary, "strength_pa") : not_given);
+  if (outcome.done && !peaked(outcome.summary)) ++sums.without_peak;
   ++sums.runs;
   if (!outcome.done) ++sums.failed;
+}
+
+bool StudyTables::peaked(const Json &summary) {
+  return !std::isnan(number_in(summary, "middle_damage"));
 }
 
 int StudyTables::failed() const {
@@ -141,16 +152,25 @@ Json StudyTables::cases() const {
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     Json one;
     one["name"] = plan_.cases[c].name;
+    if (of_platens(plan_.kind)) one["surface"] = plan_.cases[c].surface;
     for (std::size_t k = 0; k < plan_.varied.size(); ++k)
       one[plan_.varied[k]] = plan_.cases[c].labels[k];
     one["overrides"] = plan_.cases[c].overrides;
     one["runs"] = cases_[c].runs;
     one["failed"] = cases_[c].failed;
+    if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
     for (std::size_t k = 0; k < figures.size(); ++k)
       one[figures[k]] = json_of(cases_[c].figures[k]);
     all.push_back(std::move(one));
   }
   return all;
+}
+
+std::vector<Comparison> StudyTables::comparisons() const {
+  std::vector<std::vector<double>> strengths;
+  for (const OfCase &of : cases_)
+    strengths.push_back(of.strengths);
+  return of_platens(plan_.kind) ? compare(plan_, strengths) : std::vector<Comparison>{};
 }
 
 std::string StudyTables::text() const {
@@ -161,11 +181,15 @@ std::string StudyTables::text() const {
                                  [&](const StudyCase &c) { return !std::isnan(c.labels[k]); });
     const auto *found = std::find_if(std::begin(shown), std::end(shown),
                                      [&](const Shown &s) { return plan_.varied[k] == s.column; });
-    if (!any || found == std::end(shown)) continue;
+    const bool varies = std::any_of(plan_.cases.begin(), plan_.cases.end(), [&](const StudyCase &c) {
+      return c.labels[k] != plan_.cases.front().labels[k];
+    });
+    if (!any || found == std::end(shown) || (of_platens(plan_.kind) && !varies)) continue;
     labels.push_back(found);
     places.push_back(k);
   }
   std::vector<std::vector<std::string>> rows(1);
+  if (of_platens(plan_.kind)) rows[0].emplace_back("platens");
   for (const Shown *label : labels)
     rows[0].emplace_back(label->head);
   rows[0].emplace_back("runs");
@@ -175,6 +199,7 @@ std::string StudyTables::text() const {
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const OfCase &of = cases_[c];
     std::vector<std::string> row;
+    if (of_platens(plan_.kind)) row.push_back(plan_.cases[c].surface);
     for (std::size_t k = 0; k < labels.size(); ++k) {
       const double value = plan_.cases[c].labels[places[k]] / labels[k]->unit;
       row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));

@@ -9,6 +9,7 @@
 #include "apps/io/seed_statistics.h"
 #include "apps/io/summary.h"
 #include "apps/study/cases.h"
+#include "apps/study/comparisons.h"
 #include "apps/study/runs.h"
 
 namespace platen::apps {
@@ -22,15 +23,21 @@ public:
   void add(const StudyRun &run, const RunOutcome &outcome);
 
   int failed() const; // runs
+  // Whether a run of a study of platens is known to have borne its most: its stress fell to 0.8 of the peak,
+  // where damage is measured. Else it has no strength that could be compared.
+  static bool peaked(const Json &summary);
   // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
   Json cases() const;
+  // Of a study of platens, once all rows are there; else nothing.
+  std::vector<Comparison> comparisons() const;
   // For the screen, with what a run of each case cost.
   std::string text() const;
 
 private:
   struct OfCase {
-    int runs = 0, failed = 0;
+    int runs = 0, failed = 0, without_peak = 0;
     std::vector<SeedStatistics> figures;
+    std::vector<double> strengths; // Pa, by seed; NaN: failed, or without a peak
     SeedStatistics seconds, bytes;
   };
   const SeedStatistics &figure(const OfCase &of, const std::string &key) const;

@@ -20,6 +20,7 @@ struct CoulombFriction {
   struct State {
     Vector3 spring;  // N, tangential force; the caller carries it with the contact plane between calls
     int sliding = 0; // 0 sticks, 1 slides
+    double slip = 0; // m, path slid since the contact closed
   };
   struct Result {
     Vector3 force;         // N, the new spring force
@@ -37,24 +38,39 @@ struct CoulombFriction {
   // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
   Result operator()(State &state, const Vector3 &stretch, double normal_force,
                     double tangential_stiffness) const {
-    const Vector3 before = state.spring, trial = before + tangential_stiffness * stretch;
-    Result result;
-    if (!(normal_force > 0)) {
-      state = State{};
-      result.dissipated = 0.5 * dot(before, trial) / tangential_stiffness;
-      return result;
-    }
+    const Vector3 trial = state.spring + tangential_stiffness * stretch;
+    if (!(normal_force > 0)) return let_go(state, trial, tangential_stiffness);
     const double size = norm(trial);
-    const double slides_above = (state.sliding ? parameters.friction_dynamic : parameters.friction_static);
-    state.sliding = size > slides_above * normal_force ? 1 : 0;
+    const double slides_above = state.sliding ? parameters.friction_dynamic : parameters.friction_static;
+    if (!(size > slides_above * normal_force)) return hold(state, trial);
+    return slide(state, trial, size, parameters.friction_dynamic * normal_force, tangential_stiffness);
+  }
+
+  // What may become of the spring, for laws with other limits. `trial` is its force where nothing slides (N),
+  // `size` the length of that.
+  static Result let_go(State &state, const Vector3 &trial, double tangential_stiffness) {
+    Result result;
+    result.dissipated = 0.5 * dot(state.spring, trial) / tangential_stiffness;
+    state = State{};
+    return result;
+  }
+  static Result hold(State &state, const Vector3 &trial) {
+    state.sliding = 0;
     state.spring = trial;
-    if (state.sliding) {
-      const double limit = std::min(size, parameters.friction_dynamic * normal_force);
-      state.spring = (limit / size) * trial;
-      result.dissipated = 0.5 * dot(before + state.spring, trial - state.spring) / tangential_stiffness;
-      result.slip = (size - limit) / tangential_stiffness;
-    }
-    result.force = state.spring;
+    Result result;
+    result.force = trial;
+    return result;
+  }
+  static Result slide(State &state, const Vector3 &trial, double size, double most,
+                      double tangential_stiffness) {
+    const Vector3 before = state.spring;
+    const double limit = std::min(size, most);
+    Result result;
+    state.sliding = 1;
+    state.spring = result.force = (limit / size) * trial;
+    result.dissipated = 0.5 * dot(before + state.spring, trial - state.spring) / tangential_stiffness;
+    result.slip = (size - limit) / tangential_stiffness;
+    state.slip += result.slip;
     return result;
   }
 };

@@ -3,57 +3,15 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "apps/io_folder.h"
-#include "apps/program.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
 #include "apps/study/tables.h"
+#include "apps/study_runs.h"
 
 namespace platen::apps::testing {
 namespace {
-
-std::vector<std::string> words_in(const fs::path &csv, const std::string &name) {
-  std::istringstream rows(content_of(csv));
-  std::vector<std::string> words;
-  std::size_t column = 0;
-  for (std::string row; std::getline(rows, row);) {
-    std::istringstream cells(row);
-    std::vector<std::string> parts;
-    for (std::string part; std::getline(cells, part, ',');)
-      parts.push_back(part);
-    if (words.empty())
-      column = static_cast<std::size_t>(std::find(parts.begin(), parts.end(), name) - parts.begin());
-    words.push_back(column < parts.size() ? parts[column] : "");
-  }
-  if (!words.empty()) words.erase(words.begin());
-  return words;
-}
-
-class Study : public ScratchFolder {
-protected:
-  std::vector<std::string> command(const std::string &name, const std::vector<std::string> &options,
-                                   const std::string &kind = "size") const {
-    std::vector<std::string> all{PLATEN_STUDY_PROGRAM, kind, test_scene("study.prm"), "-o", name, "-t", "1"};
-    all.insert(all.end(), options.begin(), options.end());
-    return all;
-  }
-  Outcome run(const std::string &name, const std::vector<std::string> &options,
-              const std::string &kind = "size") const {
-    Outcome outcome;
-    outcome.status = Program(command(name, options, kind), folder_).wait();
-    outcome.out = content_of(folder_ / "out.txt");
-    outcome.error = content_of(folder_ / "error.txt");
-    return outcome;
-  }
-  std::string table(const std::string &name) const { return content_of(folder_ / name / "study.csv"); }
-  nlohmann::json json(const std::string &name) const {
-    return nlohmann::json::parse(content_of(folder_ / name / "study.json"));
-  }
-};
 
 TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
   const Outcome outcome = run("a", {});
@@ -93,11 +51,7 @@ TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
 
 TEST_F(Study, the_number_of_runs_at_a_time_changes_no_byte) {
   ASSERT_EQ(run("one", {"--quiet"}).status, 0);
-  ASSERT_EQ(
-      Program({PLATEN_STUDY_PROGRAM, "size", test_scene("study.prm"), "-o", "three", "-t", "3", "--quiet"},
-              folder_)
-          .wait(),
-      0);
+  ASSERT_EQ(run("three", {"--quiet", "-t", "3"}).status, 0);
   EXPECT_EQ(table("one"), table("three"));
   EXPECT_EQ(content_of(folder_ / "one/study.json"), content_of(folder_ / "three/study.json"));
 }
@@ -105,11 +59,6 @@ TEST_F(Study, the_number_of_runs_at_a_time_changes_no_byte) {
 // A run of its own on the way: fine enough to be met before it ends.
 const std::vector<std::string> slow{"--quiet", "-s", "Study/Sphere radius list = 2 mm, 0.9 mm"};
 const char *const met = "sphere_radius_0.0009_seed_3";
-
-std::vector<std::string> with(std::vector<std::string> options, const std::string &option) {
-  options.push_back(option);
-  return options;
-}
 
 TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
   ASSERT_EQ(run("whole", slow).status, 0);
@@ -227,7 +176,9 @@ TEST_F(Study, faults_are_refused_before_anything_is_written) {
     EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
     EXPECT_FALSE(fs::exists(folder_ / "a"));
   };
-  refused({}, "friction", "KIND = friction is not available in this version. Allowed: size, packing, rate.");
+  refused({}, "accuracy",
+          "KIND = accuracy is not available in this version. Allowed: friction, slenderness, size, packing, "
+          "rate.");
   refused({}, "sizes", "Did you mean \"size\"?");
   refused({}, "rate", "Study/Axial rate list is not set");
   refused({}, "packing", "Study/Gap list is not set");

@@ -118,8 +118,9 @@ TEST(contact_history, a_common_rotation_turns_the_spring_and_stretches_nothing) 
 }
 
 // A heap of spheres that bounce, slide and roll on a disc, some seated; all at random.
-std::unique_ptr<SphereScene> heap(double skin, int n = 300) {
+std::unique_ptr<SphereScene> heap(double skin, int n = 300, const dem::Weakening &weakening = {}) {
   SurfaceContact contact = frictional(0.5, 0.3);
+  contact.weakening = weakening;
   contact.damping = 0.1;
   contact.skin = skin;
   contact.seat_modulus = 1e9;
@@ -172,25 +173,34 @@ TEST(contact_history, the_result_does_not_know_when_the_list_was_made) {
   expect_same(*often, *seldom);
 }
 
+void copy_table(const dem::Table &from, dem::Table &to) {
+  to.resize(from.size());
+  for (std::size_t c = 0; c < from.columns().size(); ++c)
+    std::memcpy(to.columns()[c]->bytes(), from.columns()[c]->bytes(),
+                from.size() * from.columns()[c]->bytes_per_row());
+}
+
 TEST(contact_history, a_checkpoint_goes_on_to_the_same_bit) {
-  const auto whole = heap(0.1 * sphere_radius);
-  run(*whole, 1111);
-  // What a checkpoint keeps: both tables, the body, two works.
-  const auto copy_table = [](const dem::Table &from, dem::Table &to) {
-    to.resize(from.size());
-    for (std::size_t c = 0; c < from.columns().size(); ++c)
-      std::memcpy(to.columns()[c]->bytes(), from.columns()[c]->bytes(),
-                  from.size() * from.columns()[c]->bytes_per_row());
-  };
-  const auto resumed = heap(0.1 * sphere_radius);
-  copy_table(whole->particles.table, resumed->particles.table);
-  copy_table(whole->layer.history(), resumed->layer.history());
-  resumed->body.set_state(whole->body.state());
-  resumed->layer.friction_work = whole->layer.friction_work;
-  resumed->layer.damping_work = whole->layer.damping_work;
-  resumed->layer.restored();
-  run(*whole, 1000), run(*resumed, 1000);
-  expect_same(*whole, *resumed);
+  using By = dem::Weakening::By;
+  double work[3];
+  for (const By by : {By::nothing, By::slip, By::velocity}) {
+    const dem::Weakening weakening{by, 1e-5, 0.5};
+    const auto whole = heap(0.1 * sphere_radius, 300, weakening);
+    run(*whole, 1111);
+    // What a checkpoint keeps: both tables, the body, two works.
+    const auto resumed = heap(0.1 * sphere_radius, 300, weakening);
+    copy_table(whole->particles.table, resumed->particles.table);
+    copy_table(whole->layer.history(), resumed->layer.history());
+    resumed->body.set_state(whole->body.state());
+    resumed->layer.friction_work = whole->layer.friction_work;
+    resumed->layer.damping_work = whole->layer.damping_work;
+    resumed->layer.restored();
+    run(*whole, 1000), run(*resumed, 1000);
+    expect_same(*whole, *resumed);
+    work[static_cast<int>(by)] = whole->layer.friction_work;
+  }
+  EXPECT_NE(work[0], work[1]); // the laws differ
+  EXPECT_NE(work[0], work[2]);
 }
 
 TEST(contact_history, threads_do_not_show) {

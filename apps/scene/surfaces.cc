@@ -1,0 +1,120 @@
+#include "apps/scene/surfaces.h"
+
+#include <algorithm>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/units.h"
+
+namespace platen::apps {
+namespace {
+
+// "word: entries (source)"; friction is constant with all of them.
+std::string documentation(const Surface &of) {
+  std::string text;
+  for (const auto &[key, value] : of.entries)
+    if (key != "Friction law") text += (text.empty() ? "" : ", ") + key + " = " + value;
+  return of.word + ": " + (text.empty() ? of.source : text + " (" + of.source + ")");
+}
+
+} // namespace
+
+const std::vector<Surface> &surfaces() {
+  static const std::vector<Surface> all{
+      {SurfaceKind::custom, "custom", {}, false, "the entries of the scene and their defaults"},
+      {SurfaceKind::dry_steel,
+       "dry steel",
+       {{"Friction static", "0.57"}, {"Friction dynamic", "0.57"}, {"Friction law", "constant"}},
+       true,
+       "Rabbat and Russell 1985, dry steel on concrete, static; while sliding: the same, for want of a "
+       "figure"},
+      {SurfaceKind::thesis,
+       "thesis",
+       {{"Friction static", "0.3"}, {"Friction dynamic", "0.3"}, {"Friction law", "constant"}},
+       true,
+       "Tannu 2017"},
+      {SurfaceKind::teflon,
+       "teflon",
+       {{"Friction static", "0.03"}, {"Friction dynamic", "0.03"}, {"Friction law", "constant"}},
+       true,
+       "EN 1337-2 for sheets of PTFE on steel, 0.03 to 0.08, least at high pressure"},
+      {SurfaceKind::grease,
+       "grease",
+       {{"Friction static", "0.0048"}, {"Friction dynamic", "0.0048"}, {"Friction law", "constant"}},
+       true,
+       "Bocklenberg et al. 2016, greased sheets of PTFE under 60 MPa, at most"},
+      {SurfaceKind::brush,
+       "brush",
+       {{"Friction static", "0.57"},
+        {"Friction dynamic", "0.57"},
+        {"Friction law", "constant"},
+        {"Kind", "deformable"},
+        {"Degree", "2"}},
+       false,
+       "as dry steel; what the pins give way is in their meshes"},
+      {SurfaceKind::rubber_sheet,
+       "rubber sheet",
+       {{"Friction static", "0.5"},
+        {"Friction dynamic", "0.5"},
+        {"Friction law", "constant"},
+        {"Kind", "deformable"}},
+       false,
+       "Magliulo et al. 2011, neoprene on concrete, tilting tests; thickness and material are the scene's "
+       "(Pad ...)"},
+      {SurfaceKind::glued, "glued", {{"Attachment", "glued"}}, false, "end grains are tied to the platens"}};
+  return all;
+}
+
+const Surface &surface(SurfaceKind kind) {
+  return *std::find_if(surfaces().begin(), surfaces().end(),
+                       [&](const Surface &one) { return one.kind == kind; });
+}
+
+std::vector<std::pair<std::string, SurfaceKind>> surface_words(bool of_one_side) {
+  std::vector<std::pair<std::string, SurfaceKind>> words;
+  if (of_one_side) words.emplace_back("common", SurfaceKind::common);
+  for (const Surface &one : surfaces())
+    if (one.of_one_side || !of_one_side) words.emplace_back(one.word, one.kind);
+  return words;
+}
+
+std::string surface_documentation() {
+  std::string text;
+  for (const Surface &one : surfaces())
+    text += (text.empty() ? "" : "; ") + documentation(one);
+  return text + ".";
+}
+
+std::string text_of(const Platens &platens) {
+  const auto kind = [&](const PlatenSide &side) {
+    return side.surface == SurfaceKind::common ? platens.surface : side.surface;
+  };
+  const auto told = [&](const PlatenSide &side) {
+    std::string text = surface(kind(side)).word + ", friction " + shortest_text(side.friction_static) +
+                       " static, " + shortest_text(side.friction_dynamic) + " dynamic";
+    if (side.friction_law == FrictionLaw::slip_weakening)
+      text += ", slip weakening over " + shortest_text(side.slip_length) + " m";
+    if (side.friction_law == FrictionLaw::velocity_weakening)
+      text += ", velocity weakening over " + shortest_text(side.slip_velocity) + " m/s";
+    return platens.attachment == Attachment::glued ? std::string("glued") : text;
+  };
+  const std::string top = told(platens.top), bottom = told(platens.bottom);
+  std::string text = top == bottom ? "  platens: " + top + "\n"
+                                   : "  top platen: " + top + "\n  bottom platen: " + bottom + "\n";
+  for (const Surface &one : surfaces())
+    if (!one.entries.empty() && (one.kind == kind(platens.top) || one.kind == kind(platens.bottom)))
+      text += "    " + documentation(one) + "\n";
+  return text;
+}
+
+void supply_surfaces(Parameters &parameters, const Platens &platens) {
+  const auto supply = [&](const std::string &section, SurfaceKind kind) {
+    if (kind == SurfaceKind::common) return;
+    for (const auto &[key, text] : surface(kind).entries)
+      parameters.supply(section + "/" + key, text);
+  };
+  supply("Platens/Top", platens.top.surface);
+  supply("Platens/Bottom", platens.bottom.surface);
+  supply("Platens", platens.surface);
+}
+
+} // namespace platen::apps

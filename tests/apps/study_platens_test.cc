@@ -1,0 +1,310 @@
+// Studies of friction and slenderness: what they plan, run and compare.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <random>
+
+#include "apps/scene/errors.h"
+#include "apps/scene/parameters.h"
+#include "apps/study/comparisons.h"
+#include "apps/study_runs.h"
+
+namespace platen::apps::testing {
+namespace {
+
+Scene scene_with(const std::vector<std::string> &entries) {
+  return read_scene(test_scene("study.prm"), entries, AppKind::study);
+}
+
+StudyPlan plan_with(const std::vector<std::string> &entries, StudyKind kind = StudyKind::friction) {
+  std::vector<std::string> all{"Study/Sphere radius list ="};
+  all.insert(all.end(), entries.begin(), entries.end());
+  return plan_study(kind, scene_with(all), all);
+}
+
+Scene led_to(const StudyPlan &plan, std::size_t k, const std::vector<std::string> &entries) {
+  return read_scene(test_scene("study.prm"), overrides_of(plan.cases[k], 1, entries), AppKind::compress);
+}
+
+std::vector<std::string> names_of(const StudyPlan &plan) {
+  std::vector<std::string> names;
+  for (const StudyCase &one : plan.cases)
+    names.push_back(one.name);
+  return names;
+}
+
+TEST(PlatenStudyPlan, platens_run_within_slendernesses_in_the_order_of_the_lists) {
+  const std::vector<std::string> entries{"Study/Surface list = dry steel, 0.1, grease",
+                                         "Study/Slenderness list = 2, 0.5"};
+  const StudyPlan plan = plan_with(entries);
+  EXPECT_EQ(names_of(plan),
+            (std::vector<std::string>{"dry_steel_slenderness_2", "friction_0.1_slenderness_2",
+                                      "grease_slenderness_2", "dry_steel_slenderness_0.5",
+                                      "friction_0.1_slenderness_0.5", "grease_slenderness_0.5"}));
+  EXPECT_EQ(plan.seeds, (std::vector<unsigned long>{3, 4}));
+  EXPECT_EQ(plan.cases[1].surface, "friction 0.1");
+  EXPECT_EQ(plan.cases[5].surface, "grease");
+  EXPECT_EQ(plan.cases[5].labels, (std::vector<double>{0.0048, 0.0048, 0.5, 0.01, 0.002, 0}));
+}
+
+TEST(PlatenStudyPlan, another_height_changes_nothing_else) {
+  const std::vector<std::string> entries{"Study/Slenderness list = 0.5, 2, 3"};
+  const StudyPlan plan = plan_with(entries, StudyKind::slenderness);
+  ASSERT_EQ(plan.cases.size(), 3u);
+  EXPECT_EQ(plan.cases[2].surface, "friction 0.3");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Scene scene = led_to(plan, k, entries);
+    EXPECT_DOUBLE_EQ(scene.specimen.height, (k == 0 ? 0.5 : k == 1 ? 2 : 3) * 0.02); // radius 10 mm
+    int others = 0;
+    const Scene own = led_to(plan, 1, entries);
+    for (const Entry &entry : scene.parameters->entries())
+      others += entry.path != "Specimen/Height" && entry.text != own.parameters->at(entry.path).text;
+    EXPECT_EQ(others, 0);
+  }
+  const std::vector<std::string> box{
+      "Specimen/Shape = box",     "Specimen/Radius =",          "Specimen/Width x = 30 mm",
+      "Specimen/Width y = 20 mm", "Study/Slenderness list = 2", "Platens/Kind = deformable"};
+  const StudyPlan boxes = plan_with(box, StudyKind::slenderness);
+  EXPECT_DOUBLE_EQ(led_to(boxes, 0, box).specimen.height, 0.04);
+  EXPECT_DOUBLE_EQ(led_to(boxes, 0, box).platens.thickness, 0.002); // of the scene's own height, 20 mm
+}
+
+TEST(PlatenStudyPlan, a_word_takes_back_what_the_scene_says_of_friction_and_custom_does_not) {
+  const std::vector<std::string> entries{"Platens/Friction static = 0.4",
+                                         "Platens/Friction dynamic = 0.2",
+                                         "Platens/Friction law = slip weakening",
+                                         "Platens/Slip length = 1 mm",
+                                         "Platens/Attachment = glued",
+                                         "Study/Surface list = custom, dry steel, 0.1, glued"};
+  const StudyPlan plan = plan_with(entries);
+  const auto platens = [&](std::size_t k) { return led_to(plan, k, entries).platens; };
+  EXPECT_EQ(platens(0).top.friction_static, 0.4);
+  EXPECT_EQ(platens(0).top.friction_law, FrictionLaw::slip_weakening);
+  EXPECT_EQ(platens(1).top.friction_static, 0.57);
+  EXPECT_EQ(platens(1).top.friction_dynamic, 0.57);
+  EXPECT_EQ(platens(1).top.friction_law, FrictionLaw::constant);
+  EXPECT_EQ(platens(1).attachment, Attachment::contact);
+  EXPECT_EQ(platens(2).top.friction_dynamic, 0.1);
+  EXPECT_EQ(platens(2).top.friction_law, FrictionLaw::constant);
+  EXPECT_EQ(platens(3).attachment, Attachment::glued);
+  EXPECT_TRUE(std::isnan(plan.cases[3].labels[0])); // glue has no coefficient
+}
+
+TEST(PlatenStudyPlan, sphere_radii_and_pressures_multiply_the_cases) {
+  const std::vector<std::string> entries{
+      "Study/Surface list = 0, 0.3", "Study/Sphere radius list = 2 mm, 1.4 mm",
+      "Study/Confining pressure list = 0, 1 MPa", "Loading/Confinement = particles",
+      "Loading/Confining pressure = 3 MPa"};
+  const StudyPlan plan = plan_study(StudyKind::friction, scene_with(entries), entries);
+  ASSERT_EQ(plan.cases.size(), 8u);
+  EXPECT_EQ(plan.cases[0].name, "friction_0_sphere_radius_0.002_pressure_0");
+  EXPECT_EQ(led_to(plan, 0, entries).loading.confinement, ConfinementKind::none);
+  EXPECT_EQ(plan.cases[0].labels.back(), 0);
+  EXPECT_EQ(plan.cases[7].name, "friction_0.3_sphere_radius_0.0014_pressure_1000000");
+  EXPECT_DOUBLE_EQ(led_to(plan, 7, entries).loading.confining_pressure, 1e6);
+  EXPECT_DOUBLE_EQ(plan.cases[7].labels[4], 0.0014);
+}
+
+TEST(PlatenStudyPlan, what_cannot_be_varied_is_refused) {
+  const auto refused = [](const std::vector<std::string> &entries, StudyKind kind, const std::string &says) {
+    const std::string message =
+        message_of<InputError>([&] { plan_study(kind, scene_with(entries), entries); });
+    EXPECT_TRUE(contains(message, says)) << message;
+  };
+  const StudyKind friction = StudyKind::friction, slenderness = StudyKind::slenderness;
+  refused({}, friction, "Study/Surface list is not set: nothing is varied.");
+  refused({}, slenderness, "Study/Slenderness list is not set: nothing is varied.");
+  refused({"Study/Surface list = dry stel"}, friction,
+          "holds an item, \"dry stel\", that is not known. Did you mean \"dry steel\"?");
+  refused({"Study/Surface list = 7"}, friction, "\"7\", that is out of range");
+  refused({"Study/Surface list = 0.3, 0.30"}, friction, "holds 0.3 twice");
+  refused({"Study/Surface list = grease, grease"}, friction, "holds grease twice");
+  refused({"Study/Slenderness list = 0"}, slenderness, "\"0\", that is out of range");
+  refused({"Study/Slenderness list = 1, 2", "Study/Surface list = 0, 0.3"}, slenderness,
+          "holds several: a study of slenderness has one kind of platens");
+  refused({"Study/Surface list = 0", "Platens/Top/Friction static = 0.4"}, friction,
+          "Platens/Top/Friction static = 0.4 contradicts Study/Surface list");
+  refused({"Study/Surface list = 0", "Loading/Stop at residual = 0.9"}, friction,
+          "Loading/Stop at residual = 0.9 ends a run before it is known to have peaked. Allowed: below 0.8.");
+  refused({"Study/Surface list = 0", "Loading/Test = uniaxial strain"}, friction, "Allowed: compression.");
+  refused({"Study/Surface list = 0", "Study/Confining pressure list = 1 MPa"}, friction,
+          "needs Loading/Confinement = particles, sleeve");
+  refused({"Study/Surface list = dry steel, brush"}, friction,
+          "leads to brush_sphere_radius_0.002, which cannot be run");
+}
+
+// Raw strengths of the source against the means that it is quoted with.
+TEST(Laboratory, ratios_of_cubes_and_prisms_are_those_of_hughes_and_bahramian) {
+  const auto mean = [](PlatenEffect effect, bool free_ends, double slenderness) {
+    const LaboratoryFigure *f = laboratory_figure(effect, free_ends, slenderness);
+    EXPECT_NE(f, nullptr);
+    EXPECT_LE(f->low, f->mean);
+    EXPECT_LE(f->mean, f->high);
+    return f->mean;
+  };
+  EXPECT_NEAR(mean(PlatenEffect::gain, false, 1), 1.42, 0.005);
+  EXPECT_NEAR(mean(PlatenEffect::gain, false, 2.4), 1.08, 0.005);
+  EXPECT_NEAR(mean(PlatenEffect::cube_over_prism, false, 1), 1.37, 0.005);
+  EXPECT_NEAR(mean(PlatenEffect::cube_over_prism, true, 1), 1.04, 0.005);
+  EXPECT_NEAR(mean(PlatenEffect::relative_strength, false, 1), 1.15, 0.005); // ASTM C42: 1 / 0.87
+  EXPECT_EQ(laboratory_figure(PlatenEffect::gain, false, 3), nullptr);
+  EXPECT_EQ(laboratory_figure(PlatenEffect::gain, true, 1), nullptr);
+  for (const LaboratoryFigure &f : laboratory_figures())
+    EXPECT_EQ(f.source.find("RILEM") != std::string::npos, f.source.find("from memory") != std::string::npos);
+}
+
+TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none) {
+  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease, 0.03, glued",
+                                    "Study/Slenderness list = 1, 2, 2.4", "Study/Seeds = 3"});
+  std::vector<std::vector<double>> strengths(12, {30, 33, 36});
+  strengths[0] = {45, 66, std::nan("")}; // dry, 1
+  strengths[4] = {30, 44, 72};           // dry, 2
+  const std::vector<Comparison> all = compare(plan, strengths);
+  const auto found = [&](PlatenEffect effect, std::size_t of, std::size_t over) {
+    for (const Comparison &c : all)
+      if (c.effect == effect && c.of == of) {
+        EXPECT_EQ(c.over, over);
+        return c;
+      }
+    ADD_FAILURE() << word(effect) << " of " << of;
+    return Comparison{effect, of, over, {}, nullptr};
+  };
+  // Over grease, which has less friction than Teflon.
+  const Comparison gain = found(PlatenEffect::gain, 0, 1);
+  EXPECT_EQ(gain.ratio.count(), 2u);
+  EXPECT_DOUBLE_EQ(gain.ratio.mean(), 1.75);                  // 45/30, 66/33
+  EXPECT_DOUBLE_EQ(gain.ratio.deviation(), std::sqrt(0.125)); // about 1.5 and 2
+  ASSERT_NE(gain.laboratory, nullptr);
+  EXPECT_NEAR(gain.laboratory->mean, 1.42, 0.005);
+  const Comparison relative = found(PlatenEffect::relative_strength, 0, 4);
+  EXPECT_DOUBLE_EQ(relative.ratio.mean(), 1.5); // 45/30, 66/44
+  found(PlatenEffect::cube_over_prism, 0, 8);   // 2.4 is nearer to the laboratory's 2.39 than 2
+  found(PlatenEffect::gain, 3, 1);              // glued, which has no coefficient
+  EXPECT_EQ(found(PlatenEffect::gain, 2, 1).laboratory, nullptr); // Teflon: nobody says
+  EXPECT_EQ(found(PlatenEffect::relative_strength, 1, 5).laboratory->free_ends, true);
+  const bool grease_gains = std::any_of(all.begin(), all.end(), [](const Comparison &c) {
+    return c.effect == PlatenEffect::gain && c.of == 1;
+  });
+  EXPECT_FALSE(grease_gains);
+  const Json written = json_of(plan, all);
+  EXPECT_EQ(written[0]["case"], plan.cases[all[0].of].name);
+  EXPECT_NE(text_of(plan, all).find("Hughes and Bahramian 1967"), std::string::npos);
+}
+
+// Three platens and two heights on one seed: six runs of a tenth of a second.
+const std::vector<std::string> small{"--quiet",
+                                     "-s",
+                                     "Study/Surface list = dry steel, 0.1, grease",
+                                     "-s",
+                                     "Study/Slenderness list = 1, 2",
+                                     "-s",
+                                     "Study/Sphere radius list =",
+                                     "-s",
+                                     "Study/Seeds = 1",
+                                     "-s",
+                                     "Loading/Target strain = 0.03"};
+
+std::vector<std::string> also(std::vector<std::string> options, const std::vector<std::string> &more) {
+  options.insert(options.end(), more.begin(), more.end());
+  return options;
+}
+
+TEST_F(Study, of_friction_has_a_row_for_each_run_and_compares_their_strengths) {
+  const Outcome outcome = run("a", also(small, {"-t", "2"}), "friction");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  const fs::path csv = folder_ / "a/study.csv";
+  EXPECT_EQ(words_in(csv, "surface"), (std::vector<std::string>{"dry steel", "friction 0.1", "grease",
+                                                                "dry steel", "friction 0.1", "grease"}));
+  EXPECT_EQ(column_of(csv, "height_m"), (std::vector<double>{0.02, 0.02, 0.02, 0.04, 0.04, 0.04}));
+  const std::vector<double> strength = column_of(csv, "strength_pa"), bonds = column_of(csv, "bonds");
+  EXPECT_EQ(bonds[0], bonds[2]); // the same packing
+  EXPECT_GT(bonds[3], 1.8 * bonds[0]);
+  EXPECT_GT(strength[0], strength[2]); // platens hold a cube together
+  const auto comparisons = json("a")["comparisons"];
+  bool found = false;
+  for (const auto &c : comparisons)
+    if (c["effect"] == "gain over free ends" && c["case"] == "dry_steel_slenderness_1") {
+      found = true;
+      EXPECT_EQ(c["over"], "grease_slenderness_1");
+      EXPECT_DOUBLE_EQ(c["mean"].get<double>(), strength[0] / strength[2]);
+      EXPECT_NEAR(c["laboratory"]["mean"].get<double>(), 1.42, 0.005);
+    }
+  EXPECT_TRUE(found);
+  EXPECT_GE(json("a")["laboratory"].size(), 10u);
+  EXPECT_EQ(lines_in(folder_ / "a/costs.csv"), 7);
+
+  ASSERT_EQ(run("one", small, "friction").status, 0);
+  EXPECT_EQ(table("one"), table("a"));
+  EXPECT_EQ(content_of(folder_ / "one/study.json"), content_of(folder_ / "a/study.json"));
+}
+
+TEST_F(Study, of_one_run_gives_it_all_threads) {
+  const std::vector<std::string> single =
+      also(small, {"-t", "3", "-s", "Study/Surface list = 0.3", "-s", "Study/Slenderness list = 1"});
+  ASSERT_EQ(run("a", single, "friction").status, 0);
+  EXPECT_EQ(summary_in(folder_ / "a/runs/friction_0.3_slenderness_1_seed_3")["threads"], 3);
+}
+
+// Killed without a word again and again, at once taken up: the runs that were under way end on their own, and
+// the next study waits for them.
+TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
+  const std::vector<std::string> three = also(small, {"-s", "Study/Slenderness list = 1"});
+  ASSERT_EQ(run("whole", three, "friction").status, 0);
+  std::mt19937 engine(7);
+  std::uniform_int_distribution<int> wait(20000, 700000); // us; the whole takes some seconds
+  int kills = 0;
+  bool begun = false;
+  for (int round = 0; round < 10; ++round) {
+    const std::vector<std::string> options = also(three, {"-t", "2", begun ? "--resume" : "--overwrite"});
+    Program program(command("killed", options, "friction"), folder_);
+    usleep(static_cast<useconds_t>(wait(engine)));
+    if (program.running()) {
+      program.send(SIGKILL);
+      ++kills;
+    }
+    const int status = program.wait();
+    begun = begun || fs::exists(folder_ / "killed/study.json");
+    if (status == 0) break;
+    ASSERT_EQ(status, -SIGKILL) << content_of(folder_ / "error.txt");
+  }
+  EXPECT_GE(kills, 2);
+  EXPECT_EQ(run("killed", also(three, {"--resume"}), "friction").status, 0);
+  EXPECT_EQ(table("killed"), table("whole"));
+  EXPECT_EQ(content_of(folder_ / "killed/study.json"), content_of(folder_ / "whole/study.json"));
+}
+
+TEST_F(Study, of_friction_compares_nothing_that_never_peaked) {
+  const Outcome outcome =
+      run("a",
+          also(small, {"-s", "Study/Slenderness list =", "-s", "Study/Surface list = 0.3, grease", "-s",
+                       "Loading/Target strain = 2e-4"}),
+          "friction");
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_TRUE(contains(content_of(folder_ / "a/run.log"), "grease_seed_3: its stress did not fall to 0.8"));
+  EXPECT_EQ(json("a")["cases"][0]["without_peak"], 1);
+  EXPECT_GT(json("a")["cases"][0]["strength_pa"]["mean"], 0); // what it bore
+  EXPECT_TRUE(json("a")["comparisons"][0]["mean"].is_null());
+}
+
+TEST_F(Study, of_friction_survives_a_case_that_fails) {
+  // One step for all, above the limit of the smaller spheres.
+  const Outcome outcome =
+      run("a",
+          also(small, {"-s", "Study/Slenderness list =", "-s", "Study/Surface list = 0.3, grease", "-s",
+                       "Integration/Time step = 2.4e-7 s", "-s", "Study/Sphere radius list = 1.4 mm, 2 mm"}),
+          "friction");
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"),
+            (std::vector<std::string>{"failed", "failed", "done", "done"}));
+  const auto comparisons = json("a")["comparisons"];
+  ASSERT_EQ(comparisons.size(), 2u);
+  EXPECT_TRUE(comparisons[0]["mean"].is_null());
+  EXPECT_EQ(comparisons[0]["runs"], 0);
+  EXPECT_GT(comparisons[1]["mean"], 0);
+  EXPECT_EQ(json("a")["cases"][0]["without_peak"], 0);
+}
+
+} // namespace
+} // namespace platen::apps::testing
