@@ -195,11 +195,14 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   if (touched)
     state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const Vector3 stretch = -dt * motion.slide;
-  const double k_t = parameters_.tangential_ratio * motion.k_n,
-               pressing = result.active ? result.normal_force : 0;
+  const double k_t = parameters_.tangential_ratio * motion.k_n;
   // Glue has no limit, and any force presses it.
-  const CoulombFriction::Result t = tied(row) ? CoulombFriction{{infinite, infinite}}(state, stretch, 1, k_t)
-                                              : dem::slide(friction_, state, stretch, pressing, k_t, dt);
+  const CoulombFriction glue{{infinite, infinite}};
+  const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
+  const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction_);
+  const CoulombFriction::Result t = constant != nullptr
+                                        ? (*constant)(state, stretch, pressing, k_t)
+                                        : dem::slide_weakening(friction_, state, stretch, pressing, k_t, dt);
   result.spring = state;
   result.shear = t.force;
   result.slip = t.slip;

@@ -190,8 +190,14 @@ bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vecto
 }
 
 SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const {
+  SurfacePoint point;
+  if (surface.only_shifted && foot_of_nearest(surface, k, centre, point)) return point;
+  return closest_listed(surface, k, centre);
+}
+
+SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size_t k,
+                                           const Vector3 &centre) const {
   SurfacePoint best, found;
-  if (surface.only_shifted && foot_of_nearest(surface, k, centre, best)) return best;
   best.local.distance_squared = std::numeric_limits<double>::infinity();
   double best_distance = best.local.distance_squared;
   bool whole = false;

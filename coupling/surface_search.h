@@ -80,6 +80,8 @@ private:
   };
   std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
   void collect(const fem::SurfaceMesh &surface, const dem::Vector3 &centre, double limit);
+  SurfacePoint closest_listed(const fem::SurfaceMesh &surface, std::size_t k,
+                              const dem::Vector3 &centre) const;
   // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
   bool nearest_on(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
                   const MovingFace *moving, SurfacePoint &nearest) const;

@@ -30,12 +30,12 @@ inline FrictionLaw friction_law(double friction_static, double friction_dynamic,
   return CoulombFriction{{friction_static, friction_dynamic}};
 }
 
-// One step of a contact by whichever law it is; arguments as those of the laws.
-inline CoulombFriction::Result slide(const FrictionLaw &law, CoulombFriction::State &state,
-                                     const Vector3 &stretch, double normal_force, double tangential_stiffness,
-                                     double dt) {
-  if (const auto *constant = std::get_if<CoulombFriction>(&law))
-    return (*constant)(state, stretch, normal_force, tangential_stiffness);
+// One step of a contact by a law that weakens; arguments as those of the laws. Not for inlining: beside it a
+// loop over constant friction would lose its registers.
+[[gnu::noinline]] inline CoulombFriction::Result slide_weakening(const FrictionLaw &law,
+                                                                 CoulombFriction::State &state,
+                                                                 const Vector3 &stretch, double normal_force,
+                                                                 double tangential_stiffness, double dt) {
   if (const auto *by_slip = std::get_if<SlipWeakeningFriction>(&law))
     return (*by_slip)(state, stretch, normal_force, tangential_stiffness);
   return std::get<VelocityWeakeningFriction>(law)(state, stretch, normal_force, tangential_stiffness, dt);
