@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "coupling/text_of.h"
+#include "dem/not_finite.h"
 #include "dem/parallel.h"
 
 namespace platen::coupling {
@@ -14,6 +15,9 @@ namespace {
 // The step is looked at again after this many steps, if contacts have grown by this share of the particles.
 constexpr long steps_between_choices = 400;
 constexpr double growth_of_contacts = 0.02;
+// What touches nothing shows in no sum, so all are looked at after this many steps: a thousandth of their
+// cost.
+constexpr long steps_between_looks = 100;
 // A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
 // side may be looked at alone.
 constexpr double share_of_bodies = 0.25;
@@ -142,7 +146,12 @@ void Problem::announce_motion(double dt) {
     bottom_layer.moved(particles + bottom.last_move());
     if (sleeve_) sleeve_->layer.moved(particles + sleeve_->largest_move(dt));
   } catch (const std::runtime_error &e) {
-    throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what());
+    const auto slower = [](const dem::Vector3 &a, const dem::Vector3 &b) { return norm(a) < norm(b); };
+    const dem::Particles &p = model.particles;
+    const auto fastest = std::max_element(p.velocity.begin(), p.velocity.end(), slower) - p.velocity.begin();
+    throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what() +
+                          "; the fastest is particle " +
+                          std::to_string(p.id[static_cast<std::size_t>(fastest)]));
   }
 }
 
@@ -154,23 +163,38 @@ void Problem::look_at_step() {
   choose_step(false);
 }
 
+void Problem::require_finite() const {
+  if (!dem::motion_is_finite(model.particles)) stop_not_finite();
+}
+
+void Problem::stop_not_finite() const {
+  std::string where = dem::not_finite(model.particles);
+  if (where.empty()) where = "the force on a platen";
+  throw NumericsStopped("not finite: " + where + " at step " + std::to_string(steps_) + ", time " +
+                        text_of(time()) + " s; try a smaller Integration/Safety or Loading/Axial rate");
+}
+
 long Problem::advance(long most) {
   for (long made = 0; made < most; ++made) {
     const double before = time_step_;
     look_at_step();
-    if (made == 0)
-      model.begin_step(time_step_);
-    else
-      model.end_and_begin_step(before, time_step_);
-    if (!std::isfinite(model.last_motion().speed_squares))
-      throw NumericsStopped("the kinetic energy is not finite at step " + std::to_string(steps_ + 1) +
-                            ", time " + text_of(time()) +
-                            " s; try a smaller Integration/Safety or Loading/Axial rate");
+    try {
+      if (made == 0)
+        model.begin_step(time_step_);
+      else
+        model.end_and_begin_step(before, time_step_);
+    } catch (const dem::NotFinite &) {
+      stop_not_finite();
+    }
+    if (!std::isfinite(model.last_motion().speed_squares)) stop_not_finite();
     set_platen_speeds();
     add_forces();
     ++steps_;
+    if (!std::isfinite(reaction_top_ + reaction_bottom_)) stop_not_finite();
+    if (steps_ % steps_between_looks == 0) require_finite();
     if (made + 1 == most || (model.breaks > 0 && model.settings().crack_log)) {
       model.end_step(time_step_);
+      if (!std::isfinite(model.last_sums().unbalanced)) stop_not_finite();
       return made + 1;
     }
   }

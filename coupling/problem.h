@@ -123,8 +123,11 @@ public:
 
   void step() { advance(1); }
   // Up to `most` steps, to the same bits as one by one and faster; ends early after a step that leaves
-  // cracks to be written. Returns how many were made.
+  // cracks to be written. Returns how many were made. Throws NumericsStopped, naming particles and columns,
+  // where numbers are not finite: within a step or two where they reach a force, else within a hundred.
   long advance(long most);
+  // Throws NumericsStopped where a particle's motion is not finite: to be asked before a state is kept.
+  void require_finite() const;
   // Before the first step: carries the particles by displacements (m) and turns (rad; empty without rotation)
   // and each platen towards the other by `way` (m), so slowly that nothing is left in motion, as a solve
   // without inertia has it. Bonds, contacts, friction springs and the energy book are then as after a loading
@@ -213,6 +216,7 @@ public:
 private:
   void choose_step(bool first);
   void look_at_step();
+  [[noreturn]] void stop_not_finite() const;
   void add_forces();
   void press_skin();
   double sleeve_spring(const CellSettings &cell, double bond) const;

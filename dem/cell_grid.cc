@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "dem/not_finite.h"
 #include "dem/parallel.h"
 
 namespace platen::dem {
@@ -18,12 +19,16 @@ struct Grid {
   std::vector<int> start, member; // members of cell c: member[start[c] .. start[c + 1]), ascending
 
   Grid(const Vector3 *centres, std::size_t count, double edge) {
-    Vector3 high = low = centres[0];
+    Vector3 high = low = centres[0], zero;
     for (std::size_t i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], centres[i][k]);
         high[k] = std::max(high[k], centres[i][k]);
+        zero[k] += 0 * centres[i][k];
       }
+    // No cell holds such a centre, and no edge is long enough for an infinite box.
+    if (!(norm_squared(zero) == 0 && std::isfinite(norm_squared(high - low))))
+      throw NotFinite("the place of a sphere is not finite");
     const double most = 4.0 * static_cast<double>(count) + 64.0;
     for (;; edge *= 1.26) {
       double product = 1;

@@ -114,6 +114,7 @@ void CompressionRun::write_cracks() {
 }
 
 void CompressionRun::checkpoint() {
+  problem_->require_finite(); // or a run would resume from what has stopped it
   history_->sync();
   if (cracks_) cracks_->sync();
   FileMarks marks;

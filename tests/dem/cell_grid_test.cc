@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "dem/not_finite.h"
 #include "dem/packing/random.h"
 
 namespace platen::dem {
@@ -76,6 +78,15 @@ TEST(cell_grid, spheres_on_a_lattice_of_the_cell_size_are_not_lost) {
       }
   expect_same(lattice, 1e-6);
   expect_same(lattice, .05);
+}
+
+TEST(cell_grid, a_centre_that_is_no_place_is_refused) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const std::size_t row : {0u, 7u}) {
+      Cloud c = cloud(20, {1, 1, 1}, .03, .05, 9);
+      c.centre[row].y = bad;
+      EXPECT_THROW(near_pairs(c.centre.data(), c.radius.data(), c.centre.size(), 0), NotFinite) << row;
+    }
 }
 
 TEST(cell_grid, nothing_and_one_have_no_pairs) {

@@ -7,11 +7,14 @@
 #include <cmath>
 
 #include "tests/dem/examples.h"
+#include "tests/measured.h"
 
 namespace platen::dem {
 namespace {
 
 using namespace examples;
+using measured::expect_below;
+using measured::note_figure;
 
 // A bonded bar, 3 x 3 x 12 spheres on a cubic lattice.
 Specimen bar() {
@@ -61,6 +64,7 @@ TEST(integrator, halving_the_step_quarters_the_error) {
                fine = difference(positions_after(duration, 200 * 8), finest);
   const double expected =
       (1 - 1 / 256.0) / (1 / 4.0 - 1 / 256.0); // of second order, seen against the finest run
+  note_figure(4, "order_of_the_step", std::log2(coarse / fine * 4 / expected), "2 +- 0.07");
   EXPECT_NEAR(coarse / fine, expected, .05 * expected);
 }
 
@@ -79,9 +83,9 @@ TEST(integrator, energy_stays_in_a_narrow_band_without_trend) {
     ++n, sum_t += s, sum_e += e, sum_tt += 1.0 * s * s, sum_te += s * e;
   }
   const double slope = (n * sum_te - sum_t * sum_e) / (n * sum_tt - sum_t * sum_t);
-  EXPECT_LT(most, 1e-3);
+  expect_below(4, "energy_band", most, 1e-3);
   // A band of 1e-4 that wanders over 2000 samples leaves a slope of about 1e-4 / (sqrt(2000) 4e4) by chance.
-  EXPECT_LT(std::abs(slope), 3e-10); // per step
+  expect_below(4, "energy_slope_per_step", std::abs(slope), 3e-10);
   EXPECT_EQ(model.energy().lost(), 0);
 }
 
@@ -108,8 +112,9 @@ TEST(integrator, momentum_is_conserved_to_round_off) {
   for (int s = 0; s < 20000; ++s)
     step(model, dt);
   const Momentum after = momentum(model.particles);
-  EXPECT_LT(norm(after.linear - before.linear), 1e-11 * before.linear_scale);
-  EXPECT_LT(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+  expect_below(6, "drift_of_momentum", norm(after.linear - before.linear) / before.linear_scale, 1e-11);
+  expect_below(6, "drift_of_angular_momentum", norm(after.angular - before.angular) / before.angular_scale,
+               1e-11);
 }
 
 // A lone sphere: orientation after a million steps keeps its norm and has turned by w t. The rotation of one
@@ -125,7 +130,8 @@ TEST(integrator, orientation_keeps_its_norm_and_turns_by_the_spin) {
   for (int s = 0; s < steps; ++s)
     step(model, dt);
   const Quaternion q = (*model.particles.orientation)[0];
-  EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1, 1e-14);
+  expect_below(17, "square_norm_of_orientation_less_one",
+               std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1), 1e-14);
   const double angle = 2 * std::atan(.5 * spin * dt) * steps;
   EXPECT_NEAR(angle, spin * dt * steps, std::pow(spin * dt, 3) / 12 * steps * 1.01);
   const Quaternion expected = rotation_quaternion(std::fmod(angle, 4 * pi) * axis);

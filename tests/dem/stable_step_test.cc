@@ -8,11 +8,13 @@
 
 #include "dem/packing/random.h"
 #include "tests/dem/examples.h"
+#include "tests/measured.h"
 
 namespace platen::dem {
 namespace {
 
 using namespace examples;
+using measured::note_figure;
 
 // Grows without bound at this step?
 bool runs_away(const Specimen &specimen, const ModelSettings &settings, double dt) {
@@ -59,6 +61,7 @@ double real_limit(const Specimen &specimen, const ModelSettings &settings, doubl
 void expect_close_from_below(const Specimen &specimen, const ModelSettings &settings) {
   const StableStep predicted = Model(specimen, settings).stable_step({}, 0);
   const double ratio = predicted.limit / real_limit(specimen, settings, predicted.limit);
+  note_figure(10, "predicted_over_real_limit", ratio, "0.7 ... 1.002");
   EXPECT_GE(ratio, .7);
   EXPECT_LE(ratio, 1.002);
   EXPECT_FALSE(predicted.reason.empty());
