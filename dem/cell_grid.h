@@ -19,8 +19,7 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
 }
 
 // All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs for
-// radii of similar size. Throws NotFinite where a
-// centre is not finite.
+// radii of similar size. Throws NotFinite where a centre is not finite.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
                                   double margin);
 
