@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "apps/report/run_folder.h"
@@ -22,9 +23,11 @@ void draw_energies(const Run &run, const std::filesystem::path &png);
 void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png);
 void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
-// Pieces of 30 and more spheres that bonds hold together at the end, in colours. The frames must tell
-// fragments.
+// Pieces of 30 and more spheres that bonds hold together, in colours, when the stress has fallen to 0.8 of
+// the peak and at the end, with the cones that were fitted then. The frames must tell fragments.
 void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png);
+// What to see in it, with the cones in words.
+std::string fragments_caption(const Run &run);
 
 // Damage of several runs side by side, each at its Run::pattern_time(). Runs without frames are left out.
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);

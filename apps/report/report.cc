@@ -58,8 +58,7 @@ void draw_one_run(const Run &run, const fs::path &folder, std::vector<Picture> &
               next(drawn, folder, "damage.png",
                    "Half specimen coloured by the share of each sphere's bonds that is broken."));
   if (!before_test.fragment.empty())
-    draw_fragments(run, extent,
-                   next(drawn, folder, "fragments.png", "Half specimen at the end, its pieces in colours."));
+    draw_fragments(run, extent, next(drawn, folder, "fragments.png", fragments_caption(run)));
   draw_ends(run, extent, folder, drawn);
   if (!run.cracks) return;
   draw_cracks(

@@ -8,11 +8,13 @@ set(PLATEN_REPORT_SOURCES
   report/canvas.cc
   report/chart.cc
   report/comparison.cc
+  report/cones.cc
   report/crack_density.cc
   report/crack_pictures.cc
   report/csv.cc
   report/curves.cc
   report/display.cc
+  report/fragment_pictures.cc
   report/frames.cc
   report/heat_map.cc
   report/html_page.cc

@@ -67,24 +67,6 @@ void draw_damage(const Run &run, const Extent &extent, const std::filesystem::pa
   draw_pattern_and_end(run, extent, Quantity::damage, "Damage", png);
 }
 
-void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png) {
-  constexpr int coloured = 7, smallest = 30; // pieces; spheres
-  CutView view;
-  view.caption = "at the end";
-  view.spheres = read_spheres(run.specimen.nearest(run.moments.end_time));
-  std::vector<int> count;
-  for (const int f : view.spheres.fragment) {
-    if (f >= static_cast<int>(count.size())) count.resize(static_cast<std::size_t>(f) + 1);
-    ++count[static_cast<std::size_t>(f)];
-  }
-  for (const int f : view.spheres.fragment)
-    view.values.push_back(f < coloured && count[static_cast<std::size_t>(f)] >= smallest ? f + 1 : 0);
-  if (!run.platens.empty()) view.platens = read_frame(run.platens.nearest(view.spheres.time));
-  const Colouring colouring{Ramp::pieces, {0, coloured}, ""};
-  save_cut_views(run.title, "Pieces that bonds still hold together; grey: fewer than 30 spheres", {view},
-                 extent, colouring, png);
-}
-
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {
   draw_side_by_side(runs, Quantity::damage, "Damage compared", png);
 }

@@ -83,8 +83,8 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   write_example(folder / "dry", {});
   const Outcome outcome = run(folder, quoted(folder / "dry"), "env -u DISPLAY");
   ASSERT_EQ(outcome.status, status_done) << outcome.error;
-  for (const char *name :
-       {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density"}) {
+  for (const char *name : {"stress_strain", "energies", "outward_displacement", "damage", "cracks",
+                           "crack_density", "fragments"}) {
     const auto file = folder / "dry" / "pictures" / (std::string(name) + ".png");
     ASSERT_TRUE(std::filesystem::exists(file)) << name;
     const Image image = read_png(file);
@@ -96,6 +96,7 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   EXPECT_NE(outcome.out.find("strength (MPa)"), std::string::npos);
   const std::string page = text_of(folder / "dry" / "pictures" / "report.html");
   EXPECT_NE(page.find("dry platens"), std::string::npos);
+  EXPECT_NE(page.find("on top 45 degrees (confidence 0.80), at the bottom 30 degrees"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
 }
 
