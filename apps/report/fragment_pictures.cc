@@ -56,6 +56,10 @@ CutView view_of_pieces(const Run &run, const Extent &extent, ConeTime moment) {
 
 } // namespace
 
+bool tells_fragments(const Run &run) {
+  return !run.specimen.empty() && !read_spheres(run.specimen.frames.front()).fragment.empty();
+}
+
 void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png) {
   std::vector<CutView> views;
   if (run.moments.post_peak_time) views.push_back(view_of_pieces(run, extent, ConeTime::fall));
@@ -63,6 +67,21 @@ void draw_fragments(const Run &run, const Extent &extent, const std::filesystem:
   const Colouring colouring{Ramp::pieces, {0, coloured}, ""};
   save_cut_views(run.title, "Pieces that bonds hold together (grey: below 30 spheres) and fitted cones",
                  views, extent, colouring, png);
+}
+
+void draw_fragments_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {
+  std::vector<CutView> views;
+  Extent largest;
+  for (const Run &run : runs) {
+    if (!tells_fragments(run)) continue;
+    const Extent extent = extent_of(read_spheres(run.specimen.frames.front()));
+    views.push_back(view_of_pieces(run, extent, ConeTime::end));
+    views.back().caption = run.name + ", at the end";
+    if (extent.height() > largest.height()) largest = extent;
+  }
+  const Colouring colouring{Ramp::pieces, {0, coloured}, ""};
+  save_cut_views("Pieces and cones compared", "Grey: pieces of fewer than 30 spheres", views, largest,
+                 colouring, png);
 }
 
 std::string fragments_caption(const Run &run) {

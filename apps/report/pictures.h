@@ -23,8 +23,11 @@ void draw_energies(const Run &run, const std::filesystem::path &png);
 void draw_outward_displacement(const Run &run, const Extent &extent, const std::filesystem::path &png);
 void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
+// Whether the frames of the run say which piece each sphere is of.
+bool tells_fragments(const Run &run);
 // Pieces of 30 and more spheres that bonds hold together, in colours, when the stress has fallen to 0.8 of
-// the peak and at the end, with the cones that were fitted then. The frames must tell fragments.
+// the peak and at the end, with the cones that were fitted then. The frames must
+// tell fragments.
 void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png);
 // What to see in it, with the cones in words.
 std::string fragments_caption(const Run &run);
@@ -33,6 +36,10 @@ std::string fragments_caption(const Run &run);
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
 // Outward displacement of several runs at their ends, in one scale: what the platens held is dark.
 void draw_displacement_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
+
+// Pieces and cones of several runs at their ends. Runs without frames, or whose frames do not tell fragments,
+// are left out; one must be there.
+void draw_fragments_comparison(const std::vector<Run> &runs, const std::filesystem::path &png);
 
 // The bonds broken up to Run::pattern_time() as discs of their areas in the half specimen: those that broke
 // in tension on the left, in shear on the right. `before_test` is the first frame of the specimen. The run
