@@ -26,9 +26,12 @@ struct FrameSeries {
 // Reads the list alone, not the frames. Throws InputError where the file is no .pvd or a frame is not there.
 FrameSeries read_pvd(const std::filesystem::path &file);
 
-// The parts of a frame, joined, cells and points. Throws InputError where a part is missing, damaged or
-// empty.
-vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame);
+// Contacts may be none at a time; of all else there is always something.
+enum class Points { some, maybe_none };
+
+// The parts of a frame, joined, cells and points. Throws InputError where a part is missing, damaged or empty
+// without leave.
+vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points points = Points::some);
 
 // A frame of spheres as plain columns.
 struct Spheres {

@@ -56,4 +56,8 @@ void draw_platen_profiles(const Run &run, const Extent &extent, const std::files
 // Every sphere at a platen in the same frame, seen along the axis: whether it sticks or slides.
 void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
+// Vertical stress and largest shear in the plane y = 0, from platen through specimen to platen, in the frame
+// nearest to the peak; platens that are rigid in grey. The run must tell stress (field_frame.h).
+void draw_stress_flow(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
 } // namespace platen::apps::report

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "apps/report/comparison.h"
+#include "apps/report/field_frame.h"
 #include "apps/report/html_page.h"
 #include "apps/report/pictures.h"
 #include "apps/scene/errors.h"
@@ -87,9 +88,17 @@ void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, 
             [&](const fs::path &png) { draw_crack_density(run, before_test, png); });
 }
 
-void draw_ends(const Run &run, const Extent &extent, Album &album) {
-  if (run.contacts.empty() || extent.form != Extent::Form::cylinder) return;
+void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {
+  if (run.contacts.empty()) return;
   album.begin("Platens and ends");
+  if (tells_stress(run))
+    album.add(
+        "stress_flow.png",
+        "Stress in the plane y = 0 near the peak, averaged over the spheres; on the left the vertical "
+        "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
+        "ones are grey.",
+        [&](const fs::path &png) { draw_stress_flow(run, before_test, png); });
+  if (extent.form != Extent::Form::cylinder) return;
   album.add("platen_pressure.png",
             "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
             "end together by inward shear.",
@@ -105,7 +114,7 @@ void draw_one_run(const Run &run, Album &album) {
   const Extent extent = extent_of(before_test);
   draw_specimen(run, extent, album);
   draw_all_cracks(run, before_test, extent.is_plane(), album);
-  draw_ends(run, extent, album);
+  draw_ends(run, before_test, extent, album);
 }
 
 } // namespace

@@ -120,9 +120,9 @@ std::vector<double> ticks_for(const std::vector<CutView> &views) {
   return round_ticks(0, *place > 0 ? *place : 1, 5);
 }
 
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left) {
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right) {
   if (colouring.ramp == Ramp::pieces) return; // their colours mean nothing
-  vtkRenderer *renderer = canvas.add_renderer({left, 0, 1, 1});
+  vtkRenderer *renderer = canvas.add_renderer({left, 0, right, 1});
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()));
   bar->SetTitle((colouring.title + "\n ").c_str());

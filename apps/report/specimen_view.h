@@ -56,8 +56,8 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
 void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin);
 // The place in fractions of the whole window, once the camera has been set.
 std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place);
-// A bar of the colours (none for pieces) in the part of the canvas to the right of `left` (fraction).
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left);
+// A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` (fractions).
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
 // The half y < 0 of the platens, in grey.

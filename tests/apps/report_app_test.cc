@@ -147,6 +147,9 @@ TEST(ReportApp, bad_input_ends_with_status_two_one_line_and_no_picture) {
   EXPECT_NE(missing.error.find("no such folder"), std::string::npos);
   EXPECT_EQ(run(folder, "").status, status_bad_input);
   EXPECT_EQ(run(folder, quoted(folder / "dry") + " --colour red").status, status_bad_input);
+  const Outcome no_stress = run(folder, quoted(folder / "dry") + " --fields"); // its frames tell none
+  EXPECT_EQ(no_stress.status, status_bad_input);
+  EXPECT_NE(no_stress.error.find("specimen.pvd with stress"), std::string::npos);
 
   folder.write("dry/history.csv", "time_s,axial_stress_top_pa\n0,zero\n");
   const Outcome damaged = run(folder, quoted(folder / "dry"));
