@@ -105,6 +105,10 @@ vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points point
   return joined->GetOutput();
 }
 
+double Spheres::displacement(std::size_t k) const {
+  return std::hypot(x[k] - x0[k], y[k] - y0[k], z[k] - z0[k]);
+}
+
 double Spheres::outward_displacement(std::size_t k) const {
   return std::hypot(x[k], y[k]) - std::hypot(x0[k], y0[k]);
 }

@@ -43,6 +43,7 @@ struct Spheres {
   std::vector<int> fragment; // 0: the largest; empty where the frame does not tell
 
   std::size_t size() const { return x.size(); }
+  double displacement(std::size_t k) const;         // m, size
   double outward_displacement(std::size_t k) const; // m, away from the axis x = y = 0, in the plane across it
   double damage(std::size_t k) const;               // broken share of the bonds; 0 for a sphere that had none
 };

@@ -10,12 +10,20 @@
 
 namespace platen::apps::report {
 
-// Axial stress against platen, gauge and lateral strain, the peak marked; below, broken bonds by mode against
-// platen strain. Several runs share the axes, one colour each.
+// Axial stress against platen, gauge and lateral strain, the peak marked; below,
+// broken bonds by mode against platen strain. Several runs share the axes, one colour each.
 void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::path &png);
 
 // The ledger: where the work of the platens went, against platen strain.
 void draw_energies(const Run &run, const std::filesystem::path &png);
+
+// Seconds of each stage as bars. The run must have costs (costs.h).
+void draw_costs(const Run &run, const std::filesystem::path &png);
+
+// The specimen before the test, at the peak and at the end, coloured by how far each sphere has gone: from
+// outside, and cut in half.
+void draw_outside(const Run &run, const Extent &extent, const std::filesystem::path &png);
+void draw_inside(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
 // The half specimen coloured by outward displacement, or by the broken share of each sphere's bonds: when the
 // stress has fallen to 0.8 of the peak (where it did) and at the end. `extent` is the specimen's before the

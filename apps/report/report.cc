@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "apps/report/comparison.h"
+#include "apps/report/costs.h"
 #include "apps/report/field_frame.h"
 #include "apps/report/html_page.h"
 #include "apps/report/pictures.h"
@@ -54,8 +55,9 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
 void draw_curves(const Run &run, Album &album) {
   album.begin("Stress and energy");
   album.add("stress_strain.png",
-            "Axial stress against strain between the platens and in the gauge; broken bonds. The two axial "
-            "strains differ by what the ends take up.",
+            "Axial stress against strain between the platens and in the gauge; broken bonds; volume. "
+            "The two axial strains differ by what the ends take up; where the volume begins to grow, cracks "
+            "open. Dots: the peak.",
             [&](const fs::path &png) { draw_stress_strain({run}, png); });
   album.add("energies.png",
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
@@ -65,6 +67,12 @@ void draw_curves(const Run &run, Album &album) {
 
 void draw_specimen(const Run &run, const Extent &extent, Album &album) {
   album.begin("The specimen");
+  album.add(
+      "specimen_outside.png",
+      "From outside, coloured by how far each sphere has gone: before the test, near the peak, at the end.",
+      [&](const fs::path &png) { draw_outside(run, extent, png); });
+  album.add("specimen_inside.png", "The same, cut in half.",
+            [&](const fs::path &png) { draw_inside(run, extent, png); });
   album.add(
       "outward_displacement.png",
       "Half specimen coloured by outward displacement: cones stay dark, what they wedge aside is light.",
@@ -107,6 +115,12 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
             [&](const fs::path &png) { draw_stick_and_slip(run, extent, png); });
 }
 
+void draw_where_time_went(const Run &run, Album &album) {
+  if (costs_of(run).empty()) return;
+  album.begin("Where the seconds went");
+  album.add("seconds.png", machine_words(run), [&](const fs::path &png) { draw_costs(run, png); });
+}
+
 void draw_one_run(const Run &run, Album &album) {
   draw_curves(run, album);
   if (run.specimen.empty()) return;
@@ -130,6 +144,7 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
   Album album(folder);
   if (runs.size() > 1) draw_comparison(runs, album);
   draw_one_run(runs.front(), album);
+  draw_where_time_went(runs.front(), album);
   const TableOfFigures figures = table_of_figures(runs);
   write_html(runs, figures, album.sections(), folder / "report.html");
   for (const Section &section : album.sections())

@@ -9,6 +9,8 @@ set(PLATEN_REPORT_SOURCES
   report/chart.cc
   report/comparison.cc
   report/cones.cc
+  report/cost_picture.cc
+  report/costs.cc
   report/crack_density.cc
   report/crack_pictures.cc
   report/csv.cc

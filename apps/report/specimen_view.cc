@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace platen::apps::report {
 namespace {
@@ -27,13 +28,20 @@ namespace {
 constexpr double rise = 0.12; // tangent of the angle from which the cut is seen, about 7 degrees from above
 constexpr int panel_width = 760, picture_height = 1240, bar_width = 260, caption_height = 80;
 
-vtkSmartPointer<vtkPolyData> half_as_points(const CutView &view) {
+std::vector<std::size_t> shown(const CutView &view) {
+  if (!view.is_whole) return kept_half(view.spheres);
+  std::vector<std::size_t> rows(view.spheres.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return rows;
+}
+
+vtkSmartPointer<vtkPolyData> spheres_as_points(const CutView &view) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> radius; // the mapper takes its bytes for floats, whatever they are
   vtkNew<vtkDoubleArray> value;
   radius->SetName("radius");
   value->SetName("value");
-  for (const std::size_t k : kept_half(view.spheres)) {
+  for (const std::size_t k : shown(view)) {
     points->InsertNextPoint(view.spheres.x[k], view.spheres.y[k], view.spheres.z[k]);
     radius->InsertNextValue(static_cast<float>(view.spheres.radius[k]));
     value->InsertNextValue(view.values[k]);
@@ -51,7 +59,7 @@ vtkSmartPointer<vtkPolyData> half_as_points(const CutView &view) {
 
 void add_spheres(vtkRenderer *renderer, const CutView &view, vtkScalarsToColors *colours) {
   vtkNew<vtkOpenGLSphereMapper> mapper;
-  mapper->SetInputData(half_as_points(view));
+  mapper->SetInputData(spheres_as_points(view));
   mapper->SetScaleArray("radius");
   mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectColorArray("value");
@@ -112,7 +120,7 @@ std::vector<std::size_t> kept_half(const Spheres &spheres) {
 std::vector<double> ticks_for(const std::vector<CutView> &views) {
   std::vector<double> all;
   for (const CutView &view : views)
-    for (const std::size_t k : kept_half(view.spheres))
+    for (const std::size_t k : shown(view))
       all.push_back(view.values[k]);
   if (all.empty()) return {0, 1};
   const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
@@ -170,7 +178,7 @@ void light_cut(vtkRenderer *renderer) {
   add(0.7, 0.1, 0.3);
 }
 
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole) {
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(0, 0, 0);
   plane->SetNormal(0, -1, 0);
@@ -178,7 +186,10 @@ void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
   half->SetInputData(platens);
   half->SetClipFunction(plane);
   vtkNew<vtkDataSetMapper> mapper;
-  mapper->SetInputConnection(half->GetOutputPort());
+  if (whole)
+    mapper->SetInputData(platens);
+  else
+    mapper->SetInputConnection(half->GetOutputPort());
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
@@ -200,7 +211,7 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
     vtkRenderer *renderer = canvas.add_renderer({left, double(caption_height) / picture_height, right,
                                                  1 - double(Canvas::head_height) / picture_height});
     add_spheres(renderer, views[k], colours);
-    if (views[k].platens) add_platens(renderer, views[k].platens);
+    if (views[k].platens) add_platens(renderer, views[k].platens, views[k].is_whole);
     light_cut(renderer);
     for (const Outline &outline : views[k].outlines)
       add_line(renderer, outline, 2 * extent.half_depth);

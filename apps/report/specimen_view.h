@@ -29,6 +29,7 @@ struct CutView {
   std::string caption; // under the picture
   Spheres spheres;
   std::vector<double> values;                   // coloured by, one per sphere
+  bool is_whole = false;                        // not cut
   vtkSmartPointer<vtkUnstructuredGrid> platens; // may be null
   std::vector<Outline> outlines;
   std::vector<Note> notes;
@@ -60,7 +61,7 @@ std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
-// The half y < 0 of the platens, in grey.
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens);
+// The platens in grey, all of them or the half y < 0.
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole = false);
 
 } // namespace platen::apps::report
