@@ -54,9 +54,21 @@ void draw_fragments_comparison(const std::vector<Run> &runs, const std::filesyst
 // must have cracks.
 void draw_cracks(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
 
+// The same coloured by when they broke: before the peak on the left, after it on the right.
+void draw_crack_times(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
 // The same, counted over radius and height: as a share of the initial bonds where bonds.pvd is there, else
 // per volume.
 void draw_crack_density(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
+
+// Area of all cracks by the angle of their normals to the axis, over that of cracks that face all ways alike.
+// The summary must have it.
+bool tells_rose(const Run &run);
+void draw_crack_rose(const Run &run, const std::filesystem::path &png);
+
+// How many acoustic events have at least a magnitude, before and after the peak, with the b-values of the
+// summary as lines. The run must have events, at least one.
+void draw_acoustic(const Run &run, const std::filesystem::path &png);
 
 // Pressure on both platens and shear on the ends of the specimen against the distance from the axis, in the
 // frame nearest to the peak. Round specimens; the run must have contacts.

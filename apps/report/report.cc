@@ -90,10 +90,25 @@ void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, 
   album.begin("Cracks");
   album.add("cracks.png", "Broken bonds as discs, in tension (left) and in shear (right).",
             [&](const fs::path &png) { draw_cracks(run, before_test, png); });
+  album.add(
+      "crack_times.png",
+      "The same discs by when they broke. What is empty on the right stood still while the rest failed.",
+      [&](const fs::path &png) { draw_crack_times(run, before_test, png); });
   album.add("crack_density.png",
             std::string("Broken bonds over height and distance from the ") +
                 (is_plane ? "middle plane" : "axis") + "; the left half mirrors the right.",
             [&](const fs::path &png) { draw_crack_density(run, before_test, png); });
+  if (tells_rose(run))
+    album.add(
+        "crack_rose.png",
+        "Which way cracks face, all of the run: beyond the line there are more than if they faced all ways "
+        "alike. Cracks at 90 degrees run along the specimen: it splits.",
+        [&](const fs::path &png) { draw_crack_rose(run, png); });
+  if (run.events && run.events->rows > 0)
+    album.add("acoustic.png",
+              "Cracks near in place and time are one event. Where a curve leaves its line downwards there "
+              "are fewer great events than a power law has: b says how the small ones fall off.",
+              [&](const fs::path &png) { draw_acoustic(run, png); });
 }
 
 void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {

@@ -5,6 +5,8 @@
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
+  report/acoustic.cc
+  report/bars.cc
   report/canvas.cc
   report/chart.cc
   report/comparison.cc
@@ -13,6 +15,7 @@ set(PLATEN_REPORT_SOURCES
   report/costs.cc
   report/crack_density.cc
   report/crack_pictures.cc
+  report/crack_rose_picture.cc
   report/csv.cc
   report/curves.cc
   report/display.cc

@@ -83,8 +83,9 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   write_example(folder / "dry", {});
   const Outcome outcome = run(folder, quoted(folder / "dry"), "env -u DISPLAY");
   ASSERT_EQ(outcome.status, status_done) << outcome.error;
-  for (const char *name : {"stress_strain", "energies", "outward_displacement", "damage", "cracks",
-                           "crack_density", "fragments"}) {
+  for (const char *name :
+       {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density", "fragments",
+        "crack_times", "specimen_outside", "specimen_inside"}) {
     const auto file = folder / "dry" / "pictures" / (std::string(name) + ".png");
     ASSERT_TRUE(std::filesystem::exists(file)) << name;
     const Image image = read_png(file);
