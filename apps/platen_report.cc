@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "apps/report/display.h"
+#include "apps/report/field_files.h"
+#include "apps/report/field_frame.h"
 #include "apps/report/report.h"
 #include "apps/report/study_pictures.h"
 #include "apps/scene/errors.h"
@@ -17,7 +19,7 @@ using namespace platen::apps;
 struct Wishes {
   std::string folder, pictures; // pictures: empty for FOLDER/pictures
   std::vector<std::string> others;
-  bool quiet = false;
+  bool fields = false, quiet = false;
 };
 
 void report_on(const Wishes &wishes, char **argv) {
@@ -28,6 +30,7 @@ void report_on(const Wishes &wishes, char **argv) {
   std::ostream &out = wishes.quiet ? static_cast<std::ostream &>(unread) : std::cout;
   if (report::holds_study(wishes.folder)) {
     if (!wishes.others.empty()) throw InputError("--compare is for runs; " + wishes.folder + " is a study");
+    if (wishes.fields) throw InputError("--fields is for runs; " + wishes.folder + " is a study");
     const report::StudyResults study = report::read_study(wishes.folder);
     report::ensure_display(argv);
     return report::write_study_report(study, pictures, out);
@@ -35,8 +38,13 @@ void report_on(const Wishes &wishes, char **argv) {
   std::vector<report::Run> runs{report::read_run(wishes.folder)};
   for (const std::string &other : wishes.others)
     runs.push_back(report::read_run(other));
+  if (wishes.fields && !report::tells_stress(runs.front()))
+    throw InputError(wishes.folder +
+                     ": no fields can be made: they need specimen.pvd with stress, contacts.pvd "
+                     "and packing_fraction in summary.json");
   report::ensure_display(argv);
   report::write_report(runs, pictures, out);
+  if (wishes.fields) out << "fields: " << report::write_fields(runs.front()).string() << '\n';
 }
 
 int fail(const std::exception &error, int status) {
@@ -55,6 +63,9 @@ int main(int argc, char **argv) {
   app.add_option("folder", wishes.folder, "Output folder of a run or a study")->required();
   app.add_option("-c,--compare", wishes.others, "Further output folders, drawn and tabled beside the first");
   app.add_option("-o,--output", wishes.pictures, "Folder for pictures and page; default: FOLDER/pictures");
+  app.add_flag("--fields", wishes.fields,
+               "Also write stress, strain, displacement and damage of all frames on one grid: fields.pvd for "
+               "ParaView, into FOLDER");
   app.add_flag("-q,--quiet", wishes.quiet, "Print errors only");
   app.set_version_flag("--version", version_text());
   try {

@@ -46,9 +46,11 @@ build/apps/platen-report results/demo/dry --compare results/demo/lubricated
 
 cat <<'END'
 
-Comparison:      results/demo/dry/pictures/report.html (one page), comparison_*.png beside it
 Pictures:        results/demo/dry/pictures/*.png, results/demo/lubricated/pictures/*.png
 For ParaView:    results/demo/dry/specimen.pvd (also bonds.pvd, platens.pvd), the same under lubricated/
 Numbers:         results/demo/dry/summary.json, history.csv, cracks.csv, the same under lubricated/
+
+One page with the comparison, open it in a browser:
+                 results/demo/dry/pictures/report.html
 END
 exit "$worst"

@@ -76,8 +76,10 @@ bool is_output_name(const fs::path &relative) {
       "[0-9]+)(\\."
       "part)?\\.csv"
       "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
-      "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts)(\\.part)?\\.pvd)");
-  static const std::regex frame("(specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu");
+      "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
+  static const std::regex frame(
+      "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu|fields_[0-9]{6,}(\\.part)?\\."
+      "vti)");
   const std::string name = relative.filename().string();
   const fs::path parent = relative.parent_path();
   if (parent.empty()) return std::regex_match(name, top);

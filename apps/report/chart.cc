@@ -224,8 +224,8 @@ void add_chart_scene(Canvas &canvas, const std::vector<vtkSmartPointer<vtkChartX
 void save_charts(const std::string &title, const std::string &subtitle, const std::vector<Chart> &charts,
                  const std::vector<int> &heights, const std::filesystem::path &png) {
   int height = Canvas::head_height;
-  for (const int plot : heights)
-    height += plot + foot;
+  for (std::size_t k = 0; k < charts.size(); ++k)
+    height += heights[k] + foot;
   Canvas canvas(left_margin + plot_width + right_margin, height);
   std::vector<vtkSmartPointer<vtkChartXY>> items;
   double bottom = height - Canvas::head_height;

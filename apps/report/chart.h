@@ -58,8 +58,8 @@ struct LegendPlace {
 LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array<double, 2> y, double width,
                          double height);
 
-// Draws charts one above the other, plots of the given heights (pixels), with a head over all, and writes
-// them. Throws OutputError.
+// Draws charts one above the other, plots of the given heights (pixels, one a chart or more), with a head
+// over all, and writes them. Throws OutputError.
 void save_charts(const std::string &title, const std::string &subtitle, const std::vector<Chart> &charts,
                  const std::vector<int> &heights, const std::filesystem::path &png);
 

@@ -10,7 +10,7 @@ namespace {
 
 struct Figure {
   const char *title;
-  std::vector<const char *> keys; // the largest of them
+  std::vector<const char *> keys; // the largest of them; a member of an object after "/"
   double factor;                  // from SI to the unit in the title
   int digits;
   bool only_if_measured; // no row where no run has it
@@ -31,6 +31,12 @@ const std::vector<Figure> &figures() {
       {"damage of the middle", {"middle_damage"}, 1, 3, false},
       {"spread of the ends", {"end_spread"}, 1, 3, false},
       {"barrel at peak", {"barrel_at_peak"}, 1, 3, false},
+      {"half-angle of the top cone (degrees)", {"cone_top/half_angle_deg"}, 1, 1, true},
+      {"half-angle of the bottom cone", {"cone_bottom/half_angle_deg"}, 1, 1, true},
+      {"top cone at the end", {"final_cone_top/half_angle_deg"}, 1, 1, true},
+      {"bottom cone at the end", {"final_cone_bottom/half_angle_deg"}, 1, 1, true},
+      {"b-value before the peak", {"acoustic/b_before"}, 1, 2, true},
+      {"b-value after the peak", {"acoustic/b_after"}, 1, 2, true},
   };
   return all;
 }
@@ -39,9 +45,10 @@ const std::vector<Figure> &figures() {
 std::optional<double> value_of(const Run &run, const Figure &figure) {
   std::optional<double> largest;
   for (const char *key : figure.keys) {
-    const auto found = run.summary.find(key);
-    if (found == run.summary.end() || !found->is_number()) continue;
-    const double value = found->get<double>() * figure.factor;
+    // A pointer of JSON; null where any part is not there.
+    const nlohmann::json::json_pointer place("/" + std::string(key));
+    if (!run.summary.is_object() || !run.summary.contains(place) || !run.summary[place].is_number()) continue;
+    const double value = run.summary[place].get<double>() * figure.factor;
     if (!largest || value > *largest) largest = value;
   }
   return largest;
@@ -62,6 +69,20 @@ std::vector<std::string> row_of(const Figure &figure, const std::vector<std::opt
   return row;
 }
 
+// Words of the summaries; no gain. Nothing where no run has them.
+std::vector<std::string> row_of_words(const char *title, const char *key, const std::vector<Run> &runs) {
+  std::vector<std::string> row{title};
+  bool told = false;
+  for (const Run &run : runs) {
+    const auto found = run.summary.find(key);
+    const bool here = found != run.summary.end() && found->is_string();
+    row.push_back(here ? found->get<std::string>() : "-");
+    told = told || here;
+  }
+  row.resize(2 * runs.size(), "-");
+  return told ? row : std::vector<std::string>{};
+}
+
 } // namespace
 
 TableOfFigures table_of_figures(const std::vector<Run> &runs) {
@@ -80,6 +101,10 @@ TableOfFigures table_of_figures(const std::vector<Run> &runs) {
         std::any_of(values.begin(), values.end(), [](const auto &v) { return v.has_value(); });
     if (measured || !figure.only_if_measured) table.rows.push_back(row_of(figure, values));
   }
+  for (const auto &[title, key] :
+       {std::pair{"pattern", "pattern"}, std::pair{"pattern at the end", "final_pattern"}})
+    if (std::vector<std::string> row = row_of_words(title, key, runs); !row.empty())
+      table.rows.push_back(std::move(row));
   return table;
 }
 

@@ -48,7 +48,7 @@ std::vector<Crack> cracks_until(const CsvTable &table, double time, const Sphere
       throw InputError(table.file.string() + ":" + std::to_string(k + 2) + ": mode \"" + mode +
                        "\" is neither tension nor shear");
     if (times[k] > time) continue;
-    Crack crack{{x[k], y[k], z[k]}, nx[k], ny[k], nz[k], area[k], mode == "tension"};
+    Crack crack{{x[k], y[k], z[k]}, nx[k], ny[k], nz[k], area[k], mode == "tension", times[k]};
     const auto first = row_of.find(std::llround(a[k])), second = row_of.find(std::llround(b[k]));
     if (first != row_of.end() && second != row_of.end()) {
       const std::size_t i = first->second, j = second->second;

@@ -22,6 +22,7 @@ struct Crack {
   double nx = 0, ny = 0, nz = 0; // unit normal
   double area = 0;               // m2
   bool in_tension = true;        // else in shear
+  double time = 0;               // s
 };
 
 // Cracks up to `time` (s). Throws InputError where a column is missing or a mode is neither tension nor

@@ -11,6 +11,7 @@
 #include <vtkProperty.h>
 #include <vtkRegularPolygonSource.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/report/crack_density.h"
@@ -22,24 +23,34 @@ namespace platen::apps::report {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr int panel_width = 820, picture_height = 1240, bar_width = 260; // pixels
 
-// Discs of the bonds' areas, at right angles to their normals.
-void add_discs(vtkRenderer *renderer, const std::vector<Crack> &cracks, bool in_tension, Colour colour) {
+struct Disc {
+  const Crack *crack;
+  double value; // coloured by
+};
+
+// Discs of the bonds' areas in the half y < 0, at right angles to their normals.
+void add_discs(vtkRenderer *renderer, const std::vector<Disc> &discs, vtkScalarsToColors *colours) {
   vtkNew<vtkPoints> points;
-  vtkNew<vtkDoubleArray> normals, sizes;
+  vtkNew<vtkDoubleArray> normals, sizes, values;
   normals->SetName("normal");
   normals->SetNumberOfComponents(3);
   sizes->SetName("radius");
-  for (const Crack &crack : cracks) {
-    if (crack.in_tension != in_tension || crack.place.y > 0) continue;
+  values->SetName("value");
+  for (const Disc &shown : discs) {
+    const Crack &crack = *shown.crack;
+    if (crack.place.y > 0) continue;
     points->InsertNextPoint(crack.place.x, crack.place.y, crack.place.z);
     normals->InsertNextTuple3(crack.nx, crack.ny, crack.nz);
     sizes->InsertNextValue(std::sqrt(crack.area / pi));
+    values->InsertNextValue(shown.value);
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->GetPointData()->AddArray(normals);
   data->GetPointData()->AddArray(sizes);
+  data->GetPointData()->AddArray(values);
   vtkNew<vtkRegularPolygonSource> disc; // the mapper turns the x axis of the source into the normal
   disc->SetNumberOfSides(20);
   disc->SetRadius(1);
@@ -52,10 +63,12 @@ void add_discs(vtkRenderer *renderer, const std::vector<Crack> &cracks, bool in_
   mapper->SetOrientationModeToDirection();
   mapper->SetScaleArray("radius");
   mapper->SetScaleModeToScaleByMagnitude();
-  mapper->ScalarVisibilityOff();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray("value");
+  mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
   actor->GetProperty()->SetAmbient(0.4);
   actor->GetProperty()->SetDiffuse(0.65);
   renderer->AddActor(actor);
@@ -107,31 +120,64 @@ void add_outline(vtkRenderer *renderer, const Extent &extent) {
   renderer->AddActor(actor);
 }
 
-std::string counted(const std::vector<Crack> &cracks, bool in_tension) {
-  std::size_t count = 0;
-  for (const Crack &crack : cracks)
-    count += crack.in_tension == in_tension ? 1 : 0;
-  return std::to_string(count) + (in_tension ? " in tension" : " in shear") + " (both halves)";
+vtkSmartPointer<vtkColorTransferFunction> one_colour(Colour colour) {
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  for (const double x : {0.0, 1.0})
+    function->AddRGBPoint(x, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+  return function;
+}
+
+// The k-th panel from the left.
+void add_panel(Canvas &canvas, int k, const std::vector<Disc> &discs, vtkScalarsToColors *colours,
+               const Extent &extent, const std::string &caption) {
+  constexpr int foot = 80;
+  const double width = canvas.width(), height = canvas.height();
+  const double left = k * panel_width / width, right = (k + 1) * panel_width / width;
+  vtkRenderer *renderer = canvas.add_renderer({left, foot / height, right, 1 - Canvas::head_height / height});
+  add_discs(renderer, discs, colours);
+  add_outline(renderer, extent);
+  light_cut(renderer);
+  look_at_cut(renderer, extent, 0.06 * extent.height());
+  canvas.add_text(caption, 0.5 * (left + right), 0.5 * foot / height, text_size, 0.95 * (right - left));
 }
 
 } // namespace
 
 void draw_cracks(const Run &run, const Spheres &before_test, const std::filesystem::path &png) {
-  constexpr int width = 1640, height = 1240, head = Canvas::head_height, foot = 80;
   const std::vector<Crack> cracks = cracks_until(*run.cracks, run.pattern_time(), before_test);
-  const Extent extent = extent_of(before_test);
-  Canvas canvas(width, height);
+  Canvas canvas(2 * panel_width, picture_height);
   for (const bool in_tension : {true, false}) {
-    const double left = in_tension ? 0 : 0.5;
-    vtkRenderer *renderer =
-        canvas.add_renderer({left, double(foot) / height, left + 0.5, 1 - double(head) / height});
-    add_discs(renderer, cracks, in_tension, in_tension ? colours::vermilion : colours::blue);
-    add_outline(renderer, extent);
-    light_cut(renderer);
-    look_at_cut(renderer, extent, 0.06 * extent.height());
-    canvas.add_text(counted(cracks, in_tension), left + 0.25, 0.5 * foot / height, text_size);
+    std::vector<Disc> discs;
+    for (const Crack &crack : cracks)
+      if (crack.in_tension == in_tension) discs.push_back({&crack, 0});
+    add_panel(canvas, in_tension ? 0 : 1, discs, one_colour(in_tension ? colours::vermilion : colours::blue),
+              extent_of(before_test),
+              std::to_string(discs.size()) + (in_tension ? " in tension" : " in shear") + " (both halves)");
   }
   canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", half of the specimen");
+  canvas.save(png);
+}
+
+void draw_crack_times(const Run &run, const Spheres &before_test, const std::filesystem::path &png) {
+  const std::vector<Crack> cracks = cracks_until(*run.cracks, run.pattern_time(), before_test);
+  const double peak = run.moments.peak_time;
+  double first = 1, last = 1; // over the time of the peak
+  for (const Crack &crack : cracks) {
+    first = std::min(first, crack.time / peak);
+    last = std::max(last, crack.time / peak);
+  }
+  const Colouring colouring{Ramp::displacement, round_ticks(first, last, 6), "Time over\nthat of the\npeak"};
+  Canvas canvas(2 * panel_width + bar_width, picture_height);
+  const auto ramp = colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back());
+  for (const bool before : {true, false}) {
+    std::vector<Disc> discs;
+    for (const Crack &crack : cracks)
+      if ((crack.time < peak) == before) discs.push_back({&crack, crack.time / peak});
+    add_panel(canvas, before ? 0 : 1, discs, ramp, extent_of(before_test),
+              std::to_string(discs.size()) + (before ? " before the peak" : " after it") + " (both halves)");
+  }
+  add_colour_bar(canvas, colouring, 1 - double(bar_width) / canvas.width());
+  canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", by time");
   canvas.save(png);
 }
 

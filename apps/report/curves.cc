@@ -58,6 +58,16 @@ void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several)
   }
 }
 
+void add_volume(Chart &chart, const Run &run, std::size_t k, bool several) {
+  if (!run.history.has("volumetric_strain")) return;
+  const std::vector<double> axial = scaled(run.history.column("axial_strain_platen"), mm_per_m),
+                            volume = scaled(run.history.column("volumetric_strain"), mm_per_m);
+  const Colour colour = several ? run_colour(k) : colours::green;
+  chart.curves.push_back(
+      {several ? run.name : "gauge (middle half)", axial, volume, colour, Stroke::solid, 4});
+  chart.marks.push_back({axial[run.moments.peak_row], volume[run.moments.peak_row], "", colour});
+}
+
 struct LedgerLine {
   const char *column, *words;
   Colour colour;
@@ -81,10 +91,11 @@ constexpr LedgerLine ledger[] = {
 
 void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::path &png) {
   const bool several = runs.size() > 1;
-  Chart stress, broken;
+  Chart stress, broken, volume;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     add_stress_curves(stress, runs[k], k, several);
     add_broken_bonds(broken, runs[k], k, several);
+    add_volume(volume, runs[k], k, several);
   }
   stress.x_title = several ? "Lateral (left) and axial strain (mm/m), compression positive"
                            : "Strain (mm/m), compression positive";
@@ -92,8 +103,13 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
   broken.x_title = "Axial strain between platens (mm/m)";
   broken.y_title = "Broken bonds";
   broken.x_range = x_range_of(stress); // one above the other, strain under strain
-  save_charts(several ? "Runs compared" : runs[0].title, "Stress and broken bonds against strain",
-              {stress, broken}, {800, 450}, png);
+  volume.x_title = broken.x_title;
+  volume.y_title = "Volumetric strain (mm/m)";
+  std::vector<Chart> charts{stress, broken};
+  if (!volume.curves.empty()) charts.push_back(volume);
+  save_charts(several ? "Runs compared" : runs[0].title,
+              "Stress, broken bonds and volume (compression positive) against strain", charts,
+              std::vector<int>{800, 450, 450}, png);
 }
 
 void draw_energies(const Run &run, const std::filesystem::path &png) {

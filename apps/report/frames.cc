@@ -31,7 +31,7 @@ private:
   int shown_;
 };
 
-vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::filesystem::path &file) {
+vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::filesystem::path &file, Points points) {
   const SilencedVtk silenced;
   if (!std::filesystem::exists(file)) throw InputError(file.string() + ": missing, though the .pvd lists it");
   vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -44,8 +44,9 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::filesystem::path &file)
   reader->SetFileName(file.c_str());
   reader->Update();
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
-  // A cut-off file reads as one without points, and GetErrorCode() stays 0.
-  if (failed || reader->GetErrorCode() != 0 || grid->GetNumberOfPoints() == 0)
+  // A cut-off file reads as one without points (and pieces), and GetErrorCode() stays 0.
+  const bool nothing_is_right = points == Points::maybe_none && reader->GetNumberOfPieces() > 0;
+  if (failed || reader->GetErrorCode() != 0 || (grid->GetNumberOfPoints() == 0 && !nothing_is_right))
     throw InputError(file.string() + ": damaged or empty, no points could be read");
   return grid;
 }
@@ -95,13 +96,17 @@ FrameSeries read_pvd(const std::filesystem::path &file) {
   return series;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame) {
-  if (frame.parts.size() == 1) return read_vtu(frame.parts[0]);
+vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points points) {
+  if (frame.parts.size() == 1) return read_vtu(frame.parts[0], points);
   vtkNew<vtkAppendFilter> joined;
   for (const auto &part : frame.parts)
-    joined->AddInputData(read_vtu(part));
+    joined->AddInputData(read_vtu(part, points));
   joined->Update();
   return joined->GetOutput();
+}
+
+double Spheres::displacement(std::size_t k) const {
+  return std::hypot(x[k] - x0[k], y[k] - y0[k], z[k] - z0[k]);
 }
 
 double Spheres::outward_displacement(std::size_t k) const {

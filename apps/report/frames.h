@@ -26,9 +26,12 @@ struct FrameSeries {
 // Reads the list alone, not the frames. Throws InputError where the file is no .pvd or a frame is not there.
 FrameSeries read_pvd(const std::filesystem::path &file);
 
-// The parts of a frame, joined, cells and points. Throws InputError where a part is missing, damaged or
-// empty.
-vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame);
+// Contacts may be none at a time; of all else there is always something.
+enum class Points { some, maybe_none };
+
+// The parts of a frame, joined, cells and points. Throws InputError where a part is missing, damaged or empty
+// without leave.
+vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points points = Points::some);
 
 // A frame of spheres as plain columns.
 struct Spheres {
@@ -40,6 +43,7 @@ struct Spheres {
   std::vector<int> fragment; // 0: the largest; empty where the frame does not tell
 
   std::size_t size() const { return x.size(); }
+  double displacement(std::size_t k) const;         // m, size
   double outward_displacement(std::size_t k) const; // m, away from the axis x = y = 0, in the plane across it
   double damage(std::size_t k) const;               // broken share of the bonds; 0 for a sphere that had none
 };

@@ -1,9 +1,12 @@
 #include "apps/report/report.h"
 
 #include <algorithm>
+#include <functional>
 #include <ostream>
 
 #include "apps/report/comparison.h"
+#include "apps/report/costs.h"
+#include "apps/report/field_frame.h"
 #include "apps/report/html_page.h"
 #include "apps/report/pictures.h"
 #include "apps/scene/errors.h"
@@ -13,65 +16,134 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Adds a picture to the list; returns where it is to be written.
-fs::path next(std::vector<Picture> &pictures, const fs::path &folder, const char *name,
-              const std::string &caption) {
-  pictures.push_back({folder / name, caption});
-  return pictures.back().file;
-}
+// Pictures as they come, under the headings of the page.
+class Album {
+public:
+  explicit Album(fs::path folder) : folder_(std::move(folder)) {}
+  void begin(const char *title) { sections_.push_back({title, {}}); }
+  void add(const char *name, const std::string &caption, const std::function<void(const fs::path &)> &draw) {
+    const fs::path file = folder_ / name;
+    draw(file);
+    sections_.back().pictures.push_back({file, caption});
+  }
+  const std::vector<Section> &sections() const { return sections_; }
 
-void draw_comparison(const std::vector<Run> &runs, const fs::path &folder, std::vector<Picture> &drawn) {
-  draw_stress_strain(runs, next(drawn, folder, "comparison_stress_strain.png",
-                                "Stress and broken bonds against strain, all runs."));
+private:
+  fs::path folder_;
+  std::vector<Section> sections_;
+};
+
+void draw_comparison(const std::vector<Run> &runs, Album &album) {
+  album.begin("Compared");
+  album.add("comparison_stress_strain.png",
+            "Stress and broken bonds against strain. A stronger run whose bonds break later was held at its "
+            "ends.",
+            [&](const fs::path &png) { draw_stress_strain(runs, png); });
   if (std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.specimen.empty(); })) return;
-  draw_displacement_comparison(
-      runs, next(drawn, folder, "comparison_displacement.png",
-                 "Half specimens at the end, coloured by outward displacement: what is dark stood still."));
-  draw_damage_comparison(runs,
-                         next(drawn, folder, "comparison_damage.png",
-                              "Half specimens coloured by the share of each sphere's bonds that is broken."));
+  album.add("comparison_displacement.png",
+            "Half specimens at the end, coloured by outward displacement: what is dark stood still.",
+            [&](const fs::path &png) { draw_displacement_comparison(runs, png); });
+  album.add("comparison_damage.png",
+            "Half specimens coloured by the share of each sphere's bonds that is broken: grey is sound.",
+            [&](const fs::path &png) { draw_damage_comparison(runs, png); });
+  if (std::any_of(runs.begin(), runs.end(), tells_fragments))
+    album.add("comparison_fragments.png",
+              "Pieces at the end, and the cones fitted to what is sound at each platen.",
+              [&](const fs::path &png) { draw_fragments_comparison(runs, png); });
 }
 
-void draw_ends(const Run &run, const Extent &extent, const fs::path &folder, std::vector<Picture> &drawn) {
-  if (run.contacts.empty() || extent.form != Extent::Form::cylinder) return;
-  draw_platen_profiles(run, extent,
-                       next(drawn, folder, "platen_pressure.png",
-                            "Pressure on the platens and shear on the ends over the radius, near the peak."));
-  draw_stick_and_slip(run, extent,
-                      next(drawn, folder, "stick_slip.png",
-                           "Spheres at the platens near the peak: which stick and which slide."));
+void draw_curves(const Run &run, Album &album) {
+  album.begin("Stress and energy");
+  album.add("stress_strain.png",
+            "Axial stress against strain between the platens and in the gauge; broken bonds; volume. "
+            "The two axial strains differ by what the ends take up; where the volume begins to grow, cracks "
+            "open. Dots: the peak.",
+            [&](const fs::path &png) { draw_stress_strain({run}, png); });
+  album.add("energies.png",
+            "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
+            "line.",
+            [&](const fs::path &png) { draw_energies(run, png); });
 }
 
-void draw_one_run(const Run &run, const fs::path &folder, std::vector<Picture> &drawn) {
-  draw_stress_strain({run},
-                     next(drawn, folder, "stress_strain.png",
-                          "Axial stress against strain between the platens and in the gauge; broken bonds."));
-  draw_energies(
-      run, next(drawn, folder, "energies.png", "The energy ledger: where the work of the platens went."));
+void draw_specimen(const Run &run, const Extent &extent, Album &album) {
+  album.begin("The specimen");
+  album.add(
+      "specimen_outside.png",
+      "From outside, coloured by how far each sphere has gone: before the test, near the peak, at the end.",
+      [&](const fs::path &png) { draw_outside(run, extent, png); });
+  album.add("specimen_inside.png", "The same, cut in half.",
+            [&](const fs::path &png) { draw_inside(run, extent, png); });
+  album.add(
+      "outward_displacement.png",
+      "Half specimen coloured by outward displacement: cones stay dark, what they wedge aside is light.",
+      [&](const fs::path &png) { draw_outward_displacement(run, extent, png); });
+  album.add("damage.png",
+            "Half specimen coloured by the share of each sphere's bonds that is broken: grey is sound.",
+            [&](const fs::path &png) { draw_damage(run, extent, png); });
+  if (tells_fragments(run))
+    album.add("fragments.png", fragments_caption(run),
+              [&](const fs::path &png) { draw_fragments(run, extent, png); });
+}
+
+void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, Album &album) {
+  if (!run.cracks) return;
+  album.begin("Cracks");
+  album.add("cracks.png", "Broken bonds as discs, in tension (left) and in shear (right).",
+            [&](const fs::path &png) { draw_cracks(run, before_test, png); });
+  album.add(
+      "crack_times.png",
+      "The same discs by when they broke. What is empty on the right stood still while the rest failed.",
+      [&](const fs::path &png) { draw_crack_times(run, before_test, png); });
+  album.add("crack_density.png",
+            std::string("Broken bonds over height and distance from the ") +
+                (is_plane ? "middle plane" : "axis") + "; the left half mirrors the right.",
+            [&](const fs::path &png) { draw_crack_density(run, before_test, png); });
+  if (tells_rose(run))
+    album.add(
+        "crack_rose.png",
+        "Which way cracks face, all of the run: beyond the line there are more than if they faced all ways "
+        "alike. Cracks at 90 degrees run along the specimen: it splits.",
+        [&](const fs::path &png) { draw_crack_rose(run, png); });
+  if (run.events && run.events->rows > 0)
+    album.add("acoustic.png",
+              "Cracks near in place and time are one event. Where a curve leaves its line downwards there "
+              "are fewer great events than a power law has: b says how the small ones fall off.",
+              [&](const fs::path &png) { draw_acoustic(run, png); });
+}
+
+void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {
+  if (run.contacts.empty()) return;
+  album.begin("Platens and ends");
+  if (tells_stress(run))
+    album.add(
+        "stress_flow.png",
+        "Stress in the plane y = 0 near the peak, averaged over the spheres; on the left the vertical "
+        "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
+        "ones are grey.",
+        [&](const fs::path &png) { draw_stress_flow(run, before_test, png); });
+  if (extent.form != Extent::Form::cylinder) return;
+  album.add("platen_pressure.png",
+            "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
+            "end together by inward shear.",
+            [&](const fs::path &png) { draw_platen_profiles(run, extent, png); });
+  album.add("stick_slip.png", "Spheres at the platens near the peak: which stick and which slide.",
+            [&](const fs::path &png) { draw_stick_and_slip(run, extent, png); });
+}
+
+void draw_where_time_went(const Run &run, Album &album) {
+  if (costs_of(run).empty()) return;
+  album.begin("Where the seconds went");
+  album.add("seconds.png", machine_words(run), [&](const fs::path &png) { draw_costs(run, png); });
+}
+
+void draw_one_run(const Run &run, Album &album) {
+  draw_curves(run, album);
   if (run.specimen.empty()) return;
   const Spheres before_test = read_spheres(run.specimen.frames.front());
   const Extent extent = extent_of(before_test);
-  draw_outward_displacement(
-      run, extent,
-      next(drawn, folder, "outward_displacement.png", "Half specimen coloured by outward displacement."));
-  draw_damage(run, extent,
-              next(drawn, folder, "damage.png",
-                   "Half specimen coloured by the share of each sphere's bonds that is broken."));
-  if (!before_test.fragment.empty())
-    draw_fragments(run, extent,
-                   next(drawn, folder, "fragments.png", "Half specimen at the end, its pieces in colours."));
-  draw_ends(run, extent, folder, drawn);
-  if (!run.cracks) return;
-  draw_cracks(
-      run, before_test,
-      next(drawn, folder, "cracks.png", "Broken bonds as discs, in tension (left) and in shear (right)."));
-  draw_crack_density(
-      run, before_test,
-      next(drawn, folder, "crack_density.png",
-           extent.is_plane()
-               ? "Broken bonds over height and distance from the middle plane; the left half mirrors the "
-                 "right."
-               : "Broken bonds over height and distance from the axis; the left half mirrors the right."));
+  draw_specimen(run, extent, album);
+  draw_all_cracks(run, before_test, extent.is_plane(), album);
+  draw_ends(run, before_test, extent, album);
 }
 
 } // namespace
@@ -84,13 +156,15 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
     for (const std::string &remark : run.remarks)
       out << run.name << ": " << remark << '\n';
 
-  std::vector<Picture> drawn;
-  if (runs.size() > 1) draw_comparison(runs, folder, drawn);
-  draw_one_run(runs.front(), folder, drawn);
+  Album album(folder);
+  if (runs.size() > 1) draw_comparison(runs, album);
+  draw_one_run(runs.front(), album);
+  draw_where_time_went(runs.front(), album);
   const TableOfFigures figures = table_of_figures(runs);
-  write_html(runs, figures, drawn, folder / "report.html");
-  for (const Picture &picture : drawn)
-    out << "drawn: " << picture.file.string() << '\n';
+  write_html(runs, figures, album.sections(), folder / "report.html");
+  for (const Section &section : album.sections())
+    for (const Picture &picture : section.pictures)
+      out << "drawn: " << picture.file.string() << '\n';
   out << "page: " << (folder / "report.html").string() << "\n\n" << as_text(figures);
 }
 

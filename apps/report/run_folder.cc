@@ -86,6 +86,7 @@ Run read_run(const fs::path &folder) {
     run.cracks = read_csv(folder / "cracks.csv", {"mode"});
   else
     run.remarks.push_back("cracks.csv is not there: no pictures of broken bonds");
+  if (fs::exists(folder / "events.csv")) run.events = read_csv(folder / "events.csv");
   run.specimen = optional_series(run, "specimen.pvd", "no pictures of the specimen");
   run.bonds =
       optional_series(run, "bonds.pvd", "crack density is given per volume, not as a share of the bonds");

@@ -21,6 +21,7 @@ struct Run {
   Moments moments;
   nlohmann::json summary;                         // null where the run wrote none
   std::optional<CsvTable> cracks;                 // "mode" as words
+  std::optional<CsvTable> events;                 // acoustic ones
   FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
   std::vector<std::string> remarks;               // what is not there, one sentence each
 

@@ -7,13 +7,15 @@
 namespace platen::apps::report {
 namespace {
 
-enum class Quantity { outward_displacement, damage };
+enum class Quantity { outward_displacement, displacement, damage };
 
 std::vector<double> values_of(const Spheres &spheres, Quantity quantity) {
   constexpr double mm_per_m = 1e3;
   std::vector<double> values(spheres.size());
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = quantity == Quantity::damage ? spheres.damage(k) : spheres.outward_displacement(k) * mm_per_m;
+    values[k] = quantity == Quantity::damage         ? spheres.damage(k)
+                : quantity == Quantity::displacement ? spheres.displacement(k) * mm_per_m
+                                                     : spheres.outward_displacement(k) * mm_per_m;
   return values;
 }
 
@@ -28,7 +30,9 @@ CutView view_at(const Run &run, double time, Quantity quantity, const std::strin
 
 Colouring colouring_of(Quantity quantity, const std::vector<CutView> &views) {
   if (quantity == Quantity::damage) return {Ramp::damage, round_ticks(0, 1, 5), "Share of\nbonds broken"};
-  return {Ramp::displacement, ticks_for(views), "Outward\ndisplacement\n(mm)"};
+  const std::string which =
+      quantity == Quantity::displacement ? "Displacement\n(mm)" : "Outward\ndisplacement\n(mm)";
+  return {Ramp::displacement, ticks_for(views), which};
 }
 
 void draw_pattern_and_end(const Run &run, const Extent &extent, Quantity quantity, const std::string &what,
@@ -39,6 +43,19 @@ void draw_pattern_and_end(const Run &run, const Extent &extent, Quantity quantit
   views.push_back(view_at(run, run.moments.end_time, quantity, "at the end"));
   save_cut_views(run.title, what + ", half of the specimen", views, extent, colouring_of(quantity, views),
                  png);
+}
+
+void draw_three_moments(const Run &run, const Extent &extent, bool whole, const std::filesystem::path &png) {
+  std::vector<CutView> views;
+  const auto add = [&](double time, const std::string &caption) {
+    views.push_back(view_at(run, time, Quantity::displacement, caption));
+    views.back().is_whole = whole;
+  };
+  add(run.specimen.frames.front().time, "before the test");
+  add(run.moments.peak_time, "near the peak");
+  add(run.moments.end_time, "at the end");
+  save_cut_views(run.title, whole ? "The specimen from outside" : "The specimen cut in half", views, extent,
+                 colouring_of(Quantity::displacement, views), png);
 }
 
 // Damage where the pattern is measured, displacement at the end: that is when each shows the most.
@@ -63,26 +80,16 @@ void draw_outward_displacement(const Run &run, const Extent &extent, const std::
   draw_pattern_and_end(run, extent, Quantity::outward_displacement, "Outward displacement", png);
 }
 
-void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png) {
-  draw_pattern_and_end(run, extent, Quantity::damage, "Damage", png);
+void draw_outside(const Run &run, const Extent &extent, const std::filesystem::path &png) {
+  draw_three_moments(run, extent, true, png);
 }
 
-void draw_fragments(const Run &run, const Extent &extent, const std::filesystem::path &png) {
-  constexpr int coloured = 7, smallest = 30; // pieces; spheres
-  CutView view;
-  view.caption = "at the end";
-  view.spheres = read_spheres(run.specimen.nearest(run.moments.end_time));
-  std::vector<int> count;
-  for (const int f : view.spheres.fragment) {
-    if (f >= static_cast<int>(count.size())) count.resize(static_cast<std::size_t>(f) + 1);
-    ++count[static_cast<std::size_t>(f)];
-  }
-  for (const int f : view.spheres.fragment)
-    view.values.push_back(f < coloured && count[static_cast<std::size_t>(f)] >= smallest ? f + 1 : 0);
-  if (!run.platens.empty()) view.platens = read_frame(run.platens.nearest(view.spheres.time));
-  const Colouring colouring{Ramp::pieces, {0, coloured}, ""};
-  save_cut_views(run.title, "Pieces that bonds still hold together; grey: fewer than 30 spheres", {view},
-                 extent, colouring, png);
+void draw_inside(const Run &run, const Extent &extent, const std::filesystem::path &png) {
+  draw_three_moments(run, extent, false, png);
+}
+
+void draw_damage(const Run &run, const Extent &extent, const std::filesystem::path &png) {
+  draw_pattern_and_end(run, extent, Quantity::damage, "Damage", png);
 }
 
 void draw_damage_comparison(const std::vector<Run> &runs, const std::filesystem::path &png) {

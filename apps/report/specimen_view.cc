@@ -12,25 +12,36 @@
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkScalarBarActor.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace platen::apps::report {
 namespace {
 
+constexpr double rise = 0.12; // tangent of the angle from which the cut is seen, about 7 degrees from above
 constexpr int panel_width = 760, picture_height = 1240, bar_width = 260, caption_height = 80;
 
-vtkSmartPointer<vtkPolyData> half_as_points(const CutView &view) {
+std::vector<std::size_t> shown(const CutView &view) {
+  if (!view.is_whole) return kept_half(view.spheres);
+  std::vector<std::size_t> rows(view.spheres.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return rows;
+}
+
+vtkSmartPointer<vtkPolyData> spheres_as_points(const CutView &view) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> radius; // the mapper takes its bytes for floats, whatever they are
   vtkNew<vtkDoubleArray> value;
   radius->SetName("radius");
   value->SetName("value");
-  for (const std::size_t k : kept_half(view.spheres)) {
+  for (const std::size_t k : shown(view)) {
     points->InsertNextPoint(view.spheres.x[k], view.spheres.y[k], view.spheres.z[k]);
     radius->InsertNextValue(static_cast<float>(view.spheres.radius[k]));
     value->InsertNextValue(view.values[k]);
@@ -48,7 +59,7 @@ vtkSmartPointer<vtkPolyData> half_as_points(const CutView &view) {
 
 void add_spheres(vtkRenderer *renderer, const CutView &view, vtkScalarsToColors *colours) {
   vtkNew<vtkOpenGLSphereMapper> mapper;
-  mapper->SetInputData(half_as_points(view));
+  mapper->SetInputData(spheres_as_points(view));
   mapper->SetScaleArray("radius");
   mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectColorArray("value");
@@ -63,7 +74,41 @@ void add_spheres(vtkRenderer *renderer, const CutView &view, vtkScalarsToColors 
   renderer->AddActor(actor);
 }
 
+// A black line on a white one, so that it shows on every colour.
+void add_line(vtkRenderer *renderer, const Outline &outline, double nearer) {
+  vtkNew<vtkPoints> points;
+  for (const auto &p : outline) // along the line of sight: its picture stays where it is
+    points->InsertNextPoint(p[0], p[1] + nearer, p[2] + rise * nearer);
+  vtkNew<vtkCellArray> line;
+  line->InsertNextCell(static_cast<int>(outline.size()));
+  for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
+    line->InsertCellPoint(k);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(line);
+  for (const bool upper : {false, true}) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->SetResolveCoincidentTopologyToPolygonOffset();
+    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, upper ? -8 : 0);
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    const double grey = upper ? 0 : 1;
+    actor->GetProperty()->SetColor(grey, grey, grey);
+    actor->GetProperty()->SetLineWidth(static_cast<float>((upper ? 5 : 10) * oversampling));
+    actor->GetProperty()->LightingOff();
+    renderer->AddActor(actor);
+  }
+}
+
 } // namespace
+
+std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place) {
+  renderer->SetWorldPoint(place[0], place[1], place[2], 1);
+  renderer->WorldToDisplay();
+  const int *size = renderer->GetRenderWindow()->GetSize();
+  return {renderer->GetDisplayPoint()[0] / size[0], renderer->GetDisplayPoint()[1] / size[1]};
+}
 
 std::vector<std::size_t> kept_half(const Spheres &spheres) {
   std::vector<std::size_t> rows;
@@ -75,7 +120,7 @@ std::vector<std::size_t> kept_half(const Spheres &spheres) {
 std::vector<double> ticks_for(const std::vector<CutView> &views) {
   std::vector<double> all;
   for (const CutView &view : views)
-    for (const std::size_t k : kept_half(view.spheres))
+    for (const std::size_t k : shown(view))
       all.push_back(view.values[k]);
   if (all.empty()) return {0, 1};
   const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
@@ -83,9 +128,9 @@ std::vector<double> ticks_for(const std::vector<CutView> &views) {
   return round_ticks(0, *place > 0 ? *place : 1, 5);
 }
 
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left) {
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right) {
   if (colouring.ramp == Ramp::pieces) return; // their colours mean nothing
-  vtkRenderer *renderer = canvas.add_renderer({left, 0, 1, 1});
+  vtkRenderer *renderer = canvas.add_renderer({left, 0, right, 1});
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()));
   bar->SetTitle((colouring.title + "\n ").c_str());
@@ -104,7 +149,6 @@ void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left) {
 }
 
 void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin) {
-  constexpr double rise = 0.12; // tangent of the angle from above, about 7 degrees
   const double middle = 0.5 * (extent.bottom + extent.top), far = 10 * (extent.height() + extent.half_width);
   renderer->GetActiveCamera()->ParallelProjectionOn();
   renderer->GetActiveCamera()->SetFocalPoint(0, 0, middle);
@@ -134,7 +178,7 @@ void light_cut(vtkRenderer *renderer) {
   add(0.7, 0.1, 0.3);
 }
 
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole) {
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(0, 0, 0);
   plane->SetNormal(0, -1, 0);
@@ -142,7 +186,10 @@ void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
   half->SetInputData(platens);
   half->SetClipFunction(plane);
   vtkNew<vtkDataSetMapper> mapper;
-  mapper->SetInputConnection(half->GetOutputPort());
+  if (whole)
+    mapper->SetInputData(platens);
+  else
+    mapper->SetInputConnection(half->GetOutputPort());
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
@@ -154,7 +201,8 @@ void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens) {
 
 void save_cut_views(const std::string &title, const std::string &subtitle, const std::vector<CutView> &views,
                     const Extent &extent, const Colouring &colouring, const std::filesystem::path &png) {
-  const int width = static_cast<int>(views.size()) * panel_width + bar_width;
+  const int side = colouring.ramp == Ramp::pieces ? 0 : bar_width; // no bar, no room
+  const int width = static_cast<int>(views.size()) * panel_width + side;
   Canvas canvas(width, picture_height);
   const auto colours = colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back());
   for (std::size_t k = 0; k < views.size(); ++k) {
@@ -163,9 +211,15 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
     vtkRenderer *renderer = canvas.add_renderer({left, double(caption_height) / picture_height, right,
                                                  1 - double(Canvas::head_height) / picture_height});
     add_spheres(renderer, views[k], colours);
-    if (views[k].platens) add_platens(renderer, views[k].platens);
+    if (views[k].platens) add_platens(renderer, views[k].platens, views[k].is_whole);
     light_cut(renderer);
+    for (const Outline &outline : views[k].outlines)
+      add_line(renderer, outline, 2 * extent.half_depth);
     look_at_cut(renderer, extent, 0.12 * extent.height());
+    for (const Note &note : views[k].notes) {
+      const auto [x, y] = on_window(renderer, note.place);
+      canvas.add_text(note.text, x, y, small_size);
+    }
     canvas.add_text(views[k].caption, 0.5 * (left + right), 0.5 * caption_height / picture_height, text_size,
                     0.95 * (right - left));
   }

@@ -18,11 +18,21 @@ namespace platen::apps::report {
 // sphere does not come and go as it moves.
 std::vector<std::size_t> kept_half(const Spheres &spheres);
 
+using Outline = std::vector<std::array<double, 3>>; // m, a line over the cut, in front of all spheres
+
+struct Note {                  // letters centred on a place
+  std::array<double, 3> place; // m
+  std::string text;
+};
+
 struct CutView {
   std::string caption; // under the picture
   Spheres spheres;
   std::vector<double> values;                   // coloured by, one per sphere
+  bool is_whole = false;                        // not cut
   vtkSmartPointer<vtkUnstructuredGrid> platens; // may be null
+  std::vector<Outline> outlines;
+  std::vector<Note> notes;
 };
 
 struct Colouring {
@@ -45,11 +55,13 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
 // A parallel view from +y, a little from above, that holds the extent and what lies up to `margin` (m) around
 // it.
 void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin);
-// A bar of the colours (none for pieces) in the part of the canvas to the right of `left` (fraction).
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left);
+// The place in fractions of the whole window, once the camera has been set.
+std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place);
+// A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` (fractions).
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
-// The half y < 0 of the platens, in grey.
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens);
+// The platens in grey, all of them or the half y < 0.
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole = false);
 
 } // namespace platen::apps::report

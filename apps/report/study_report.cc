@@ -64,7 +64,7 @@ void write_study_report(const StudyResults &study, const fs::path &folder, std::
   std::vector<std::string> remarks = study.remarks;
   if (drawn.empty()) remarks.push_back("one friction and one slenderness: there is no curve to draw");
   const TableOfFigures table = table_of_study(study);
-  write_page(study.title, table, remarks, drawn, folder / "report.html");
+  write_page(study.title, table, remarks, {{"", drawn}}, folder / "report.html");
   for (const std::string &remark : remarks)
     out << remark << '\n';
   for (const Picture &picture : drawn)

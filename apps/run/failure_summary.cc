@@ -12,6 +12,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
+Json json_of(const dem::Vector3 &v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
 Json json_of(const dem::ConePiece &piece) {
   if (!piece.is_cone()) return nullptr;
   return {{"height_m", piece.height},
@@ -19,6 +23,8 @@ Json json_of(const dem::ConePiece &piece) {
           {"volume_fraction", piece.volume_fraction},
           {"apex_depth_m", piece.apex_depth},
           {"tilt_deg", piece.tilt / degree},
+          {"apex_m", json_of(piece.apex)},
+          {"axis", json_of(piece.axis)},
           {"confidence", piece.confidence}};
 }
 

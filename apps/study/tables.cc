@@ -8,7 +8,7 @@
 namespace platen::apps {
 namespace {
 
-// Numbers of summary.json that do not depend on the machine's speed.
+// Numbers of summary.json that do not depend on the machine's speed; a member of an object after "/".
 const std::vector<std::string> figures{"particles",
                                        "bonds",
                                        "packing_fraction",
@@ -25,6 +25,12 @@ const std::vector<std::string> figures{"particles",
                                        "end_damage_bottom",
                                        "middle_damage",
                                        "end_spread",
+                                       "cone_top/half_angle_deg",
+                                       "cone_bottom/half_angle_deg",
+                                       "final_cone_top/half_angle_deg",
+                                       "final_cone_bottom/half_angle_deg",
+                                       "acoustic/b_before",
+                                       "acoustic/b_after",
                                        "kinetic_to_internal_max",
                                        "wave_crossings_to_peak",
                                        "energy_residual_relative"};
@@ -38,12 +44,24 @@ std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std
   columns.insert(columns.end(), plan.varied.begin(), plan.varied.end());
   columns.insert(columns.end(), {"seed", "status"});
   columns.insert(columns.end(), numbers.begin(), numbers.end());
+  if (&numbers == &figures) columns.emplace_back("pattern");
   return columns;
 }
 
 double number_in(const Json &summary, const std::string &key) {
+  if (const auto slash = key.find('/'); slash != std::string::npos) {
+    const auto object = summary.find(key.substr(0, slash));
+    return object != summary.end() && object->is_object() ? number_in(*object, key.substr(slash + 1))
+                                                          : not_given;
+  }
   const auto found = summary.find(key);
   return found != summary.end() && found->is_number() ? found->get<double>() : not_given;
+}
+
+// How the specimen failed; empty where it was not told.
+std::string pattern_in(const Json &summary) {
+  const auto found = summary.find("pattern");
+  return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 Json json_of(const SeedStatistics &s) {
@@ -119,6 +137,9 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
     cells.emplace_back(value);
     sums.figures[k].add(value);
   }
+  const std::string pattern = pattern_in(outcome.summary);
+  cells.emplace_back(pattern);
+  if (!pattern.empty()) ++sums.patterns[pattern];
   for (const std::string &key : costs)
     cost_cells.emplace_back(number_in(outcome.summary, key));
   study_.row(cells);
@@ -161,6 +182,7 @@ Json StudyTables::cases() const {
     if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
     for (std::size_t k = 0; k < figures.size(); ++k)
       one[figures[k]] = json_of(cases_[c].figures[k]);
+    one["patterns"] = cases_[c].patterns;
     all.push_back(std::move(one));
   }
   return all;

@@ -1,6 +1,7 @@
 // What a study leaves: a row for each run, means and scatter for each case.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ private:
     std::vector<SeedStatistics> figures;
     std::vector<double> strengths; // Pa, by seed; NaN: failed, or without a peak
     SeedStatistics seconds, bytes;
+    std::map<std::string, int> patterns; // runs that failed so
   };
   const SeedStatistics &figure(const OfCase &of, const std::string &key) const;
 

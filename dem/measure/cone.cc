@@ -189,6 +189,8 @@ ConePiece measure(const Seen &s, const ConeRules &rules) {
   const Cone cone = fit_cone(zone, first_guess(s, shares, slices), {thick, s.mean_radius, s.width});
   c.half_angle = cone.half_angle;
   c.apex_depth = cone.apex.z;
+  c.apex = cone.apex;
+  c.axis = cone.axis;
   c.tilt = std::acos(std::clamp(-cone.axis.z, -1.0, 1.0));
   c.overlap = overlap(zone, cone);
   c.roundness = roundness(zone, cone, flank_reach * s.mean_radius);
@@ -242,6 +244,9 @@ std::array<ConePiece, 2> measure_cones(const Particles &p, const Bonds &b, const
     else
       cone.verdict = NoCone::spans;
     cone.volume_fraction = pieces.share(piece);
+    if (end == bottom_end) continue;
+    cone.apex.z = shape.height - cone.apex.z;
+    cone.axis.z = -cone.axis.z;
   }
   return cones;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "dem/measure/sound_pieces.h"
+#include "dem/vector3.h"
 
 namespace platen::dem {
 
@@ -61,6 +62,8 @@ struct ConePiece {
   double volume_fraction = 0; // of all spheres that ever had a bond
   double apex_depth = 0;      // m, where the flanks meet, from the end plane
   double tilt = 0;            // rad, of the cone's axis to the specimen's
+  Vector3 apex;               // m, where the specimen stood at the start
+  Vector3 axis;               // 1, from the apex towards the platen
   double overlap = 0, roundness = 0, confidence = 0; // 1
   bool is_cone() const { return verdict == NoCone::found; }
 };

@@ -22,7 +22,8 @@ protected:
     const OutputPaths paths(output_);
     for (const fs::path &file :
          {paths.scene(), paths.history(), paths.cracks(), paths.summary(), paths.log(), paths.specimen_csv(),
-          paths.specimen_vtu(), paths.directions(), paths.study(), paths.study_json(), paths.costs(), paths.view(),
+          paths.specimen_vtu(), paths.directions(), paths.study(), paths.study_json(), paths.costs(),
+          paths.view(), paths.series("fields"), output_ / "frames" / "fields_000003.vti",
           paths.checkpoints() / "step_000000000007.platen",
           paths.checkpoints() / "step_000000000008.part.platen"})
       put(file, "run");

@@ -84,7 +84,8 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   const Outcome outcome = run(folder, quoted(folder / "dry"), "env -u DISPLAY");
   ASSERT_EQ(outcome.status, status_done) << outcome.error;
   for (const char *name :
-       {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density"}) {
+       {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density", "fragments",
+        "crack_times", "specimen_outside", "specimen_inside"}) {
     const auto file = folder / "dry" / "pictures" / (std::string(name) + ".png");
     ASSERT_TRUE(std::filesystem::exists(file)) << name;
     const Image image = read_png(file);
@@ -96,6 +97,7 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   EXPECT_NE(outcome.out.find("strength (MPa)"), std::string::npos);
   const std::string page = text_of(folder / "dry" / "pictures" / "report.html");
   EXPECT_NE(page.find("dry platens"), std::string::npos);
+  EXPECT_NE(page.find("on top 45 degrees (confidence 0.80), at the bottom 30 degrees"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
 }
 
@@ -146,6 +148,9 @@ TEST(ReportApp, bad_input_ends_with_status_two_one_line_and_no_picture) {
   EXPECT_NE(missing.error.find("no such folder"), std::string::npos);
   EXPECT_EQ(run(folder, "").status, status_bad_input);
   EXPECT_EQ(run(folder, quoted(folder / "dry") + " --colour red").status, status_bad_input);
+  const Outcome no_stress = run(folder, quoted(folder / "dry") + " --fields"); // its frames tell none
+  EXPECT_EQ(no_stress.status, status_bad_input);
+  EXPECT_NE(no_stress.error.find("specimen.pvd with stress"), std::string::npos);
 
   folder.write("dry/history.csv", "time_s,axial_stress_top_pa\n0,zero\n");
   const Outcome damaged = run(folder, quoted(folder / "dry"));

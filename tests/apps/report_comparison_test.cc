@@ -60,6 +60,21 @@ TEST(ReportComparison, tensile_strength_has_a_row_only_where_it_was_measured) {
   EXPECT_EQ(row_titled(table_of_figures({dry, both}), "tensile strength (MPa)")[2], "4.50");
 }
 
+TEST(ReportComparison, cones_b_values_and_patterns_have_rows_where_a_run_tells_them) {
+  EXPECT_TRUE(row_titled(table_of_figures({dry}), "pattern").empty());
+  EXPECT_TRUE(row_titled(table_of_figures({dry}), "b-value before the peak").empty());
+  const auto told = run_named("told", {{"pattern", "cones"},
+                                       {"cone_top", nullptr},
+                                       {"cone_bottom", {{"half_angle_deg", 41.26}}},
+                                       {"acoustic", {{"b_before", 1.5}, {"b_after", nullptr}}}});
+  const TableOfFigures table = table_of_figures({told, dry});
+  EXPECT_EQ(row_titled(table, "pattern"), (std::vector<std::string>{"pattern", "cones", "-", "-"}));
+  EXPECT_EQ(row_titled(table, "half-angle of the bottom cone")[1], "41.3");
+  EXPECT_TRUE(row_titled(table, "half-angle of the top cone (degrees)").empty());
+  EXPECT_EQ(row_titled(table, "b-value before the peak")[1], "1.50");
+  EXPECT_TRUE(row_titled(table, "b-value after the peak").empty());
+}
+
 TEST(ReportComparison, all_lines_of_the_text_are_of_one_length) {
   std::istringstream lines(as_text(table_of_figures({dry, lubricated, dry})));
   std::size_t length = 0, count = 0;

@@ -265,20 +265,34 @@ void write_cracks(const fs::path &folder, const Example &example) {
 void write_summary(const fs::path &folder, const Example &example) {
   const ExampleRun &run = example.run;
   const double end = run.hourglass ? 0.12 : 0.55, middle = run.hourglass ? 0.7 : 0.1;
-  const nlohmann::json summary = {{"status", "done"},
-                                  {"strength_pa", run.peak_stress},
-                                  {"strain_at_peak_platen", 0.0025},
-                                  {"strain_at_peak_gauge", 0.00225},
-                                  {"youngs_modulus_gauge_pa", 25e9},
-                                  {"youngs_modulus_platen_pa", 22e9},
-                                  {"poisson_ratio", 0.17},
-                                  {"broken_tension", 900},
-                                  {"broken_shear", 100},
-                                  {"end_damage_top", end},
-                                  {"end_damage_bottom", end + 0.05},
-                                  {"middle_damage", middle},
-                                  {"end_spread", nullptr},
-                                  {"barrel_at_peak", 0.6}};
+  nlohmann::json summary = {{"status", "done"},
+                            {"strength_pa", run.peak_stress},
+                            {"strain_at_peak_platen", 0.0025},
+                            {"strain_at_peak_gauge", 0.00225},
+                            {"youngs_modulus_gauge_pa", 25e9},
+                            {"youngs_modulus_platen_pa", 22e9},
+                            {"poisson_ratio", 0.17},
+                            {"broken_tension", 900},
+                            {"broken_shear", 100},
+                            {"end_damage_top", end},
+                            {"end_damage_bottom", end + 0.05},
+                            {"middle_damage", middle},
+                            {"end_spread", nullptr},
+                            {"cone_top", nullptr},
+                            {"cone_bottom", nullptr},
+                            {"barrel_at_peak", 0.6}};
+  if (run.hourglass) {
+    summary["pattern"] = summary["final_pattern"] = "cones";
+    for (const char *key : {"cone_top", "cone_bottom", "final_cone_top", "final_cone_bottom"}) {
+      const bool top = std::string(key).find("top") != std::string::npos;
+      summary[key] = {{"half_angle_deg", top ? 45 : 30},
+                      {"confidence", 0.8},
+                      {"apex_m", {0, 0, run.first_height + (top ? 0.7 : 0.3) * run.height}},
+                      {"axis", {0, 0, top ? 1 : -1}}};
+    }
+  } else {
+    summary["pattern"] = summary["final_pattern"] = "crushing";
+  }
   std::ofstream(folder / "summary.json") << summary.dump(2) << '\n';
 }
 

@@ -30,6 +30,7 @@ TEST(ReportSpecimen, outward_displacement_is_radial_and_turning_about_the_axis_g
   add_sphere(spheres, {0.003, 0.004, 0.01}, {-0.004, 0.003, 0.01});
   EXPECT_NEAR(spheres.outward_displacement(0), 0.005, 1e-15);
   EXPECT_NEAR(spheres.outward_displacement(1), 0, 1e-15);
+  EXPECT_NEAR(spheres.displacement(0), std::hypot(0.005, 0.01), 1e-15);
 }
 
 TEST(ReportSpecimen, damage_is_the_broken_share_and_a_sphere_without_bonds_has_none) {

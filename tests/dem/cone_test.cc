@@ -114,6 +114,21 @@ TEST(cone, a_steeper_cone_holds_less) {
 }
 
 // What the ends are called does not matter: a specimen upside down has its cones exchanged.
+// The top one too, in the frame of the specimen.
+TEST(cone, apex_and_axis_are_those_that_were_cut) {
+  const Wanted bottom{30, 8, 30}, top{25, 5, 34};
+  const auto found = cones_of(bottom, top);
+  for (const auto &[end, wanted] : {std::pair{bottom_end, bottom}, std::pair{top_end, top}}) {
+    const double up = end == bottom_end ? 1 : -1, tilt = wanted.tilt * degree,
+                 plane = end == bottom_end ? 0 : Cylinder::length * radius;
+    const Vector3 axis{-std::sin(tilt), 0, -up * std::cos(tilt)}, &apex = found[end].apex;
+    EXPECT_GT(dot(found[end].axis, axis), std::cos(3 * degree)) << end;
+    EXPECT_NEAR(apex.x, .5 * wanted.depth * radius * std::tan(tilt), 2 * radius) << end;
+    EXPECT_NEAR(apex.y, 0, 2 * radius) << end;
+    EXPECT_NEAR(up * (apex.z - plane), found[end].apex_depth, 1e-9 * radius) << end;
+  }
+}
+
 TEST(cone, a_specimen_upside_down_has_the_same_cones) {
   const Wanted bottom{30, 5, 30}, top{25, 0, 34};
   Cylinder c;

@@ -1,0 +1,100 @@
+#include "apps/report/cones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace platen::apps::report {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+bool read_vector(const nlohmann::json &from, const char *key, std::array<double, 3> &to) {
+  const auto found = from.find(key);
+  if (found == from.end() || !found->is_array() || found->size() != 3) return false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!(*found)[d].is_number()) return false;
+    to[d] = (*found)[d].get<double>();
+  }
+  return true;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool is_within(const FittedCone &cone, double x, double y, double z) {
+  const double wx = x - cone.apex[0], wy = y - cone.apex[1], wz = z - cone.apex[2];
+  const double along = wx * cone.axis[0] + wy * cone.axis[1] + wz * cone.axis[2];
+  return along > std::cos(cone.half_angle) * std::hypot(wx, wy, wz);
+}
+
+} // namespace
+
+FittedCone cone_of(const Run &run, PlatenEnd end, ConeTime time) {
+  FittedCone cone;
+  const std::string start = time == ConeTime::end ? "final_" : "";
+  const auto found = run.summary.find(start + (end == PlatenEnd::top ? "cone_top" : "cone_bottom"));
+  const auto pattern = run.summary.find(start + "pattern"); // null where nobody looked
+  if (found == run.summary.end() || pattern == run.summary.end() || pattern->is_null()) return cone;
+  if (found->is_null()) {
+    cone.verdict = FittedCone::Verdict::none;
+    return cone;
+  }
+  if (!read_vector(*found, "apex_m", cone.apex) || !read_vector(*found, "axis", cone.axis)) return cone;
+  cone.half_angle = found->value("half_angle_deg", 0.0) * degree;
+  cone.confidence = found->value("confidence", 0.0);
+  cone.verdict = FittedCone::Verdict::found;
+  return cone;
+}
+
+std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd end, const Extent &extent) {
+  constexpr int levels = 120;
+  const double base = end == PlatenEnd::top ? extent.top : extent.bottom;
+  const double cosine = std::cos(cone.half_angle), squared = cosine * cosine;
+  // On the plane, at height z, (w . axis)^2 = cos^2 w^2 with w from the apex is quadratic in w_x.
+  const double a = squared - cone.axis[0] * cone.axis[0];
+  std::vector<std::array<double, 2>> up, down;
+  if (a <= 0) return up; // leans by more than it opens: no closed section
+  for (int k = 0; k <= levels; ++k) {
+    const double z = base + (cone.apex[2] - base) * k / levels;
+    const double wy = -cone.apex[1], wz = z - cone.apex[2];
+    const double along = wy * cone.axis[1] + wz * cone.axis[2];
+    const double half_b = cone.axis[0] * along;
+    const double root = half_b * half_b + a * (along * along - squared * (wy * wy + wz * wz));
+    if (root < 0) break; // above the section's tip
+    const auto at = [&](double sign) {
+      const double x = cone.apex[0] + (half_b + sign * std::sqrt(root)) / a;
+      return std::array<double, 2>{std::clamp(x, -extent.half_width, extent.half_width), z};
+    };
+    up.push_back(at(-1));
+    down.push_back(at(1));
+  }
+  up.insert(up.end(), down.rbegin(), down.rend());
+  return up;
+}
+
+std::array<double, 3> carried(const FittedCone &cone, const Spheres &spheres) {
+  std::array<std::vector<double>, 3> way;
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    if (!is_within(cone, spheres.x0[k], spheres.y0[k], spheres.z0[k])) continue;
+    way[0].push_back(spheres.x[k] - spheres.x0[k]);
+    way[1].push_back(spheres.y[k] - spheres.y0[k]);
+    way[2].push_back(spheres.z[k] - spheres.z0[k]);
+  }
+  return {median(std::move(way[0])), median(std::move(way[1])), median(std::move(way[2]))};
+}
+
+std::string words_of(const FittedCone &cone) {
+  if (cone.verdict == FittedCone::Verdict::not_measured) return "not measured";
+  if (cone.verdict == FittedCone::Verdict::none) return "no cone";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f degrees (confidence %.2f)", cone.half_angle / degree,
+                cone.confidence);
+  return text;
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,40 @@
+// The cones that a run fitted to the sound pieces on its platens, as outlines for pictures.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "apps/report/platen_contacts.h"
+#include "apps/report/run_folder.h"
+
+namespace platen::apps::report {
+
+// What the summary says of one end at one time.
+struct FittedCone {
+  enum class Verdict { not_measured, none, found };
+  Verdict verdict = Verdict::not_measured;
+  double half_angle = 0;        // rad
+  double confidence = 0;        // 1
+  std::array<double, 3> apex{}; // m, in the specimen before the test
+  std::array<double, 3> axis{}; // 1, from the apex towards the platen
+};
+
+enum class ConeTime { fall, end }; // at 0.8 of the peak; at the end of the run
+
+// Summaries of builds that did not look for cones, or did not say where they stand, give `not_measured`.
+FittedCone cone_of(const Run &run, PlatenEnd end, ConeTime time);
+
+// Where the cone's flank meets the plane y = 0, from its end plane up one side over the tip and down the
+// other, at most `extent.half_width` from the axis; as the specimen was before the test. Points are (x, z),
+// m; empty where the cone does not meet the plane.
+std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd end, const Extent &extent);
+
+// How far the spheres within the cone have gone: medians, so that crumbs which fell out of it do not count;
+// m. Zero without spheres.
+std::array<double, 3> carried(const FittedCone &cone, const Spheres &spheres);
+
+// "55 degrees (confidence 0.68)", "no cone", "not measured".
+std::string words_of(const FittedCone &cone);
+
+} // namespace platen::apps::report
