@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace platen::apps {
+namespace {
+
+// What is given last counts; nothing given is nothing expected.
+void keep_one(std::vector<Expectation> &of, const std::string &key, Expectation expectation) {
+  expectation.key = key;
+  of.erase(std::remove_if(of.begin(), of.end(), [&](const Expectation &e) { return e.key == key; }),
+           of.end());
+  if (!expectation.text.empty()) of.push_back(std::move(expectation));
+}
+
+} // namespace
 
 void Section::declare(const std::string &key, const std::string &default_text, const std::string &unit,
                       const std::string &allowed, const std::string &documentation,
@@ -89,13 +100,15 @@ void Section::study_surfaces(const std::string &key, std::vector<StudySurface> &
 
 void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                           const std::string &documentation) {
-  declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {
-    Expectation expectation = read_expectation(text, unit);
-    expectation.key = key;
-    to.erase(std::remove_if(to.begin(), to.end(), [&](const Expectation &e) { return e.key == key; }),
-             to.end());
-    if (!text.empty()) to.push_back(expectation);
-  });
+  declare(key, "", unit, "\"low ... high\"", documentation,
+          [&to, key, unit](const std::string &text) { keep_one(to, key, read_expectation(text, unit)); });
+}
+
+void Section::expected_words(const std::string &key, std::vector<Expectation> &to,
+                             const std::vector<std::string> &words, const std::string &documentation) {
+  declare(
+      key, "", "", "with commas between them, any of " + joined(words), documentation,
+      [&to, key, words](const std::string &text) { keep_one(to, key, read_expected_words(text, words)); });
 }
 
 } // namespace platen::apps

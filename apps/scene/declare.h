@@ -47,6 +47,9 @@ public:
   // A range for a number of summary.json; what is given is kept in `to`, once for each key.
   void expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                    const std::string &documentation);
+  // The same for a word of summary.json: which of `words` it may be.
+  void expected_words(const std::string &key, std::vector<Expectation> &to,
+                      const std::vector<std::string> &words, const std::string &documentation);
   // One word of several; those in not_yet are names of the interface that this version refuses.
   template <class Enum>
   void word(const std::string &key, Enum &to, const std::vector<std::pair<std::string, Enum>> &words,

@@ -1,38 +1,63 @@
 #include "apps/scene/expect.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "apps/scene/units.h"
 
 namespace platen::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string not_measured(const Expectation &expected) {
+  return expected.origin + ": " + expected.key + " was not measured, expected " + expected.text;
+}
+
+// Empty where it holds.
+std::string fault_of_number(const Expectation &expected, double value) {
+  if (value >= expected.low && value <= expected.high) return "";
+  if (std::isnan(value)) return not_measured(expected);
+  return expected.origin + ": " + expected.key + " = " + shortest_text(value) + " is not in " + expected.text;
+}
+
+std::string fault_of_word(const Expectation &expected, const Json &found) {
+  if (!found.is_string()) return not_measured(expected);
+  const std::string word = found.get<std::string>();
+  if (std::find(expected.words.begin(), expected.words.end(), word) != expected.words.end()) return "";
+  return expected.origin + ": " + expected.key + " = " + word + " is not " +
+         (expected.words.size() > 1 ? "one of " : "") + expected.text;
+}
+
+} // namespace
 
 std::vector<std::string> failed_expectations(const Scene &scene,
                                              const std::function<double(const std::string &)> &value_of) {
   std::vector<std::string> failed;
   for (const Expectation &expected : scene.expect) {
-    const double value = value_of(expected.key);
-    if (value >= expected.low && value <= expected.high) continue; // false for NaN
-    const std::string found =
-        std::isnan(value) ? " was not measured, expected " : " = " + shortest_text(value) + " is not in ";
-    failed.push_back(expected.origin + ": " + expected.key + found + expected.text);
+    const bool word = !expected.words.empty();
+    const std::string fault =
+        word ? not_measured(expected) : fault_of_number(expected, value_of(expected.key));
+    if (!fault.empty()) failed.push_back(fault);
   }
   return failed;
 }
 
-ExpectationCheck check_expectations(const Scene &scene, const nlohmann::ordered_json &summary) {
-  Scene of_this_app;
+ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
   ExpectationCheck check;
-  for (const Expectation &expected : scene.expect)
-    if (summary.contains(expected.key.substr(0, expected.key.find('/'))))
-      of_this_app.expect.push_back(expected);
-    else
+  for (const Expectation &expected : scene.expect) {
+    if (!summary.contains(expected.key.substr(0, expected.key.find('/')))) {
       check.unchecked.push_back(expected.key);
-  check.failed = failed_expectations(of_this_app, [&](const std::string &key) {
-    const nlohmann::ordered_json::json_pointer path("/" + key);
-    const bool measured = summary.contains(path) && summary.at(path).is_number();
-    return measured ? summary.at(path).get<double>() : std::numeric_limits<double>::quiet_NaN();
-  });
+      continue;
+    }
+    const Json::json_pointer path("/" + expected.key);
+    const Json found = summary.contains(path) ? summary.at(path) : Json();
+    const double number = found.is_number() ? found.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    const std::string fault =
+        expected.words.empty() ? fault_of_number(expected, number) : fault_of_word(expected, found);
+    if (!fault.empty()) check.failed.push_back(fault);
+  }
   return check;
 }
 

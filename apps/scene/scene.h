@@ -41,12 +41,14 @@ struct Checkpoint {
   Interval every{Interval::Kind::time, 600}; // time: s of wall clock; none: no checkpoints
 };
 
-// One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite.
+// One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite. Or
+// an expected word: one of `words`.
 struct Expectation {
-  std::string key; // a key of summary.json; `cone_top/height_m` is a member of an object
+  std::string key;                // a key of summary.json; `cone_top/height_m` is a member of an object
+  std::vector<std::string> words; // empty of a number
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  std::string text;   // the range as it stands in the scene
+  std::string text;   // range or words as they stand in the scene
   std::string origin; // "case.prm:31"
 };
 

@@ -1,4 +1,4 @@
-// Numbers of summary.json that a scene may state beforehand.
+// Numbers and words of summary.json that a scene may state beforehand.
 #include "apps/scene/sections.h"
 
 namespace platen::apps {
@@ -89,6 +89,9 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"impact/wave_error", "1"},
 };
 
+// Of `pattern` in summary.json (dem::word_of).
+const std::vector<std::string> patterns{"none", "cones", "shear plane", "splitting", "crushing", "undecided"};
+
 } // namespace
 
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
@@ -96,6 +99,8 @@ void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
   for (const ExpectedNumber &number : expected_numbers)
     section.expectation(number.key, expect, number.unit,
                         "Range of the number in summary.json, one side may be left out; empty: not checked.");
+  for (const char *key : {"pattern", "final_pattern"})
+    section.expected_words(key, expect, patterns, "Words of which summary.json has one; empty: not checked.");
 }
 
 } // namespace platen::apps

@@ -141,6 +141,14 @@ Expectation read_expectation(const std::string &text, const std::string &si_unit
   return expectation;
 }
 
+Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words) {
+  Expectation expectation;
+  expectation.text = text;
+  expectation.words = read_items<std::string>(
+      text, [&](const std::string &item) { return words[read_word(item, words, {})]; });
+  return expectation;
+}
+
 std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
                       const std::vector<std::string> &not_yet) {
   const std::string word = tidy(text);

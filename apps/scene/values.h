@@ -68,6 +68,8 @@ std::vector<DomainSize> read_domains(const std::string &text);
 std::vector<StudySurface> read_surfaces(const std::string &text);
 // "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
+// "cones, shear plane": any of `words`.
+Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
 // The place of a word in `words`; `not_yet` are words that this version knows and cannot do.
 std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
                       const std::vector<std::string> &not_yet);

@@ -245,6 +245,24 @@ TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
   EXPECT_NE(failures(40e6, not_given)[0].find("cone_top/half_angle_deg was not measured"), std::string::npos);
 }
 
+TEST_F(SceneFiles, an_expected_word_is_one_of_those_given) {
+  const Scene scene = read(
+      "a.prm", concrete,
+      {"Expect/strength_pa =", "Expect/cone_top/half_angle_deg =", "Expect/pattern = cones, shear plane"});
+  const auto failed = [&](const nlohmann::ordered_json &summary) {
+    return check_expectations(scene, summary).failed;
+  };
+  EXPECT_TRUE(failed({{"pattern", "cones"}}).empty());
+  EXPECT_TRUE(failed({{"pattern", "shear plane"}}).empty());
+  ASSERT_EQ(failed({{"pattern", "crushing"}}).size(), 1u);
+  EXPECT_NE(failed({{"pattern", "crushing"}})[0].find("pattern = crushing is not one of cones, shear plane"),
+            std::string::npos);
+  ASSERT_EQ(failed({{"pattern", nullptr}}).size(), 1u);
+  EXPECT_NE(failed({{"pattern", nullptr}})[0].find("pattern was not measured"), std::string::npos);
+  EXPECT_EQ(check_expectations(scene, {{"steps", 1}}).unchecked, std::vector<std::string>{"pattern"});
+  EXPECT_THROW(read("b.prm", concrete, {"Expect/pattern = cone"}), InputError);
+}
+
 TEST_F(SceneFiles, continued_lines_are_joined) {
   const Scene scene =
       read("a.prm", concrete + "subsection Material\n  set Density = 2500 \\\n     kg/m3 # joined\nend\n");
