@@ -1,5 +1,6 @@
 // Stress-strain curves and the energy ledger.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -43,6 +44,18 @@ void add_stress_curves(Chart &chart, const Run &run, std::size_t k, bool several
   add("lateral_strain", several ? "" : "lateral, gauge (middle half)", Stroke::solid, colours::green, 3);
   chart.marks.push_back({run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m,
                          run.moments.peak_stress / pa_per_mpa, "", several ? run_colour(k) : colours::blue});
+}
+
+// Once it has failed, the middle may open a hundred times as wide as it was short: such lateral strains are
+// cut off, so that what leads to the peak is seen.
+std::array<double, 2> strain_range(const Chart &stress, const std::vector<Run> &runs) {
+  constexpr double most_of_axial = 1.2;
+  double axial = 0;
+  for (const Run &run : runs)
+    for (const double strain : run.history.column("axial_strain_platen"))
+      axial = std::fmax(axial, strain * mm_per_m);
+  const std::array<double, 2> all = x_range_of(stress);
+  return axial > 0 ? std::array<double, 2>{std::max(all[0], -most_of_axial * axial), all[1]} : all;
 }
 
 void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several) {
@@ -102,7 +115,8 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
   stress.y_title = "Axial stress (MPa)";
   broken.x_title = "Axial strain between platens (mm/m)";
   broken.y_title = "Broken bonds";
-  broken.x_range = x_range_of(stress); // one above the other, strain under strain
+  stress.x_range = strain_range(stress, runs);
+  broken.x_range = stress.x_range; // one above the other, strain under strain
   volume.x_title = broken.x_title;
   volume.y_title = "Volumetric strain (mm/m)";
   std::vector<Chart> charts{stress, broken};

@@ -57,7 +57,7 @@ void draw_curves(const Run &run, Album &album) {
   album.add("stress_strain.png",
             "Axial stress against strain between the platens and in the gauge; broken bonds; volume. "
             "The two axial strains differ by what the ends take up; where the volume begins to grow, cracks "
-            "open. Dots: the peak.",
+            "open. Dots: the peak. The widest lateral strains are cut off.",
             [&](const fs::path &png) { draw_stress_strain({run}, png); });
   album.add("energies.png",
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
