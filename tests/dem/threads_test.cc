@@ -66,7 +66,7 @@ void expect_the_same_bits_on_more_threads(double dissipation, bool scattered = f
   const Outcome one = cracking_block(1, dissipation, scattered);
   EXPECT_GT(one.broken, 500);
   EXPECT_GT(one.touching, 50u);
-  for (const int threads : {2, 4, 1}) {
+  for (const int threads : {2, 4, 8, 1}) {
     const Outcome other = cracking_block(threads, dissipation, scattered);
     ASSERT_EQ(other.state.size(), one.state.size()) << threads;
     EXPECT_EQ(std::memcmp(other.state.data(), one.state.data(), one.state.size()), 0) << threads;
@@ -75,7 +75,7 @@ void expect_the_same_bits_on_more_threads(double dissipation, bool scattered = f
   }
 }
 
-TEST(threads, one_two_and_four_give_the_same_bits) {
+TEST(threads, one_to_eight_give_the_same_bits) {
   expect_the_same_bits_on_more_threads(1);
 }
 
