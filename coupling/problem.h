@@ -158,6 +158,7 @@ public:
   double ramp() const { return ramp_; }                   // s
   double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
+  double mean_radius() const { return mean_radius_; }     // m
   double grain_density() const { return grain_density_; } // kg/m^3, before mass scaling
   double voigt_modulus() const { return voigt_modulus_; } // Pa, intact; 0 without bonds
   double coordination_number() const;                     // bonds per particle times two

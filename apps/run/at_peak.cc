@@ -5,7 +5,7 @@
 namespace platen::apps {
 
 double crossings_to_peak(const coupling::Problem &problem, const Results &results) {
-  return problem.wave_crossing() > 0 ? results.time_at_peak() / problem.wave_crossing() : not_measured;
+  return problem.wave_crossing() > 0 ? results.axial_time_to_peak() / problem.wave_crossing() : not_measured;
 }
 
 double flexural_modulus(const coupling::Problem &problem, const Results &results) {

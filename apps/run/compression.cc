@@ -1,11 +1,13 @@
 #include "apps/run/compression.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
 #include "apps/run/expectations.h"
+#include "apps/run/quasi_static.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -65,6 +67,9 @@ int CompressionRun::run() {
   if (fields_) fields_->write(*problem_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));
+  const std::vector<std::string> haste = signs_of_haste(slowness(*problem_, results_), problem_->bent());
+  if (!haste.empty())
+    log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}", fmt::join(haste, "; "));
   if (signal_ != 0) {
     log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*problem_), command_.scene,
               command_.output);

@@ -5,6 +5,7 @@
 
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
+#include "apps/run/quasi_static.h"
 #include "apps/run/summary_of_run.h"
 #include "dem/measure/bending.h"
 #include "dem/measure/split.h"
@@ -120,8 +121,8 @@ std::string report_of_run(const Scene &scene, const coupling::Problem &problem, 
   if (problem.bent())
     report.line("swings of the bar to the peak", "{:.1f}", swings_to_peak(problem, results));
   else
-    report.line("wave crossings to the peak", crossings < 100 ? "{:.0f} (fast: 120 are advised)" : "{:.0f}",
-                crossings);
+    report.line("wave crossings to the peak", "{:.0f}", crossings);
+  report.line("unbalanced over bond forces, median", "{:.2e}", slowness(problem, results).unbalanced);
   report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
               problem.model.bonds && costs.step_seconds > 0
                   ? 1e-6 * static_cast<double>(problem.model.bonds->initial_count()) *

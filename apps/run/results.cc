@@ -121,6 +121,10 @@ double Results::time_at_peak() const {
   return peak_ > 0 ? samples_[peak_row()].time : not_measured;
 }
 
+double Results::axial_time_to_peak() const {
+  return peak_ > 0 ? samples_[peak_row()].time - zero().time : not_measured;
+}
+
 Results::Crossing Results::ascending(double share) const {
   for (std::size_t k = 1; k < samples_.size() && peak_ > 0; ++k) {
     if (samples_[k].axial_stage == 0) continue;
@@ -181,12 +185,17 @@ double Results::energy_residual_relative() const {
 }
 
 double Results::kinetic_to_internal_max() const {
-  const Crossing c = ascending(0.1);
-  if (!c.found || std::isnan(samples_[c.after].kinetic)) return not_measured; // no ledger
-  double largest = 0;
-  for (std::size_t k = c.after; k <= peak_row(); ++k)
-    largest = std::max(largest, samples_[k].kinetic / samples_[k].internal());
+  double largest = not_measured; // without a ledger
+  for (const Sample &sample : rise())
+    largest = std::fmax(largest, sample.kinetic / sample.internal());
   return largest;
+}
+
+std::vector<Sample> Results::rise() const {
+  const Crossing c = ascending(0.1);
+  if (!c.found) return {};
+  const auto at = [&](std::size_t row) { return samples_.begin() + static_cast<std::ptrdiff_t>(row); };
+  return {at(c.after), at(peak_row() + 1)};
 }
 
 void Results::restore(std::vector<Sample> samples, const Progress &progress,

@@ -66,7 +66,10 @@ public:
   double midspan_moment_at_peak() const;  // N m, of a bent bar
   // Flexural stress over deflection, secant at 40 % of the strength; Pa/m.
   double stress_per_deflection() const;
-  double time_at_peak() const; // s
+  double time_at_peak() const;       // s
+  double axial_time_to_peak() const; // s, from the end of the hydrostatic stage
+  // Samples from a tenth of the peak stress to the peak; none where there is no peak.
+  std::vector<Sample> rise() const;
 
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
   const Pattern &last_pattern() const { return last_; }

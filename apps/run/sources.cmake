@@ -12,6 +12,7 @@ set(PLATEN_RUN_SOURCES
   run/model_setup.cc
   run/pack.cc
   run/problem_setup.cc
+  run/quasi_static.cc
   run/report_of_run.cc
   run/results.cc
   run/run_state.cc

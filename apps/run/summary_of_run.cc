@@ -1,9 +1,12 @@
 #include "apps/run/summary_of_run.h"
 
+#include <cmath>
+
 #include "apps/io/machine.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/quasi_static.h"
 #include "apps/scene/version.h"
 #include "dem/measure/bending.h"
 #include "dem/measure/fragments.h"
@@ -112,6 +115,17 @@ void add_bar(Json &to, const coupling::Problem &problem, const Results &results)
   withdraw_moduli(to);
 }
 
+// Without a peak nothing is told.
+void add_slowness(Json &to, const coupling::Problem &problem, const Results &results) {
+  const Slowness slow = slowness(problem, results);
+  to["unbalanced_force_median"] = slow.unbalanced;
+  to["inertial_number_max"] = slow.inertial;
+  const bool told = !std::isnan(slow.kinetic) || !std::isnan(slow.crossings);
+  const std::vector<std::string> signs = signs_of_haste(slow, problem.bent());
+  to["quasi_static"] = told ? Json(signs.empty()) : Json();
+  to["signs_of_haste"] = signs;
+}
+
 } // namespace
 
 const char *app_of(const coupling::Problem &problem) {
@@ -175,6 +189,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["energy_residual_relative"] = results.energy_residual_relative();
   s["kinetic_to_internal_max"] = results.kinetic_to_internal_max();
   s["wave_crossings_to_peak"] = crossings_to_peak(problem, results);
+  add_slowness(s, problem, results);
   add_pattern(s, "", results.pattern());
   add_pattern(s, "final_", results.last_pattern());
   s["barrel_at_peak"] = results.barrel_at_peak();

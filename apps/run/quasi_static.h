@@ -1,0 +1,26 @@
+// Was a test slow enough to be called quasi-static? Looked at on the way to its peak.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/run/results.h"
+#include "coupling/problem.h"
+
+namespace platen::apps {
+
+// From a tenth of the peak stress to the peak; NaN where not measured.
+struct Slowness {
+  double kinetic = not_measured;    // largest kinetic over internal energy
+  double unbalanced = not_measured; // median of the mean net force over the mean bond force
+  double inertial = not_measured;   // largest inertial number, d eps/dt d sqrt(rho / sigma) (GDR MiDi 2004)
+  double crossings = not_measured;  // of a wave over the height, from the start of the axial stage
+};
+Slowness slowness(const coupling::Problem &problem, const Results &results);
+
+// What says that the test was too fast, each with its bound: "36 wave crossings to the peak, 60 at least".
+// Empty where it was slow enough. Of a bent bar, which swings much more slowly than waves cross it, crossings
+// say nothing.
+std::vector<std::string> signs_of_haste(const Slowness &slowness, bool bent);
+
+} // namespace platen::apps
