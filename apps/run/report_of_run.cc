@@ -89,7 +89,7 @@ void report_damage(Report &report, const Scene &scene, const coupling::Problem &
   if (std::isnan(p.strain) || scene.loading.test == LoadingTest::tension) return;
   report.line("damage at 0.8 of the peak, after it", "top {:.2f}, bottom {:.2f}, middle {:.2f}",
               p.failure.damage.end_top, p.failure.damage.end_bottom, p.failure.damage.middle);
-  report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.end_spread, results.barrel_at_peak());
+  report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.failure.end_spread, results.barrel_at_peak());
   if (!tells_pattern(scene, problem)) return;
   report.words("cone on top", cone_words(p.failure.cones[dem::top_end]));
   report.words("cone on the bottom", cone_words(p.failure.cones[dem::bottom_end]));

@@ -22,7 +22,6 @@ Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &
   if (!problem.model.bonds) return p;
   const dem::Bonds &bonds = *problem.model.bonds;
   p.failure = dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness);
-  p.end_spread = dem::end_spread(dem::skin_opening(problem.model.particles, bonds, problem.shape()));
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
   return p;

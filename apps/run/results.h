@@ -18,7 +18,6 @@ constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 struct Pattern {
   double time = not_measured, strain = not_measured; // s, platen strain
   dem::FailureMeasures failure;
-  double end_spread = not_measured;
   double broken_tension = not_measured, broken_shear = not_measured;
 };
 Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness);

@@ -29,7 +29,7 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   to[start + "end_damage_top"] = p.failure.damage.end_top;
   to[start + "end_damage_bottom"] = p.failure.damage.end_bottom;
   to[start + "middle_damage"] = p.failure.damage.middle;
-  to[start + "end_spread"] = p.end_spread;
+  to[start + "end_spread"] = p.failure.end_spread;
 }
 
 const char *word_of(LoadingTest test) {

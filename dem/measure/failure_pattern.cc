@@ -9,6 +9,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double least_column = 0.05;                 // of the volume
 constexpr double sound_end = 0.3, gone_middle = 0.45; // damage
 constexpr double crushed_end = 0.4;                   // damage
+constexpr double held_end = 0.25;                     // spread
 constexpr double most_of_it = 0.5;                    // of all broken bonds
 constexpr double largest_of_shear = 1.13;             // rad: 65 degrees
 constexpr double as_good_as_whole = 0.02;             // broken share
@@ -50,6 +51,7 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
   const SoundPieces pieces = find_sound_pieces(p, b, shape, soundness);
   m.damage = damage_by_region(p, b, shape);
   m.cones = measure_cones(p, b, pieces, shape);
+  m.end_spread = end_spread(skin_opening(p, b, shape));
   m.planes = sum_up(find_crack_planes(p, b), b);
   for (std::size_t k = 0; k < pieces.volume.size(); ++k)
     m.columns += pieces.spans(static_cast<int>(k)) && pieces.share(static_cast<int>(k)) >= least_column;
@@ -71,7 +73,8 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
   if (m.columns >= 2) return {FailurePattern::splitting, DecidedBy::columns};
   if (m.planes.steep_share > most_of_it) return {FailurePattern::splitting, DecidedBy::steep_planes};
   if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
-  if (m.damage.worse_end() > crushed_end) return {FailurePattern::crushing, DecidedBy::crushed_end};
+  const bool held = m.end_spread < held_end; // not where no skin is left to tell
+  if (m.damage.worse_end() > crushed_end && !held) return {FailurePattern::crushing, DecidedBy::crushed_end};
   return {};
 }
 

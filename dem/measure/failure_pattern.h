@@ -17,6 +17,7 @@ struct FailureMeasures {
                         std::numeric_limits<double>::quiet_NaN()};
   std::array<ConePiece, 2> cones; // [bottom_end], [top_end]
   CrackPlanes planes;
+  double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
   double broken_share = std::numeric_limits<double>::quiet_NaN(); // of all bonds
   double width = 0, height = 0; // m, of the specimen; width of a circle as large as its section
@@ -33,7 +34,7 @@ enum class DecidedBy : std::int64_t {
   columns,      // two pieces or more from platen to platen
   steep_planes, // half of all broken bonds lie in planes along the axis
   few_broken,   // 2 % of the bonds at most
-  crushed_end   // the worse end has lost more than 0.4 of its bonds
+  crushed_end   // the worse end has lost more than 0.4 of its bonds, and the ends were not held together
 };
 struct FailureVerdict {
   FailurePattern pattern = FailurePattern::undecided;
@@ -44,8 +45,9 @@ const char *word_of(FailurePattern pattern);
 // The first rule that holds, in the order of DecidedBy from `two_cones` on. The plane of `one_plane` splits
 // where it lies within 15 degrees of the axis and shears up to 65 degrees. The bounds of damage (0.3 of an
 // end and 0.45 of the middle of an hourglass, 0.4 of a crushed end) stand between what dry and lubricated
-// platens leave of cylinders twice as high as wide; of cubes, whose ends are damaged under any platen, little
-// is told.
+// platens leave of cylinders twice as high as wide. Cubes' ends are damaged under any platen: where they
+// spread by less than a quarter of what the middle does, friction has held them and they are not called
+// crushed.
 FailureVerdict judge_failure(const FailureMeasures &measures);
 
 } // namespace platen::dem

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/failure_pattern.h"
@@ -75,6 +76,19 @@ TEST(failure_pattern, an_hourglass_is_cones_without_cones) {
   m.damage.end_top = .1;
   m.cones[top_end].verdict = NoCone::blunt;
   EXPECT_EQ(judge_failure(m).pattern, FailurePattern::undecided);
+}
+
+// A cube between dry platens: its ends are damaged and stay where they are.
+TEST(failure_pattern, an_end_that_did_not_spread_is_not_crushed) {
+  FailureMeasures m;
+  m.damage = {.45, .4, .55};
+  m.broken_share = .5;
+  m.end_spread = .18;
+  EXPECT_EQ(judge_failure(m).pattern, FailurePattern::undecided);
+  m.end_spread = 1;
+  EXPECT_EQ(judge_failure(m).pattern, FailurePattern::crushing);
+  m.end_spread = std::numeric_limits<double>::quiet_NaN(); // no skin left
+  EXPECT_EQ(judge_failure(m).pattern, FailurePattern::crushing);
 }
 
 } // namespace
