@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""Page of all scenes: a picture of each, what to see, its main numbers and what it cost, from real runs.
+
+    scripts/gallery.py BUILD RUNS                   runs scenes that RUNS lacks, draws reports, prints the page
+    scripts/gallery.py BUILD RUNS --write           ... and writes it to docs/gallery.md and docs/images/gallery
+    scripts/gallery.py BUILD RUNS --scene NAME ...  runs no scene but these, long ones too
+    scripts/gallery.py --check                      runs none: every scene has its place, every picture is there
+
+BUILD is a build folder with the programs; RUNS gets a folder for each scene, which is kept and shown as long as its
+run is whole. As many runs as cores at a time, one thread each, with low priority. Scenes are listed in
+scripts/gallery_scenes.py.
+Exit status: 0; 1 where a run fails, a number that its scene expects does not come out or a check does not hold; 2 on
+bad input.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import textwrap
+from typing import NamedTuple, Optional
+
+import small_png
+from gallery_numbers import tables
+from gallery_scenes import GROUPS
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+SCENES = SOURCE / "scenes"
+PAGE = SOURCE / "docs/gallery.md"
+IMAGES = SOURCE / "docs/images/gallery"
+LARGEST = 120_000  # bytes of a picture
+WIDTHS = (800, 640, 480)  # pixels, tried in turn until a picture is small enough
+HEADING = """# Gallery
+
+Every scene of `scenes/`, run as it stands: what to see, a picture from its report, its main numbers, and what it cost.
+Written by `scripts/gallery.py BUILD RUNS --write`; only the sentences on what to see are written by hand
+([gallery_scenes.py](../scripts/gallery_scenes.py)). As many runs at a time as the machine has cores, with low priority:
+seconds are upper bounds. One seed each, but for studies; strengths scatter by a few percent from seed to seed.
+"""
+
+
+class Result(NamedTuple):
+    """What stands in the folder of a scene: nothing where it was not run."""
+
+    summary: Optional[dict] = None
+    machine: str = ""
+    missed: list = []  # numbers that the scene expects
+    expects: bool = False
+    fault: str = ""  # why there is no run, or no picture
+
+
+def whole(folder):
+    """The run's summary, None where it did not come to its end."""
+    path = folder / "summary.json"
+    summary = json.loads(path.read_text()) if path.exists() else None
+    return summary if summary and summary["status"] == "done" else None
+
+
+def said(command):
+    """Runs a program of ours; its status and the last line that it wrote about an error."""
+    done = subprocess.run([str(c) for c in command], cwd=SOURCE, capture_output=True, text=True)
+    return done.returncode, (done.stderr.strip().splitlines() or ["no word of why"])[-1]
+
+
+def run(scene, build, folder):
+    """What it said where it failed, else nothing."""
+    program, *kind = scene.program.split()
+    path = SCENES / f"{scene.name}.prm"
+    print(f"{scene.name}: runs", file=sys.stderr)
+    status, word = said([build / "apps" / program, *kind, path.relative_to(SOURCE), "-o", folder, "-t", "1",
+                         "--overwrite"])
+    return "" if status in (0, 1) else f"{program} ended with status {status}: {word}"  # 1: a number missed, in the log
+
+
+def draw(scene, build, folder, small):
+    """Draws the report where it is older than its run, and from it the small picture if asked to. As `run`."""
+    large = folder / "pictures" / f"{scene.picture}.png"
+    if not large.exists() or large.stat().st_mtime < (folder / "summary.json").stat().st_mtime:
+        print(f"{scene.name}: report", file=sys.stderr)
+        status, word = said([build / "apps" / "platen-report", folder, "--quiet"])
+        if status != 0:
+            return f"platen-report ended with status {status}: {word}"
+    if not large.exists():
+        return f"platen-report has not drawn {large.name}"
+    for width in WIDTHS if small else ():
+        small_png.make_small(str(large), str(small), width)
+        if small.stat().st_size <= LARGEST:
+            return ""
+    return f"{small.name} stays above {LARGEST} bytes" if small else ""
+
+
+def result_of(scene, build, runs, may_run, write):
+    """Runs the scene where that is wanted and was not done, draws, and reads what is there."""
+    folder = runs / scene.name
+    fault = ""
+    if may_run and not whole(folder):
+        fault = run(scene, build, folder)
+    summary = whole(folder)
+    if not summary:
+        return Result(fault=fault)
+    if scene.picture:
+        fault = draw(scene, build, folder, IMAGES / f"{scene.name}.png" if write else None)
+    if summary.get("failed_runs"):
+        fault = f"{summary['failed_runs']} of its runs have failed, see run.log"
+    log = (folder / "run.log").read_text()
+    expects = (folder / "scene.prm").read_text().split("subsection Expect", 1)[1].split("\nend", 1)[0]
+    machine = re.findall(r"^machine (.*?, \d+ cores)", log, re.M)
+    missed = re.findall(r"^error: expected: (.*)", log, re.M)
+    return Result(summary, machine[-1], missed, bool(re.search(r"= *[^ \n]", expects)), fault)
+
+
+def spaced(count):
+    return f"{count:,}".replace(",", " ")
+
+
+def cost(result):
+    """What was computed, for how long, on what."""
+    s = result.summary
+    kinds = {"particles": "sphere", "bonds": "bond", "steps": "step", "runs": "run", "trials": "trial"}
+    counts = [f"{spaced(s[key])} {word}{'s' * (s[key] > 1)}" for key, word in kinds.items()
+              if isinstance(s.get(key), int) and s[key] > 0]
+    threads = "one thread" if s["threads"] == 1 else f"{s['threads']} threads"
+    seconds = s["wall_seconds"]
+    return f"{', '.join(counts)}; {seconds:{'.2g' if seconds < 10 else '.0f'}} s on {threads}, {result.machine}."
+
+
+def verdict(result):
+    if result.missed:
+        return "**Expected, but:** " + "; ".join(result.missed) + "."
+    return "What the scene expects came out." if result.expects else "The scene expects no numbers."
+
+
+def command(scene):
+    program, *rest = scene.program.split()
+    return "    " + " ".join([f"build/apps/{program}", *rest, f"scenes/{scene.name}.prm", "-t", "1"])
+
+
+def wrapped(text):
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
+
+
+def section(scene, result):
+    """All that the page says of a scene."""
+    parts = [f"### {scene.name}"]
+    if result.summary:
+        parts.append(f"**{result.summary['scene']}.** {scene.see}")
+        if scene.picture and not result.fault:
+            parts.append(f"![{result.summary['scene']}](images/gallery/{scene.name}.png)")
+        parts += [*tables(result.summary), f"{cost(result)} {verdict(result)}"]
+    else:
+        parts.append(scene.see)
+        if not result.fault:
+            parts.append(f"Not run here: {scene.cost}." if scene.cost else "Not run yet.")
+    if result.fault:
+        parts.append(f"**Fails:** {result.fault}.")
+    texts = [p if p.startswith(("###", "!", "|")) else wrapped(p) for p in parts]
+    return "\n\n".join(texts + [command(scene)]) + "\n"
+
+
+def page(results):
+    versions = sorted({r.summary["version"] for r in results.values() if r.summary})
+    texts = [HEADING + "\n" + wrapped(f"Runs of {', '.join(versions) or 'no version yet'}.") + "\n"]
+    for title, scenes in GROUPS:
+        texts += [f"## {title}\n"] + [section(scene, results[scene.name]) for scene in scenes]
+    return "\n".join(texts)
+
+
+def check(listed):
+    """Faults of list, page and pictures, as texts."""
+    there, text = {p.stem for p in SCENES.glob("*.prm")}, PAGE.read_text() if PAGE.exists() else ""
+    named, made = set(re.findall(r"\(images/gallery/(.*?)\.png\)", text)), {p.stem for p in IMAGES.glob("*.png")}
+    faults = [f"scenes/{name}.prm is not in gallery_scenes.py" for name in sorted(there - set(listed))]
+    faults += [f"gallery_scenes.py: there is no scenes/{name}.prm" for name in listed if name not in there]
+    faults += [f"gallery_scenes.py: {name} stands there twice" for name in there if listed.count(name) > 1]
+    faults += [f"{PAGE.name}: names {name}.png, which is not there" for name in sorted(named - made)]
+    faults += [f"{PAGE.name}: does not show {name}.png" for name in sorted(made - named)]
+    if re.findall(r"^### (.*)", text, re.M) != listed:
+        faults.append(f"{PAGE.name}: has not the scenes of gallery_scenes.py; write it anew")
+    return faults
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", nargs="?", type=pathlib.Path, help="build folder")
+    parser.add_argument("runs", nargs="?", type=pathlib.Path, help="folder for results")
+    parser.add_argument("--scene", nargs="+", metavar="NAME", help="run no scene but these")
+    parser.add_argument("--write", action="store_true", help="write docs/gallery.md and its pictures")
+    parser.add_argument("--check", action="store_true", help="run nothing: check list, page and pictures")
+    options = parser.parse_args()
+    scenes = [scene for _, group in GROUPS for scene in group]
+    listed = [scene.name for scene in scenes]
+    if options.check:
+        faults = check(listed)
+        print("\n".join(faults) or f"{len(listed)} scenes have their place")
+        return 1 if faults else 0
+    if not options.runs or not (options.build / "apps/platen-report").exists():
+        parser.error("needs a folder in which the programs are built, and one for results")
+    if unknown := set(options.scene or []) - set(listed):
+        parser.error("no such scene: " + ", ".join(sorted(unknown)))
+    if options.write:
+        IMAGES.mkdir(parents=True, exist_ok=True)
+    build, runs = options.build.resolve(), options.runs.resolve()
+    with concurrent.futures.ProcessPoolExecutor(initializer=os.nice, initargs=(10,)) as pool:
+        wanted = options.scene or [s.name for s in scenes if not s.cost]
+        waiting = {s.name: pool.submit(result_of, s, build, runs, s.name in wanted, options.write) for s in scenes}
+        results = {name: future.result() for name, future in waiting.items()}
+    if options.write:
+        PAGE.write_text(page(results))
+    else:
+        print(page(results))
+    return 1 if any(r.fault or r.missed for r in results.values()) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

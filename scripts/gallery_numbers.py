@@ -1,0 +1,151 @@
+"""Which numbers of a summary.json the gallery shows, and how."""
+
+import math
+from typing import NamedTuple
+
+
+class Column(NamedTuple):
+    """A number of summary.json: its path, what it is divided by, unit and format in the table."""
+
+    words: str
+    key: str
+    divisor: float = 1
+    unit: str = ""
+    form: str = "#.3g"
+
+
+ELASTIC = [
+    Column("E", "youngs_modulus_gauge_pa", 1e9, " GPa"),
+    Column("Poisson's ratio", "poisson_ratio"),
+]
+OF_A_RUN = [
+    Column("strength", "strength_pa", 1e6, " MPa"),
+    Column("strain at peak", "strain_at_peak_platen", 1e-3, " mm/m"),
+    *ELASTIC,
+    Column("largest deviator", "deviator_strength_pa", 1e6, " MPa"),
+    Column("bulk modulus", "bulk_modulus_pa", 1e9, " GPa"),
+    Column("constrained modulus", "constrained_modulus_pa", 1e9, " GPa"),
+    Column("lateral over axial stress", "lateral_over_axial_stress"),
+    Column("flexural modulus", "flexural_modulus_pa", 1e9, " GPa"),
+    Column("cracks on the loaded diameter", "cracks_on_loaded_diameter", 1e-2, " %"),
+    Column("cracks near mid-span", "cracks_near_midspan", 1e-2, " %"),
+    Column("E of the interior", "bulk/youngs_modulus_pa", 1e9, " GPa"),
+    Column("Poisson's ratio of the interior", "bulk/poisson_ratio"),
+    Column("energy residual", "energy_residual_relative", 1, "", ".1e"),
+]
+LOADS = ("tension", "bending", "torsion", "impact")  # of platen-bar
+OF_A_LOAD = [
+    Column("of a bar", "load"),
+    Column("error at rest", "static_error_effective", 1e-2, " %", ".2g"),
+    Column("error swinging", "dynamic_error_effective", 1e-2, " %", ".2g"),
+    Column("error of the wave's speed", "wave_error", 1e-2, " %", ".2g"),
+]
+OF_A_FAILURE = [
+    Column("when", "when"),
+    Column("pattern", "pattern"),
+    Column("half-angle of the top cone", "cone_top/half_angle_deg", 1, " degrees", ".0f"),
+    Column("half-angle of the bottom cone", "cone_bottom/half_angle_deg", 1, " degrees", ".0f"),
+    Column("bonds broken at the top", "end_damage_top", 1e-2, " %", ".0f"),
+    Column("broken in the middle", "middle_damage", 1e-2, " %", ".0f"),
+    Column("broken at the bottom", "end_damage_bottom", 1e-2, " %", ".0f"),
+]
+OF_A_BOND = [
+    Column("modulus", "modulus_pa", 1e9, " GPa"),
+    Column("stiffness ratio", "stiffness_ratio"),
+    Column("stiffness", "stiffness", 1e6, " MN/m", ".5g"),
+    Column("stiffness by hand", "stiffness_by_hand", 1e6, " MN/m", ".5g"),
+    Column("strain ratio", "strain_ratio", 1, "", ".4f"),
+    Column("strain ratio by hand", "strain_ratio_by_hand", 1, "", ".4f"),
+    Column("breaks at", "break_load", 1, " N", ".6g"),
+    Column("breaks by hand at", "break_load_by_hand", 1, " N", ".6g"),
+    Column("energy of fracture", "fracture_energy_j_m2", 1, " J/m2", ".6g"),
+    Column("energy of fracture by hand", "fracture_energy_by_hand_j_m2", 1, " J/m2", ".6g"),
+    Column("largest difference", "largest_difference", 1, "", ".1e"),
+]
+OF_A_CASE = [
+    Column("case", "name"),
+    Column("runs", "runs", 1, "", ".0f"),
+    Column("strength", "strength_pa", 1e6, " MPa"),
+    Column("strain at peak", "strain_at_peak_platen", 1e-3, " mm/m"),
+    *ELASTIC,
+    Column("energy residual", "energy_residual_relative", 1, "", ".1e"),
+]
+OF_A_CALIBRATION = [
+    Column("modulus of bonds", "found/bond_modulus_pa", 1e9, " GPa"),
+    Column("stiffness ratio", "found/stiffness_ratio"),
+    Column("tensile strength", "found/bond_tensile_strength_pa", 1e6, " MPa"),
+    Column("shear strength", "found/bond_shear_strength_pa", 1e6, " MPa"),
+    Column("moment contribution", "found/moment_contribution"),
+    Column("friction angle", "found/friction_angle_rad", math.pi / 180, " degrees"),
+]
+OF_UNSEEN_PACKINGS = [
+    Column("E of unseen packings", "youngs_modulus_gauge_pa", 1e9, " GPa"),
+    Column("Poisson's ratio", "poisson_ratio"),
+    Column("compressive strength", "compressive_strength_pa", 1e6, " MPa"),
+    Column("tensile strength", "tensile_strength_pa", 1e6, " MPa"),
+    Column("triaxial strength", "triaxial_strength_pa", 1e6, " MPa"),
+]
+OF_AN_ABACUS = [
+    Column("modulus of beams", "bond_modulus_pa", 1e9, " GPa"),
+    Column("radius multiplier", "radius_multiplier"),
+    Column("Poisson's ratio of beams", "bond_poisson_ratio"),
+    *ELASTIC,
+]
+
+
+def number(row, key):
+    """A number, a word or a mean with deviation; None where it was not measured."""
+    if key in row:
+        return row[key]
+    for part in key.split("/"):
+        row = row.get(part) if isinstance(row, dict) else None
+    return row
+
+
+def cell(row, column):
+    """Text of a number with its unit, of a mean with its deviation; "-" where there is none."""
+    value, scatter = number(row, column.key), None
+    if isinstance(value, dict):
+        value, scatter = value.get("mean"), value.get("deviation")
+    if value is None or isinstance(value, str):
+        return value or "-"
+    text = f"{value / column.divisor:{column.form}}".rstrip(".")
+    return text + (f" +- {scatter / column.divisor:.2g}" if scatter is not None else "") + column.unit
+
+
+def table(rows, columns):
+    """Markdown; columns that are empty in all rows are left out."""
+    kept = [c for c in columns if any(cell(row, c) != "-" for row in rows)]
+    lines = [[c.words for c in kept], ["---"] * len(kept)] + [[cell(row, c) for c in kept] for row in rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def slice_of(abacus):
+    """Its rows of the middle modulus and Poisson's ratio: some of many."""
+    fixed = ("bond_modulus_pa", "bond_poisson_ratio")
+    values = [sorted({row[key] for row in abacus}) for key in fixed]
+    middle = [v[len(v) // 2] for v in values]
+    return [row for row in abacus if [row[key] for key in fixed] == middle]
+
+
+def failure(summary):
+    """How the specimen has failed, at two moments; no rows where it was not judged."""
+    at_end = {key.removeprefix("final_"): value for key, value in summary.items() if key.startswith("final_")}
+    rows = [{**summary, "when": "at 0.8 of the peak"}, {**at_end, "when": "at the end"}]
+    return [row for row in rows if row.get("pattern")]
+
+
+def tables(summary):
+    """Markdown tables of what the program has found."""
+    app = summary["app"]
+    if app == "platen-bonds":
+        return [table(summary["runs"], OF_A_BOND)]
+    if app == "platen-study":
+        return [table(summary["cases"], OF_A_CASE)]
+    if "abacus" in summary:
+        return [table(slice_of(summary["abacus"]), OF_AN_ABACUS)]
+    if app == "platen-calibrate":
+        return [table([summary], OF_A_CALIBRATION), table([summary["verification"]], OF_UNSEEN_PACKINGS)]
+    loads = [{"load": load, **summary[load]} for load in LOADS if load in summary]
+    further = [(loads, OF_A_LOAD), (failure(summary), OF_A_FAILURE)]
+    return [table([summary], OF_A_RUN)] + [table(rows, columns) for rows, columns in further if rows]

@@ -1,0 +1,197 @@
+"""Scenes of the gallery in the order of its page, and what to see in each: all that is written by hand there."""
+
+from typing import NamedTuple
+
+
+class Scene(NamedTuple):
+    """One scene of scenes/."""
+
+    name: str  # of scenes/NAME.prm
+    program: str  # with the kind of a study
+    picture: str  # of platen-report, without .png; "" where it draws none
+    see: str
+    cost: str = ""  # where a run takes more than ten minutes: it is not run unless it is named
+
+
+COMPRESS, BRAZILIAN, BONDS, BAR = "platen-compress", "platen-brazilian", "platen-bonds", "platen-bar"
+CALIBRATE, STUDY = "platen-calibrate", "platen-study"
+GROUPS = [
+    ("Concrete between platens", [
+        Scene("demo_dry", COMPRESS, "fragments",
+              "Friction holds the ends: a cone stands on each platen, and what lies around and between them has gone "
+              "to crumbs (grey). The lines are the fitted cones."),
+        Scene("demo_lubricated", COMPRESS, "outward_displacement",
+              "Nothing holds the ends: one of them opens and moves outwards most at the platen, where the dry specimen "
+              "stands still."),
+        Scene("concrete_dry", COMPRESS, "outward_displacement",
+              "The hourglass, with twice as many spheres as in the demo: two cones stand still, the skin of the middle "
+              "is pushed out."),
+        Scene("concrete_lubricated", COMPRESS, "outward_displacement",
+              "The same spheres without friction at the platens: a little weaker, one end opens, and there are no "
+              "cones."),
+        Scene("cube_dry", COMPRESS, "outward_displacement",
+              "A cube is so short that its held ends reach through its middle: it bears a third more than the prism. "
+              "Its core stands still, its sides come off; no cones are found."),
+        Scene("cube_lubricated", COMPRESS, "outward_displacement",
+              "Without friction the cube has the strength of the prism, and its sides open from platen to platen."),
+        Scene("prism_dry", COMPRESS, "fragments",
+              "A prism leaves room between its ends: the middle fails as if the platens were far away, and a cone is "
+              "left on each."),
+        Scene("prism_lubricated", COMPRESS, "outward_displacement",
+              "One end opens and splits, yet the strength is nearly that between dry platens: slender specimens hardly "
+              "ask about their ends."),
+    ]),
+    ("Elastic platens and sleeves", [
+        Scene("elastic_platens", COMPRESS, "stress_flow",
+              "Stress in concrete and steel in one scale, near the peak: the steel spreads what the concrete brings "
+              "and bears least beyond its edge."),
+        Scene("brush_platens", COMPRESS, "outward_displacement",
+              "Pins 10 mm wide bear as steel does: the strength and the hourglass are those of demo_dry. But they bend "
+              "sideways a little, and the ends are damaged twice as much."),
+        Scene("rubber_pads", COMPRESS, "stress_flow",
+              "Sheets of hard rubber (the dark lines of the right picture: they bear next to no shear) are pressed out "
+              "sideways and take the ends along: the upper end splits into columns, seen as streaks of stress, and a "
+              "fourth of the strength is lost."),
+        Scene("soft_platens", COMPRESS, "damage",
+              "Polyethylene spreads more than concrete under the same stress and pulls the ends apart where steel "
+              "holds them together: both ends break (left), then the rest, at two thirds of the strength between "
+              "steel."),
+        Scene("triaxial_concrete", COMPRESS, "stress_strain",
+              "In a rubber sleeve at 9 MPa: nearly twice the 36 MPa that it bears bare, and a rest that flows instead "
+              "of falling to nothing. A third of the cracks are of shear. The table counts strain from where all sides "
+              "bear 9 MPa."),
+        Scene("triaxial_cement", COMPRESS, "stress_strain",
+              "A cell at 3.4 MPa: a low peak, then flow, while ever more interfaces fail, most of them in shear. The "
+              "kink is where all sides bear that pressure and the platens begin to close; from there the table counts "
+              "strain."),
+        Scene("hydrostatic_concrete", COMPRESS, "stress_strain",
+              "All sides pressed alike: nearly straight lines and no crack. The bulk modulus agrees with E / (3 (1 - 2 "
+              "nu))."),
+        Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain",
+              "Held by a stiff wall it has no peak: the strength in the table is the stress at the end of the test. "
+              "Unloading and reloading (the lines back) break hardly any bond."),
+    ]),
+    ("Tension, bending, Brazilian", [
+        Scene("concrete_tension", COMPRESS, "damage",
+              "One flat crack across; compressive over tensile strength is 8.5, as in laboratories (8 to 12)."),
+        Scene("bending_concrete", COMPRESS, "damage",
+              "A single crack rises from the lower edge at mid-span. The nominal strength is above that in direct "
+              "tension, as in small beams of laboratories."),
+        Scene("brazilian_concrete", BRAZILIAN, "crack_times",
+              "The first cracks lie along the loaded diameter, apart from each other; past the peak they grow together "
+              "and part the disc."),
+    ]),
+    ("Cement, concrete and shale of Oñate et al. 2015", [
+        Scene("onate_cement", COMPRESS, "damage",
+              "Experiment 17 MPa. A band at a slant cuts through the upper half; below it next to nothing is broken."),
+        Scene("onate_cement_triaxial", COMPRESS, "damage",
+              "The same test as triaxial_cement, with the pressure on the spheres of the skin instead of a sleeve: the "
+              "same strength. One zone is crushed, the rest stays sound."),
+        Scene("onate_cement_uniaxial_strain", COMPRESS, "stress_strain",
+              "Compaction with the radius held: the curve bends where interfaces yield and lies down where they fail, "
+              "nearly all in shear. There is no peak: the strength in the table is the stress at the end."),
+        Scene("onate_cement_brazilian", BRAZILIAN, "crack_times",
+              "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is crushed under a strip first (left), then "
+              "it splits from there (right)."),
+        Scene("onate_concrete", COMPRESS, "damage",
+              "Experiment 32.8 to 38 MPa, E 28 GPa. Caps of sound spheres are left at both ends; what has failed goes "
+              "on rubbing, so nothing falls apart."),
+        Scene("onate_concrete_triaxial", COMPRESS, "damage",
+              "A cell of 9 MPa: nearly twice the strength of onate_concrete. Damage begins as a belt and grows over "
+              "all but the ends; nearly as many interfaces fail in shear as in tension."),
+        Scene("onate_concrete_brazilian", BRAZILIAN, "crack_times",
+              "Experiment 3 MPa. Cracks fill the loaded diameter before the peak, and part the disc after it."),
+        Scene("onate_shale", COMPRESS, "damage",
+              "Experiment 50 MPa, the paper's model 48. Caps of sound spheres stay at both ends, the skin of the "
+              "middle fails first."),
+        Scene("onate_shale_brazilian", BRAZILIAN, "crack_times",
+              "Experiment 5.0 MPa, the paper's model 5.4. The same packing as the concrete, other interfaces: nearly "
+              "the same cracks."),
+    ]),
+    ("Cylinders of Tannu 2017", [
+        Scene("tannu_r1.25_ground", COMPRESS, "damage",
+              "With ground ends this network bears 150 MPa, three times what was published, and ends suddenly: a band "
+              "two spheres thick gives way, ends stay sound, there are no cones ([why](tannu_cylinder.md))."),
+        Scene("tannu_r1.00_ground", COMPRESS, "damage",
+              "As tannu_r1.25_ground with spheres of 1 mm.",
+              "about a quarter of an hour on one core"),
+        Scene("tannu_r0.75_ground", COMPRESS, "damage",
+              "As tannu_r1.25_ground with spheres of 0.75 mm.",
+              "about half an hour on one core"),
+        Scene("tannu_r0.50_ground", COMPRESS, "damage",
+              "As tannu_r1.25_ground with spheres of 0.5 mm, 160 110 of them.",
+              "about three hours on one core"),
+        Scene("tannu_r1.25", COMPRESS, "damage",
+              "Ends as packed: the platens meet one protruding sphere after the other, and each is sheared off at 1 to "
+              "12 MPa ([more](tannu_cylinder.md)).",
+              "about half an hour on one core"),
+        Scene("tannu_r1.00", COMPRESS, "damage",
+              "As tannu_r1.25 with spheres of 1 mm.",
+              "about an hour on one core"),
+        Scene("tannu_r0.75", COMPRESS, "damage",
+              "As tannu_r1.25 with spheres of 0.75 mm.",
+              "about three hours on one core"),
+        Scene("tannu_r0.50", COMPRESS, "damage",
+              "As tannu_r1.25 with spheres of 0.5 mm, 160 110 of them.",
+              "about 18 hours on one core"),
+    ]),
+    ("Three laws", [
+        Scene("three_laws_parallel_bond", COMPRESS, "damage",
+              "One packing under three laws of equal E and tensile strength. Parallel bonds: the middle is lost, what "
+              "is left at the ends is sound."),
+        Scene("three_laws_cohesive_beam", COMPRESS, "damage",
+              "Beams part in tension, one and all, at less than half the stress and strain of the others: a law for "
+              "glass, not for concrete."),
+        Scene("three_laws_elasto_damage_plastic", COMPRESS, "damage",
+              "Interfaces bear what parallel bonds do, at a larger strain, for they yield before they break; the ends "
+              "stay whole."),
+    ]),
+    ("Bonds and bars", [
+        Scene("two_particles", BONDS, "",
+              "One bond pulled, with the moduli of Tannu 2017 (tables 4 and 5): its stiffness beside the closed form, "
+              "and the load at which it would break."),
+        Scene("three_particles", BONDS, "",
+              "Two spheres on a plate, pressed apart by a third: lateral over vertical strain beside the linear "
+              "solution. It falls as bonds become stiffer in shear, where the published one rises."),
+        Scene("softening_bond", BONDS, "",
+              "One elasto-damage-plastic bond led through its softening: load and energy beside the closed form."),
+        Scene("bar_silica", BAR, "",
+              "A bar of bonded spheres pulled, bent, twisted and struck: errors against strength of materials with the "
+              "effective section of that bar. The energy residual is that of the blow; of the other tests it is below "
+              "0.001."),
+        Scene("silica_bulk", BAR, "",
+              "The inside of a close packing led through six uniform strains; published for this glass: 72.5 GPa and "
+              "0.17."),
+    ]),
+    ("Calibrations", [
+        Scene("calibrate_concrete", CALIBRATE, "",
+              "Wanted: E 17 GPa, Poisson's ratio 0.15, 47.6 MPa in compression, 4 MPa in tension. The bonds that were "
+              "found, and what five other packings make of them."),
+        Scene("calibrate_triaxial", CALIBRATE, "",
+              "Wanted: 36 MPa bare and 54.5 MPa in a cell of 4.5 MPa, E 27 GPa, Poisson's ratio 0.17. The friction "
+              "angle of the bonds is the knob for the pressure; two other packings judge."),
+        Scene("abacus_silica", CALIBRATE, "",
+              "What the radius of beams does to a glass: rows of abacus.csv with one modulus and one Poisson's ratio "
+              "of the beams. Published at 0.71: 72.5 GPa and 0.17."),
+    ]),
+    ("Studies", [
+        Scene("study_friction_quick", f"{STUDY} friction", "strength_slenderness",
+              "How much of the strength is the platen's doing: at height over width 1 dry steel gains a fourth over "
+              "grease, at 2 less than a tenth. The diamonds are of laboratories. One packing."),
+        Scene("study_friction_concrete", f"{STUDY} friction", "strength_slenderness",
+              "The same on five packings, finer spheres, more platens and slendernesses: 100 runs.",
+              "about two hours on one core"),
+        Scene("study_size_concrete", f"{STUDY} size", "",
+              "Spheres from 6 to 12.5 across the diameter: coarse ones pack looser and are weaker; from ten on it is "
+              "within the scatter."),
+        Scene("study_size_tannu", f"{STUDY} size", "",
+              "The four sphere radii and three cylinders of Tannu 2017, ends ground.",
+              "about eight hours on one core"),
+        Scene("study_packing_concrete", f"{STUDY} packing", "",
+              "A wider gap bonds more neighbours, a thicker bond has a larger section: both make the specimen stiffer "
+              "and stronger."),
+        Scene("study_rate_concrete", f"{STUDY} rate", "",
+              "From four times the speed of study_size_concrete down to half of it the strength stays within the "
+              "scatter."),
+    ]),
+]
