@@ -1,6 +1,8 @@
 #include "apps/report/canvas.h"
 
+#include <vtkCamera.h>
 #include <vtkImageShrink3D.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkTextActor.h>
@@ -8,6 +10,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -33,6 +36,22 @@ vtkRenderer *Canvas::add_renderer(const std::array<double, 4> &part) {
   return renderer;
 }
 
+double Canvas::aspect(vtkRenderer *renderer) const {
+  const double *part = renderer->GetViewport();
+  return (part[2] - part[0]) * width_ / ((part[3] - part[1]) * height_);
+}
+
+std::array<double, 2> Canvas::on_window(vtkRenderer *renderer, const std::array<double, 3> &place) const {
+  const double *part = renderer->GetViewport();
+  const double world[] = {place[0], place[1], place[2], 1};
+  double point[4];
+  renderer->GetActiveCamera()
+      ->GetCompositeProjectionTransformMatrix(aspect(renderer), -1, 1)
+      ->MultiplyPoint(world, point); // -1 ... 1 over its part
+  return {part[0] + 0.5 * (1 + point[0] / point[3]) * (part[2] - part[0]),
+          part[1] + 0.5 * (1 + point[1] / point[3]) * (part[3] - part[1])};
+}
+
 vtkRenderer *Canvas::overlay() {
   if (!overlay_) {
     overlay_ = vtkSmartPointer<vtkRenderer>::New();
@@ -56,12 +75,16 @@ vtkTextActor *Canvas::add_centred(const std::string &text, double x, double y) {
 void Canvas::add_text(const std::string &text, double x, double y, int size, double widest, bool bold) {
   vtkTextActor *actor = add_centred(text, x, y);
   constexpr int smallest = 12; // pixels
+  double extent[2]{};
   for (int letters = size; letters >= smallest; --letters) {
     set_letters(actor->GetTextProperty(), letters, bold);
-    double extent[2];
     actor->GetSize(overlay(), extent);
     if (extent[0] <= widest * oversampling * width_) break;
   }
+  const double half = 0.5 * extent[0] / (oversampling * width_), edge = 0.01;
+  if (half + edge < 0.5)
+    actor->SetPosition(std::clamp(x, half + edge, 1 - half - edge) * oversampling * width_,
+                       y * oversampling * height_);
 }
 
 void Canvas::add_upright_text(const std::string &text, double x, double y, int size) {

@@ -22,8 +22,12 @@ public:
   int height() const { return height_; }
   // A renderer on the part [x0, x1] x [y0, y1] of the window (fractions, origin lower left).
   vtkRenderer *add_renderer(const std::array<double, 4> &x0_y0_x1_y1);
+  // Width over height of its part, as it will be drawn. (A window that is not drawn yet may say otherwise.)
+  double aspect(vtkRenderer *renderer) const;
+  // Where a place of its scene is drawn, in fractions of the whole window. The camera has to stand.
+  std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place) const;
   // Text centred at fractions (x, y) of the whole window, in smaller letters where it would be wider than
-  // `widest` (fraction).
+  // `widest` (fraction), and moved where it would reach beyond the window.
   void add_text(const std::string &text, double x, double y, int size, double widest = 0.97,
                 bool bold = false);
   // The same, read from below to above.

@@ -137,7 +137,7 @@ void add_panel(Canvas &canvas, int k, const std::vector<Disc> &discs, vtkScalars
   add_discs(renderer, discs, colours);
   add_outline(renderer, extent);
   light_cut(renderer);
-  look_at_cut(renderer, extent, 0.06 * extent.height());
+  look_at_cut(canvas, renderer, extent, 0.06 * extent.height());
   canvas.add_text(caption, 0.5 * (left + right), 0.5 * foot / height, text_size, 0.95 * (right - left));
 }
 

@@ -103,13 +103,6 @@ void add_line(vtkRenderer *renderer, const Outline &outline, double nearer) {
 
 } // namespace
 
-std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place) {
-  renderer->SetWorldPoint(place[0], place[1], place[2], 1);
-  renderer->WorldToDisplay();
-  const int *size = renderer->GetRenderWindow()->GetSize();
-  return {renderer->GetDisplayPoint()[0] / size[0], renderer->GetDisplayPoint()[1] / size[1]};
-}
-
 std::vector<std::size_t> kept_half(const Spheres &spheres) {
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < spheres.size(); ++k)
@@ -148,17 +141,14 @@ void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, dou
   renderer->AddActor2D(bar);
 }
 
-void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin) {
+void look_at_cut(const Canvas &canvas, vtkRenderer *renderer, const Extent &extent, double margin) {
   const double middle = 0.5 * (extent.bottom + extent.top), far = 10 * (extent.height() + extent.half_width);
   renderer->GetActiveCamera()->ParallelProjectionOn();
   renderer->GetActiveCamera()->SetFocalPoint(0, 0, middle);
   renderer->GetActiveCamera()->SetPosition(0, far, middle + rise * far);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
-  double aspect[2];
-  renderer->ComputeAspect();
-  renderer->GetAspect(aspect);
   const double for_height = 0.5 * extent.height() + margin,
-               for_width = (extent.half_width + margin) / aspect[0];
+               for_width = (extent.half_width + margin) / canvas.aspect(renderer);
   renderer->GetActiveCamera()->SetParallelScale(std::max(for_height, for_width));
   renderer->ResetCameraClippingRange();
 }
@@ -215,9 +205,9 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
     light_cut(renderer);
     for (const Outline &outline : views[k].outlines)
       add_line(renderer, outline, 2 * extent.half_depth);
-    look_at_cut(renderer, extent, 0.12 * extent.height());
+    look_at_cut(canvas, renderer, extent, 0.12 * extent.height());
     for (const Note &note : views[k].notes) {
-      const auto [x, y] = on_window(renderer, note.place);
+      const auto [x, y] = canvas.on_window(renderer, note.place);
       canvas.add_text(note.text, x, y, small_size);
     }
     canvas.add_text(views[k].caption, 0.5 * (left + right), 0.5 * caption_height / picture_height, text_size,

@@ -54,9 +54,7 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
 
 // A parallel view from +y, a little from above, that holds the extent and what lies up to `margin` (m) around
 // it.
-void look_at_cut(vtkRenderer *renderer, const Extent &extent, double margin);
-// The place in fractions of the whole window, once the camera has been set.
-std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place);
+void look_at_cut(const Canvas &canvas, vtkRenderer *renderer, const Extent &extent, double margin);
 // A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` (fractions).
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
 // Light from the upper left before the cut, and a weaker one from the right.

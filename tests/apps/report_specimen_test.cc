@@ -57,6 +57,28 @@ TEST(ReportSpecimen, a_cylinder_is_told_from_a_box_by_its_corners) {
   EXPECT_NEAR(extent_of(box).height(), 0.002, 1e-12);
 }
 
+// The window is never drawn: what stands where must not hang on what it says of itself before.
+TEST(ReportSpecimen, a_wide_extent_fills_the_width_of_its_part_and_a_high_one_the_height) {
+  Canvas canvas(1500, 1000);
+  vtkRenderer *left = canvas.add_renderer({0, 0, 0.5, 1}), *right = canvas.add_renderer({0.5, 0.2, 1, 1});
+  EXPECT_DOUBLE_EQ(canvas.aspect(left), 0.75);
+  Extent wide, high;
+  wide.bottom = high.bottom = 0;
+  wide.top = 0.01, wide.half_width = 0.02, wide.half_depth = 0.02;
+  high.top = 0.1, high.half_width = 0.02, high.half_depth = 0.02;
+  look_at_cut(canvas, left, wide, 0);
+  look_at_cut(canvas, right, high, 0);
+  EXPECT_NEAR(canvas.on_window(left, {0, 0, 0.005})[0], 0.25, 1e-12);
+  EXPECT_NEAR(canvas.on_window(left, {0, 0, 0.005})[1], 0.5, 1e-12);
+  const double one_side = canvas.on_window(left, {0.02, 0, 0.005})[0],
+               other = canvas.on_window(left, {-0.02, 0, 0.005})[0];
+  EXPECT_NEAR(std::abs(one_side - other), 0.5, 1e-12);
+  EXPECT_NEAR(canvas.on_window(right, {0, 0, 0.05})[1], 0.6, 1e-12);
+  const double seen = canvas.on_window(right, {0, 0, 0.1})[1] - canvas.on_window(right, {0, 0, 0})[1];
+  EXPECT_GT(seen, 0.79); // of 0.8, from a little above
+  EXPECT_LE(seen, 0.8);
+}
+
 TEST(ReportSpecimen, a_disc_lies_on_its_rim_and_a_bar_is_longer_than_deep) {
   Spheres disc, bar;
   for (int i = -10; i <= 10; ++i)
