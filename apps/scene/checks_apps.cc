@@ -167,6 +167,7 @@ void SceneCheck::study() const {
   once("Study/Radius spread list", study.radius_spreads);
   once("Study/Axial rate list", study.axial_rates);
   once("Study/Safety list", study.safeties);
+  once("Study/Wave crossings list", study.wave_crossings);
   once("Study/Mass scaling list", study.mass_scalings);
   once("Study/Platen mesh list", study.platen_elements);
   once("Study/Steps per solve list", study.steps_per_solve);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
 #include "apps/scene/scene_loading.h"
 
@@ -87,7 +88,8 @@ struct Study {                        // platen-study; a list that is empty leav
   std::vector<double> safeties, mass_scalings;
   std::vector<double> platen_elements, steps_per_solve; // whole
   std::vector<double> sleeve_elements;                  // whole
-  std::vector<double> sleeve_mass_scalings;
+  std::vector<double> sleeve_mass_scalings, wave_crossings;
+  std::vector<Quality> qualities;
   std::vector<std::string> changes; // "Section/Key = value", each alone against the scene as it is
 };
 

@@ -10,6 +10,8 @@ void declare_accuracy_lists(Section &section, Study &study) {
       "Safety list", study.safeties, "1", above_up_to(0, 1),
       "Study of accuracy, in place of Integration/Safety. All lists of such a study go from coarse to "
       "fine; the last value is the reference of the others.");
+  section.list("Wave crossings list", study.wave_crossings, "1", above(0),
+               "Study of accuracy, in place of Loading/Wave crossings.");
   section.list("Mass scaling list", study.mass_scalings, "1", between(1, 1e6),
                "Study of accuracy, in place of Integration/Mass scaling.");
   section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),
@@ -20,6 +22,9 @@ void declare_accuracy_lists(Section &section, Study &study) {
                "Study of accuracy, in place of Sleeve/Elements around.");
   section.list("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
                "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
+  section.qualities(
+      "Quality list", study.qualities,
+      "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
   section.assignments(
       "Effects list", study.changes,
       "Study of accuracy: entries of the scene, each set alone and compared with the scene as "

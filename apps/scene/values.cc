@@ -127,6 +127,14 @@ std::vector<StudySurface> read_surfaces(const std::string &text) {
   });
 }
 
+std::vector<Quality> read_qualities(const std::string &text) {
+  std::vector<std::string> words;
+  for (const QualityWord &one : quality_words())
+    words.push_back(one.word);
+  return read_items<Quality>(
+      text, [&](const std::string &item) { return quality_words()[read_word(item, words, {})].kind; });
+}
+
 std::vector<std::string> read_assignments(const std::string &text) {
   return read_items<std::string>(text, [](const std::string &item) {
     const std::size_t sign = item.find('=');

@@ -1,6 +1,8 @@
 #include "apps/study/accuracy_cases.h"
 
 #include <cctype>
+#include <cmath>
+#include <functional>
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
@@ -27,10 +29,6 @@ bool deformable(const Scene &s) {
   return s.platens.kind == PlatenKind::deformable;
 }
 
-std::string always(const Scene &) {
-  return "";
-}
-
 std::string needs_limit(const Scene &s) {
   return s.integration.time_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
                                      : "";
@@ -38,6 +36,18 @@ std::string needs_limit(const Scene &s) {
 
 std::string needs_motion(const Scene &s) {
   return s.platens.top_control == PlatenControl::stress ? "needs platens that are driven by motion." : "";
+}
+
+std::string needs_no_rate(const Scene &s) {
+  return std::isnan(s.loading.axial_rate) ? "" : "has no effect: Loading/Axial rate is set.";
+}
+
+// Heavier specimens carry slower waves, for which the platens would wait.
+std::string needs_rate(const Scene &s) {
+  return std::isnan(s.loading.axial_rate)
+             ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
+               "an Axial rate."
+             : "";
 }
 
 std::string needs_packing(const Scene &s) {
@@ -68,9 +78,12 @@ const NumberKnob number_knobs[] = {
      [](const Scene &s) { return s.integration.safety; }, needs_limit},
     {"axial rate", "Loading/Axial rate", "Study/Axial rate list", "m/s", "axial_rate_m_s", Finer::smaller,
      &Study::axial_rates, [](const Scene &s) { return s.loading.axial_rate; }, needs_motion},
+    {"wave crossings", "Loading/Wave crossings", "Study/Wave crossings list", "", "wave_crossings",
+     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_crossings; },
+     needs_no_rate},
     {"mass scaling", "Integration/Mass scaling", "Study/Mass scaling list", "", "mass_scaling",
      Finer::smaller, &Study::mass_scalings, [](const Scene &s) { return s.integration.mass_scaling; },
-     always},
+     needs_rate},
     {"sphere radius", "Specimen/Sphere radius", "Study/Sphere radius list", "m", "sphere_radius_m",
      Finer::smaller, &Study::sphere_radii, [](const Scene &s) { return s.specimen.sphere_radius; },
      needs_packing},
@@ -132,6 +145,34 @@ void add_numbers(StudyPlan &plan, const Scene &scene, const NumberKnob &from) {
   plan.knobs.push_back(std::move(knob));
 }
 
+void check_qualities(const Scene &scene) {
+  const auto refuse = [&](const std::string &why) { scene.parameters->refuse("Study/Quality list", why); };
+  const std::vector<Quality> &words = scene.study.qualities;
+  const bool rising = std::adjacent_find(words.begin(), words.end(), std::greater_equal<>()) == words.end();
+  if (words.size() < 2 || !rising || words.front() == Quality::custom)
+    refuse(
+        "does not go from coarse to fine. Allowed: two or three of fast, standard, reference, in this "
+        "order; the last is the reference.");
+  for (const char *path : {"Integration/Safety", "Loading/Wave crossings"})
+    if (overrules_quality(*scene.parameters, path))
+      refuse(std::string("would not be heard: the scene says itself what ") + path +
+             " decides. Allowed: scenes that leave Integration/Safety, Loading/Axial rate and Wave crossings "
+             "open.");
+}
+
+void add_qualities(StudyPlan &plan, const Scene &scene) {
+  if (scene.study.qualities.empty()) return;
+  check_qualities(scene);
+  Knob knob{"quality", "Scene/Quality", "", true, {}};
+  for (const Quality kind : scene.study.qualities) {
+    const std::string word = quality(kind).word;
+    StudyCase one{base, {}, {}};
+    if (kind != scene.general.quality) one = {"quality_" + word, {}, {"Scene/Quality = " + word}};
+    knob.values.push_back({word, not_given, place_of(plan, one)});
+  }
+  plan.knobs.push_back(std::move(knob));
+}
+
 void check_change(const Scene &scene, const std::string &path, const std::string &value) {
   const auto refuse = [&](const std::string &why) { scene.parameters->refuse("Study/Effects list", why); };
   if (path.rfind("Study/", 0) == 0 || path == "Scene/Seed")
@@ -167,6 +208,7 @@ StudyPlan plan_accuracy(const Scene &scene) {
     plan.varied.emplace_back(knob.column);
     add_numbers(plan, scene, knob);
   }
+  add_qualities(plan, scene);
   add_changes(plan, scene);
   if (!plan.knobs.empty()) return plan;
   std::string others;
@@ -175,7 +217,7 @@ StudyPlan plan_accuracy(const Scene &scene) {
   scene.parameters->refuse("Study/Safety list",
                            "is not set, nor is any other list of a study of accuracy: nothing is varied. "
                            "Allowed: at least one of " +
-                               others + ", Effects list.");
+                               others + ", Quality list, Effects list.");
 }
 
 void label_knobs(StudyCase &of, const Scene &led_to) {

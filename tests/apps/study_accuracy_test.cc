@@ -50,10 +50,15 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
   EXPECT_EQ(cases_of(3), (std::vector<std::size_t>{5, 6, 1}));
   EXPECT_EQ(plan.cases[3].overrides, (std::vector<std::string>{"Loading/Axial rate = 0.6 m/s"}));
   EXPECT_EQ(plan.cases[5].overrides, (std::vector<std::string>{"Effects/Rotation = off"}));
-  // safety, rate, mass scaling, radius; nothing of bodies that the scene has not.
-  EXPECT_EQ((std::vector<double>{plan.cases[3].labels.begin(), plan.cases[3].labels.begin() + 4}),
-            (std::vector<double>{0.8, 0.6, 1, 0.002}));
-  EXPECT_TRUE(std::isnan(plan.cases[3].labels[4]));
+  EXPECT_EQ(plan.varied,
+            (std::vector<std::string>{"safety", "axial_rate_m_s", "wave_crossings", "mass_scaling",
+                                      "sphere_radius_m", "elements_across", "steps_per_solve",
+                                      "sleeve_elements_around", "sleeve_mass_scaling"}));
+  EXPECT_EQ(plan.cases[3].labels[0], 0.8);
+  EXPECT_EQ(plan.cases[3].labels[1], 0.6);
+  EXPECT_EQ(plan.cases[3].labels[4], 0.002);
+  for (const std::size_t k : {2u, 5u, 8u})
+    EXPECT_TRUE(std::isnan(plan.cases[3].labels[k])); // not what decides in this scene
   EXPECT_TRUE(plan.knobs[0].ordered);
   EXPECT_FALSE(plan.knobs[3].ordered);
 }
@@ -72,6 +77,19 @@ TEST(AccuracyPlan, meshes_and_solves_of_bodies_are_varied_where_there_are_bodies
                                       "sleeve_mass_scaling_10"}));
 }
 
+TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entries_open) {
+  const std::vector<std::string> open{"Loading/Axial rate =", "Scene/Quality = standard",
+                                      "Study/Quality list = fast, standard, reference",
+                                      "Study/Wave crossings list = 60, 240"};
+  const StudyPlan plan = plan_with(without_radii(open));
+  EXPECT_EQ(names_of(plan),
+            (std::vector<std::string>{"base", "wave_crossings_240", "quality_fast", "quality_reference"}));
+  const Scene fast =
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[2], 3, open), AppKind::compress);
+  EXPECT_EQ(fast.integration.safety, 0.95);
+  EXPECT_EQ(fast.loading.wave_crossings, 30);
+}
+
 TEST(AccuracyPlan, what_cannot_be_compared_is_refused) {
   const auto refused = [](const std::vector<std::string> &entries, const std::string &says) {
     const std::string message = message_of<InputError>([&] { plan_with(without_radii(entries)); });
@@ -88,6 +106,13 @@ TEST(AccuracyPlan, what_cannot_be_compared_is_refused) {
   refused({"Platens/Kind = deformable", "Study/Platen mesh list = 4.5, 8"}, "not a whole number");
   refused({"Platens/Kind = deformable", "Study/Steps per solve list = 8, 4"}, "Motion = quasi-static");
   refused({"Study/Sleeve mesh list = 12, 24"}, "needs Loading/Confinement = sleeve");
+  refused({"Study/Mass scaling list = 10, 1", "Loading/Axial rate =", "Loading/Wave crossings = 60"},
+          "gains nothing where Loading/Wave crossings sets the speed");
+  refused({"Study/Wave crossings list = 30, 60"}, "has no effect: Loading/Axial rate is set");
+  refused({"Study/Quality list = fast, standard"},
+          "would not be heard: the scene says itself what Loading/Wave");
+  refused({"Study/Quality list = standard, fast"}, "does not go from coarse to fine");
+  refused({"Study/Quality list = quick"}, "\"quick\", that is not known");
   refused({"Study/Effects list = Effects/Rotation"}, "\"Effects/Rotation\", that sets nothing");
   refused({"Study/Effects list = Rotation = off"}, "that names no entry");
   refused({"Study/Effects list = Effects/Rotation = on"}, "changes nothing by Effects/Rotation = on");
@@ -207,6 +232,24 @@ TEST_F(Study, of_accuracy_tells_errors_of_each_knob_and_what_they_cost) {
   fs::remove(folder_ / "two/accuracy.csv");
   ASSERT_EQ(run("two", with(small, "--resume"), "accuracy").status, 0);
   EXPECT_EQ(content_of(folder_ / "two/accuracy.csv"), content_of(csv));
+}
+
+TEST_F(Study, of_accuracy_crosses_the_specimen_as_often_as_was_asked_for) {
+  ASSERT_EQ(run("a",
+                {"--quiet", "-s", "Study/Sphere radius list =", "-s", "Study/Seeds = 1", "-s",
+                 "Loading/Axial rate =", "-s", "Loading/Wave crossings = 6", "-s",
+                 "Study/Wave crossings list = 3, 6", "-s", "Loading/Target strain = 0.03"},
+                "accuracy")
+                .status,
+            0)
+      << content_of(folder_ / "error.txt");
+  const fs::path csv = folder_ / "a/study.csv";
+  const std::vector<double> crossings = column_of(csv, "wave_crossings_to_peak"),
+                            asked = column_of(csv, "wave_crossings"),
+                            strain = column_of(csv, "strain_at_peak_platen");
+  ASSERT_EQ(asked, (std::vector<double>{3, 6}));
+  for (std::size_t k = 0; k < 2; ++k) // the ramp takes ten crossings for the way of five
+    EXPECT_NEAR(crossings[k], asked[k] * strain[k] / 1e-3 + 5, 0.1);
 }
 
 } // namespace
