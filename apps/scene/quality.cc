@@ -11,13 +11,13 @@ const std::vector<QualityWord> &quality_words() {
       {Quality::fast,
        "fast",
        {{"Integration/Safety", "0.95"}, {"Loading/Wave crossings", "30"}, {"Platens/Steps per solve", "50"}},
-       "measured against reference: strength +0.3 +- 0.6 %, Young's modulus +0.2 +- 0.3 %, a ninth of its "
-       "steps (docs/accuracy.md)"},
+       "measured on 728 spheres against reference: strength +0.3 +- 0.6 %, Young's modulus +0.2 +- 0.3 %, a "
+       "ninth of its steps (docs/accuracy.md)"},
       {Quality::standard,
        "standard",
        {{"Integration/Safety", "0.8"}, {"Loading/Wave crossings", "60"}, {"Platens/Steps per solve", "20"}},
-       "measured against reference: strength -0.4 +- 1.8 %, Young's modulus 0.02 +- 0.03 %, a quarter of its "
-       "steps (docs/accuracy.md)"},
+       "measured on 728 spheres against reference: strength -0.4 +- 1.8 %, Young's modulus 0.02 +- 0.03 %, a "
+       "quarter of its steps (docs/accuracy.md)"},
       {Quality::reference,
        "reference",
        {{"Integration/Safety", "0.4"}, {"Loading/Wave crossings", "120"}, {"Platens/Steps per solve", "5"}},
