@@ -31,6 +31,11 @@ void report_on(const Wishes &wishes, char **argv) {
   if (report::holds_study(wishes.folder)) {
     if (!wishes.others.empty()) throw InputError("--compare is for runs; " + wishes.folder + " is a study");
     if (wishes.fields) throw InputError("--fields is for runs; " + wishes.folder + " is a study");
+    if (report::finished_study(wishes.folder).value("kind", "") == "accuracy") {
+      const report::AccuracyResults study = report::read_accuracy(wishes.folder);
+      report::ensure_display(argv);
+      return report::write_accuracy_report(study, pictures, out);
+    }
     const report::StudyResults study = report::read_study(wishes.folder);
     report::ensure_display(argv);
     return report::write_study_report(study, pictures, out);
@@ -57,7 +62,8 @@ int fail(const std::exception &error, int status) {
 
 int main(int argc, char **argv) {
   CLI::App app{
-      "Turns an output folder of a run, or of a study of platens, into pictures (PNG) and one HTML page, and "
+      "Turns an output folder of a run, or of a study of platens or accuracy, into pictures (PNG) and one "
+      "HTML page, and "
       "compares several runs."};
   Wishes wishes;
   app.add_option("folder", wishes.folder, "Output folder of a run or a study")->required();

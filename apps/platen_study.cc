@@ -7,9 +7,8 @@ int main(int argc, char **argv) {
   app.kind = AppKind::study;
   app.name = "platen-study";
   app.purpose =
-      "Runs platen-compress over platens, slendernesses, sizes, packings or rates, each on several seeds, "
-      "and "
-      "tables the results.";
+      "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
+      "time, each on several seeds, and tables the results.";
   app.kinds = study_kinds();
   return run_app(argc, argv, app, run_study);
 }

@@ -90,9 +90,10 @@ struct CellSettings {
 
 struct LoadingSettings {
   bool tension = false;
-  double rate = 0;    // m/s, closure (opening) speed of the platens, each moving at half of it
-  double ramp = 0;    // s; 0: ten wave crossings of the height
-  bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
+  double rate = 0;      // m/s, closure (opening) speed of the platens, each moving at half of it
+  double crossings = 0; // > 0: that speed at which a wave crosses the height so often in a closure by 0.1 %
+  double ramp = 0;      // s; 0: ten wave crossings of the height
+  bool servo = false;   // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
   double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell
   std::optional<CellSettings> cell;
@@ -155,8 +156,9 @@ public:
   long steps() const { return steps_; }
   double time_step() const { return time_step_; }
   const std::string &time_step_reason() const { return reason_; }
-  double ramp() const { return ramp_; }                   // s
-  double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
+  double ramp() const { return ramp_; }                        // s
+  double axial_rate() const { return settings_.loading.rate; } // m/s, once the platens are at speed
+  double wave_crossing() const { return wave_crossing_; }      // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
   double mean_radius() const { return mean_radius_; }     // m
   double grain_density() const { return grain_density_; } // kg/m^3, before mass scaling

@@ -226,12 +226,17 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   grain_density_ = dem::grain_density(specimen, settings.model.density, settings.model.density_of);
   const double density = grain_density_ * settings.model.mass_scaling * packing_fraction_;
   wave_crossing_ = voigt_modulus_ > 0 ? shape_.height * std::sqrt(density / voigt_modulus_) : 0.0;
+  if (settings.loading.crossings > 0) {
+    if (wave_crossing_ == 0)
+      throw BadSetup("Loading/Wave crossings", "needs bonds: they carry the wave. Allowed: an Axial rate.");
+    settings_.loading.rate = 1e-3 * shape_.height / (settings.loading.crossings * wave_crossing_);
+  }
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp
           : bent()                  ? swings_of_ramp * swing()
                                     : 10 * wave_crossing_;
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{
-        settings.loading.servo_gain > 0 ? settings.loading.servo_gain : servo_gain, settings.loading.rate});
+        settings.loading.servo_gain > 0 ? settings.loading.servo_gain : servo_gain, settings_.loading.rate});
   if (settings.loading.cell) start_cell(*settings.loading.cell, mean_bond_stiffness(model));
   if (settings.loading.wall_stiffness > 0)
     wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,

@@ -193,5 +193,12 @@ GROUPS = [
         Scene("study_rate_concrete", f"{STUDY} rate", "",
               "From four times the speed of study_size_concrete down to half of it the strength stays within the "
               "scatter."),
+        Scene("study_accuracy_concrete", f"{STUDY} accuracy", "accuracy",
+              "What accuracy costs: error against the finest run over seconds, one knob a line. Step and speed are lost "
+              "in the scatter of the seeds (grey) and in what is chaos of the strength, 2 %; a hundredfold mass, coarse "
+              "spheres and what is left out of the physics are not."),
+        Scene("study_quality_concrete", f"{STUDY} accuracy", "accuracy",
+              "The words of Scene/Quality and the speed in wave crossings: fast costs a ninth of the steps of reference, "
+              "and nothing that its strength could tell."),
     ]),
 ]

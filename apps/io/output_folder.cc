@@ -71,6 +71,7 @@ fs::path default_output_folder(const fs::path &scene_file) {
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
       "((scene|found)(\\.part)?\\.prm|(history|cracks|events|bond_stress|directions|specimen|study|costs|"
+      "accuracy|"
       "trials|"
       "abacus|packing_"
       "[0-9]+)(\\."

@@ -27,6 +27,13 @@ double SeedStatistics::deviation() const {
   return std::sqrt(squares / (static_cast<double>(values_.size()) - 1));
 }
 
+double SeedStatistics::root_mean_square() const {
+  double squares = 0;
+  for (const double v : values_)
+    squares += v * v;
+  return std::sqrt(squares / static_cast<double>(values_.size()));
+}
+
 std::string text_of(const SeedStatistics &s, double unit) {
   if (s.count() == 0) return "-";
   if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);

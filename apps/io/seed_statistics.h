@@ -11,8 +11,9 @@ class SeedStatistics {
 public:
   void add(double value);
   std::size_t count() const { return values_.size(); }
-  double mean() const;      // NaN of nothing
-  double deviation() const; // sample standard deviation; NaN of fewer than two
+  double mean() const;             // NaN of nothing
+  double deviation() const;        // sample standard deviation; NaN of fewer than two
+  double root_mean_square() const; // NaN of nothing
 
 private:
   std::vector<double> values_;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace platen::apps {
 
@@ -12,5 +13,9 @@ using Json = nlohmann::ordered_json; // keys stay in the order in which they wer
 // null, numbers are written in full precision, text that is not UTF-8 gets replacement characters. Throws
 // OutputError.
 void write_summary(const std::filesystem::path &path, const Json &summary);
+
+// A number of a summary by its key, `object/member` for that of an object; NaN where it is no number or is
+// not there.
+double number_in(const Json &summary, const std::string &key);
 
 } // namespace platen::apps

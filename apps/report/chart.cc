@@ -8,6 +8,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
+#include <vtkPlotArea.h>
 #include <vtkPlotPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -57,6 +58,17 @@ std::array<double, 2> range_of(const Chart &chart, std::vector<double> Curve::*v
   return {low < 0 ? low - air : 0, high > 0 ? high + air : 0};
 }
 
+void style_axis(vtkAxis *axis) {
+  axis->SetTitle(""); // VTK would write it over the numbers; see add_axis_titles()
+  set_letters(axis->GetLabelProperties(), small_size);
+  axis->SetTickLength(8 * oversampling);
+  axis->SetLabelOffset(12 * oversampling);
+  axis->GetPen()->SetWidth(2 * oversampling);
+  axis->GetPen()->SetColor(0, 0, 0);
+  axis->GetGridPen()->SetColor(225, 225, 225);
+  axis->GetGridPen()->SetWidth(oversampling);
+}
+
 int digits_of(const std::vector<double> &ticks) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
   return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
@@ -87,6 +99,31 @@ void add_mark(vtkChartXY &chart, const Mark &mark) {
   plot->SetLegendVisibility(!mark.label.empty());
 }
 
+// From the x axis up, over the whole width; before the curves, which then lie on it.
+void add_band(vtkChartXY &item, const Chart &chart, std::array<double, 2> x, double floor) {
+  if (!(chart.band_top > floor)) return;
+  constexpr int stations = 5; // VTK fills nothing between two
+  vtkNew<vtkTable> table;
+  const auto add_column = [&](const char *name, double at_left, double at_right) {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(name);
+    for (int k = 0; k < stations; ++k)
+      column->InsertNextValue(at_left + (at_right - at_left) * k / (stations - 1));
+    table->AddColumn(column);
+  };
+  add_column("x", x[0], x[1]);
+  add_column("low", floor, floor);
+  add_column("high", chart.band_top, chart.band_top);
+  auto *area = vtkPlotArea::SafeDownCast(item.AddPlot(vtkChart::AREA));
+  area->SetInputData(table);
+  area->SetInputArray(0, "x");
+  area->SetInputArray(1, "low");
+  area->SetInputArray(2, "high");
+  area->SetColor(228, 228, 228, 255);
+  area->SetLabel(" " + chart.band_label);
+  area->SetLegendVisibility(!chart.band_label.empty());
+}
+
 // Width and height of the legend in pixels, from the count and length of its lines; on the large side.
 std::array<double, 2> legend_size(const Chart &chart) {
   double lines = 0, longest = 0;
@@ -99,6 +136,7 @@ std::array<double, 2> legend_size(const Chart &chart) {
     count(curve.label);
   for (const Mark &mark : chart.marks)
     count(mark.label);
+  if (!std::isnan(chart.band_top)) count(chart.band_label);
   return {100 + 0.56 * small_size * longest, 24 + 1.3 * small_size * lines};
 }
 
@@ -117,7 +155,22 @@ void set_legend(vtkChartXY &chart, bool left) {
   legend->GetPen()->SetOpacity(0);
 }
 
-vtkSmartPointer<vtkChartXY> chart_item(const Chart &chart, const PlotArea &area) {
+void set_decades(vtkAxis *axis, std::array<double, 2> range) {
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> words;
+  for (const Tick &tick : decade_ticks(range[0], range[1])) {
+    positions->InsertNextValue(tick.place);
+    words->InsertNextValue(tick.words);
+  }
+  axis->SetUnscaledRange(range[0], range[1]);
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetCustomTickPositions(positions, words);
+  style_axis(axis);
+}
+
+vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea &area) {
+  const bool decades = given_chart.scale == Scale::logarithmic;
+  const Chart chart = decades ? in_decades(given_chart) : given_chart;
   const auto given = [](const std::array<double, 2> &range) { return range[0] != 0 || range[1] != 0; };
   const std::array<double, 2> x = given(chart.x_range) ? chart.x_range : x_range_of(chart),
                               y = given(chart.y_range) ? chart.y_range : range_of(chart, &Curve::y, &Mark::y);
@@ -125,12 +178,18 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &chart, const PlotArea &area)
   const LegendPlace place = place_legend(chart, x, y, legend_width / area.width, legend_height / area.height);
 
   auto item = frame_chart(area);
+  add_band(*item, chart, x, y[0]);
   for (const Curve &curve : chart.curves)
     add_curve(*item, curve);
   for (const Mark &mark : chart.marks)
     add_mark(*item, mark);
-  set_axis(item->GetAxis(vtkAxis::BOTTOM), x, 8);
-  set_axis(item->GetAxis(vtkAxis::LEFT), {y[0], place.y_top}, area.height > 700 ? 8 : 5);
+  if (decades) {
+    set_decades(item->GetAxis(vtkAxis::BOTTOM), x);
+    set_decades(item->GetAxis(vtkAxis::LEFT), {y[0], place.y_top});
+  } else {
+    set_axis(item->GetAxis(vtkAxis::BOTTOM), x, 8);
+    set_axis(item->GetAxis(vtkAxis::LEFT), {y[0], place.y_top}, area.height > 700 ? 8 : 5);
+  }
   set_legend(*item, place.left);
   return item;
 }
@@ -147,6 +206,45 @@ void add_bar(Chart &chart, double x, double low, double high, double half_cap, C
   chart.curves.push_back({"", {x, x}, {low, high}, colour, Stroke::solid, width});
   for (const double end : {low, high})
     chart.curves.push_back({"", {x - half_cap, x + half_cap}, {end, end}, colour, Stroke::solid, width});
+}
+
+Chart in_decades(Chart chart) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), air = 0.06; // of an axis
+  std::array<double, 2> x{infinite, -infinite}, y = x;
+  const auto take = [](double &value, std::array<double, 2> &range) {
+    value = value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(value)) return;
+    range = {std::min(range[0], value), std::max(range[1], value)};
+  };
+  for (Curve &curve : chart.curves)
+    for (std::size_t k = 0; k < curve.x.size(); ++k)
+      take(curve.x[k], x), take(curve.y[k], y);
+  for (Mark &mark : chart.marks)
+    take(mark.x, x), take(mark.y, y);
+  take(chart.band_top, y);
+  const auto widened = [&](const std::array<double, 2> &range) -> std::array<double, 2> {
+    if (!(range[1] >= range[0])) return {-1, 1};
+    const double beyond = std::max(0.1, air * (range[1] - range[0]));
+    return {range[0] - beyond, range[1] + beyond};
+  };
+  chart.x_range = widened(x), chart.y_range = widened(y);
+  return chart;
+}
+
+std::vector<Tick> decade_ticks(double low, double high) {
+  std::vector<double> factors{1, 2, 5};
+  if (high - low > 3) factors = {1};
+  if (high - low < 1) factors = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  std::vector<Tick> ticks;
+  for (double decade = std::floor(low); decade <= high; ++decade)
+    for (const double factor : factors) {
+      const double place = decade + std::log10(factor);
+      if (place < low || place > high) continue;
+      char text[32];
+      std::snprintf(text, sizeof text, "%g", factor * std::pow(10, decade));
+      ticks.push_back({place, text});
+    }
+  return ticks;
 }
 
 LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array<double, 2> y, double width,
@@ -193,14 +291,7 @@ void set_axis(vtkAxis *axis, std::array<double, 2> range, int intervals, Sign si
   axis->SetUnscaledRange(range[0], range[1]);
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetCustomTickPositions(positions, words);
-  axis->SetTitle(""); // VTK would write it over the numbers; see add_axis_titles()
-  set_letters(axis->GetLabelProperties(), small_size);
-  axis->SetTickLength(8 * oversampling);
-  axis->SetLabelOffset(12 * oversampling);
-  axis->GetPen()->SetWidth(2 * oversampling);
-  axis->GetPen()->SetColor(0, 0, 0);
-  axis->GetGridPen()->SetColor(225, 225, 225);
-  axis->GetGridPen()->SetWidth(oversampling);
+  style_axis(axis);
 }
 
 void add_axis_titles(Canvas &canvas, const PlotArea &area, const std::string &x_title,

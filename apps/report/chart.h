@@ -5,6 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,36 @@ struct Mark { // a dot
   MarkShape shape = MarkShape::circle;
 };
 
+constexpr double no_band = std::numeric_limits<double>::quiet_NaN();
+
+enum class Scale { linear, logarithmic };
+
 struct Chart {
   std::string x_title, y_title; // with units
   std::vector<Curve> curves;
   std::vector<Mark> marks;
   std::array<double, 2> x_range{0, 0}; // both 0: from the curves
   std::array<double, 2> y_range{0, 0}; // the same
+  Scale scale = Scale::linear; // of both axes; logarithmic: ranges from the curves, points above 0 alone
+  double band_top = no_band;   // grey from the x axis up to here
+  std::string band_label;      // as above
 };
 
 // A bar of scatter from `low` to `high`, with caps of half a width in units of x; nothing where both are the
 // same.
 void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour);
+
+// The same chart with decimal logarithms for values, ranges around all of them, the top of the band among
+// them.
+Chart in_decades(Chart chart);
+
+// Places of ticks between two decimal logarithms, and what stands there: powers of ten, with multiples of
+// them where there are few.
+struct Tick {
+  double place;
+  std::string words;
+};
+std::vector<Tick> decade_ticks(double low, double high);
 
 // The x range that a chart takes from its curves and marks; holds zero.
 std::array<double, 2> x_range_of(const Chart &chart);

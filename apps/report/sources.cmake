@@ -5,6 +5,8 @@
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
+  report/accuracy_report.cc
+  report/accuracy_results.cc
   report/acoustic.cc
   report/bars.cc
   report/canvas.cc

@@ -1,10 +1,11 @@
-// The pictures and the page of a study of platens.
+// The pictures and the page of a study.
 #pragma once
 
 #include <filesystem>
 #include <iosfwd>
 #include <vector>
 
+#include "apps/report/accuracy_results.h"
 #include "apps/report/study_results.h"
 
 namespace platen::apps::report {
@@ -24,5 +25,9 @@ void draw_slenderness(const StudyResults &study, const std::vector<std::size_t> 
 // apart, puts pictures and table on the page report.html there, and prints the same. Needs an X server;
 // throws OutputError.
 void write_study_report(const StudyResults &study, const std::filesystem::path &folder, std::ostream &out);
+
+// The same of a study of accuracy: errors against seconds, a line for each knob.
+void write_accuracy_report(const AccuracyResults &study, const std::filesystem::path &folder,
+                           std::ostream &out);
 
 } // namespace platen::apps::report

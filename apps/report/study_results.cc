@@ -113,13 +113,6 @@ StudyResults results_of(const Json &study, const std::string &title) {
   return results;
 }
 
-std::string title_in(const fs::path &folder) {
-  std::ifstream stream(folder / "summary.json");
-  const Json summary = Json::parse(stream, nullptr, false);
-  if (summary.is_object()) return summary.value("scene", folder.filename().string());
-  return folder.filename().string();
-}
-
 } // namespace
 
 const StudiedRatio *StudyResults::ratio_of(std::size_t of, const std::string &effect) const {
@@ -133,21 +126,35 @@ bool holds_study(const fs::path &folder) {
   return fs::exists(folder / "study.json");
 }
 
-StudyResults read_study(const fs::path &folder) {
+std::string title_of_study(const fs::path &folder) {
+  std::ifstream stream(folder / "summary.json");
+  const Json summary = Json::parse(stream, nullptr, false);
+  if (summary.is_object()) return summary.value("scene", folder.filename().string());
+  return folder.filename().string();
+}
+
+Json finished_study(const fs::path &folder) {
   const fs::path file = folder / "study.json";
   std::ifstream stream(file);
-  const Json study = Json::parse(stream, nullptr, false);
+  Json study = Json::parse(stream, nullptr, false);
   if (!study.is_object()) throw InputError(file.string() + ": cannot be read as JSON");
-  const std::string kind = study.value("kind", ""), status = study.value("status", "");
-  if (status == "running")
-    throw InputError(file.string() + ": the study has not ended; go on with it by platen-study " + kind +
-                     " --resume");
+  if (study.value("status", "") == "running")
+    throw InputError(file.string() + ": the study has not ended; go on with it by platen-study " +
+                     study.value("kind", "") + " --resume");
+  return study;
+}
+
+StudyResults read_study(const fs::path &folder) {
+  const fs::path file = folder / "study.json";
+  const Json study = finished_study(folder);
+  const std::string kind = study.value("kind", "");
   if (kind != "friction" && kind != "slenderness")
     throw InputError(file.string() + ": is of a study of " + (kind.empty() ? "nothing" : kind) +
-                     "; pictures are drawn of studies of friction and slenderness, and of single runs (" +
+                     "; pictures are drawn of studies of friction, slenderness and accuracy, and of single "
+                     "runs (" +
                      (folder / "runs").string() + ")");
   try {
-    return results_of(study, title_in(folder));
+    return results_of(study, title_of_study(folder));
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   } catch (const std::out_of_range &error) {

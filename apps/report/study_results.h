@@ -1,7 +1,8 @@
-// The output folder of a study of platens, read as far as a report needs it.
+// The output folder of a study, read as far as a report needs it.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,12 @@ struct StudyResults {
 // Whether the folder is one of a study.
 bool holds_study(const std::filesystem::path &folder);
 
-// Throws InputError where study.json is missing, damaged, of a study that has not ended, or of another kind.
+// What study.json holds. Throws InputError where it is missing, damaged, or of a study that has not ended.
+nlohmann::json finished_study(const std::filesystem::path &folder);
+// The title of the scene, else the folder's name.
+std::string title_of_study(const std::filesystem::path &folder);
+
+// Of a study of platens. Throws InputError as above, and where it is of another kind.
 StudyResults read_study(const std::filesystem::path &folder);
 
 // A row for each case: strength, and each ratio beside the laboratory's.

@@ -44,6 +44,7 @@ std::string CompressionRun::description() const {
                       problem_->packing_fraction());
   text += fmt::format("  seated spheres: bottom {}, top {}\n", problem_->bottom_layer.seats(),
                       problem_->top_layer.seats());
+  text += text_of(scene_.general.quality, *scene_.parameters);
   text += text_of(scene_.platens);
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", problem_->time_step(),
@@ -61,6 +62,7 @@ std::string CompressionRun::description() const {
   if (const auto *top = dynamic_cast<const fem::ElasticSolid *>(&problem_->top))
     text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
                         top->model().nodes.size(), top->substeps(problem_->time_step()));
+  if (const double rate = problem_->axial_rate(); rate > 0) text += fmt::format("  speed {:.4g} m/s\n", rate);
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", problem_->ramp(), problem_->wave_crossing());
   text += fmt::format(

@@ -116,7 +116,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
                                    : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) +
                                          0.5 * problem_->ramp() +
                                          (scene.loading.target_strain - scene.loading.start_strain) *
-                                             problem_->shape().height / scene.loading.axial_rate;
+                                             problem_->shape().height / problem_->axial_rate();
   expected_steps_ = std::max(1.0, seconds / problem_->time_step());
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;

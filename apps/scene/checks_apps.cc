@@ -166,6 +166,14 @@ void SceneCheck::study() const {
   once("Study/Radius multiplier list", study.radius_multipliers);
   once("Study/Radius spread list", study.radius_spreads);
   once("Study/Axial rate list", study.axial_rates);
+  once("Study/Safety list", study.safeties);
+  once("Study/Wave crossings list", study.wave_crossings);
+  once("Study/Mass scaling list", study.mass_scalings);
+  once("Study/Platen mesh list", study.platen_elements);
+  once("Study/Steps per solve list", study.steps_per_solve);
+  once("Study/Sleeve mesh list", study.sleeve_elements);
+  once("Study/Sleeve mass scaling list", study.sleeve_mass_scalings);
+  words_once("Study/Effects list", study.changes);
   for (const bool relative : {true, false}) {
     std::vector<double> gaps;
     for (const Gap &gap : study.gaps)

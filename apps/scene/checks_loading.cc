@@ -111,8 +111,23 @@ void SceneCheck::meshes() const {
 
 void SceneCheck::loading() const {
   const Loading &loading = scene_.loading;
-  if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic())
+  const bool crossed = (app_ == AppKind::compress || app_ == AppKind::study) &&
+                       given(loading.wave_crossings) && !given(loading.axial_rate);
+  if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic() && !crossed)
     need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
+  if (crossed) wave_crossings();
+}
+
+// What breaks at a tenth of the strain, or swings, would be struck at a speed that suits compression.
+void SceneCheck::wave_crossings() const {
+  const LoadingTest test = scene_.loading.test;
+  if (scene_.loading.hydrostatic()) return;
+  const auto refuse_rate = [&](const std::string &why) {
+    refuse("Loading/Wave crossings", why + " Allowed: an Axial rate.");
+  };
+  if (test != LoadingTest::compression && test != LoadingTest::uniaxial_strain)
+    refuse_rate("sets no speed but of Loading/Test = compression, uniaxial strain.");
+  if (scene_.effects.bond == BondKind::none) refuse_rate("needs bonds: they carry the wave.");
 }
 
 void SceneCheck::start() const {

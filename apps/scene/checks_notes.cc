@@ -87,6 +87,7 @@ void SceneCheck::friction_notes() {
 }
 
 void SceneCheck::loading_notes() {
+  if (given(scene_.loading.axial_rate)) note("Loading/Wave crossings", "Loading/Axial rate is set");
   friction_notes();
   if (scene_.platens.kind == PlatenKind::rigid)
     for (const char *key :

@@ -98,6 +98,17 @@ void Section::study_surfaces(const std::string &key, std::vector<StudySurface> &
           documentation, [&to](const std::string &text) { to = read_surfaces(text); });
 }
 
+void Section::qualities(const std::string &key, std::vector<Quality> &to, const std::string &documentation) {
+  declare(key, "", "", "words of Scene/Quality with commas between them", documentation,
+          [&to](const std::string &text) { to = read_qualities(text); });
+}
+
+void Section::assignments(const std::string &key, std::vector<std::string> &to,
+                          const std::string &documentation) {
+  declare(key, "", "", "\"Effects/Rotation = off\" with commas between them; no value may hold a comma",
+          documentation, [&to](const std::string &text) { to = read_assignments(text); });
+}
+
 void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                           const std::string &documentation) {
   declare(key, "", unit, "\"low ... high\"", documentation,

@@ -44,6 +44,9 @@ public:
   void domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation);
   void study_surfaces(const std::string &key, std::vector<StudySurface> &to,
                       const std::string &documentation);
+  void qualities(const std::string &key, std::vector<Quality> &to, const std::string &documentation);
+  // "Section/Key = value" of other entries, as texts; whether there are such entries is not looked at.
+  void assignments(const std::string &key, std::vector<std::string> &to, const std::string &documentation);
   // A range for a number of summary.json; what is given is kept in `to`, once for each key.
   void expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                    const std::string &documentation);

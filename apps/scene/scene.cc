@@ -13,6 +13,7 @@ namespace {
 
 // Fills what one entry takes from another, so that the apps need not know the rules.
 void inherit(Scene &scene, Parameters &parameters) {
+  supply_quality(parameters, scene.general.quality);
   supply_surfaces(parameters, scene.platens);
   Platens &platens = scene.platens;
   for (PlatenSide *side : {&platens.top, &platens.bottom}) {

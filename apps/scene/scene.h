@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
 #include "apps/scene/scene_apps.h"
 #include "apps/scene/scene_loading.h"
@@ -21,12 +22,10 @@ class Parameters;
 // a test of one bond needs no specimen).
 enum class AppKind { pack, bonds, bar, compress, brazilian, calibrate, study, report };
 
-enum class Quality { fast, standard, reference };
-
 struct General { // section Scene
   std::string title;
   unsigned long seed = 1;
-  Quality quality = Quality::standard;
+  Quality quality = Quality::custom;
 };
 
 struct Output {

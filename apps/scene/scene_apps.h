@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
 #include "apps/scene/scene_loading.h"
 
@@ -82,7 +83,14 @@ struct Study {                        // platen-study; a list that is empty leav
   std::vector<DomainSize> domains;    // size; at the scene's sphere radius
   std::vector<Gap> gaps;              // packing
   std::vector<double> radius_multipliers, radius_spreads; // packing
-  std::vector<double> axial_rates;                        // m/s; rate
+  std::vector<double> axial_rates;                        // m/s; rate, accuracy
+  // The rest, sphere radii and rates: accuracy, each from coarse to fine, the last the reference.
+  std::vector<double> safeties, mass_scalings;
+  std::vector<double> platen_elements, steps_per_solve; // whole
+  std::vector<double> sleeve_elements;                  // whole
+  std::vector<double> sleeve_mass_scalings, wave_crossings;
+  std::vector<Quality> qualities;
+  std::vector<std::string> changes; // "Section/Key = value", each alone against the scene as it is
 };
 
 } // namespace platen::apps

@@ -26,6 +26,7 @@ public:
   void contact() const;
   void platens() const;
   void loading() const;
+  void wave_crossings() const;
   void start() const;
   void splitting() const;
   void bending() const;

@@ -83,8 +83,9 @@ enum class ConfinementArea { voronoi, sphere };
 
 struct Loading {
   LoadingTest test = LoadingTest::compression;
-  double axial_rate = not_given; // m/s, speed of the platens towards (tension: from) each other, > 0
-  double ramp = 0;               // s, smooth start; 0: the app chooses
+  double axial_rate = not_given;     // m/s, speed of the platens towards (tension: from) each other, > 0
+  double wave_crossings = not_given; // in a thousandth of closure; sets the rate where it is not given
+  double ramp = 0;                   // s, smooth start; 0: the app chooses
   double hold = 0;             // s, how long a stress is held after its ramp: the top platen's, or the cell's
   double start_strain = 0;     // closure of a static solve that the run begins with; 0: from nothing
   double target_strain = 0.01; // closure of the platens over the height of the specimen

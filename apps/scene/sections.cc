@@ -10,10 +10,15 @@ void declare_general(Parameters &parameters, General &general) {
   section.integer(
       "Seed", general.seed, 0, 4294967295.0,
       "Start of the random numbers of packing and perturbations; the same seed gives the same result.");
+  std::vector<std::pair<std::string, Quality>> words;
+  for (const QualityWord &one : quality_words())
+    words.emplace_back(one.word, one.kind);
   section.word<Quality>(
-      "Quality", general.quality,
-      {{"fast", Quality::fast}, {"standard", Quality::standard}, {"reference", Quality::reference}},
-      {"fast", "reference"}, "A choice of accuracy against time for all that is left open.");
+      "Quality", general.quality, words, {},
+      "Accuracy against time: entries that a word stands for, each where the scene does not "
+      "give it; custom: none. " +
+          quality_documentation() +
+          " Errors and costs: docs/accuracy.md. The size of the spheres stays the scene's.");
 }
 
 void declare_integration(Parameters &parameters, Integration &integration) {

@@ -2,6 +2,36 @@
 #include "apps/scene/sections.h"
 
 namespace platen::apps {
+namespace {
+
+// What trades accuracy for time: each list is run alone, all else as the scene has it.
+void declare_accuracy_lists(Section &section, Study &study) {
+  section.list(
+      "Safety list", study.safeties, "1", above_up_to(0, 1),
+      "Study of accuracy, in place of Integration/Safety. All lists of such a study go from coarse to "
+      "fine; the last value is the reference of the others.");
+  section.list("Wave crossings list", study.wave_crossings, "1", above(0),
+               "Study of accuracy, in place of Loading/Wave crossings.");
+  section.list("Mass scaling list", study.mass_scalings, "1", between(1, 1e6),
+               "Study of accuracy, in place of Integration/Mass scaling.");
+  section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),
+               "Study of accuracy, in place of Platens/Elements across (Kind = deformable).");
+  section.list("Steps per solve list", study.steps_per_solve, "1", between(1, 100000),
+               "Study of accuracy, in place of Platens/Steps per solve (Motion = quasi-static).");
+  section.list("Sleeve mesh list", study.sleeve_elements, "1", between(8, 10000),
+               "Study of accuracy, in place of Sleeve/Elements around.");
+  section.list("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
+               "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
+  section.qualities(
+      "Quality list", study.qualities,
+      "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
+  section.assignments(
+      "Effects list", study.changes,
+      "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
+      "it is.");
+}
+
+} // namespace
 
 void declare_pair_test(Parameters &parameters, PairTest &pair) {
   Section section(parameters, "Pair test");
@@ -139,9 +169,10 @@ void declare_study(Parameters &parameters, Study &study) {
                "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
   section.list("Confining pressure list", study.pressures, "Pa", at_least(0),
                "Studies of friction and slenderness, in place of Loading/Confining pressure; 0: no cell.");
-  section.list("Sphere radius list", study.sphere_radii, "m", above(0),
-               "Studies of size, friction and slenderness: mean radii, in place of Specimen/Sphere radius. "
-               "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
+  section.list(
+      "Sphere radius list", study.sphere_radii, "m", above(0),
+      "Studies of size, friction, slenderness and accuracy: mean radii, in place of Specimen/Sphere radius. "
+      "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
   section.domains("Domain list", study.domains,
                   "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
   section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");
@@ -150,7 +181,8 @@ void declare_study(Parameters &parameters, Study &study) {
   section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
                "Study of the packing, in place of Specimen/Radius spread.");
   section.list("Axial rate list", study.axial_rates, "m/s", above(0),
-               "Study of the rate, in place of Loading/Axial rate.");
+               "Studies of rate and accuracy, in place of Loading/Axial rate.");
+  declare_accuracy_lists(section, study);
 }
 
 } // namespace platen::apps

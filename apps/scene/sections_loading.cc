@@ -157,6 +157,10 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "along x, two below.");
   section.quantity("Axial rate", loading.axial_rate, "m/s", above(0),
                    "Speed of closure (tension: of opening).");
+  section.number(
+      "Wave crossings", loading.wave_crossings, above(0),
+      "Sets the speed where Axial rate is not given: how often a wave crosses the specimen while it "
+      "closes by 0.1 % (platen-compress; compression, uniaxial strain).");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
   section.quantity(
       "Hold", loading.hold, "s", at_least(0),

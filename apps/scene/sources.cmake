@@ -20,6 +20,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_loading.cc
   scene/checks_notes.cc
   scene/checks_specimen.cc
+  scene/quality.cc
   scene/scene.cc
   scene/surfaces.cc
   scene/expect.cc

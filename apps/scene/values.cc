@@ -127,6 +127,25 @@ std::vector<StudySurface> read_surfaces(const std::string &text) {
   });
 }
 
+std::vector<Quality> read_qualities(const std::string &text) {
+  std::vector<std::string> words;
+  for (const QualityWord &one : quality_words())
+    words.push_back(one.word);
+  return read_items<Quality>(
+      text, [&](const std::string &item) { return quality_words()[read_word(item, words, {})].kind; });
+}
+
+std::vector<std::string> read_assignments(const std::string &text) {
+  return read_items<std::string>(text, [](const std::string &item) {
+    const std::size_t sign = item.find('=');
+    if (sign == std::string::npos) throw ValueError("sets nothing: \"Section/Key = value\" does");
+    const std::string path = tidy(item.substr(0, sign)), value = tidy(item.substr(sign + 1));
+    if (path.find('/') == std::string::npos) throw ValueError("names no entry: \"Section/Key = value\" does");
+    if (value.empty()) throw ValueError("has no value");
+    return path + " = " + value;
+  });
+}
+
 Expectation read_expectation(const std::string &text, const std::string &si_unit) {
   Expectation expectation;
   expectation.text = text;

@@ -66,6 +66,10 @@ std::vector<Gap> read_gaps(const std::string &text);
 std::vector<DomainSize> read_domains(const std::string &text);
 // "dry steel, 0.1": words of Platens/Surface, or coefficients of friction; "" is none.
 std::vector<StudySurface> read_surfaces(const std::string &text);
+// "fast, standard": words of Scene/Quality; "" is none.
+std::vector<Quality> read_qualities(const std::string &text);
+// "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none.
+std::vector<std::string> read_assignments(const std::string &text);
 // "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
 // "cones, shear plane": any of `words`.

@@ -3,6 +3,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
+#include "apps/study/accuracy_cases.h"
 #include "apps/study/entries.h"
 #include "apps/study/platen_cases.h"
 
@@ -98,6 +99,8 @@ StudyPlan plan_of(StudyKind kind, const Scene &scene) {
       return plan_packing(scene);
     case StudyKind::rate:
       return plan_rate(scene);
+    case StudyKind::accuracy:
+      return plan_accuracy(scene);
     case StudyKind::size:
       break;
   }
@@ -116,6 +119,8 @@ const char *word(StudyKind kind) {
       return "packing";
     case StudyKind::rate:
       return "rate";
+    case StudyKind::accuracy:
+      return "accuracy";
     case StudyKind::size:
       break;
   }
@@ -124,7 +129,7 @@ const char *word(StudyKind kind) {
 
 const std::vector<StudyKind> &known_study_kinds() {
   static const std::vector<StudyKind> kinds{StudyKind::friction, StudyKind::slenderness, StudyKind::size,
-                                            StudyKind::packing, StudyKind::rate};
+                                            StudyKind::packing,  StudyKind::rate,        StudyKind::accuracy};
   return kinds;
 }
 
@@ -146,6 +151,7 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
       const Scene led_to =
           read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
       if (of_platens(kind)) label_platens(one, led_to);
+      if (kind == StudyKind::accuracy) label_knobs(one, led_to);
     } catch (const InputError &error) {
       throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
                        ", which cannot be run:\n" + error.what());

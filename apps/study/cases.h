@@ -8,7 +8,7 @@
 
 namespace platen::apps {
 
-enum class StudyKind { friction, slenderness, size, packing, rate };
+enum class StudyKind { friction, slenderness, size, packing, rate, accuracy };
 // Those that tell what platens do, and have StudyCase::surface.
 inline bool of_platens(StudyKind kind) {
   return kind == StudyKind::friction || kind == StudyKind::slenderness;
@@ -21,11 +21,25 @@ struct StudyCase {
   std::string surface = {};           // what the platens are, in words; studies of platens
 };
 
+// What trades accuracy for time, turned alone; all else is as the scene has it.
+struct Knob {
+  struct Value {
+    std::string text;        // "0.9", "Effects/Rotation = off"
+    double number;           // SI; NaN where it is none
+    std::size_t of_case = 0; // StudyPlan::cases
+  };
+  std::string name;          // of tables: "safety"
+  std::string entry, unit;   // "Integration/Safety", SI unit of the numbers; "" where there is none
+  bool ordered = true;       // from coarse to fine; else each value but the last is a change of its own
+  std::vector<Value> values; // the last is the reference of the others
+};
+
 struct StudyPlan {
   StudyKind kind = StudyKind::size;
   std::vector<std::string> varied; // columns that tell the cases apart
   std::vector<StudyCase> cases;    // in the order in which they run; no two the same
   std::vector<unsigned long> seeds;
+  std::vector<Knob> knobs = {}; // study of accuracy
 };
 
 const char *word(StudyKind kind);

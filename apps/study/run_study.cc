@@ -20,6 +20,7 @@
 #include "apps/scene/expect.h"
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
+#include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
 #include "apps/study/folder_lock.h"
 #include "apps/study/process.h"
@@ -52,8 +53,7 @@ StudyKind kind_of(const std::string &given) {
     if (given == word(kind)) return kind;
     words.emplace_back(word(kind));
   }
-  throw InputError("command line: error: KIND = " + given +
-                   " is not available in this version. Allowed: " + joined(words) + ".");
+  throw InputError("command line: error: KIND = " + given + " is not known. Allowed: " + joined(words) + ".");
 }
 
 class StudyApp {
@@ -77,6 +77,8 @@ private:
   void take_folder(); // where it is there
   void require_same_study() const;
   void keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome);
+  // What the kind of study alone leaves: added to study.json, told.
+  std::string compare(const StudyTables &tables, Json &study) const;
   int finish(const StudyTables &tables);
 
   const CommandLine &command_;
@@ -87,6 +89,7 @@ private:
   std::unique_ptr<FolderLock> lock_;
   std::vector<StudyRun> runs_;
   RunLog log_;
+  Accuracy accuracy_{plan_};
   std::vector<std::string> missed_; // of what the scene expects of each run
 };
 
@@ -178,18 +181,16 @@ void StudyApp::open() {
 void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome) {
   const StudyRun &run = runs_[k];
   tables.add(run, outcome);
+  accuracy_.add(run, outcome);
   const std::string head = fmt::format("  {} of {}  {}", k + 1, runs_.size(), run.name);
   if (!outcome.done) {
     log_.warning("{}: failed, {}", head, outcome.reason);
     return;
   }
-  const auto number = [&](const char *key, double unit) {
-    const auto found = outcome.summary.find(key);
-    return found != outcome.summary.end() && found->is_number() ? found->get<double>() / unit : not_given;
-  };
-  log_.info("{}: {:.4g} MPa, {:.0f} s{}", head, number("strength_pa", 1e6), number("wall_seconds", 1),
-            outcome.kept ? ", kept" : "");
-  if (of_platens(plan_.kind) && !StudyTables::peaked(outcome.summary))
+  log_.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
+            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
+  const bool compared = of_platens(plan_.kind) || plan_.kind == StudyKind::accuracy;
+  if (compared && !StudyTables::peaked(outcome.summary))
     log_.warning(
         "{}: its stress did not fall to 0.8 of the largest up to Loading/Target strain: it has no strength "
         "to compare",
@@ -198,6 +199,21 @@ void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcom
     missed_.push_back(run.name + ": " + line);
     log_.error("expected: {}", missed_.back());
   }
+}
+
+std::string StudyApp::compare(const StudyTables &tables, Json &study) const {
+  if (of_platens(plan_.kind)) {
+    const std::vector<Comparison> comparisons = tables.comparisons();
+    study["comparisons"] = json_of(plan_, comparisons);
+    study["laboratory"] = json_of(laboratory_figures());
+    return text_of(plan_, comparisons);
+  }
+  if (plan_.kind != StudyKind::accuracy) return "";
+  accuracy_.write_rows(paths_.accuracy());
+  const std::vector<KnobErrors> errors = accuracy_.errors();
+  study["accuracy"] = json_of(plan_, errors);
+  study["costs"] = costs_of(plan_, errors);
+  return text_of(plan_, errors);
 }
 
 int StudyApp::finish(const StudyTables &tables) {
@@ -210,11 +226,7 @@ int StudyApp::finish(const StudyTables &tables) {
   study["runs"] = runs_.size();
   study["failed_runs"] = tables.failed();
   study["cases"] = tables.cases();
-  const std::vector<Comparison> comparisons = tables.comparisons();
-  if (of_platens(plan_.kind)) {
-    study["comparisons"] = json_of(plan_, comparisons);
-    study["laboratory"] = json_of(laboratory_figures());
-  }
+  const std::string compared = compare(tables, study);
   write_summary(paths_.study_json(), study);
   Json s;
   s["status"] = study["status"];
@@ -228,7 +240,7 @@ int StudyApp::finish(const StudyTables &tables) {
   s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
   s["peak_memory_bytes"] = peak_memory_bytes();
   write_summary(paths_.summary(), s);
-  log_.info("{}{}", tables.text(), text_of(plan_, comparisons));
+  log_.info("{}{}", tables.text(), compared);
   if (tables.failed() > 0) log_.warning("{} of {} runs failed", tables.failed(), runs_.size());
   log_.info("results are in {}", paths_.folder.string());
   if (!any) {
@@ -258,7 +270,10 @@ int StudyApp::run() {
 } // namespace
 
 std::vector<std::string> study_kinds() {
-  return {"friction", "slenderness", "size", "packing", "rate", "accuracy"};
+  std::vector<std::string> words;
+  for (const StudyKind kind : known_study_kinds())
+    words.emplace_back(word(kind));
+  return words;
 }
 
 int run_study(const CommandLine &command, const Scene &scene) {

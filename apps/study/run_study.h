@@ -8,7 +8,7 @@
 
 namespace platen::apps {
 
-// Words that may come first on the command line; run_study refuses those of a later version.
+// Words that may come first on the command line.
 std::vector<std::string> study_kinds();
 
 int run_study(const CommandLine &command, const Scene &scene);

@@ -1,5 +1,8 @@
 # Sources of platen-study but for its main, apps/platen_study.cc; linked with platen_run.
 set(PLATEN_STUDY_SOURCES
+  study/accuracy.cc
+  study/accuracy_cases.cc
+  study/accuracy_text.cc
   study/cases.cc
   study/comparisons.cc
   study/folder_lock.cc

@@ -48,16 +48,6 @@ std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std
   return columns;
 }
 
-double number_in(const Json &summary, const std::string &key) {
-  if (const auto slash = key.find('/'); slash != std::string::npos) {
-    const auto object = summary.find(key.substr(0, slash));
-    return object != summary.end() && object->is_object() ? number_in(*object, key.substr(slash + 1))
-                                                          : not_given;
-  }
-  const auto found = summary.find(key);
-  return found != summary.end() && found->is_number() ? found->get<double>() : not_given;
-}
-
 // How the specimen failed; empty where it was not told.
 std::string pattern_in(const Json &summary) {
   const auto found = summary.find("pattern");
@@ -98,7 +88,8 @@ constexpr Column printed[] = {{"particles", "spheres", 1},
                               {"poisson_ratio", "nu", 1},
                               {"kinetic_to_internal_max", "kinetic", 1}};
 
-// Columns as wide as what stands in them.
+} // namespace
+
 std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto &row : rows)
@@ -112,8 +103,6 @@ std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   }
   return text;
 }
-
-} // namespace
 
 StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),
@@ -196,6 +185,7 @@ std::vector<Comparison> StudyTables::comparisons() const {
 }
 
 std::string StudyTables::text() const {
+  const bool accuracy = plan_.kind == StudyKind::accuracy, named = of_platens(plan_.kind) || accuracy;
   std::vector<const Shown *> labels;
   std::vector<std::size_t> places; // of a label in the case
   for (std::size_t k = 0; k < plan_.varied.size(); ++k) {
@@ -206,12 +196,12 @@ std::string StudyTables::text() const {
     const bool varies = std::any_of(plan_.cases.begin(), plan_.cases.end(), [&](const StudyCase &c) {
       return c.labels[k] != plan_.cases.front().labels[k];
     });
-    if (!any || found == std::end(shown) || (of_platens(plan_.kind) && !varies)) continue;
+    if (!any || found == std::end(shown) || (named && !varies)) continue;
     labels.push_back(found);
     places.push_back(k);
   }
   std::vector<std::vector<std::string>> rows(1);
-  if (of_platens(plan_.kind)) rows[0].emplace_back("platens");
+  if (named) rows[0].emplace_back(accuracy ? "case" : "platens");
   for (const Shown *label : labels)
     rows[0].emplace_back(label->head);
   rows[0].emplace_back("runs");
@@ -221,7 +211,7 @@ std::string StudyTables::text() const {
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const OfCase &of = cases_[c];
     std::vector<std::string> row;
-    if (of_platens(plan_.kind)) row.push_back(plan_.cases[c].surface);
+    if (named) row.push_back(accuracy ? plan_.cases[c].name : plan_.cases[c].surface);
     for (std::size_t k = 0; k < labels.size(); ++k) {
       const double value = plan_.cases[c].labels[places[k]] / labels[k]->unit;
       row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));

@@ -15,6 +15,9 @@
 
 namespace platen::apps {
 
+// Rows of words for the screen, columns as wide as what stands in them.
+std::string aligned(const std::vector<std::vector<std::string>> &rows);
+
 class StudyTables {
 public:
   // Begins study.csv and costs.csv anew: they follow from the folders of the runs.
@@ -24,8 +27,8 @@ public:
   void add(const StudyRun &run, const RunOutcome &outcome);
 
   int failed() const; // runs
-  // Whether a run of a study of platens is known to have borne its most: its stress fell to 0.8 of the peak,
-  // where damage is measured. Else it has no strength that could be compared.
+  // Whether a run is known to have borne its most: its stress fell to 0.8 of the peak, where damage is
+  // measured. Else it has no strength that could be compared.
   static bool peaked(const Json &summary);
   // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
   Json cases() const;

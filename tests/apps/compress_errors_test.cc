@@ -96,12 +96,6 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
                {"bad.prm:3", "strenth_pa", "strength_pa"});
 }
 
-TEST_F(Errors, what_is_not_there_yet_is_refused_and_not_ignored) {
-  for (const char *entry : {"Scene/Quality = reference"})
-    refuse({with({entry}),
-            {"command line, --set 1: error: " + std::string(entry) + " is not available in this version"}});
-}
-
 TEST_F(Errors, bad_command_lines_are_refused) {
   refuse({{}, {"no scene is given"}});
   refuse({{"nowhere.prm"}, {"nowhere.prm: error: cannot be read"}});

@@ -15,7 +15,8 @@ TEST(SeedStatistics, are_those_of_a_sample_that_is_known) {
     s.add(v);
   EXPECT_EQ(s.count(), 8u);
   EXPECT_DOUBLE_EQ(s.mean(), 5);
-  EXPECT_DOUBLE_EQ(s.deviation(), std::sqrt(32.0 / 7)); // of the sample: over n - 1
+  EXPECT_DOUBLE_EQ(s.deviation(), std::sqrt(32.0 / 7));    // of the sample: over n - 1
+  EXPECT_DOUBLE_EQ(s.root_mean_square(), std::sqrt(29.0)); // 25 + 32/8: square of the mean and variance
   EXPECT_EQ(text_of(s, 1), "5 +- 2.1");
   EXPECT_EQ(text_of(s, 10), "0.5 +- 0.21");
 }
@@ -23,6 +24,7 @@ TEST(SeedStatistics, are_those_of_a_sample_that_is_known) {
 TEST(SeedStatistics, leave_out_what_was_not_measured) {
   SeedStatistics s;
   EXPECT_TRUE(std::isnan(s.mean()));
+  EXPECT_TRUE(std::isnan(s.root_mean_square()));
   EXPECT_EQ(text_of(s, 1), "-");
   s.add(std::numeric_limits<double>::quiet_NaN());
   s.add(3);

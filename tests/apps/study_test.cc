@@ -176,9 +176,6 @@ TEST_F(Study, faults_are_refused_before_anything_is_written) {
     EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
     EXPECT_FALSE(fs::exists(folder_ / "a"));
   };
-  refused({}, "accuracy",
-          "KIND = accuracy is not available in this version. Allowed: friction, slenderness, size, packing, "
-          "rate.");
   refused({}, "sizes", "Did you mean \"size\"?");
   refused({}, "rate", "Study/Axial rate list is not set");
   refused({}, "packing", "Study/Gap list is not set");

@@ -1,0 +1,46 @@
+// The output folder of a study of accuracy, read as far as a report needs it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/report/comparison.h"
+
+namespace platen::apps::report {
+
+constexpr std::size_t accuracy_measures = 4; // strength, strain at the peak, modulus, broken bonds
+extern const std::array<const char *, accuracy_measures> accuracy_titles;
+
+struct ErrorOverSeeds {
+  double mean, deviation, root_mean_square; // relative; NaN where nothing was compared
+  int runs;
+};
+
+struct AccuracyValue { // of one knob
+  std::string text;    // "0.9", "Effects/Rotation = off"
+  std::array<ErrorOverSeeds, accuracy_measures> errors;
+  double seconds; // of wall clock, a run
+};
+
+struct AccuracyKnob {
+  std::string name, unit;
+  bool ordered = true;                             // from coarse to fine
+  std::array<double, accuracy_measures> scatter{}; // of the reference's seeds, relative
+  std::vector<AccuracyValue> values;               // the last is the reference
+};
+
+struct AccuracyResults {
+  std::string title;
+  std::vector<AccuracyKnob> knobs;
+  std::vector<std::string> remarks; // what accuracy costs, and what failed
+};
+
+// Throws InputError where study.json is missing, damaged, of another study or of one that has not ended.
+AccuracyResults read_accuracy(const std::filesystem::path &folder);
+
+// A row for each value of each knob.
+TableOfFigures table_of_accuracy(const AccuracyResults &study);
+
+} // namespace platen::apps::report

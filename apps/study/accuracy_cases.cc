@@ -1,0 +1,229 @@
+#include "apps/study/accuracy_cases.h"
+
+#include <cctype>
+#include <cmath>
+#include <functional>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/values.h"
+#include "apps/study/entries.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr double peak_fall = 0.8; // of the peak: below it a run is known to have peaked
+constexpr const char *base = "base";
+
+enum class Finer { smaller, larger };
+
+// An entry that is a number, and the list that varies it.
+struct NumberKnob {
+  const char *name, *entry, *list, *unit, *column; // column: of study.csv
+  Finer finer;
+  std::vector<double> Study::*values;
+  double (*own)(const Scene &);          // what the scene has
+  std::string (*refused)(const Scene &); // why the scene leaves nothing to vary; "" where it does
+};
+
+bool deformable(const Scene &s) {
+  return s.platens.kind == PlatenKind::deformable;
+}
+
+std::string needs_limit(const Scene &s) {
+  return s.integration.time_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
+                                     : "";
+}
+
+std::string needs_motion(const Scene &s) {
+  return s.platens.top_control == PlatenControl::stress ? "needs platens that are driven by motion." : "";
+}
+
+std::string needs_no_rate(const Scene &s) {
+  return std::isnan(s.loading.axial_rate) ? "" : "has no effect: Loading/Axial rate is set.";
+}
+
+// Heavier specimens carry slower waves, for which the platens would wait.
+std::string needs_rate(const Scene &s) {
+  return std::isnan(s.loading.axial_rate)
+             ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
+               "an Axial rate."
+             : "";
+}
+
+std::string needs_packing(const Scene &s) {
+  return s.specimen.packing == PackingKind::file
+             ? "has no effect: Specimen/Packing = file. Allowed: advancing front, random close."
+             : "";
+}
+
+std::string needs_plates(const Scene &s) {
+  if (!deformable(s)) return "needs Platens/Kind = deformable.";
+  return s.platens.top.mesh_file.empty() || s.platens.bottom.mesh_file.empty()
+             ? ""
+             : "has no effect: both platens have a Mesh file.";
+}
+
+std::string needs_solves(const Scene &s) {
+  return deformable(s) && s.platens.motion == PlatenMotion::quasi_static
+             ? ""
+             : "needs Platens/Kind = deformable and Motion = quasi-static.";
+}
+
+std::string needs_sleeve(const Scene &s) {
+  return s.loading.sleeved() ? "" : "needs Loading/Confinement = sleeve.";
+}
+
+const NumberKnob number_knobs[] = {
+    {"safety", "Integration/Safety", "Study/Safety list", "", "safety", Finer::smaller, &Study::safeties,
+     [](const Scene &s) { return s.integration.safety; }, needs_limit},
+    {"axial rate", "Loading/Axial rate", "Study/Axial rate list", "m/s", "axial_rate_m_s", Finer::smaller,
+     &Study::axial_rates, [](const Scene &s) { return s.loading.axial_rate; }, needs_motion},
+    {"wave crossings", "Loading/Wave crossings", "Study/Wave crossings list", "", "wave_crossings",
+     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_crossings; },
+     needs_no_rate},
+    {"mass scaling", "Integration/Mass scaling", "Study/Mass scaling list", "", "mass_scaling",
+     Finer::smaller, &Study::mass_scalings, [](const Scene &s) { return s.integration.mass_scaling; },
+     needs_rate},
+    {"sphere radius", "Specimen/Sphere radius", "Study/Sphere radius list", "m", "sphere_radius_m",
+     Finer::smaller, &Study::sphere_radii, [](const Scene &s) { return s.specimen.sphere_radius; },
+     needs_packing},
+    {"platen mesh", "Platens/Elements across", "Study/Platen mesh list", "", "elements_across", Finer::larger,
+     &Study::platen_elements, [](const Scene &s) { return static_cast<double>(s.platens.elements_across); },
+     needs_plates},
+    {"steps per solve", "Platens/Steps per solve", "Study/Steps per solve list", "", "steps_per_solve",
+     Finer::smaller, &Study::steps_per_solve,
+     [](const Scene &s) { return static_cast<double>(s.platens.steps_per_solve); }, needs_solves},
+    {"sleeve mesh", "Sleeve/Elements around", "Study/Sleeve mesh list", "", "sleeve_elements_around",
+     Finer::larger, &Study::sleeve_elements,
+     [](const Scene &s) { return static_cast<double>(s.sleeve.elements_around); }, needs_sleeve},
+    {"sleeve mass scaling", "Sleeve/Mass scaling", "Study/Sleeve mass scaling list", "",
+     "sleeve_mass_scaling", Finer::smaller, &Study::sleeve_mass_scalings,
+     [](const Scene &s) { return s.sleeve.mass_scaling; }, needs_sleeve}};
+
+// Letters and digits in lower case, one underscore for each run of anything else.
+std::string as_name(const std::string &words) {
+  std::string name;
+  for (const char c : words)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  return name;
+}
+
+// The case of that name, added where it is not there yet.
+std::size_t place_of(StudyPlan &plan, const StudyCase &one) {
+  add(plan, one);
+  const auto found = std::find_if(plan.cases.begin(), plan.cases.end(),
+                                  [&](const StudyCase &other) { return other.name == one.name; });
+  return static_cast<std::size_t>(found - plan.cases.begin());
+}
+
+void check_list(const Scene &scene, const NumberKnob &knob, const std::vector<double> &values) {
+  const auto refuse = [&](const std::string &why) { scene.parameters->refuse(knob.list, why); };
+  if (const std::string why = knob.refused(scene); !why.empty()) refuse(why);
+  if (values.size() < 2)
+    refuse("has nothing to compare: the last value is the reference of the others. Allowed: two or more.");
+  const bool falls = knob.finer == Finer::smaller;
+  if (!std::is_sorted(values.begin(), values.end(),
+                      [&](double a, double b) { return falls ? a > b : a < b; }))
+    refuse(std::string("does not go from coarse to fine. Allowed: ") + (falls ? "falling" : "rising") +
+           " values; the last is the reference.");
+}
+
+void add_numbers(StudyPlan &plan, const Scene &scene, const NumberKnob &from) {
+  const std::vector<double> &values = scene.study.*from.values;
+  if (values.empty()) return;
+  check_list(scene, from, values);
+  Knob knob{from.name, from.entry, from.unit, true, {}};
+  for (const double value : values) {
+    StudyCase one{base, {}, {}};
+    if (value != from.own(scene))
+      one = {as_name(from.name) + "_" + in_name(value), {}, {set(from.entry, value, from.unit)}};
+    knob.values.push_back({in_name(value), value, place_of(plan, one)});
+  }
+  plan.knobs.push_back(std::move(knob));
+}
+
+void check_qualities(const Scene &scene) {
+  const auto refuse = [&](const std::string &why) { scene.parameters->refuse("Study/Quality list", why); };
+  const std::vector<Quality> &words = scene.study.qualities;
+  const bool rising = std::adjacent_find(words.begin(), words.end(), std::greater_equal<>()) == words.end();
+  if (words.size() < 2 || !rising || words.front() == Quality::custom)
+    refuse(
+        "does not go from coarse to fine. Allowed: two or three of fast, standard, reference, in this "
+        "order; the last is the reference.");
+  for (const char *path : {"Integration/Safety", "Loading/Wave crossings"})
+    if (overrules_quality(*scene.parameters, path))
+      refuse(std::string("would not be heard: the scene says itself what ") + path +
+             " decides. Allowed: scenes that leave Integration/Safety, Loading/Axial rate and Wave crossings "
+             "open.");
+}
+
+void add_qualities(StudyPlan &plan, const Scene &scene) {
+  if (scene.study.qualities.empty()) return;
+  check_qualities(scene);
+  Knob knob{"quality", "Scene/Quality", "", true, {}};
+  for (const Quality kind : scene.study.qualities) {
+    const std::string word = quality(kind).word;
+    StudyCase one{base, {}, {}};
+    if (kind != scene.general.quality) one = {"quality_" + word, {}, {"Scene/Quality = " + word}};
+    knob.values.push_back({word, not_given, place_of(plan, one)});
+  }
+  plan.knobs.push_back(std::move(knob));
+}
+
+void check_change(const Scene &scene, const std::string &path, const std::string &value) {
+  const auto refuse = [&](const std::string &why) { scene.parameters->refuse("Study/Effects list", why); };
+  if (path.rfind("Study/", 0) == 0 || path == "Scene/Seed")
+    refuse("changes " + path + ", which the study sets.");
+  const Entry *entry = scene.parameters->find(path);
+  if (entry != nullptr && entry->text == value)
+    refuse("changes nothing by " + path + " = " + value + ": the scene has it so.");
+}
+
+void add_changes(StudyPlan &plan, const Scene &scene) {
+  if (scene.study.changes.empty()) return;
+  Knob knob{"effects", "", "", false, {}};
+  for (const std::string &change : scene.study.changes) {
+    const std::string between = " = ";
+    const std::size_t sign = change.find(between);
+    check_change(scene, change.substr(0, sign), change.substr(sign + between.size()));
+    knob.values.push_back({change, not_given, place_of(plan, {as_name(change), {}, {change}})});
+  }
+  knob.values.push_back({"the scene as it is", not_given, place_of(plan, {base, {}, {}})});
+  plan.knobs.push_back(std::move(knob));
+}
+
+} // namespace
+
+StudyPlan plan_accuracy(const Scene &scene) {
+  if (scene.loading.hydrostatic())
+    scene.parameters->refuse("Loading/Test", "has no strength to be accurate. Allowed: any other.");
+  if (scene.loading.stop_at_residual >= peak_fall)
+    scene.parameters->refuse("Loading/Stop at residual",
+                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
+  StudyPlan plan;
+  for (const NumberKnob &knob : number_knobs) {
+    plan.varied.emplace_back(knob.column);
+    add_numbers(plan, scene, knob);
+  }
+  add_qualities(plan, scene);
+  add_changes(plan, scene);
+  if (!plan.knobs.empty()) return plan;
+  std::string others;
+  for (const NumberKnob &knob : number_knobs)
+    others += std::string(others.empty() ? "" : ", ") + (knob.list + std::string("Study/").size());
+  scene.parameters->refuse("Study/Safety list",
+                           "is not set, nor is any other list of a study of accuracy: nothing is varied. "
+                           "Allowed: at least one of " +
+                               others + ", Quality list, Effects list.");
+}
+
+void label_knobs(StudyCase &of, const Scene &led_to) {
+  of.labels.clear();
+  for (const NumberKnob &knob : number_knobs)
+    of.labels.push_back(knob.refused(led_to).empty() ? knob.own(led_to) : not_given);
+}
+
+} // namespace platen::apps
