@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Crushes the same specimen twice, between dry and between lubricated platens, and shows what friction does.
-# Results: results/demo/dry and results/demo/lubricated.
+# Crushes the same specimen twice, between dry and between lubricated platens, and shows what friction does; then asks how
+# much of the strength is the platen's, short and slender, from dry steel to grease.
+# Results: results/demo/dry, results/demo/lubricated and results/demo/friction.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,7 +9,7 @@ scripts/setup.sh
 options=(-DCMAKE_BUILD_TYPE=Release -DPLATEN_APPS=ON)
 if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 cmake -S . -B build -G Ninja "${options[@]}"
-cmake --build build --target platen-compress platen-report
+cmake --build build --target platen-compress platen-study platen-report
 
 # One thread each, side by side; every line says whose it is.
 mkdir -p results/demo
@@ -44,13 +45,20 @@ trap - INT TERM
 build/apps/platen-report results/demo/lubricated
 build/apps/platen-report results/demo/dry --compare results/demo/lubricated
 
+status=0
+build/apps/platen-study friction scenes/study_friction_quick.prm -o results/demo/friction --overwrite || status=$?
+[ "$status" -le 1 ] || exit "$status"
+[ "$status" -eq 0 ] || worst=1
+build/apps/platen-report results/demo/friction
+
 cat <<'END'
 
 Pictures:        results/demo/dry/pictures/*.png, results/demo/lubricated/pictures/*.png
 For ParaView:    results/demo/dry/specimen.pvd (also bonds.pvd, platens.pvd), the same under lubricated/
 Numbers:         results/demo/dry/summary.json, history.csv, cracks.csv, the same under lubricated/
 
-One page with the comparison, open it in a browser:
-                 results/demo/dry/pictures/report.html
+Two pages, open them in a browser:
+  dry beside lubricated:                  results/demo/dry/pictures/report.html
+  how much strength is the platen's:      results/demo/friction/pictures/report.html
 END
 exit "$worst"
