@@ -189,7 +189,8 @@ GROUPS = [
               "The same of elasto-damage-plastic interfaces: cubes gain 1.43, prisms 1.14, more than in the laboratory.",
               "about half an hour on one core"),
         Scene("study_slenderness_concrete", f"{STUDY} slenderness", "strength_slenderness",
-              "Short cores between dry steel beside the factors of ASTM C42, five packings of each.",
+              "Short cores between dry steel beside the factors of ASTM C42 (black diamonds), five packings of each: a "
+              "little above at height over width 1, on them from 1.5 on.",
               "about 20 minutes on one core"),
         Scene("study_slenderness_interfaces", f"{STUDY} slenderness", "strength_slenderness",
               "The same of elasto-damage-plastic interfaces.",
