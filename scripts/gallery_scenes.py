@@ -193,7 +193,7 @@ GROUPS = [
               "little above at height over width 1, on them from 1.5 on.",
               "about 20 minutes on one core"),
         Scene("study_slenderness_interfaces", f"{STUDY} slenderness", "strength_slenderness",
-              "The same of elasto-damage-plastic interfaces.",
+              "The same of elasto-damage-plastic interfaces, on the factors at all heights; packings scatter more.",
               "about half an hour on one core"),
         Scene("study_cones_concrete", f"{STUDY} size", "",
               "Four sphere radii of the thesis on concrete between dry steel: are cones sharper with smaller spheres?",
