@@ -65,8 +65,9 @@ TEST_P(DraggedSphere, feels_a_plane_however_the_plate_is_meshed) {
       scene.carry(dt);
       const Vector3 expected = plane.force(scene.particles.position[0].z, scene.particles.velocity[0], dt);
       ASSERT_EQ(scene.layer.contacts().size(), 1u) << way.name << n;
-      worst = std::max(worst, norm(scene.particles.force[0] - expected) / expected.z);
-      ASSERT_LE(worst, 1e-12) << way.name << n;
+      const double off = norm(scene.particles.force[0] - expected) / expected.z;
+      ASSERT_LE(off, 1e-12) << way.name << n; // not of the worst: a maximum passes over what is no number
+      worst = std::max(worst, off);
       ASSERT_LE(norm(scene.load() + expected), 1e-12 * expected.z) << way.name << n;
       ASSERT_EQ(scene.layer.contacts()[0].sliding, plane.sliding) << way.name << n;
       slides += plane.sliding;
