@@ -1,13 +1,7 @@
 #!/usr/bin/env bash
-# Sets up, builds everything into build/ and runs all tests; the exit status is that of ctest.
-# Where CI is set, warnings are errors.
+# Sets up, builds everything into build/ (scripts/build.sh) and runs all tests; the exit status is that of ctest.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/setup.sh
-options=(-DCMAKE_BUILD_TYPE=Release -DPLATEN_APPS=ON -DPLATEN_TESTS=ON)
-[ -z "${CI:-}" ] || options+=(-DPLATEN_WARNINGS_ARE_ERRORS=ON)
-if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-cmake -S . -B build -G Ninja "${options[@]}"
-cmake --build build
+scripts/build.sh
 exec ctest --test-dir build --output-on-failure -j2

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Sets up and builds everything into build/. Where CI is set, warnings are errors.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/setup.sh
+options=(-DCMAKE_BUILD_TYPE=Release -DPLATEN_APPS=ON -DPLATEN_TESTS=ON)
+[ -z "${CI:-}" ] || options+=(-DPLATEN_WARNINGS_ARE_ERRORS=ON)
+if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+cmake -S . -B build -G Ninja "${options[@]}"
+cmake --build build
