@@ -123,14 +123,15 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   const dem::StableStep limit =
       dem::stable_step(model.particles, model.bonds.get(), model.contacts.get(), {}, dashpots);
   const double wanted = scene.integration.time_step;
-  if (wanted == 0) return {scene.integration.safety * limit.limit, limit.reason};
+  const double step = scene.integration.safety * limit.limit;
+  if (wanted == 0) return {step, step / 3, limit.reason};
   if (wanted > limit.limit) {
     const std::string reason =
         "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
     if (scene.parameters) scene.parameters->refuse("Integration/Time step", reason);
     throw InputError("Integration/Time step " + reason);
   }
-  return {wanted, "as the scene sets it"};
+  return {wanted, wanted, "as the scene sets it"};
 }
 
 Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,

@@ -40,7 +40,7 @@ std::vector<std::string> bar_columns() {
 }
 
 std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger) {
-  std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.step, ledger), {});
+  std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.of(load), ledger), {});
   cells[cells.size() - 2] = none; // grain contacts, not counted
   for (const CsvCell &own : std::initializer_list<CsvCell>{
            word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,

@@ -120,7 +120,7 @@ long BarRun::steps_of(BarLoad load) const {
 
 long BarRun::steps_of_impact() const {
   return static_cast<long>(std::ceil(followed_passages * results_.bar.length() /
-                                     (results_.rod(false).wave_speed() * results_.time.step)));
+                                     (results_.rod(false).wave_speed() * results_.time.blow_step)));
 }
 
 std::string BarRun::description() const {
@@ -144,7 +144,7 @@ std::string BarRun::description() const {
 bool BarRun::take(const BarSample &s, BarLoad load) {
   history_->row(bar_row(s, load, results_, scene_.effects.energy_ledger));
   ProgressSample p;
-  const double made = static_cast<double>(results_.steps) + s.time / results_.time.step;
+  const double made = static_cast<double>(results_.steps) + s.time / results_.time.of(load);
   p.fraction = made / static_cast<double>(planned_);
   p.step = static_cast<std::uint64_t>(made + 0.5);
   p.time = s.time;
@@ -192,7 +192,7 @@ void BarRun::test_impact() {
   dem::Model struck(specimen_, settings_);
   const double speed = results_.rod(false).wave_speed();
   results_.struck_velocity = scene_.bar_test.strain * speed;
-  Clocking clocking{results_.time.step, steps_of_impact(), 1};
+  Clocking clocking{results_.time.blow_step, steps_of_impact(), 1};
   clocking.every = steps_between_samples(
       scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
   results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,

@@ -73,6 +73,7 @@ Json impact_part(const BarResults &r) {
   const double by_hand = r.swinging_rod(false).wave_speed();
   Json s;
   s["energy_residual_relative"] = r.impact->energy_residual;
+  s["time_step_s"] = r.time.blow_step;
   s["struck_velocity_m_s"] = r.struck_velocity;
   s["arrival_quarter_s"] = r.impact->quarter_time;
   s["arrival_half_s"] = r.impact->half_time;

@@ -42,6 +42,7 @@ TEST_F(BarApp, finds_what_strength_of_materials_says) {
     EXPECT_NEAR(s[load]["dynamic_error_effective"].get<double>(), 0, .08) << load;
   }
   EXPECT_NEAR(s["impact"]["wave_error"].get<double>(), 0, .03);
+  EXPECT_LT(s["energy_residual_relative"].get<double>(), .01);
   EXPECT_LT(s["effective_radius_m"].get<double>(), s["bounding_radius_m"].get<double>());
   double shares = 0;
   for (const char *share : {"axial_energy_share", "bending_energy_share", "torsion_energy_share"})
