@@ -279,6 +279,9 @@ void Problem::add_forces() {
   if (cell()) look_at_cell();
   if (wall_) wall_->add_forces(model.particles, model.last_motion().fastest * dt);
   if (!settings_.loading.unload_at.empty() && axial_stage()) turn_round();
+  if (pace_ && axial_stage())
+    pace_->look(model.time, 0.5 * (stress_top() + stress_bottom()), closure_strain(),
+                static_cast<double>(model.broken_tension + model.broken_shear));
 }
 
 bool Problem::platens_apart() {

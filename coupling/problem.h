@@ -10,6 +10,7 @@
 
 #include "coupling/contact_layer.h"
 #include "coupling/mean_loads.h"
+#include "coupling/pace.h"
 #include "coupling/servo.h"
 #include "coupling/sleeve.h"
 #include "dem/confinement.h"
@@ -92,6 +93,7 @@ struct LoadingSettings {
   bool tension = false;
   double rate = 0;      // m/s, closure (opening) speed of the platens, each moving at half of it
   double crossings = 0; // > 0: that speed at which a wave crosses the height so often in a closure by 0.1 %
+  double hurry = 1;     // times that rate while the specimen is elastic (Pace); needs bonds
   double ramp = 0;      // s; 0: ten wave crossings of the height
   bool servo = false;   // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
@@ -158,7 +160,8 @@ public:
   const std::string &time_step_reason() const { return reason_; }
   double ramp() const { return ramp_; }                        // s
   double axial_rate() const { return settings_.loading.rate; } // m/s, once the platens are at speed
-  double wave_crossing() const { return wave_crossing_; }      // s, over the height, from the Voigt modulus
+  double fastest_rate() const { return axial_rate() * settings_.loading.hurry; } // m/s
+  double wave_crossing() const { return wave_crossing_; } // s, over the height, from the Voigt modulus
   double packing_fraction() const { return packing_fraction_; }
   double mean_radius() const { return mean_radius_; }     // m
   double grain_density() const { return grain_density_; } // kg/m^3, before mass scaling
@@ -261,6 +264,7 @@ private:
   long lists_compared_ = -1;                      // search lists made by both layers when apart_ was found
   bool apart_ = false;                            // no particle is near both platens
   std::unique_ptr<Servo> servo_;                  // null where both platens are always driven
+  std::unique_ptr<Pace> pace_;                    // null where they keep one speed
   double cell_ramp_ = 0, cell_end_ = 0;           // s
   double cell_closure_ = 0;                       // closure strain at cell_end_
   double slowness_ = 1;                           // of a cell's servo, against the quickest

@@ -104,6 +104,7 @@ void Problem::set_platen_speeds() {
     cycle_.speed += std::clamp(cycle_.direction - cycle_.speed, -most, most);
     speed *= cycle_.speed;
   }
+  if (pace_ && axial_stage()) speed *= pace_->factor(model.time, time_step_);
   top.set_velocity({0, 0, -speed});
   bottom.set_velocity({0, 0, speed});
 }

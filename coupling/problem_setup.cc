@@ -234,6 +234,12 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   ramp_ = settings.loading.ramp > 0 ? settings.loading.ramp
           : bent()                  ? swings_of_ramp * swing()
                                     : 10 * wave_crossing_;
+  if (settings.loading.hurry > 1) {
+    if (!(wave_crossing_ > 0) || !(ramp_ > 0))
+      throw BadSetup("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
+    pace_ = std::make_unique<Pace>(Pace::Parameters{settings.loading.hurry, bent() ? swing() : wave_crossing_,
+                                                    ramp_, static_cast<double>(model.bonds->size())});
+  }
   if (settings.loading.servo)
     servo_ = std::make_unique<Servo>(Servo::Parameters{
         settings.loading.servo_gain > 0 ? settings.loading.servo_gain : servo_gain, settings_.loading.rate});

@@ -43,12 +43,20 @@ std::vector<double> Problem::numbers() const {
     all.insert(all.end(), {sleeve_->layer.friction_work, sleeve_->layer.damping_work,
                            static_cast<double>(sleeve_->layer.closed)});
   if (cell()) all.insert(all.end(), {cell_end_, cell_closure_, path_deviator_});
+  if (pace_) {
+    const std::vector<double> more = pace_->state();
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 
 void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
   auto end = n.end();
+  if (pace_) {
+    end -= Pace::states;
+    pace_->set_state({end, end + Pace::states});
+  }
   if (cell()) {
     path_deviator_ = *--end;
     cell_closure_ = *--end;

@@ -45,7 +45,7 @@ long CompressionRun::steps_unobserved() const {
   if (scene_.checkpoint.every.kind == Interval::Kind::steps)
     steps = std::min(steps, steps_until_due(scene_.checkpoint.every, 1));
   if (!scene_.loading.hydrostatic()) {
-    const double step_closes = p.axial_rate() * p.time_step() / p.shape().height;
+    const double step_closes = p.fastest_rate() * p.time_step() / p.shape().height;
     steps = std::min(steps, (scene_.loading.target_strain - std::abs(p.axial_closure())) / step_closes - 1);
   }
   if (by_time()) steps = std::min(steps, (end_time() - p.time()) / p.time_step() - 1);

@@ -174,6 +174,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.rate = std::isnan(scene.loading.axial_rate) ? 0.0 : scene.loading.axial_rate;
   if (std::isnan(scene.loading.axial_rate) && !std::isnan(scene.loading.wave_crossings))
     to.loading.crossings = scene.loading.wave_crossings;
+  to.loading.hurry = scene.loading.hurry;
   to.loading.ramp = scene.loading.ramp;
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;

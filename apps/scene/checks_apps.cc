@@ -168,6 +168,7 @@ void SceneCheck::study() const {
   once("Study/Axial rate list", study.axial_rates);
   once("Study/Safety list", study.safeties);
   once("Study/Wave crossings list", study.wave_crossings);
+  once("Study/Hurry list", study.hurries);
   once("Study/Mass scaling list", study.mass_scalings);
   once("Study/Platen mesh list", study.platen_elements);
   once("Study/Steps per solve list", study.steps_per_solve);

@@ -116,6 +116,8 @@ void SceneCheck::loading() const {
   if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic() && !crossed)
     need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
   if (crossed) wave_crossings();
+  if (loading.hurry > 1 && scene_.effects.bond == BondKind::none)
+    refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
 }
 
 // What breaks at a tenth of the strain, or swings, would be struck at a speed that suits compression.

@@ -103,7 +103,9 @@ void SceneCheck::loading_notes() {
   if (scene_.platens.kind == PlatenKind::rigid || (scene_.platens.pad_thickness == 0 && !meshed))
     for (const char *key : {"Platens/Pad modulus", "Platens/Pad Poisson ratio", "Platens/Pad density"})
       note(key, "platens have no pad");
-  if (scene_.platens.top_control == PlatenControl::motion) {
+  if (scene_.platens.top_control == PlatenControl::stress)
+    note("Loading/Hurry", "Platens/Top/Control = stress");
+  else {
     note("Platens/Top/Stress", "Platens/Top/Control = motion");
     if (!scene_.loading.cell()) note("Loading/Hold", "Platens/Top/Control = motion");
   }
@@ -126,7 +128,8 @@ void SceneCheck::loading_notes() {
   if (!scene_.loading.walled()) note("Loading/Wall stiffness", "Loading/Test is not uniaxial strain");
   if (scene_.loading.unload_at.empty()) note("Loading/Unload to", "Loading/Unload at is empty");
   if (scene_.loading.hydrostatic())
-    for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Loading/Stop at residual"})
+    for (const char *key :
+         {"Loading/Axial rate", "Loading/Hurry", "Loading/Target strain", "Loading/Stop at residual"})
       note(key, "Loading/Test = hydrostatic");
 }
 

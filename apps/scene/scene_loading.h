@@ -85,6 +85,7 @@ struct Loading {
   LoadingTest test = LoadingTest::compression;
   double axial_rate = not_given;     // m/s, speed of the platens towards (tension: from) each other, > 0
   double wave_crossings = not_given; // in a thousandth of closure; sets the rate where it is not given
+  double hurry = 1;                  // times that rate while the specimen is elastic
   double ramp = 0;                   // s, smooth start; 0: the app chooses
   double hold = 0;             // s, how long a stress is held after its ramp: the top platen's, or the cell's
   double start_strain = 0;     // closure of a static solve that the run begins with; 0: from nothing

@@ -12,6 +12,8 @@ void declare_accuracy_lists(Section &section, Study &study) {
       "fine; the last value is the reference of the others.");
   section.list("Wave crossings list", study.wave_crossings, "1", above(0),
                "Study of accuracy, in place of Loading/Wave crossings.");
+  section.list("Hurry list", study.hurries, "1", between(1, 100),
+               "Study of accuracy, in place of Loading/Hurry.");
   section.list("Mass scaling list", study.mass_scalings, "1", between(1, 1e6),
                "Study of accuracy, in place of Integration/Mass scaling.");
   section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),

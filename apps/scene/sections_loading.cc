@@ -161,6 +161,9 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "Wave crossings", loading.wave_crossings, above(0),
       "Sets the speed where Axial rate is not given: how often a wave crosses the specimen while it "
       "closes by 0.1 % (platen-compress; compression, uniaxial strain).");
+  section.number("Hurry", loading.hurry, between(1, 100),
+                 "How many times as fast the platens go while the specimen is elastic, before it fails and "
+                 "where it is unloaded; 1: always at the speed of the test.");
   section.quantity("Ramp", loading.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
   section.quantity(
       "Hold", loading.hold, "s", at_least(0),

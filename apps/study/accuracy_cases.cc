@@ -81,6 +81,8 @@ const NumberKnob number_knobs[] = {
     {"wave crossings", "Loading/Wave crossings", "Study/Wave crossings list", "", "wave_crossings",
      Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_crossings; },
      needs_no_rate},
+    {"hurry", "Loading/Hurry", "Study/Hurry list", "", "hurry", Finer::smaller, &Study::hurries,
+     [](const Scene &s) { return s.loading.hurry; }, needs_motion},
     {"mass scaling", "Integration/Mass scaling", "Study/Mass scaling list", "", "mass_scaling",
      Finer::smaller, &Study::mass_scalings, [](const Scene &s) { return s.integration.mass_scaling; },
      needs_rate},

@@ -186,6 +186,22 @@ TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
   EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
+TEST_F(Determinism, a_run_in_a_hurry_goes_on_where_it_stopped) {
+  const std::vector<std::string> hurry{"-s", "Loading/Hurry = 4", "-s", "Loading/Axial rate = 0.1"};
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.end(), hurry.begin(), hurry.end());
+    return options;
+  };
+  crush("whole", "1", hurry);
+  for (const int lines : {15, 60}) { // in a hurry, and failing
+    const std::string to = "stopped_" + std::to_string(lines);
+    EXPECT_EQ(stop_at(to, lines, SIGTERM, with({"-t", "2"})), 143);
+    const Outcome last = run_compress(with({scene_, "-o", to, "--resume", "--quiet"}), folder_);
+    EXPECT_EQ(last.status, 0) << last.error;
+    EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / to)), "");
+  }
+}
+
 TEST_F(Determinism, only_the_same_scene_is_resumed) {
   EXPECT_EQ(stop_at("stopped", 10, SIGINT, {}), 130);
   const auto before = results_in(folder_ / "stopped");

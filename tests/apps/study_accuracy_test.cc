@@ -51,13 +51,13 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
   EXPECT_EQ(plan.cases[3].overrides, (std::vector<std::string>{"Loading/Axial rate = 0.6 m/s"}));
   EXPECT_EQ(plan.cases[5].overrides, (std::vector<std::string>{"Effects/Rotation = off"}));
   EXPECT_EQ(plan.varied,
-            (std::vector<std::string>{"safety", "axial_rate_m_s", "wave_crossings", "mass_scaling",
+            (std::vector<std::string>{"safety", "axial_rate_m_s", "wave_crossings", "hurry", "mass_scaling",
                                       "sphere_radius_m", "elements_across", "steps_per_solve",
                                       "sleeve_elements_around", "sleeve_mass_scaling"}));
   EXPECT_EQ(plan.cases[3].labels[0], 0.8);
   EXPECT_EQ(plan.cases[3].labels[1], 0.6);
-  EXPECT_EQ(plan.cases[3].labels[4], 0.002);
-  for (const std::size_t k : {2u, 5u, 8u})
+  EXPECT_EQ(plan.cases[3].labels[5], 0.002);
+  for (const std::size_t k : {2u, 6u, 9u})
     EXPECT_TRUE(std::isnan(plan.cases[3].labels[k])); // not what decides in this scene
   EXPECT_TRUE(plan.knobs[0].ordered);
   EXPECT_FALSE(plan.knobs[3].ordered);

@@ -1,0 +1,44 @@
+// How fast platens may go: in a hurry while a specimen is elastic, at the speed that was asked for while it
+// fails.
+//
+// Elastic: stress goes with closure, up or down, nearly as steeply as the steepest secant from the start, and
+// hardly a bond breaks. Bonds are looked at every wave crossing and the slope every few; before the first ten
+// nothing is told, for platens that start press by the specimen's inertia. Speed rises within `ramp` and
+// falls in a third of it.
+#pragma once
+
+#include <vector>
+
+namespace platen::coupling {
+
+class Pace {
+public:
+  struct Parameters {
+    double hurry = 1;    // speed while elastic, over that while failing; >= 1
+    double crossing = 0; // s, of a wave over the specimen
+    double ramp = 0;     // s, from one to the other
+    double bonds = 0;    // at the start
+  };
+  // Throws std::invalid_argument where hurry is below one or a time is not positive.
+  explicit Pace(const Parameters &parameters);
+
+  // Factor on the platens' speed for a step dt (s) that begins at `time`.
+  double factor(double time, double dt);
+  // After a step. `stress` (Pa) and `closure` (1) of one sign; `broken`: bonds so far.
+  void look(double time, double stress, double closure, double broken);
+
+  // To the last bit, for checkpoints.
+  std::vector<double> state() const;
+  void set_state(const std::vector<double> &numbers);
+  static constexpr long states = 10;
+
+private:
+  Parameters parameters_;
+  double factor_ = 1;
+  double careful_until_ = -1, next_look_ = 0, next_slope_ = 0; // s; below zero: not begun
+  double first_stress_ = 0, first_closure_ = 0;                // when it began
+  double stress_ = 0, closure_ = 0, broken_ = 0;               // when they were last looked at
+  double steepest_ = 0;                                        // Pa
+};
+
+} // namespace platen::coupling
