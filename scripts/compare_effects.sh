@@ -61,6 +61,7 @@ instructions() { # BINARY FOLDER ENTRIES EFFECT
 }
 
 failed=0
+differing=0
 for effect in "${chosen[@]}"; do
   without="$on;$(off "$effect")"
   left=
@@ -83,6 +84,7 @@ for effect in "${chosen[@]}"; do
   else
     echo "$effect: history.csv differs"
     failed=1
+    differing=$((differing + 1))
   fi
   if [[ ${COUNT:-0} = 1 ]]; then
     with=$(instructions "$build/apps/platen-compress" "$work/counted_$effect" "$without" "$effect")
@@ -93,4 +95,5 @@ for effect in "${chosen[@]}"; do
     }' || failed=1
   fi
 done
+echo "row 46 effects left out of a build whose scenes without them differ: $differing (0 of ${#chosen[@]})"
 exit $failed
