@@ -71,6 +71,13 @@ TEST(PlatenStudyPlan, another_height_changes_nothing_else) {
   EXPECT_DOUBLE_EQ(led_to(boxes, 0, box).platens.thickness, 0.002); // of the scene's own height, 20 mm
 }
 
+TEST(PlatenStudyPlan, heights_and_slendernesses_are_round_numbers) {
+  const StudyPlan plan =
+      plan_with({"Specimen/Radius = 25 mm", "Study/Slenderness list = 3"}, StudyKind::slenderness);
+  EXPECT_EQ(plan.cases[0].overrides.back(), "Specimen/Height = 0.15 m"); // 3 * 0.05 is more, by a bit
+  EXPECT_EQ(plan.cases[0].labels[2], 3);
+}
+
 TEST(PlatenStudyPlan, a_word_takes_back_what_the_scene_says_of_friction_and_custom_does_not) {
   const std::vector<std::string> entries{"Platens/Friction static = 0.4",
                                          "Platens/Friction dynamic = 0.2",

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Everything behind docs/accuracy.md: what each knob errs by and costs on two cylinders, with platens that yield and with a
+# sleeve, and how strength and cones go with the size of spheres. Reports with plots are made of each study.
+# Studies go on where they were stopped. About three hours on two cores, most of it for spheres of 1 mm.
+# Usage: bench/accuracy/run.sh BUILD FOLDER
+set -euo pipefail
+[ $# -eq 2 ] || { echo "usage: $0 BUILD FOLDER" >&2; exit 2; }
+scenes=$(cd "$(dirname "$0")/../../scenes" && pwd)
+apps=$(cd "$1/apps" && pwd)
+mkdir -p "$2"
+cd "$2"
+
+# study NAME KIND SCENE [ENTRY ...]
+study() {
+  local name=$1 kind=$2 scene=$3 entries=() resume=()
+  shift 3
+  for entry in "$@"; do entries+=(-s "$entry"); done
+  [ ! -d "$name" ] || resume=(--resume)
+  echo "== $name"
+  "$apps/platen-study" "$kind" "$scenes/$scene.prm" -o "$name" "${resume[@]}" "${entries[@]}"
+  "$apps/platen-report" "$name"
+}
+
+study quality accuracy study_quality_concrete
+study knobs accuracy study_accuracy_concrete
+study cylinder accuracy study_quality_cylinder
+alone=("Study/Quality list =" "Study/Wave crossings list =" "Study/Seeds = 3")
+study platens accuracy study_quality_concrete "${alone[@]}" "Platens/Kind = deformable" "Platens/Motion = quasi-static" \
+  "Study/Steps per solve list = 100, 50, 20, 5" "Study/Platen mesh list = 4, 8, 16"
+study sleeve accuracy study_quality_concrete "${alone[@]}" "Loading/Confinement = sleeve" \
+  "Loading/Confining pressure = 4.5 MPa" "Loading/Target strain = 0.02" "Loading/Stop at residual = 0.7" \
+  "Study/Sleeve mass scaling list = 1000, 100, 10, 1" "Study/Sleeve mesh list = 16, 24, 32"
+study size size study_size_concrete
+study cones size study_cones_concrete "Study/Sphere radius list = 1.25 mm, 1 mm"
