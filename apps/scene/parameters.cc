@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 
 #include "apps/scene/units.h"
@@ -214,10 +215,15 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
 }
 
 void Parameters::supply(const std::string &path, const std::string &text) {
+  supply(path, text, {"", 0, std::numeric_limits<int>::max()});
+}
+
+void Parameters::supply(const std::string &path, const std::string &text, const Origin &word) {
   Entry &entry = entries_.at(position(path));
-  if (!entry.origin.file.empty()) return;
+  if (!entry.origin.file.empty() && entry.origin.depth <= word.depth) return;
   entry.read(text);
   entry.text = text;
+  entry.origin = {};
 }
 
 void Parameters::override_entry(const std::string &assignment, int number) {

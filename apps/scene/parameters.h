@@ -58,6 +58,8 @@ public:
   void set(const std::string &path, const std::string &text, const Origin &origin);
   // Gives a value to an entry that nobody has set, as if it were the default; one that is set stays.
   void supply(const std::string &path, const std::string &text);
+  // The same on behalf of a word that stands at `word`; one that is set at a larger depth gives way too.
+  void supply(const std::string &path, const std::string &text, const Origin &word);
   // Applies "Section/Key = value"; number is that of the option, from 1.
   void override_entry(const std::string &assignment, int number);
 

@@ -109,8 +109,9 @@ std::string text_of(const Platens &platens) {
 void supply_surfaces(Parameters &parameters, const Platens &platens) {
   const auto supply = [&](const std::string &section, SurfaceKind kind) {
     if (kind == SurfaceKind::common) return;
+    const Origin word = parameters.at(section + "/Surface").origin;
     for (const auto &[key, text] : surface(kind).entries)
-      parameters.supply(section + "/" + key, text);
+      parameters.supply(section + "/" + key, text, word);
   };
   supply("Platens/Top", platens.top.surface);
   supply("Platens/Bottom", platens.bottom.surface);
