@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "coupling/text_of.h"
 #include "dem/not_finite.h"
@@ -21,6 +22,9 @@ constexpr long steps_between_looks = 100;
 // A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
 // side may be looked at alone.
 constexpr double share_of_bodies = 0.25;
+// What moves has its energy from outside, so twice of what came in says that the scheme makes energy. Above
+// the limit of the step it does so by a factor in each step, so that the margin costs no time.
+constexpr double most_of_work_in_motion = 2;
 
 } // namespace
 
@@ -42,9 +46,8 @@ std::size_t Problem::springs_near() const {
   return (model.contacts ? model.contacts->table.size() : 0) + top_layer.closed + bottom_layer.closed;
 }
 
-// The step never grows: bonds that break only soften, contacts that close may stiffen.
-void Problem::choose_step(bool first) {
-  // Lists made now, so that the choice is the same whether the run was stopped and resumed on its way or not.
+// Lists are made now, so that it is the same whether the run was stopped and resumed on its way or not.
+dem::StableStep Problem::limit_now() {
   top_layer.make_list(model.particles, top);
   bottom_layer.make_list(model.particles, bottom);
   std::vector<dem::GroundSpring> springs = ground_springs();
@@ -71,6 +74,12 @@ void Problem::choose_step(bool first) {
     limit.limit = bodies;
     limit.reason = "the finite elements of a platen with the springs of its contacts";
   }
+  return limit;
+}
+
+// The step never grows: bonds that break only soften, contacts that close may stiffen.
+void Problem::choose_step(bool first) {
+  const dem::StableStep limit = limit_now();
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string above =
@@ -163,6 +172,29 @@ void Problem::look_at_step() {
   choose_step(false);
 }
 
+// A bound from below costs a comparison in a step, for the sum is there. Only where it passes what was
+// allowed last time is it worth while to ask what came in since.
+void Problem::look_at_energy() {
+  const double moving = half_lightest_ * model.last_motion().speed_squares;
+  if (moving <= energy_allowed_ || !model.settings().energy_ledger) return;
+  const double came_in = std::abs(energy().boundary) + given_energy_;
+  // What goes along with the platens, and may be ahead of a book that is closed to the step.
+  const double speed = std::max({fastest_rate(), fem::norm(top.velocity()), fem::norm(bottom.velocity())});
+  const double mass = std::accumulate(model.particles.mass.begin(), model.particles.mass.end(), 0.0);
+  energy_allowed_ = most_of_work_in_motion * (came_in + 0.5 * mass * speed * speed);
+  if (moving <= energy_allowed_) return;
+  const dem::StableStep limit = limit_now();
+  const std::string step = "the time step of " + text_of(time_step_) + " s is ";
+  const std::string cause =
+      time_step_ > limit.limit
+          ? step + "above the stability limit of " + text_of(limit.limit) + " s (" + limit.reason + ")"
+          : step + "too long for what happens here, though below the limit of " + text_of(limit.limit) + " s";
+  throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) +
+                        " s: energy from nowhere: particles move with " + text_of(moving) +
+                        " J or more where only " + text_of(came_in) + " J came in: " + cause +
+                        "; try a smaller Integration/Safety or Integration/Time step");
+}
+
 void Problem::require_finite() const {
   if (!dem::motion_is_finite(model.particles)) stop_not_finite();
 }
@@ -175,6 +207,7 @@ void Problem::stop_not_finite() const {
 }
 
 long Problem::advance(long most) {
+  if (steps_ == 0) given_energy_ = dem::kinetic_energy(model.particles);
   for (long made = 0; made < most; ++made) {
     const double before = time_step_;
     look_at_step();
@@ -192,6 +225,7 @@ long Problem::advance(long most) {
     ++steps_;
     if (!std::isfinite(reaction_top_ + reaction_bottom_)) stop_not_finite();
     if (steps_ % steps_between_looks == 0) require_finite();
+    look_at_energy();
     if (made + 1 == most || (model.breaks > 0 && model.settings().crack_log)) {
       model.end_step(time_step_);
       if (!std::isfinite(model.last_sums().unbalanced)) stop_not_finite();

@@ -220,9 +220,11 @@ public:
   void restored();
 
 private:
+  dem::StableStep limit_now();
   void choose_step(bool first);
   void look_at_step();
   [[noreturn]] void stop_not_finite() const;
+  void look_at_energy();
   void add_forces();
   void press_skin();
   double sleeve_spring(const CellSettings &cell, double bond) const;
@@ -258,6 +260,9 @@ private:
   long steps_ = 0;
   std::size_t near_at_choice_ = 0;
   double boundary_work_ = 0;                      // J, of both platens
+  double given_energy_ = 0;                       // J, of motion before the first step
+  double energy_allowed_ = 0;                     // J, of motion, when it was last looked at
+  double half_lightest_ = 0;                      // kg, of the particles' masses
   double reaction_top_ = 0, reaction_bottom_ = 0; // N, z, of the particles on the bodies
   MeanPlace top_face_, bottom_face_;              // of elastic platens
   MeanLoads top_loads_, bottom_loads_;            // of quasi-static ones

@@ -248,6 +248,7 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
     wall_ = std::make_unique<dem::LateralWall>(model.particles, shape_,
                                                settings.loading.wall_stiffness * mean_bond_stiffness(model),
                                                settings.loading.wall_layer * dem::mean_radius(specimen));
+  half_lightest_ = 0.5 * *std::min_element(model.particles.mass.begin(), model.particles.mass.end());
   // Pairs that are about to touch count in the first step too.
   if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
   choose_step(true);

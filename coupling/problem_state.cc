@@ -47,12 +47,14 @@ std::vector<double> Problem::numbers() const {
     const std::vector<double> more = pace_->state();
     all.insert(all.end(), more.begin(), more.end());
   }
+  all.push_back(given_energy_);
   return all;
 }
 
 void Problem::set_numbers(const std::vector<double> &n) {
   if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
   auto end = n.end();
+  given_energy_ = *--end;
   if (pace_) {
     end -= Pace::states;
     pace_->set_state({end, end + Pace::states});

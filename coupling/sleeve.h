@@ -59,7 +59,8 @@ public:
   ContactLayer layer;
 
   int steps_of_interval() const { return planned_; }
-  int steps_of_next_interval(double dt) const;                              // of dt (s) each
+  int steps_of_next_interval(double dt) const;       // of dt (s) each
+  double longest_interval() const { return limit_; } // s, stability limit of the next one
   double axial_force_top() const { return solid.lead_force(top_lead_)[2]; } // N, of the platen on the sleeve
   double axial_force_bottom() const { return solid.lead_force(bottom_lead_)[2]; } // N
   double pressure() const { return solid.pressure(fem::mantle_tag); }             // Pa

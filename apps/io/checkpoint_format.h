@@ -10,7 +10,7 @@ namespace platen::apps {
 
 constexpr char checkpoint_magic[9] = "PLATENCP", checkpoint_end[9] = "PLATENND"; // 8 bytes each in the file
 // Raised with every change of this layout; an older or newer file is refused, not guessed at.
-constexpr std::uint32_t checkpoint_version = 1;
+constexpr std::uint32_t checkpoint_version = 2;
 constexpr std::uint32_t checkpoint_byte_order = 0x01020304;
 
 struct CheckpointHeader { // 16 bytes
