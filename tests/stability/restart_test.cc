@@ -1,0 +1,238 @@
+// N + M steps against N steps, a checkpoint in its file, and M steps of a problem made from that file: the
+// same bytes of all that a checkpoint holds. By every bond law, everything that may hold the specimen, three
+// moments of its life, and any change of threads between the two.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "apps/io/checkpoint_folder.h"
+#include "apps/run/run_state.h"
+#include "dem/packing/advancing_front.h"
+#include "dem/parallel.h"
+#include "fem/threads.h"
+#include "tests/apps/io_folder.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/measured.h"
+
+namespace platen::apps {
+namespace {
+
+using coupling::Problem;
+using coupling::ProblemSettings;
+
+constexpr long steps_after = 300; // M
+
+enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
+enum Held { rigid, elastic, quasi_static, sleeve };
+enum Moment { before_cracks, cracking, after_peak };
+constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic};
+constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
+constexpr std::array moments{before_cracks, cracking, after_peak};
+constexpr std::array thread_counts{1, 2, 4};
+
+const dem::Specimen &specimen() {
+  static const dem::Specimen s = [] {
+    dem::Shape shape;
+    shape.radius = 4e-3, shape.height = 9e-3;
+    return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
+  }();
+  return s;
+}
+
+void choose(ProblemSettings &s, Law law) {
+  s.model.contact = dem::ContactSettings{};
+  s.model.contact->friction = 0.4;
+  if (law == parallel_bond) s.model.bond = dem::ParallelBond::Parameters{0.4, 10e6, 30e6, 1, 0.3};
+  if (law == cohesive_beam) {
+    s.model.bond_layout.modulus = 30e9;
+    s.model.bond_layout.radius_rule = dem::RadiusRule::mean;
+    s.model.bond_layout.radius_multiplier = 0.6;
+    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 1, 0.5};
+  }
+  if (law == elasto_damage_plastic) {
+    dem::ElastoDamagePlastic::Parameters p;
+    p.tensile_strength = 5e6, p.shear_strength = 16e6;
+    p.friction_static = 0.9, p.friction_dynamic = 0.25;
+    p.branches[0] = {20e6, 3}, p.branches[1] = {45e6, 12}, p.branches[2] = {70e6, 22};
+    s.model.bond = p;
+    s.model.bond_layout.modulus = 28e9;
+    s.model.bond_layout.interaction_range = 0.1;
+  }
+}
+
+void choose(ProblemSettings &s, Held held) {
+  if (held == elastic || held == quasi_static) {
+    s.platens.elastic = coupling::ElasticPlatens{};
+    s.platens.elastic->seat = true;
+    if (held == quasi_static) s.platens.elastic->motion = fem::ElasticMotion::quasi_static;
+  }
+  if (held != sleeve) return;
+  s.loading.cell.emplace();
+  s.loading.cell->pressure = 1e6;
+  s.loading.cell->ramp = 2e-5;
+  coupling::SleeveSettings v;
+  v.thickness = 1.5e-3;
+  v.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
+  v.mass_damping = 1000;
+  v.contact.friction_static = v.contact.friction_dynamic = 0.3;
+  s.loading.cell->sleeve = v;
+}
+
+ProblemSettings settings_of(Law law, Held held) {
+  ProblemSettings s = coupling::elastic_settings(0.5);
+  s.model.local_damping = 0.3;
+  choose(s, law);
+  s.platens.top = s.platens.bottom = {0.3, 0.2};
+  s.platens.damping = 0.1;
+  s.platens.thickness = 3e-3;
+  s.platens.elements_across = 4;
+  s.loading.rate = 1;
+  s.loading.ramp = 5e-6;
+  choose(s, held);
+  return s;
+}
+
+class Threads {
+public:
+  explicit Threads(int count) : loops_(count) { fem::limit_threads(count); }
+  ~Threads() { fem::limit_threads(0); }
+  Threads(const Threads &) = delete;
+  Threads &operator=(const Threads &) = delete;
+
+private:
+  dem::ThreadLimit loops_;
+};
+
+long broken(const Problem &p) {
+  return p.model.broken_tension + p.model.broken_shear;
+}
+double stress(const Problem &p) {
+  return 0.5 * (p.stress_top() + p.stress_bottom()) - p.confining_pressure();
+}
+
+void advance_to(Problem &problem, long steps) {
+  while (problem.steps() < steps) {
+    problem.advance(steps - problem.steps());
+    problem.model.take_cracks();
+  }
+}
+
+// Steps at which each moment is there, found by a first run until the stress has fallen to 0.7 of its peak.
+struct Life {
+  std::array<long, 3> at{};
+  long first_crack = 0, peak = 0;
+  double strength = 0; // Pa
+};
+
+Life life_of(Law law, Held held) {
+  constexpr long between_looks = 10, most = 20000;
+  Problem problem(specimen(), settings_of(law, held));
+  Life life;
+  while (problem.steps() < most) {
+    advance_to(problem, problem.steps() + between_looks);
+    if (life.first_crack == 0 && broken(problem) > 0) life.first_crack = problem.steps();
+    if (!problem.axial_stage()) continue;
+    if (stress(problem) > life.strength) life.strength = stress(problem), life.peak = problem.steps();
+    if (life.first_crack > 0 && stress(problem) < 0.7 * life.strength) break;
+  }
+  EXPECT_LT(problem.steps(), most) << "no peak";
+  // Odd numbers of steps: in the middle of a quasi-static load's mean and of a sleeve's interval.
+  life.at = {life.first_crack / 2 + 1, (life.first_crack + life.peak) / 2 + 1, problem.steps() + 1};
+  return life;
+}
+
+void expect_moment(const Problem &p, const Life &life, Moment moment) {
+  if (moment == before_cracks) {
+    EXPECT_EQ(broken(p), 0);
+    EXPECT_GT(stress(p) + p.confining_pressure(), 0);
+    return;
+  }
+  EXPECT_GT(broken(p), 0);
+  if (moment == cracking)
+    EXPECT_LT(p.steps(), life.peak);
+  else
+    EXPECT_LT(stress(p), 0.75 * life.strength);
+}
+
+class Restart : public testing::ScratchFolder {
+protected:
+  // All that a checkpoint holds, as its file has it.
+  std::string bytes_of(const Problem &problem) { return testing::content_of(kept(problem)); }
+  std::filesystem::path kept(const Problem &problem) {
+    return write_checkpoint(folder_, static_cast<std::uint64_t>(problem.steps()), [&](CheckpointWriter &to) {
+      save_state(to, problem, Results(false), FileMarks{});
+    });
+  }
+  // Of `first` threads until the moment, then, from the file, of each of `then`. Returns how many differ.
+  int different(Law law, Held held, Moment moment, const Life &life, int first,
+                const std::vector<int> &then) {
+    const ProblemSettings settings = settings_of(law, held);
+    const long at = life.at[moment];
+    std::string expected, stopped;
+    {
+      const Threads threads(first);
+      Problem whole(specimen(), settings);
+      advance_to(whole, at);
+      expect_moment(whole, life, moment);
+      stopped = bytes_of(whole);
+      advance_to(whole, at + steps_after);
+      expected = bytes_of(whole);
+      EXPECT_NE(expected, stopped);
+    }
+    int count = 0;
+    for (const int next : then) {
+      const Threads threads(next);
+      const std::filesystem::path file = folder_ / "stopped.platen";
+      testing::put(file, stopped);
+      Problem resumed(specimen(), settings);
+      Results results(false);
+      load_state(CheckpointReader(file), resumed, results);
+      advance_to(resumed, at + steps_after);
+      const bool same = bytes_of(resumed) == expected;
+      EXPECT_TRUE(same) << "law " << law << ", held " << held << ", moment " << moment << ", threads "
+                        << first << " then " << next;
+      count += !same;
+    }
+    return count;
+  }
+};
+
+void note(int states, int different) {
+  measured::note_figure(1, "states_compared", states, "any");
+  measured::note_figure(1, "states_that_differ", different, "none");
+}
+
+// Each law with each hold, moments and threads in turn: every pair of them comes up.
+TEST_F(Restart, from_a_file_goes_on_to_the_same_bits) {
+  int states = 0, off = 0;
+  for (const Law law : laws)
+    for (const Held held : holds) {
+      const Moment moment = moments[static_cast<std::size_t>(law + held) % 3];
+      const std::size_t turn = static_cast<std::size_t>(law + 2 * held);
+      off += different(law, held, moment, life_of(law, held), thread_counts[turn % 3],
+                       {thread_counts[(turn + 1) % 3]});
+      ++states;
+    }
+  note(states, off);
+}
+
+TEST_F(Restart, long_from_a_file_goes_on_to_the_same_bits_by_every_law_hold_moment_and_threads) {
+  int states = 0, off = 0;
+  for (const Law law : laws)
+    for (const Held held : holds) {
+      const Life life = life_of(law, held);
+      for (const Moment moment : moments)
+        for (const int first : thread_counts) {
+          off += different(law, held, moment, life, first, {1, 2, 4});
+          states += 3;
+        }
+    }
+  note(states, off);
+}
+
+} // namespace
+} // namespace platen::apps
