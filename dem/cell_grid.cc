@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "dem/not_finite.h"
 #include "dem/parallel.h"
@@ -10,26 +11,37 @@
 namespace platen::dem {
 namespace {
 
-// Cells of one edge length over the bounding box, capped in number so that a lost particle cannot exhaust
-// memory.
+// Spheres whose reach (radius and half the margin) is within a factor of two of each other share a grid:
+// every larger one looks into the grids of smaller ones, never the other way round. Reaches below the
+// smallest class are in it too.
+constexpr int most_classes = 24;
+constexpr double cell_slack = 1e-6; // cells; far above the round-off of a place in them
+
+// Cells of one edge length over the bounding box of some spheres, capped in number so that a lost particle
+// cannot exhaust memory.
 struct Grid {
+  double largest = 0; // m, radius
   Vector3 low;
   double inverse_edge = 1;
   std::array<int, 3> cells{1, 1, 1};
   std::vector<int> start, member; // members of cell c: member[start[c] .. start[c + 1]), ascending
 
-  Grid(const Vector3 *centres, std::size_t count, double edge) {
-    Vector3 high = low = centres[0], zero;
-    for (std::size_t i = 0; i < count; ++i)
+  Grid(const Vector3 *centres, const double *radii, const std::vector<int> &spheres, double margin) {
+    Vector3 high = low = centres[spheres[0]], zero;
+    for (const int i : spheres) {
+      largest = std::max(largest, radii[i]);
       for (int k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], centres[i][k]);
         high[k] = std::max(high[k], centres[i][k]);
         zero[k] += 0 * centres[i][k];
       }
+    }
     // No cell holds such a centre, and no edge is long enough for an infinite box.
     if (!(norm_squared(zero) == 0 && std::isfinite(norm_squared(high - low))))
       throw NotFinite("the place of a sphere is not finite");
-    const double most = 4.0 * static_cast<double>(count) + 64.0;
+    const double most = 4.0 * static_cast<double>(spheres.size()) + 64.0;
+    double edge = 2 * largest + std::max(margin, 0.0);
+    if (!(edge > 0)) edge = 1; // points
     for (;; edge *= 1.26) {
       double product = 1;
       for (int k = 0; k < 3; ++k)
@@ -40,60 +52,94 @@ struct Grid {
     for (int k = 0; k < 3; ++k)
       cells[k] = static_cast<int>((high[k] - low[k]) * inverse_edge) + 1;
     start.assign(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2] + 1, 0);
-    std::vector<int> cell(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      cell[i] = index(of(centres[i]));
-      ++start[cell[i] + 1];
+    std::vector<int> cell(spheres.size());
+    for (std::size_t s = 0; s < spheres.size(); ++s) {
+      cell[s] = index(range(centres[spheres[s]], 0).from);
+      ++start[cell[s] + 1];
     }
     for (std::size_t c = 1; c < start.size(); ++c)
       start[c] += start[c - 1];
-    member.resize(count);
+    member.resize(spheres.size());
     std::vector<int> next(start.begin(), start.end() - 1);
-    for (std::size_t i = 0; i < count; ++i)
-      member[next[cell[i]]++] = static_cast<int>(i);
+    for (std::size_t s = 0; s < spheres.size(); ++s)
+      member[next[cell[s]]++] = spheres[s];
   }
 
-  std::array<int, 3> of(const Vector3 &x) const {
-    std::array<int, 3> c;
-    for (int k = 0; k < 3; ++k)
-      c[k] = std::clamp(static_cast<int>((x[k] - low[k]) * inverse_edge), 0, cells[k] - 1);
-    return c;
+  // Cells within `reach` (m) of a place.
+  struct Range {
+    std::array<int, 3> from, to;
+  };
+  Range range(const Vector3 &x, double reach) const {
+    Range r;
+    for (int k = 0; k < 3; ++k) {
+      const double last = cells[k] - 1, at = (x[k] - low[k]) * inverse_edge;
+      const double span = reach > 0 ? reach * inverse_edge + cell_slack : 0.0;
+      r.from[k] = static_cast<int>(std::clamp(std::floor(at - span), 0.0, last));
+      r.to[k] = static_cast<int>(std::clamp(std::floor(at + span), 0.0, last));
+    }
+    return r;
   }
   int index(const std::array<int, 3> &c) const { return (c[2] * cells[1] + c[1]) * cells[0] + c[0]; }
 };
 
+// Class of each sphere, 0 the largest.
+std::vector<int> size_classes(const double *radii, std::size_t count, double margin) {
+  const double half = 0.5 * std::max(margin, 0.0), largest = *std::max_element(radii, radii + count) + half;
+  std::vector<int> of(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double reach = radii[i] + half;
+    of[i] = reach > 0 ? std::min(std::ilogb(largest / reach), most_classes - 1) : most_classes - 1;
+  }
+  return of;
+}
+
 } // namespace
 
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
-                                  double margin) {
+                                  double margin, std::size_t *measured) {
+  if (measured != nullptr) *measured = 0;
   if (count < 2) return {};
-  const double largest = *std::max_element(radii, radii + count);
-  const Grid grid(centres, count, 2 * largest + std::max(margin, 0.0));
+  const std::vector<int> class_of = size_classes(radii, count, margin);
+  std::vector<std::vector<int>> spheres(most_classes);
+  for (std::size_t i = 0; i < count; ++i)
+    spheres[class_of[i]].push_back(static_cast<int>(i));
+  std::vector<Grid> grids; // of the classes that there are
+  std::vector<std::size_t> grid_of(most_classes, 0);
+  for (std::size_t c = 0; c < spheres.size(); ++c) {
+    grid_of[c] = grids.size();
+    if (!spheres[c].empty()) grids.emplace_back(centres, radii, spheres[c], margin);
+  }
   std::vector<std::vector<IndexPair>> found(number_of_blocks(count));
+  std::vector<std::size_t> looked(found.size(), 0);
   for_each_block(count, [&](std::size_t first, std::size_t last, std::size_t block) {
     std::vector<int> partners;
     for (std::size_t i = first; i < last; ++i) {
       partners.clear();
-      const std::array<int, 3> home = grid.of(centres[i]);
-      for (int z = std::max(home[2] - 1, 0); z <= std::min(home[2] + 1, grid.cells[2] - 1); ++z)
-        for (int y = std::max(home[1] - 1, 0); y <= std::min(home[1] + 1, grid.cells[1] - 1); ++y)
-          for (int x = std::max(home[0] - 1, 0); x <= std::min(home[0] + 1, grid.cells[0] - 1); ++x) {
-            const int c = grid.index({x, y, z});
-            for (int m = grid.start[c]; m < grid.start[c + 1]; ++m) {
-              const int j = grid.member[m];
-              if (j <= static_cast<int>(i)) continue;
-              const double reach = radii[i] + radii[j] + margin;
-              if (reach > 0 && norm_squared(centres[j] - centres[i]) < reach * reach) partners.push_back(j);
-            }
-          }
+      const std::size_t own = grid_of[class_of[i]];
+      for (std::size_t g = own; g < grids.size(); ++g) {
+        const Grid &grid = grids[g];
+        const Grid::Range near = grid.range(centres[i], radii[i] + grid.largest + margin);
+        for (int z = near.from[2]; z <= near.to[2]; ++z)
+          for (int y = near.from[1]; y <= near.to[1]; ++y)
+            for (int c = grid.index({near.from[0], y, z}); c <= grid.index({near.to[0], y, z}); ++c)
+              for (int m = grid.start[c]; m < grid.start[c + 1]; ++m) {
+                const int j = grid.member[m];
+                if (g == own && j <= static_cast<int>(i)) continue;
+                ++looked[block];
+                const double reach = radii[i] + radii[j] + margin;
+                if (reach > 0 && norm_squared(centres[j] - centres[i]) < reach * reach) partners.push_back(j);
+              }
+      }
       std::sort(partners.begin(), partners.end());
       for (const int j : partners)
-        found[block].push_back({static_cast<int>(i), j});
+        found[block].push_back({std::min(static_cast<int>(i), j), std::max(static_cast<int>(i), j)});
     }
   });
   std::vector<IndexPair> pairs;
   for (const auto &f : found)
     pairs.insert(pairs.end(), f.begin(), f.end());
+  if (grids.size() > 1) std::sort(pairs.begin(), pairs.end());
+  if (measured != nullptr) *measured = std::accumulate(looked.begin(), looked.end(), std::size_t{0});
   return pairs;
 }
 

@@ -18,9 +18,10 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
   return a.first == b.first && a.second == b.second;
 }
 
-// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs for
-// radii of similar size. Throws NotFinite where a centre is not finite.
+// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs,
+// whatever the radii. Throws NotFinite where a centre is not finite. `measured`, where given, is told of how
+// many pairs the distance was looked at.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
-                                  double margin);
+                                  double margin, std::size_t *measured = nullptr);
 
 } // namespace platen::dem
