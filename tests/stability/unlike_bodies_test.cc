@@ -111,12 +111,11 @@ TEST(unlike_bodies, soft_grains_between_platens_of_steel) {
   press_column(1e8, fem::ElasticMotion::quasi_static);
 }
 
-// Steel makes some ten to a thousand steps of its own in each of the grains'. Their force comes as a blow in
-// each of these, which the steel has forgotten by the next: forces are right, but it is shaken, and the book
-// shows that. Grains so soft want quasi-static platens.
+// Steel makes some thousand steps of its own in each of the grains'. Their force comes as a blow in each of
+// these, which the steel has forgotten by the next: forces are right, but it is shaken, and the book shows
+// that. Grains so soft want quasi-static platens.
 TEST(unlike_bodies, long_soft_grains_between_platens_of_steel_that_swing) {
-  for (const double ratio : {1e2, 1e4, 1e6})
-    press_column(ratio, fem::ElasticMotion::explicit_steps);
+  press_column(1e6, fem::ElasticMotion::explicit_steps);
 }
 
 } // namespace
