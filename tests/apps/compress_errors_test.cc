@@ -8,6 +8,7 @@
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
+#include "measured.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -260,7 +261,13 @@ TEST_F(Errors, a_sleeve_that_would_turn_inside_out_stops_the_run) {
        {"the sleeve would turn inside out", "cell ", "volume ratio", "Sleeve/Elements around"})
     EXPECT_TRUE(contains(outcome.error, part)) << outcome.error;
   EXPECT_EQ(summary_in(folder_ / "turned")["status"], "failed");
-  EXPECT_FALSE(fs::is_empty(folder_ / "turned/checkpoint")); // the last whole one is kept
+  EXPECT_FALSE(fs::is_empty(folder_ / "turned/checkpoint")); // the last one is kept
+  // ... and whole: the run goes on from it to the same step and the same end.
+  options.emplace_back("--resume");
+  const Outcome again = run_compress(options, folder_);
+  EXPECT_EQ(again.status, 3);
+  EXPECT_EQ(again.error, outcome.error);
+  measured::note_figure(28, "exit_status", outcome.status, "3");
 }
 
 TEST_F(Errors, numerics_that_stop_are_status_three) {
