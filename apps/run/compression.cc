@@ -29,7 +29,8 @@ void CompressionRun::loop() {
     problem_->advance(steps_unobserved());
     if (!problem_->model.cracks.empty()) write_cracks();
     if (due(scene_.output.every, automatic_rows)) sample();
-    if (fields_ && due(scene_.output.fields_every, automatic_frames)) {
+    // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
+    if (fields_ && (finished() || due(scene_.output.fields_every, automatic_frames))) {
       dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::output);
       fields_->write(*problem_);
     }

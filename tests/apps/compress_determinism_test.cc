@@ -157,6 +157,19 @@ TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
   EXPECT_EQ(figures("whole"), figures("killed"));
 }
 
+// Nothing is left to do then but to write the ends of all files, and no step makes contacts known anew.
+TEST_F(Determinism, a_run_killed_after_a_checkpoint_of_its_last_step_ends_as_if_it_had_not_been) {
+  std::vector<std::string> entries{"-s", "Specimen/Sphere radius = 1.7 mm"};
+  crush("whole", "1", entries);
+  const long steps = summary_in(folder_ / "whole")["steps"];
+  entries.insert(entries.end(), {"-s", "Checkpoint/Every = " + std::to_string(steps)});
+  crush("last", "1", entries);
+  const auto last = results_in(folder_ / "last");
+  entries.push_back("--resume");
+  crush("last", "1", entries);
+  EXPECT_EQ(difference(last, results_in(folder_ / "last")), "");
+}
+
 TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
   // What crushed.prm leaves out: a servo, Hertz contacts with rolling, seats, gravity, scaled masses, a
   // dissipative scheme, bonds of unlike strength, phases.
