@@ -46,7 +46,7 @@ void write_interface_table(const std::filesystem::path &path, const Scene &scene
   std::vector<std::string> columns = bond_columns();
   columns.insert(columns.end(), {"shear_by_hand_n", "tension_damage", "shear_damage", "plastic_closing_m",
                                  "work_j", "stored_j", "dissipated_j", "dissipated_by_hand_j"});
-  CsvWriter table(path, columns);
+  WholeTable table(path, columns);
   const bool slides = scene.pair_test.path == PairPath::shear;
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (std::size_t n = 0; n < runs[k].path.rows.size(); ++n) {
@@ -78,6 +78,7 @@ void write_interface_table(const std::filesystem::path &path, const Scene &scene
                  m.dissipated,
                  row.dissipated_by_hand});
     }
+  table.finish();
 }
 
 std::string interface_report(const Scene &scene, const std::vector<BondRun> &runs) {

@@ -161,7 +161,7 @@ double largest_difference(const Scene &scene, const BondRun &run) {
 
 void write_table(const std::filesystem::path &path, const Scene &scene, const std::vector<BondRun> &runs) {
   if (is_led(scene)) return write_interface_table(path, scene, runs);
-  CsvWriter table(path, bond_columns());
+  WholeTable table(path, bond_columns());
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (const RigReading &r : runs[k].path.rows) {
       const double by_hand = row_by_hand(scene, runs[k], r);
@@ -169,6 +169,7 @@ void write_table(const std::filesystem::path &path, const Scene &scene, const st
                  r.rotation, r.normal, r.shear, r.tension_ratio, r.shear_ratio, r.intact, r.lateral,
                  r.strain_ratio, by_hand, relative(row_measured(scene, r), by_hand)});
     }
+  table.finish();
 }
 
 // Up to six rows of a run, evenly: what the screen shows; the table in bonds.csv has all.

@@ -55,7 +55,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     }
   const std::vector<TrialResult> results = trials(asked);
 
-  CsvWriter table(paths.folder / "abacus.csv", columns);
+  WholeTable table(paths.folder / "abacus.csv", columns);
   Json rows = Json::array();
   log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");
@@ -86,6 +86,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     row["poisson_ratio"] = poisson.mean();
     rows.push_back(row);
   }
+  table.finish();
   return rows;
 }
 

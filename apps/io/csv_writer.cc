@@ -70,7 +70,13 @@ void CsvCell::append_to(std::string &line) const {
 
 CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns)
     : columns_(std::move(columns)), file_(path), line_(header_line(columns_)) {
-  write_line();
+  try {
+    write_line();
+  } catch (const OutputError &) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+    throw;
+  }
 }
 
 CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns,
@@ -103,6 +109,19 @@ void CsvWriter::write_line() {
     throw;
   }
   bytes_ += line_.size();
+}
+
+WholeTable::WholeTable(std::filesystem::path path, std::vector<std::string> columns)
+    : path_(std::move(path)), rows_(part_path(path_), std::move(columns)) {}
+
+WholeTable::~WholeTable() {
+  std::error_code ignored;
+  if (!finished_) std::filesystem::remove(rows_.path(), ignored);
+}
+
+void WholeTable::finish() {
+  make_current(rows_.path(), path_);
+  finished_ = true;
 }
 
 } // namespace platen::apps

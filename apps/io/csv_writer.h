@@ -1,4 +1,5 @@
-// Comma-separated tables that grow row by row as a run goes on: history.csv, cracks.csv.
+// Comma-separated tables: those that grow row by row as a run goes on (history.csv, cracks.csv), and those
+// that are written at one go (events.csv).
 #pragma once
 
 #include <cmath>
@@ -38,7 +39,8 @@ private:
 // taken off again, so that the file ends with a whole row.
 class CsvWriter {
 public:
-  // A new file with its header line; one that is there is replaced.
+  // A new file with its header line; one that is there is replaced. None is left where not even that can be
+  // written.
   CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns);
   // Goes on with a file after its first `length` bytes, as a checkpoint states them (bytes()); what follows
   // them is cut off, so that the rows of the resumed run stand where those of an uninterrupted one would.
@@ -60,6 +62,24 @@ private:
   OutputFile file_;
   std::uint64_t bytes_ = 0;
   std::string line_;
+};
+
+// A table that is written at one go: it stands under its name with all rows or not at all. Failures throw
+// OutputError, and a former file stays.
+class WholeTable {
+public:
+  WholeTable(std::filesystem::path path, std::vector<std::string> columns);
+  ~WholeTable(); // without finish(): nothing is left
+  WholeTable(const WholeTable &) = delete;
+  WholeTable &operator=(const WholeTable &) = delete;
+
+  void row(const std::vector<CsvCell> &cells) { rows_.row(cells); }
+  void finish(); // gives it its name
+
+private:
+  std::filesystem::path path_;
+  CsvWriter rows_;
+  bool finished_ = false;
 };
 
 } // namespace platen::apps

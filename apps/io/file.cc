@@ -6,7 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "apps/io/errors.h"
@@ -140,13 +140,9 @@ void write_text_aside(const std::filesystem::path &path, std::string_view text) 
 }
 
 void write_stream_aside(const std::filesystem::path &path, const std::function<void(std::ostream &)> &write) {
-  write_aside(path, [&](const std::filesystem::path &part) {
-    errno = 0;
-    std::ofstream stream(part, std::ios::binary);
-    if (stream) write(stream);
-    stream.close();
-    if (!stream) fail_on(part, "cannot be written", errno != 0 ? errno : EIO);
-  });
+  std::ostringstream text;
+  write(text);
+  write_text_aside(path, text.str());
 }
 
 void create_folder(const std::filesystem::path &folder) {

@@ -54,8 +54,8 @@ void sync_folder(const std::filesystem::path &folder);
 void write_aside(const std::filesystem::path &path,
                  const std::function<void(const std::filesystem::path &)> &write);
 
-// The same for text, and for what writes itself into a stream (such as deal.II's DataOut). Throws
-// OutputError.
+// The same for text, and for what writes itself into a stream (such as deal.II's DataOut): into memory first,
+// for where a file fails it would throw words of its own. Throws OutputError.
 void write_text_aside(const std::filesystem::path &path, std::string_view text);
 void write_stream_aside(const std::filesystem::path &path, const std::function<void(std::ostream &)> &write);
 

@@ -70,12 +70,9 @@ fs::path default_output_folder(const fs::path &scene_file) {
 
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
-      "((scene|found)(\\.part)?\\.prm|(history|cracks|events|bond_stress|directions|specimen|study|costs|"
-      "accuracy|"
-      "trials|"
-      "abacus|packing_"
-      "[0-9]+)(\\."
-      "part)?\\.csv"
+      "((scene|found)(\\.part)?\\.prm"
+      "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|costs|accuracy|trials|abacus"
+      "|packing_[0-9]+)(\\.part)?\\.csv"
       "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
       "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
   static const std::regex frame(

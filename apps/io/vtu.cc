@@ -100,19 +100,17 @@ std::string reason(unsigned long code) {
 }
 
 // Write() of the writer says success on a full disk; the error code, and the end of the file, tell the truth.
-void write_part(const std::filesystem::path &part, vtkUnstructuredGrid &grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
   vtkNew<vtkCallbackCommand> silent; // the error is reported by what is thrown
   silent->SetCallback([](vtkObject *, unsigned long, void *, void *) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->SetFileName(part.c_str());
-  writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  const int written = writer->Write();
-  const unsigned long error = writer->GetErrorCode();
+  writer.AddObserver(vtkCommand::ErrorEvent, silent);
+  writer.GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
+  writer.SetFileName(part.c_str());
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  writer.SetCompressorTypeToZLib();
+  const int written = writer.Write();
+  const unsigned long error = writer.GetErrorCode();
   if (written == 0 || error != vtkErrorCode::NoError)
     throw OutputError(part.string() + ": cannot be written: " + reason(error));
 
@@ -125,7 +123,9 @@ void write_part(const std::filesystem::path &part, vtkUnstructuredGrid &grid) {
 }
 
 void write_grid(const std::filesystem::path &path, vtkUnstructuredGrid &grid) {
-  write_aside(path, [&](const std::filesystem::path &part) { write_part(part, grid); });
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(&grid);
+  write_vtk_aside(path, *writer);
 }
 
 } // namespace
@@ -137,6 +137,10 @@ Field::Field(std::string field_name, const std::vector<dem::Vector3> &v)
   for (const dem::Vector3 &vector : v)
     flat.insert(flat.end(), {vector.x, vector.y, vector.z});
   values = std::move(flat);
+}
+
+void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer) {
+  write_aside(path, [&](const std::filesystem::path &part) { write_part(part, writer); });
 }
 
 void write_points(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,

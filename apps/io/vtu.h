@@ -11,6 +11,8 @@
 
 #include "dem/vector3.h"
 
+class vtkXMLWriter;
+
 namespace platen::apps {
 
 // One field: `components` values for each point (or cell), one after the other. 1: scalar; 3: vector; 6:
@@ -42,5 +44,8 @@ void write_points(const std::filesystem::path &path, double time, const std::vec
 void write_lines(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
                  const std::vector<Field> &line_fields);
+
+// What a writer of VTK's has for its input. Throws OutputError; a former file stays.
+void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer);
 
 } // namespace platen::apps

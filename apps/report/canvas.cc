@@ -11,10 +11,8 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
+#include "apps/io/file.h"
 #include "apps/report/style.h"
 
 namespace platen::apps::report {
@@ -115,14 +113,8 @@ void Canvas::save(const std::filesystem::path &png) const {
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray *bytes = writer->GetResult();
-  std::ofstream stream(png, std::ios::binary);
-  stream.write(reinterpret_cast<const char *>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  stream.close();
-  if (stream) return;
-  const std::string why = std::generic_category().message(errno);
-  std::error_code ignored;
-  std::filesystem::remove(png, ignored); // half a picture is none
-  throw OutputError(png.string() + ": could not be written: " + why);
+  write_text_aside(png, {reinterpret_cast<const char *>(bytes->GetPointer(0)),
+                         static_cast<std::size_t>(bytes->GetNumberOfValues())});
 }
 
 } // namespace platen::apps::report

@@ -12,6 +12,7 @@
 #include "apps/io/file.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/pvd.h"
+#include "apps/io/vtu.h"
 #include "apps/report/field_frame.h"
 
 namespace platen::apps::report {
@@ -82,13 +83,9 @@ void write_image(const std::filesystem::path &file, const FieldFrame &frame) {
   for (const Body b : frame.body)
     body->InsertNextValue(static_cast<unsigned char>(b));
   image->GetPointData()->AddArray(body);
-  write_aside(file, [&](const std::filesystem::path &part) {
-    vtkNew<vtkXMLImageDataWriter> writer;
-    writer->SetInputData(image);
-    writer->SetFileName(part.c_str());
-    if (writer->Write() == 0 || writer->GetErrorCode() != 0)
-      throw OutputError(file.string() + ": could not be written");
-  });
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetInputData(image);
+  write_vtk_aside(file, *writer);
 }
 
 } // namespace

@@ -4,7 +4,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
+#include "apps/io/file.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -79,7 +81,7 @@ std::string escaped(const std::string &text) {
 void write_page(const std::string &title, const TableOfFigures &figures,
                 const std::vector<std::string> &remarks, const std::vector<Section> &sections,
                 const std::filesystem::path &html) {
-  std::ofstream out(html);
+  std::ostringstream out;
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" << escaped(title)
       << "</title>\n"
       << look << "</head>\n<body>\n<h1>" << escaped(title) << "</h1>\n"
@@ -101,8 +103,7 @@ void write_page(const std::string &title, const TableOfFigures &figures,
           << "</figcaption></figure>\n";
   }
   out << "</body>\n</html>\n";
-  out.close();
-  if (!out) throw OutputError(html.string() + ": could not be written");
+  write_text_aside(html, out.str());
 }
 
 void write_html(const std::vector<Run> &runs, const TableOfFigures &figures,

@@ -135,13 +135,14 @@ void CompressionRun::checkpoint() {
 void CompressionRun::write_bond_stress() const {
   constexpr int classes = 9;
   const double axial = 0.5 * (problem_->stress_top() + problem_->stress_bottom());
-  CsvWriter table(paths_.bond_stress(), {"angle_low_deg", "angle_high_deg", "bonds", "pressed_bonds",
-                                         "mean_stress_pa", "mean_pressed_stress_pa", "pressed_over_axial"});
+  WholeTable table(paths_.bond_stress(), {"angle_low_deg", "angle_high_deg", "bonds", "pressed_bonds",
+                                          "mean_stress_pa", "mean_pressed_stress_pa", "pressed_over_axial"});
   constexpr double degree = 3.14159265358979323846 / 180;
   for (const dem::DirectionClass &c :
        dem::bond_stress_by_direction(problem_->model.particles, *problem_->model.bonds, classes))
     table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,
                c.mean_pressed / axial});
+  table.finish();
 }
 
 dem::EventWindow CompressionRun::event_window() const {
@@ -151,11 +152,12 @@ dem::EventWindow CompressionRun::event_window() const {
 }
 
 void CompressionRun::write_events() const {
-  CsvWriter table(paths_.events(),
-                  {"time_s", "duration_s", "x_m", "y_m", "z_m", "size_m", "cracks", "energy_j", "magnitude"});
+  WholeTable table(paths_.events(), {"time_s", "duration_s", "x_m", "y_m", "z_m", "size_m", "cracks",
+                                     "energy_j", "magnitude"});
   for (const dem::AcousticEvent &e : results_.emission().events)
     table.row(
         {e.time, e.duration, e.centre.x, e.centre.y, e.centre.z, e.size, e.cracks, e.energy, e.magnitude});
+  table.finish();
 }
 
 void CompressionRun::save_summary(const std::string &status) {

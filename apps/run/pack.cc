@@ -91,11 +91,12 @@ void write_directions(const OutputPaths &paths, const std::vector<dem::AxisCell>
   std::size_t contacts = 0;
   for (const dem::AxisCell &cell : cells)
     contacts += cell.axes;
-  CsvWriter table(paths.directions(),
-                  {"x", "y", "z", "share_of_directions", "contacts", "share_of_contacts"});
+  WholeTable table(paths.directions(),
+                   {"x", "y", "z", "share_of_directions", "contacts", "share_of_contacts"});
   for (const dem::AxisCell &cell : cells)
     table.row({cell.middle.x, cell.middle.y, cell.middle.z, cell.weight, cell.axes,
                static_cast<double>(cell.axes) / static_cast<double>(contacts)});
+  table.finish();
 }
 
 std::string report_of(const Judgement &j, double seconds) {

@@ -78,7 +78,7 @@ void Accuracy::write_rows(const std::filesystem::path &csv) const {
   for (const char *measure : measure_words)
     columns.push_back(std::string(measure) + "_error");
   columns.insert(columns.end(), {"energy_residual_relative", "kinetic_to_internal_max", "steps"});
-  CsvWriter rows(csv, columns);
+  WholeTable rows(csv, columns);
   for (const Knob &knob : plan_.knobs)
     for (std::size_t v = 0; v < knob.values.size(); ++v)
       for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed) {
@@ -91,6 +91,7 @@ void Accuracy::write_rows(const std::filesystem::path &csv) const {
         cells.insert(cells.end(), {run.residual, run.kinetic, run.steps});
         rows.row(cells);
       }
+  rows.finish();
 }
 
 std::optional<std::size_t> cheapest_within(const KnobErrors &of, Measure measure, double bound) {

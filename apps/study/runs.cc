@@ -116,6 +116,9 @@ void Crew::ended(Active &one) {
     log_.warning("{}: its checkpoint cannot be used, it starts anew: {}", run.name,
                  without_line_end(one.process.errors()));
     start(one.run, false);
+  } else if (status == status_output) {
+    const std::string told = "error: ", errors = without_line_end(one.process.errors());
+    throw OutputError(run.name + ": " + (errors.rfind(told, 0) == 0 ? errors.substr(told.size()) : errors));
   } else {
     const std::string how = status < 0 ? fmt::format("ended by signal {}", -status)
                                        : fmt::format("exit status {}", status),

@@ -44,9 +44,10 @@ struct StudyStopped {
 
 // Carries out all runs, at most `at_a_time` at once, started in their order; `keep` is called for each in
 // that order as soon as it and all before it have ended. A run whose summary says done is kept; one with
-// checkpoints goes on from the newest; any other is made anew. A run that fails is an outcome, no exception.
-// A signal that asks this program to stop is passed on; when the runs have written their checkpoints,
-// StudyStopped is thrown.
+// checkpoints goes on from the newest; any other is made anew. A run that fails is an outcome, no exception;
+// but where one cannot write, no other could: those under way are stopped with their checkpoints, and
+// OutputError is thrown. A signal that asks this program to stop is passed on; when the runs have written
+// their checkpoints, StudyStopped is thrown.
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
                const std::function<void(std::size_t, const RunOutcome &)> &keep);
 

@@ -16,12 +16,31 @@ namespace {
 
 using namespace testing;
 
+// While it lives no file of this process grows beyond so many bytes: what a full disk does.
+class SmallFiles {
+public:
+  explicit SmallFiles(std::size_t bytes) : action_(signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit small{bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    signal(SIGXFSZ, action_);
+  }
+
+private:
+  rlimit limit_{};
+  sighandler_t action_;
+};
+
 class Csv : public ScratchFolder {
 protected:
   fs::path path_ = folder_ / "history.csv";
   const std::vector<std::string> columns_{"time_s", "axial_stress_top_pa", "mode"};
   // Row k of an imaginary run.
-  static void write_row(CsvWriter &csv, int k) {
+  template <class Table>
+  static void write_row(Table &csv, int k) {
     csv.row({1e-7 * k / 3, std::sin(k) * 1e7, k % 2 == 0 ? "tension" : "shear"});
   }
 };
@@ -135,6 +154,30 @@ TEST_F(Csv, on_a_full_disk_says_so) {
   EXPECT_TRUE(contains(text, "/dev/full") && contains(text, "No space left")) << text;
 }
 
+TEST_F(Csv, leaves_no_file_without_a_header) {
+  const SmallFiles none(0);
+  EXPECT_THROW(CsvWriter(path_, columns_), OutputError);
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+TEST_F(Csv, a_whole_table_is_there_with_all_rows_or_not_at_all) {
+  {
+    WholeTable table(path_, columns_);
+    write_row(table, 1);
+    table.finish();
+  }
+  const std::string before = content_of(path_);
+  {
+    const SmallFiles limit(before.size() + 5); // five bytes of the second row fit
+    WholeTable table(path_, columns_);
+    write_row(table, 1);
+    EXPECT_EQ(content_of(path_), before);
+    EXPECT_THROW(write_row(table, 2), OutputError);
+  }
+  EXPECT_EQ(content_of(path_), before);
+  EXPECT_FALSE(fs::exists(part_path(path_)));
+}
+
 TEST_F(Csv, in_no_folder_says_so) {
   const std::string text = message_of<OutputError>([&] { CsvWriter(folder_ / "none" / "a.csv", columns_); });
   EXPECT_TRUE(contains(text, "No such file")) << text;
@@ -144,14 +187,10 @@ TEST_F(Csv, keeps_whole_rows_where_the_room_ends_within_one) {
   CsvWriter csv(path_, columns_);
   write_row(csv, 1);
   const std::string before = content_of(path_);
-  rlimit old_limit{};
-  getrlimit(RLIMIT_FSIZE, &old_limit);
-  const auto old_action = signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{before.size() + 5, old_limit.rlim_max}; // five bytes of the next row fit
-  setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THROW(write_row(csv, 2), OutputError);
-  setrlimit(RLIMIT_FSIZE, &old_limit);
-  signal(SIGXFSZ, old_action);
+  {
+    const SmallFiles limit(before.size() + 5); // five bytes of the next row fit
+    EXPECT_THROW(write_row(csv, 2), OutputError);
+  }
   EXPECT_EQ(content_of(path_), before);
   write_row(csv, 2); // and goes on when there is room again
   EXPECT_EQ(content_of(path_).substr(0, before.size()), before);

@@ -93,6 +93,13 @@ TEST_F(StreamAside, is_whole_or_not_there) {
     EXPECT_TRUE(contains(text, "No space left")) << text;
     EXPECT_EQ(content_of(path), "whole");
   }
+  // Nor do words of a writer that looks at its stream reach the user.
+  fs::create_symlink("/dev/full", part_path(path));
+  const auto looks = [](std::ostream &out) {
+    if (!(out << std::string(1000000, 'x')).flush()) throw std::domain_error("an input/output error");
+  };
+  const std::string text = message_of<OutputError>([&] { write_stream_aside(path, looks); });
+  EXPECT_TRUE(contains(text, "No space left")) << text;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "apps/io/file.h"
 #include "apps/report_example.h"
 #include "apps/report_folder.h"
 #include "apps/scene/errors.h"
@@ -126,6 +127,25 @@ TEST(ReportApp, compared_side_by_side_the_hourglass_is_red_in_the_middle_and_the
   EXPECT_GT(greenness(moved, dry + to_the_skin, middle), greenness(moved, dry + to_the_skin, end) + brighter);
   EXPECT_GT(greenness(moved, other + to_the_skin, end),
             greenness(moved, other + to_the_skin, middle) + brighter);
+}
+
+TEST(ReportApp, on_a_full_disk_former_pictures_and_page_stay) {
+  const TestFolder folder;
+  write_example(folder / "dry", {});
+  for (const char *name : {"specimen.pvd", "bonds.pvd", "platens.pvd"})
+    std::filesystem::remove(folder / "dry" / name);
+  ASSERT_EQ(run(folder, quoted(folder / "dry")).status, status_done);
+  for (const std::string name : {"energies.png", "report.html"}) {
+    // The next one is written through a name that leads to a device without room.
+    const auto file = folder / "dry" / "pictures" / name, part = part_path(file);
+    const std::string former = text_of(file);
+    std::filesystem::create_symlink("/dev/full", part);
+    const Outcome outcome = run(folder, quoted(folder / "dry") + " --quiet");
+    EXPECT_EQ(outcome.status, status_output);
+    EXPECT_EQ(outcome.error, "error: " + part.string() + ": cannot be written: No space left on device\n");
+    EXPECT_EQ(text_of(file), former);
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(part)));
+  }
 }
 
 TEST(ReportApp, a_run_without_frames_still_gets_its_curves) {

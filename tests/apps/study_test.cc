@@ -1,6 +1,7 @@
 // platen-study as a user runs it, on specimens of a hundred spheres; and what it plans.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -129,6 +130,26 @@ TEST_F(Study, a_case_that_fails_is_told_and_survived) {
   EXPECT_EQ(
       run("b", {"-s", "Integration/Time step = 2.4e-7 s", "-s", "Study/Sphere radius list = 1.4 mm"}).status,
       3);
+}
+
+// It is the machine that fails, not the case: no further run would fare better.
+TEST_F(Study, a_disk_that_fills_in_a_run_ends_it_and_it_goes_on_later) {
+  ASSERT_EQ(run("whole", {"--quiet"}).status, 0);
+  // No file may grow beyond what tables of studies have, and less than the history of a run: what a full disk
+  // does, but to these processes alone.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{50000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const Outcome full = run("a", {"--quiet"});
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(full.status, 4);
+  EXPECT_TRUE(contains(full.error, "error: sphere_radius_0.002_seed_")) << full.error;
+  EXPECT_TRUE(contains(full.error, ": cannot be written: File too large")) << full.error;
+  EXPECT_FALSE(fs::exists(folder_ / "a/summary.json"));
+  const Outcome rest = run("a", {"--quiet", "--resume"});
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  EXPECT_EQ(table("a"), table("whole"));
 }
 
 TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {

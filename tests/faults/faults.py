@@ -16,7 +16,7 @@ PLATENS = {
                "Sleeve/Thickness = 1 mm", "Loading/Target strain = 0.004"],
 }
 COSTS = ["threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds", "peak_memory_bytes",
-         "bytes_in_columns_and_search"]
+         "bytes_in_columns_and_search", "trials"]
 
 
 def command(program, scene, output, entries=(), *options):
@@ -30,13 +30,13 @@ def run(arguments, **keywords):
 
 
 def results(folder):
-    """Bytes of all that repeats, by name: not run.log, not checkpoints, of summary.json not what tells costs."""
+    """Bytes of all that repeats, by name: not run.log, costs, checkpoints, of summary.json not what tells costs."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder)
-        if not path.is_file() or name.parts[0] in ("run.log", "checkpoint"):
+        if not path.is_file() or path.name in ("run.log", "costs.csv") or "checkpoint" in name.parts:
             continue
-        if name.name == "summary.json":
+        if path.name == "summary.json":
             summary = json.loads(path.read_text())
             found[str(name)] = {key: value for key, value in summary.items() if key not in COSTS}
         else:
