@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Builds the fuzzers of the readers and lets them run, two at a time.
+
+    fuzz.py BUILD [--runs 1200000] [--only fuzz_tables ...] [--seed 1]
+
+BUILD is a folder for a build with Clang, made where it is not there; BUILD/corpus keeps what runs find, for the next ones to
+go on from. They begin with the scenes of the project, the faulty ones of the tests, and a small checkpoint. An input that
+ends a fuzzer stays in BUILD. Exit status: 0; 1 where an input crashes, leaks, takes more than a second or 2 GB; 77 where
+there is no Clang. An hour on two cores.
+"""
+
+import argparse
+import concurrent.futures
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+
+import faults
+
+# Share of the runs: a scene with all its checks takes some hundred times as long as a table.
+SHARES = {"fuzz_scene_text": 0.1, "fuzz_scene": 0.01, "fuzz_tables": 0.5, "fuzz_checkpoint": 0.39}
+LARGEST = 4096  # bytes of an input
+
+
+def build(folder):
+    compiler = shutil.which("clang++") or shutil.which("clang++-14")
+    if compiler is None:
+        print("no clang++ is installed")
+        sys.exit(77)
+    if not (folder / "CMakeCache.txt").exists():  # CMake forgets all options where it is told another compiler
+        subprocess.run(["cmake", "-S", faults.SOURCE, "-B", folder, "-G", "Ninja", "-DPLATEN_FUZZ=ON",
+                        f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_C_COMPILER={compiler.replace('++', '')}"],
+                       check=True, stdout=sys.stderr)
+    subprocess.run(["cmake", "--build", folder], check=True, stdout=sys.stderr)
+
+
+def seed(folder):
+    """Inputs to begin with, a folder for each fuzzer."""
+    corpus = {name: folder / "corpus" / name for name in SHARES}
+    for path in corpus.values():
+        path.mkdir(parents=True, exist_ok=True)
+    scenes = [*faults.SOURCE.glob("scenes/*.prm"), *faults.SOURCE.glob("tests/apps/faulty/*.prm"),
+              *faults.SOURCE.glob("tests/apps/faulty/*.json"), faults.CRUSHED]
+    for scene in scenes:
+        text = scene.read_bytes()
+        (corpus["fuzz_scene_text"] / scene.name).write_bytes(text)
+        (corpus["fuzz_scene"] / scene.name).write_bytes(b"\x03" + text)  # as platen-compress reads it
+    tables = {"cylinder": b"\0# shape: cylinder radius_m=0.01 height_m=0.02\nx_m,y_m,z_m,radius_m\n0,0.001,0.01,0.001\n",
+              "box": b"\0# shape: box width_x_m=1 width_y_m=2 height_m=3\r\nx_m,y_m,z_m,radius_m\r\n1,1,1e-1,0.5\r\n",
+              "disc": b"\0# shape: disc radius_m=1 thickness_m=2\nx_m,y_m,z_m,radius_m\n\n# no sphere\n 1 , 1 ,1,.5\n",
+              "ids": b"\x02# ids\n12\n13 # and another\n\n0\n",
+              "cracks": b"\x03time_s,mode,energy_j\n0.5,tension,1e-3\n0.6,shear,\n0.7,shear,nan"}
+    for name, text in tables.items():
+        (corpus["fuzz_tables"] / name).write_bytes(text)
+    checkpoint = folder / "seed.platen"
+    subprocess.run([folder / "bin/write_seed", checkpoint], check=True)
+    for first in (b"\0", b"\1"):
+        (corpus["fuzz_checkpoint"] / f"whole_{first[0]}").write_bytes(first + checkpoint.read_bytes())
+    words = {word for scene in scenes for word in re.findall(rb"[A-Za-z][A-Za-z ]{2,30}(?= =|\n|\"|$)", scene.read_bytes())}
+    words |= {b"subsection ", b"set ", b"end", b"include ", b"\\\n", b"MPa", b"mm", b" degree", b"R_min", b"1e308", b"{\"", b"\": "}
+    escaped = ["".join(f"\\x{letter:02x}" for letter in word) for word in sorted(words)]
+    (folder / "words.txt").write_text("".join(f'"{word}"\n' for word in escaped))
+    return corpus
+
+
+def fuzz(folder, name, corpus, runs, first):
+    """(runs, largest memory in MB, inputs that ended it or were slow) of one fuzzer, which goes on after each."""
+    done, memory = 0, 0
+    before = set(folder.glob(f"{name}-*"))
+    while done < runs and len(set(folder.glob(f"{name}-*")) - before) < 10:
+        words = [f"-dict={folder / 'words.txt'}"] if "scene" in name else []
+        ran = subprocess.run(
+            [folder / "bin" / name, corpus, *words, f"-runs={runs - done}", f"-seed={first + done}", f"-max_len={LARGEST}",
+             "-timeout=60", "-report_slow_units=1", "-rss_limit_mb=2048", "-print_final_stats=1",
+             f"-artifact_prefix={folder / name}-"], capture_output=True, text=True, errors="replace")
+        told = {key: int(value) for key, value in re.findall(r"stat::(\w+):\s+(\d+)", ran.stderr)}
+        counts = [int(count) for count in re.findall(r"^#(\d+)", ran.stderr, re.M)]
+        done += max([told.get("number_of_executed_units", 0), *counts, 1])
+        memory = max([memory, told.get("peak_rss_mb", 0), *map(int, re.findall(r"rss: (\d+)Mb", ran.stderr))])
+        if ran.returncode != 0:
+            print(f"{name}:\n{ran.stderr[-3000:]}", file=sys.stderr)
+    return done, memory, sorted(set(folder.glob(f"{name}-*")) - before)
+
+
+def is_slow(folder, name, path):
+    """Whether an input takes more than a second of the processor: on a busy machine, others seem to."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([folder / "bin" / name, path], capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime > 1
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--runs", type=int, default=1200000, help="of all fuzzers together")
+    parser.add_argument("--only", nargs="+", choices=SHARES, default=list(SHARES))
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    folder = options.build.resolve()
+    build(folder)
+    corpus = seed(folder)
+    share = sum(SHARES[name] for name in options.only)
+    figures = faults.Figures(34)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        started = [pool.submit(fuzz, folder, name, corpus[name], int(options.runs * SHARES[name] / share), options.seed)
+                   for name in options.only]
+        results = [one.result() for one in started]
+    crashes = slow = large = 0
+    for name, (runs, memory, inputs) in zip(options.only, results):
+        print(f"{name}: {runs} runs, {memory} MB, {len(inputs)} inputs looked at again")
+        for path in inputs:
+            if "-slow-unit-" in path.name or "-timeout-" in path.name:
+                slow += is_slow(folder, name, path)
+            else:
+                crashes, large = crashes + ("-oom-" not in path.name), large + ("-oom-" in path.name)
+    figures.at_least("runs", sum(runs for runs, _, _ in results), min(options.runs, 1000000) if share == 1 else 1)
+    figures.exactly("crashes and leaks", crashes, 0)
+    figures.exactly("inputs that take more than a second", slow, 0)
+    figures.exactly("inputs that take more than 2 GB", large, 0)
+    figures.note("memory in MB", max(memory for _, memory, _ in results), "< 2048")
+    return figures.status()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
