@@ -117,7 +117,7 @@ def main():
                 slow += is_slow(folder, name, path)
             else:
                 crashes, large = crashes + ("-oom-" not in path.name), large + ("-oom-" in path.name)
-    figures.at_least("runs", sum(runs for runs, _, _ in results), min(options.runs, 1000000) if share == 1 else 1)
+    figures.at_least("runs", sum(runs for runs, _, _ in results), 1000000 if set(options.only) == set(SHARES) else 1)
     figures.exactly("crashes and leaks", crashes, 0)
     figures.exactly("inputs that take more than a second", slow, 0)
     figures.exactly("inputs that take more than 2 GB", large, 0)

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Builds tests under a sanitizer and runs them.
+
+    sanitizers.py thread BUILD     data races: the particle library, whose threads are those of C++
+    sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_io ...]
+
+BUILD is a folder for a build of its own, made where it is not there. Programs that link deal.II are not asked for leaks: MPI
+and Trilinos keep memory until a process ends. Exit status: 0; 1 where a test fails or a sanitizer reports. Half an hour and
+two hours on two cores, nearly all of it to compile.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import faults
+
+PARTICLES = ["test_dem", "test_packing"]
+OTHERS = ["test_layering", "test_scene", "test_io", "test_fem", "test_coupling", "test_bonds", "test_pack", "test_calibrate",
+          "test_bar", "test_compress", "test_brazilian", "test_bending", "test_study", "test_stability"]
+KINDS = {"thread": (41, "thread", PARTICLES, "OFF"), "address": (40, "address,undefined", PARTICLES + OTHERS, "ON")}
+REPORT = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer|runtime error:")
+
+
+def build(folder, sanitizers, apps, programs):
+    subprocess.run(["cmake", "-S", faults.SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1", f"-DPLATEN_SANITIZE={sanitizers}",
+                    f"-DPLATEN_APPS={apps}", "-DPLATEN_BENCH=OFF"], check=True, stdout=sys.stderr)
+    subprocess.run(["cmake", "--build", folder, "--target", *programs], check=True, stdout=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kind", choices=KINDS)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only", nargs="+", metavar="PROGRAM", help="these programs [all]")
+    parser.add_argument("--filter", default="-*.long_*", help="tests of them, as gtest has it [all but long forms]")
+    options = parser.parse_args()
+    row, sanitizers, programs, apps = KINDS[options.kind]
+    programs = options.only or programs
+    folder = options.build.resolve()
+    if set(programs) <= set(PARTICLES):
+        apps = "OFF"
+    build(folder, sanitizers, apps, programs)
+    figures = faults.Figures(row)
+    ran = failed = reports = 0
+    for program in programs:
+        leaks = 1 if program in PARTICLES else 0
+        environment = dict(os.environ, ASAN_OPTIONS=f"detect_leaks={leaks}", UBSAN_OPTIONS="print_stacktrace=1")
+        done = faults.run([str(folder / "bin" / program), f"--gtest_filter={options.filter}"], env=environment,
+                          errors="replace")
+        told = done.stdout + done.stderr
+        tests, bad = len(re.findall(r"^\[       OK \]", told, re.M)), len(re.findall(r"^\[  FAILED  \].*ms\)$", told, re.M))
+        found = len(REPORT.findall(told))
+        print(f"{program}: {tests} tests passed, {bad} failed, {found} reports, status {done.returncode}", flush=True)
+        if bad or found or done.returncode != 0:
+            print(told[-20000:], file=sys.stderr)
+            figures.fail(program)
+        ran, failed, reports = ran + tests + bad, failed + bad, reports + found
+    figures.note("tests under " + sanitizers.replace(",", " and "), ran, "any")
+    figures.exactly("tests that failed", failed, 0)
+    figures.exactly("reports", reports, 0)
+    return figures.status()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
