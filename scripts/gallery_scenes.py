@@ -179,7 +179,8 @@ GROUPS = [
               "How much of the strength is the platen's doing: at height over width 1 dry steel gains a fourth over "
               "grease, at 2 less than a tenth. The diamonds are of laboratories. One packing."),
         Scene("study_friction_concrete", f"{STUDY} friction", "strength_slenderness",
-              "The same on five packings, finer spheres, more platens and slendernesses: 100 runs.",
+              "The same on five packings, finer spheres, more platens and slendernesses: 100 runs. Figures and a picture of "
+              "them are in [bench/results/laboratory.md](../bench/results/laboratory.md).",
               "about two hours on one core"),
         Scene("study_laboratory_concrete", f"{STUDY} friction", "strength_friction",
               "Cubes and prisms as a laboratory crushed them in 1967, five packings of each: gains by dry platens of "
