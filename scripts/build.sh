@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Sets up and builds everything into build/. Where CI is set, warnings are errors.
+# Sets up and builds everything, or the targets named, into build/. Where CI is set, warnings are errors.
+#   scripts/build.sh [TARGET...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,4 +9,4 @@ options=(-DCMAKE_BUILD_TYPE=Release -DPLATEN_APPS=ON -DPLATEN_TESTS=ON)
 [ -z "${CI:-}" ] || options+=(-DPLATEN_WARNINGS_ARE_ERRORS=ON)
 if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 cmake -S . -B build -G Ninja "${options[@]}"
-cmake --build build
+cmake --build build ${1:+--target "$@"}

@@ -5,11 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/setup.sh
-options=(-DCMAKE_BUILD_TYPE=Release -DPLATEN_APPS=ON)
-if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-cmake -S . -B build -G Ninja "${options[@]}"
-cmake --build build --target platen-compress platen-study platen-report
+scripts/build.sh platen-compress platen-study platen-report
 
 # One thread each, side by side; every line says whose it is.
 mkdir -p results/demo
