@@ -1,11 +1,11 @@
 // What a word for a platen's face stands for, and what stays with the scene.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "apps/io_folder.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/surfaces.h"
@@ -95,14 +95,14 @@ TEST(Surfaces, the_nearer_figure_wins) {
 }
 
 // A word on the command line, or in a file that includes another, is nearer than figures of the scene there.
-TEST(Surfaces, a_word_wins_over_figures_of_files_that_are_included) {
-  const fs::path folder = fs::temp_directory_path() / ("platen_surfaces_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  std::ofstream(folder / "inner.prm")
-      << "include " << good << "\nsubsection Platens\n  set Friction static = 0.57\nend\n";
+class SurfaceFiles : public testing::ScratchFolder {};
+
+TEST_F(SurfaceFiles, a_word_wins_over_figures_of_files_that_are_included) {
+  testing::put(folder_ / "inner.prm",
+               "include " + good + "\nsubsection Platens\n  set Friction static = 0.57\nend\n");
   const auto with = [&](const std::string &word, const std::vector<std::string> &entries) {
-    const fs::path outer = folder / "outer.prm";
-    std::ofstream(outer) << "include inner.prm\nsubsection Platens\n" << word << "end\n";
+    const fs::path outer = folder_ / "outer.prm";
+    testing::put(outer, "include inner.prm\nsubsection Platens\n" + word + "end\n");
     return read_scene(outer.string(), entries, AppKind::compress).platens;
   };
   EXPECT_EQ(with("  set Surface = grease\n", {}).top.friction_static, 0.0048);
@@ -111,7 +111,6 @@ TEST(Surfaces, a_word_wins_over_figures_of_files_that_are_included) {
   EXPECT_EQ(with("  set Friction static = 0.2\n", {"Platens/Surface = teflon"}).top.friction_static, 0.03);
   EXPECT_EQ(with("", {"Platens/Surface = teflon", "Platens/Friction static = 0.1"}).top.friction_static, 0.1);
   EXPECT_EQ(with("", {"Platens/Top/Surface = grease"}).bottom.friction_static, 0.57);
-  fs::remove_all(folder);
 }
 
 TEST(Surfaces, an_entry_that_only_a_word_has_set_is_not_noted) {
