@@ -70,6 +70,10 @@ dem::StableStep Problem::limit_now() {
     limit.limit = bodies;
     limit.reason = "the finite elements of a platen with the springs of its contacts";
   }
+  if (sleeve_ && sleeve_->longest_interval() < limit.limit) {
+    limit.limit = sleeve_->longest_interval();
+    limit.reason = reason_of_sleeve;
+  }
   return limit;
 }
 
@@ -143,10 +147,13 @@ void Problem::drift_bodies() {
   move(bottom);
 }
 
+// A sleeve knows its limit after each of its intervals; it may be shorter than one step as contacts close.
 void Problem::look_at_step() {
-  if (steps_ == 0 || steps_ % steps_between_choices != 0) return;
+  if (steps_ == 0) return;
+  const bool sleeve_is_stiffer = sleeve_ && time_step_ > sleeve_->longest_interval();
+  if (!sleeve_is_stiffer && steps_ % steps_between_choices != 0) return;
   const double grown = static_cast<double>(springs_near()) - static_cast<double>(near_at_choice_);
-  if (grown <= growth_of_contacts * static_cast<double>(model.particles.size())) return;
+  if (!sleeve_is_stiffer && grown <= growth_of_contacts * static_cast<double>(model.particles.size())) return;
   dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
   choose_step(false);
 }

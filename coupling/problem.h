@@ -121,6 +121,8 @@ struct ProblemSettings {
 class Problem {
 public:
   static constexpr double surface_skin = 0.3; // margin of the surfaces' particle lists, in mean radii
+  static constexpr const char *reason_of_sleeve =
+      "the finite elements of the sleeve with the springs of its contacts";
 
   Problem(const dem::Specimen &specimen, const ProblemSettings &settings);
 

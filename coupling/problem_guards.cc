@@ -38,9 +38,12 @@ void Problem::announce_motion(double dt) {
     const auto slower = [](const dem::Vector3 &a, const dem::Vector3 &b) { return norm(a) < norm(b); };
     const dem::Particles &p = model.particles;
     const auto fastest = std::max_element(p.velocity.begin(), p.velocity.end(), slower) - p.velocity.begin();
-    throw NumericsStopped("step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what() +
-                          "; the fastest is particle " +
-                          std::to_string(p.id[static_cast<std::size_t>(fastest)]));
+    std::string text = "step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + e.what() +
+                       "; the fastest is particle " + std::to_string(p.id[static_cast<std::size_t>(fastest)]);
+    if (sleeve_ && time_step_ > sleeve_->longest_interval())
+      text += "; the time step of " + text_of(time_step_) + " s is above the stability limit of " +
+              text_of(sleeve_->longest_interval()) + " s (" + reason_of_sleeve + ")";
+    throw NumericsStopped(text);
   }
 }
 

@@ -44,8 +44,8 @@ double Problem::cheap_mass_of_sleeve() const {
     mass += solid.surface_mass(static_cast<int>(v));
   const SurfaceContact &contact = sleeve_->layer.parameters();
   constexpr double bound_over_mean = 2.5; // of a row of their stiffness: one for the nearest, half for three
-  const double springs =
-      bound_over_mean * sleeve_->layer.seats() * contact.particle_stiffness * (1 + contact.tangential_ratio);
+  const double springs = bound_over_mean * sleeve_->layer.seats() * contact.particle_stiffness *
+                         std::max(1.0, contact.tangential_ratio);
   const double interval = steps_of_cheap_interval * time_step_ / settings_.loading.cell->sleeve->safety;
   return std::max(1.0, springs / mass * 0.25 * interval * interval);
 }

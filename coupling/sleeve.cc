@@ -105,7 +105,7 @@ double Sleeve::limit() {
     for (const int v : face)
       stiffness[static_cast<std::size_t>(v)] += (v == nearest ? 1.0 : 0.5) *
                                                 settings_.contact.particle_stiffness *
-                                                (1 + settings_.contact.tangential_ratio);
+                                                std::max(1.0, settings_.contact.tangential_ratio);
   }
   double squared = 0; // of the contacts' frequency, 1/s^2
   for (std::size_t v = 0; v < stiffness.size(); ++v)

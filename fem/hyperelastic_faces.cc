@@ -2,7 +2,6 @@
 // stiffness.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -173,23 +172,6 @@ std::vector<Point> HyperelasticSolid::stiffness_times(const std::vector<Point> &
     }
   }
   return result;
-}
-
-// The largest eigenvalue of the whole is at most the largest of one cell, with the cell's own share of the
-// masses (Irons, Treharne 1971). Each pressed face belongs to one cell.
-double HyperelasticSolid::stable_step() const {
-  struct Largest {
-    double value = 0;
-    void operator+=(const Largest &other) { value = std::max(value, other.value); }
-  };
-  const auto look = [&](std::size_t first, std::size_t last) {
-    Largest largest;
-    for (std::size_t c = first; c < last; ++c)
-      largest += {eigenvalue_bound(total_stiffness(c), mesh_.cells[c].share) / material_.density};
-    return largest;
-  };
-  const double largest = part_sum<Largest>(mesh_.cells.size(), cell_grain, look).value;
-  return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
 }
 
 } // namespace platen::fem

@@ -52,6 +52,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
   face_pressure_.assign(mesh_.faces.size(), 0.0);
   acting_ = face_pressure_;
   cell_force_.resize(mesh_.cells.size());
+  lay_out_stiffness();
 }
 
 double HyperelasticSolid::largest_move(double dt) const {

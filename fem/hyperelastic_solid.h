@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/block_rows.h"
 #include "fem/loaded_surface.h"
 #include "fem/solid_mesh.h"
 
@@ -115,9 +116,9 @@ public:
   // seldom and looks at its surface often.
   void place_surface_ahead(double dt);
   void update_forces(); // internal and pressure forces at the present place
-  // s; from a bound of each cell's largest eigenvalue, load stiffness included, so at or below the true limit
-  // (by 10 % at most for one cell alone). Costs as much as 20 steps: ask now and then. Springs of contacts
-  // come on top: see surface_mass().
+  // s; from the largest eigenvalue of the assembled stiffness, load stiffness included, to 1 % and on the
+  // safe side (largest_frequency.h). Costs as much as 30 steps: ask now and then. Springs of contacts come on
+  // top: see surface_mass().
   double stable_step() const;
 
   // Quasi-static: leads and pressures go straight from their present values to the target, whatever is out of
@@ -185,6 +186,8 @@ private:
   double pressure_work_to(const std::vector<Point> &displacement, const std::vector<double> &pressures) const;
   void add_pressure_forces();
   CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
+  void lay_out_stiffness();
+  void assemble(const std::vector<CellStiffness> &cells, BlockRows &rows) const;
   FaceCorners face_places(const BoundaryFace &face, const std::vector<Point> &displacement) const;
   void place_surface();
 
@@ -196,6 +199,7 @@ private:
   std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
   double volume_ = 0;
   std::vector<double> mass_; // kg, of each node
+  BlockRows stiffness_;      // layout alone
 
   std::vector<Point> displacement_, velocity_, next_;
   std::vector<unsigned char> led_; // bits x, y, z of each node

@@ -54,7 +54,7 @@ TEST(hyperelastic_solid, the_stable_step_is_below_that_of_lanczos) {
       solid.set_displacement(bent(solid, size));
       const double limit = 2 / std::sqrt(lanczos(solid, 60));
       EXPECT_LT(solid.stable_step(), limit * (1 + 1e-6));
-      EXPECT_GT(solid.stable_step(), 0.75 * limit);
+      EXPECT_GT(solid.stable_step(), 0.99 * limit);
     }
   }
 }
@@ -83,7 +83,7 @@ TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
 TEST(hyperelastic_solid, steps_below_the_limit_stay_bounded_and_above_it_do_not) {
   const double limit = 2 / std::sqrt(lanczos(held_sleeve(0), 60));
   HyperelasticSolid calm = held_sleeve(2e3), wild = held_sleeve(2e3);
-  const double dt = calm.stable_step();
+  const double dt = 0.95 * calm.stable_step(); // it stiffens a little on its way
   double energy = 0, work = 0;
   for (int k = 0; k < 2000; ++k) {
     step(calm, dt, 1);
