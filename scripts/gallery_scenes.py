@@ -198,7 +198,7 @@ GROUPS = [
               "about half an hour on one core"),
         Scene("study_cones_concrete", f"{STUDY} size", "",
               "Four sphere radii of the thesis on concrete between dry steel: are cones sharper with smaller spheres?",
-              "about four hours on one core, most of it for 0.5 mm"),
+              "about six hours on one core, most of it for 0.5 mm"),
         Scene("study_size_concrete", f"{STUDY} size", "",
               "Spheres from 6 to 12.5 across the diameter: coarse ones pack looser and are weaker; from ten on it is "
               "within the scatter."),
