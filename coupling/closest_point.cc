@@ -106,8 +106,11 @@ void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across
   const double square = -plane(f, twist), linear = plane(h, twist) - plane(f, e), constant = plane(h, e);
   const double discriminant = linear * linear - 4 * square * constant;
   if (!(discriminant >= 0)) return;
-  const double found = -2 * constant / (linear + std::copysign(std::sqrt(discriminant), linear));
+  const double both = linear + std::copysign(std::sqrt(discriminant), linear);
+  if (both == 0) return;
+  const double found = -2 * constant / both;
   const Vector3 along = e + found * twist;
+  if (!(norm_squared(along) > 0)) return;
   const double at = dot(h - found * f, along) / norm_squared(along);
   if (inside(at, found)) u = at, v = found;
 }
@@ -183,7 +186,8 @@ double single_foot_within(const Quad &q, const Vector3 &n) {
   }
   if (!(least > 0)) return -1;
   const double inverse = std::sqrt(2 * edge) / least, out_of_plane = std::abs(dot(twist, n));
-  return 0.5 / (out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse);
+  const double curved = out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse;
+  return curved > 0 ? 0.5 / curved : std::numeric_limits<double>::infinity();
 }
 
 double preference(const ClosestPoint &point) {
@@ -234,7 +238,7 @@ ClosestPoint closest_point(const Quad &q) {
   // A flat convex quad has one minimum.
   if (foot == Foot::inside) invert_flat_quad(q, twist, across, u, v);
   if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
-  const Vector3 normal = across / area;
+  const Vector3 normal = area > 0 ? across / area : Vector3{};
   if (!flat && area > 0 && farthest(q, normal) < single_foot_within(q, normal)) {
     invert_flat_quad(q, twist, across, u, v);
     return descend(q, twist, u, v) ? at(q, u, v) : on_boundary(q);

@@ -96,9 +96,11 @@ private:
       const std::vector<double> x = correction(r);
       if (x.empty()) return false;
       double factor = 1;
-      for (std::size_t i = 0; i < p_.size(); ++i)
-        factor = std::min(factor,
-                          most_turn * p_.radius[i] / norm(Vector3{x[6 * i + 3], x[6 * i + 4], x[6 * i + 5]}));
+      for (std::size_t i = 0; i < p_.size(); ++i) {
+        const double way = norm(Vector3{x[6 * i + 3], x[6 * i + 4], x[6 * i + 5]}),
+                     most = most_turn * p_.radius[i];
+        if (factor * way > most) factor = most / way;
+      }
       // A step that is right at last may make the residual larger first: axial springs are far stiffer.
       const double was = now;
       for (int half = 0; half <= most_halves; ++half, factor *= 0.5) {

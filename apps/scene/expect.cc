@@ -17,8 +17,8 @@ std::string not_measured(const Expectation &expected) {
 
 // Empty where it holds.
 std::string fault_of_number(const Expectation &expected, double value) {
-  if (value >= expected.low && value <= expected.high) return "";
   if (std::isnan(value)) return not_measured(expected);
+  if (value >= expected.low && value <= expected.high) return "";
   return expected.origin + ": " + expected.key + " = " + shortest_text(value) + " is not in " + expected.text;
 }
 

@@ -102,6 +102,11 @@ private:
   // What is never reached, as a number whose square is one too.
   static double finite(double strength) { return std::fmin(strength, 1e100); }
   double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
+  // What has broken has no stiffness, and nothing to divide by it.
+  template <class Real>
+  static Real divisor(const Real &stiffness) {
+    return where_positive(stiffness, stiffness, Real(stiffness * 0.0 + 1.0));
+  }
   template <class Real>
   struct Softening {
     Real tension, shear; // delta
@@ -173,8 +178,9 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
     used_s = where_positive(opening, both, used_s);
   }
   const Real sound = 1.0 - larger(s.tension_damage, s.shear_damage);
+  const Real least = zero + 1e-150; // brittle, or broken long ago: damage at once, and no division by zero
   const auto grown = [&](const Real &old, const Real &used, const Real &d) {
-    const Real wanted = larger(old, Real((used - 1.0) / d));
+    const Real wanted = larger(old, Real((used - 1.0) / larger(d, least)));
     return where_positive(sound, Real(one - positive_part(Real(1.0 - wanted))), old);
   };
   const Real dn = grown(s.tension_damage, used_n, delta.tension);
@@ -209,7 +215,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
   r.shear = scale(Real(g.area * ks), scale(share.shear, s.shear) + scale(share.friction, s.slider));
   r.force = scale(Real(r.normal / length), d) + r.shear;
   r.energy = 0.5 * g.area *
-             ((share.tension * opening * opening + closing * closing) / kn +
+             ((share.tension * opening * opening + closing * closing) / divisor(kn) +
               ks * (share.shear * dot(s.shear, s.shear) + share.friction * dot(s.slider, s.slider)));
   r.failed_now = tension * 0.0;
   return r;
@@ -227,6 +233,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   const InterfaceState<Real> last = s;
   s.plastic = larger(s.plastic, Real(elastic - envelope(elastic)));
   const Real tension = s.plastic - elastic, zero = tension * 0.0, one = zero + 1.0;
+  const Real nothing = zero + 1e-300; // m^2: no length of anything, and no division by zero
 
   // Both vectors turn with the plane, by the least rotation but for third powers of its angle and without
   // change of length, and spin with the pair (Cayley's form).
@@ -239,7 +246,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
     const Triple<Real> leant = v - scale(dot(v, n), between_normals);
     const Triple<Real> flat = leant - scale(dot(leant, n), n);
     const Real before = dot(v, v), after = dot(flat, flat);
-    const Real keep = where_positive(after, root(Real(before / where_positive(after, after, one))), one);
+    const Real keep = root(Real(before / larger(after, nothing)));
     const Triple<Real> turned =
         scale(Real((1.0 - half * half) * whole), flat) + scale(Real(2.0 * half * whole), cross(n, flat));
     return scale(keep, turned) + moved;
@@ -262,7 +269,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   const Real tension_before =
       tension + (last.plastic - s.plastic) - kn * (drawn - 0.5 * dot(across, across) / length);
   const Shares<Real> was = shares(last, delta), is = shares(s, delta);
-  const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / kn;
+  const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / divisor(kn);
   const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
                           (was.friction - is.friction) * dot(slider_before, s.slider) +
                           dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), slip);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace platen::dem {
 namespace {
@@ -27,9 +28,10 @@ std::vector<DirectionClass> bond_stress_by_direction(const Particles &p, const B
     to.mean += stress;
     if (stress > 0) ++to.pressed, to.mean_pressed += stress;
   }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (DirectionClass &c : all) {
-    c.mean /= c.bonds;
-    c.mean_pressed /= c.pressed;
+    c.mean = c.bonds > 0 ? c.mean / c.bonds : none;
+    c.mean_pressed = c.pressed > 0 ? c.mean_pressed / c.pressed : none;
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "dem/cell_grid.h"
 #include "dem/mean_radius.h"
@@ -103,9 +104,10 @@ CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &b) {
   }
   s.count = static_cast<double>(planes.size());
   s.broken = static_cast<double>(std::count_if(b.state.begin(), b.state.end(), is_broken));
-  s.share = inside / s.broken;
-  s.steep_share = steep / s.broken;
-  s.mean_inclination = inclination / inside;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  s.share = s.broken > 0 ? inside / s.broken : none;
+  s.steep_share = s.broken > 0 ? steep / s.broken : none;
+  s.mean_inclination = inside > 0 ? inclination / inside : none;
   if (!planes.empty()) s.largest = planes.front();
   return s;
 }

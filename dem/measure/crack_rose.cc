@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace platen::dem {
@@ -22,7 +23,8 @@ std::array<double, CrackRose::bins> CrackRose::over_isotropic() const {
   std::array<double, bins> rose{};
   for (int k = 0; k < bins; ++k) {
     const double directions = std::cos(right_angle * k / bins) - std::cos(right_angle * (k + 1) / bins);
-    rose[static_cast<std::size_t>(k)] = area[static_cast<std::size_t>(k)] / all / directions;
+    rose[static_cast<std::size_t>(k)] = all > 0 ? area[static_cast<std::size_t>(k)] / all / directions
+                                                : std::numeric_limits<double>::quiet_NaN();
   }
   return rose;
 }

@@ -77,14 +77,14 @@ std::vector<double> skin_opening(const Particles &p, const Bonds &b, const Shape
 double end_spread(const std::vector<double> &opening) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const double o : opening)
-    if (o > largest) largest = o;
+    largest = std::fmax(largest, o); // of slices that have a skin
   const double ends = std::fmax(opening.front(), opening.back());
   return largest > 0 ? ends / largest : not_a_number;
 }
 
 double barrel(const std::vector<double> &opening) {
   const double middle = 0.5 * (opening[4] + opening[5]);
-  return middle > 0 ? 0.5 * (opening.front() + opening.back()) / middle : not_a_number;
+  return std::isgreater(middle, 0.0) ? 0.5 * (opening.front() + opening.back()) / middle : not_a_number;
 }
 
 DamageGrid damage_grid(const Particles &p, const Bonds &b, const Shape &shape, int rings, int layers) {

@@ -2,6 +2,7 @@
 // ends.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "dem/bonds.h"
@@ -16,7 +17,7 @@ bool is_broken(int state); // of Bonds::state
 struct DamageByRegion {
   double end_top = 0, end_bottom = 0; // r < R_c/2 and within R_c/2 of the end plane
   double middle = 0;                  // r < R_c/2 and |z - H/2| < R_c/4
-  double worse_end() const { return end_top > end_bottom ? end_top : end_bottom; }
+  double worse_end() const { return std::fmax(end_top, end_bottom); } // of those that are known
 };
 DamageByRegion damage_by_region(const Particles &particles, const Bonds &bonds, const Shape &shape);
 

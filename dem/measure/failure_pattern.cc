@@ -19,10 +19,12 @@ bool narrows(const ConePiece &piece) {
          piece.verdict == NoCone::ragged;
 }
 
+// Comparisons are false where a measure is not known (NaN), and quiet about it.
 // A plane through the whole specimen and nearly nothing beside it.
 bool one_plane(const FailureMeasures &m) {
-  return m.planes.count > 0 && m.planes.largest.bonds >= most_of_it * m.planes.broken &&
-         m.planes.largest.extent >= 0.9 * m.width && m.planes.largest.inclination <= largest_of_shear;
+  return m.planes.count > 0 && std::isgreaterequal(m.planes.largest.bonds, most_of_it * m.planes.broken) &&
+         std::isgreaterequal(m.planes.largest.extent, 0.9 * m.width) &&
+         std::islessequal(m.planes.largest.inclination, largest_of_shear);
 }
 
 } // namespace
@@ -64,17 +66,21 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
 FailureVerdict judge_failure(const FailureMeasures &m) {
   const ConePiece &bottom = m.cones[bottom_end], &top = m.cones[top_end];
   if (bottom.is_cone() && top.is_cone()) return {FailurePattern::cones, DecidedBy::two_cones};
-  if (m.damage.worse_end() < sound_end && m.damage.middle > gone_middle && narrows(bottom) && narrows(top))
+  const double worse_end = m.damage.worse_end();
+  if (std::isless(worse_end, sound_end) && std::isgreater(m.damage.middle, gone_middle) && narrows(bottom) &&
+      narrows(top))
     return {FailurePattern::cones, DecidedBy::hourglass};
   if (one_plane(m))
     return {m.planes.largest.inclination < CrackPlanes::steep ? FailurePattern::splitting
                                                               : FailurePattern::shear_plane,
             DecidedBy::one_plane};
   if (m.columns >= 2) return {FailurePattern::splitting, DecidedBy::columns};
-  if (m.planes.steep_share > most_of_it) return {FailurePattern::splitting, DecidedBy::steep_planes};
+  if (std::isgreater(m.planes.steep_share, most_of_it))
+    return {FailurePattern::splitting, DecidedBy::steep_planes};
   if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
-  const bool held = m.end_spread < held_end; // not where no skin is left to tell
-  if (m.damage.worse_end() > crushed_end && !held) return {FailurePattern::crushing, DecidedBy::crushed_end};
+  const bool held = std::isless(m.end_spread, held_end); // not where no skin is left to tell
+  if (std::isgreater(worse_end, crushed_end) && !held)
+    return {FailurePattern::crushing, DecidedBy::crushed_end};
   return {};
 }
 
