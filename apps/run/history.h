@@ -43,6 +43,7 @@ struct Sample {
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
   double deviator() const { return stress() - cell_pressure; }         // Pa
   double internal() const { return bond + contact + body; }            // J
+  double broken() const { return broken_tension + broken_shear; }      // bonds
 };
 
 // Columns of some tests alone, after the others.

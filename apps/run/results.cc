@@ -62,9 +62,13 @@ void Results::finish(const coupling::Problem &problem, const dem::EventWindow &w
   emission_.after = dem::b_value(after);
 }
 
+// Platens that begin to move swing the stress a little, and so may a heavy sleeve: no peak before a bond of
+// the axial stage breaks.
 bool Results::fallen_to(double share) const {
-  return !samples_.empty() && samples_.back().cycling == 0 && peak_ > 0 &&
-         stress(samples_.back()) < share * peak_;
+  if (samples_.empty() || samples_.back().cycling != 0 || !(peak_ > 0)) return false;
+  const Sample &now = samples_.back();
+  if (!(stress(now) < share * peak_)) return false;
+  return now.intact_bonds + now.broken() == 0 || now.broken() > zero().broken();
 }
 
 std::size_t Results::peak_row() const {

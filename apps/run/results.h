@@ -41,7 +41,8 @@ public:
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
   bool add(const Sample &sample, const coupling::Problem &problem);
-  // The stress has fallen to this share of the peak, after it.
+  // The stress has fallen to this share of the peak, after it; where there are bonds, one has broken since
+  // the platens began.
   bool fallen_to(double share) const;
   void listen(const dem::Crack &crack);
   // The state at the end, and events of the cracks so far.
