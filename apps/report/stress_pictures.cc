@@ -1,4 +1,4 @@
-// How the stress flows from the platens through the specimen: sections y = 0.
+// How the stress flows from the platens through the specimen: sections along the axis.
 #include <vtkAxis.h>
 #include <vtkChartXY.h>
 #include <vtkColorTransferFunction.h>
@@ -23,11 +23,12 @@ namespace {
 constexpr double mm_per_m = 1e3, pa_per_mpa = 1e6;
 constexpr double reach = 5, fineness = 0.25; // of averages, of nodes; mean radii
 
-// The plane y = 0 through the specimen and the near quarter of its height of each platen.
+// The plane beside y = 0, which may lie between the bristles of a brush, through the specimen and the near
+// quarter of its height of each platen.
 dem::RegularGrid section_grid(const Extent &extent, double radius) {
   const double width = 1.35 * extent.half_width, beyond = 0.25 * extent.height(), spacing = fineness * radius;
   dem::RegularGrid grid;
-  grid.origin = {-width, 0, extent.bottom - beyond};
+  grid.origin = {-width, spacing, extent.bottom - beyond};
   grid.spacing = spacing;
   grid.nodes = {1 + static_cast<int>(2 * width / spacing), 1,
                 1 + static_cast<int>((extent.height() + 2 * beyond) / spacing)};
@@ -139,8 +140,9 @@ void draw_stress_flow(const Run &run, const Spheres &before_test, const std::fil
                    (k * panel + left + plot_width + 20) / width, (k + 1) * panel / width);
   char words[160];
   std::snprintf(words, sizeof words,
-                "Section y = 0 near the peak (frame at %.3g of its time), averages over %.0f mm",
-                frame.time / run.moments.peak_time, 2 * reach * radius * mm_per_m);
+                "Section y = %.2g mm near the peak (frame at %.3g of its time), averages over %.0f mm",
+                frame.grid.origin.y * mm_per_m, frame.time / run.moments.peak_time,
+                2 * reach * radius * mm_per_m);
   canvas.add_head(run.title, words);
   canvas.save(png);
 }
