@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -13,7 +14,7 @@ namespace platen::measured {
 // again. `what`: words joined by "_". `allowed`: what the test asks of it, as "< 1e-10".
 inline void note_figure(int row, const std::string &what, double value, const std::string &allowed) {
   std::ostringstream text;
-  text.precision(2);
+  text.precision(std::floor(value) == value ? 9 : 2); // counts whole
   text << value << " " << allowed;
   testing::Test::RecordProperty("row_" + std::to_string(row) + "_" + what, text.str());
 }
