@@ -29,7 +29,9 @@ struct Body {
   Particles particles;
   Bonds bonds;
   explicit Body(const Specimen &s)
-      : specimen(s), particles(s, 2400, true), bonds(particles, layout(), ParallelBond::Parameters{0.4, 10e6, 30e6, 1.0, 0.3}) {}
+      : specimen(s),
+        particles(s, 2400, true),
+        bonds(particles, layout(), ParallelBond::Parameters{0.4, 10e6, 30e6, 1.0, 0.3}) {}
   EndPlanes planes() const { return {0, specimen.shape.height}; }
   Confinement confinement(ConfinementArea kind = ConfinementArea::voronoi) const {
     return Confinement(particles, &bonds, specimen.shape, planes(), kind);
