@@ -12,20 +12,17 @@ const std::vector<QualityWord> &quality_words() {
        "fast",
        {{"Integration/Safety", "0.95"}, {"Loading/Wave crossings", "30"}, {"Platens/Steps per solve", "50"}},
        "measured against reference, on 728 and on 5018 spheres: strength +0.3 +- 0.6 and +3.8 +- 1.3 %, "
-       "Young's "
-       "modulus +0.2 +- 0.3 and +0.1 +- 0.2 %, a ninth of its steps (docs/accuracy.md)"},
+       "Young's modulus +0.2 +- 0.3 and +0.1 +- 0.2 %, a ninth of its steps (docs/accuracy.md)"},
       {Quality::standard,
        "standard",
        {{"Integration/Safety", "0.8"}, {"Loading/Wave crossings", "60"}, {"Platens/Steps per solve", "20"}},
        "measured against reference, on 728 and on 5018 spheres: strength -0.4 +- 1.8 and +1.6 +- 0.9 %, "
-       "Young's "
-       "modulus 0.02 +- 0.03 and 0.1 +- 0.1 %, a quarter of its steps (docs/accuracy.md)"},
+       "Young's modulus 0.02 +- 0.03 and 0.1 +- 0.1 %, a quarter of its steps (docs/accuracy.md)"},
       {Quality::reference,
        "reference",
        {{"Integration/Safety", "0.4"}, {"Loading/Wave crossings", "120"}, {"Platens/Steps per solve", "5"}},
        "what the others are measured against; seeds of 728 and of 5018 spheres scatter by 7 and 2 % in "
-       "strength, "
-       "4 and 1 % in Young's modulus (docs/accuracy.md)"}};
+       "strength, 4 and 1 % in Young's modulus (docs/accuracy.md)"}};
   return all;
 }
 
