@@ -14,9 +14,9 @@ constexpr double step_share = 0.9; // of the stable step, in a drift that choose
 // (omega_kicks dt)^2 / (2 pi) = 6 % a step at most, less than damping of the fastest mode by 5 % of critical
 // takes away (15 %).
 constexpr double share_of_kicks = 0.3;
-// Steps of its own between kicks, as multiples of the stable one, in which the fastest mode does not swing
-// once: three of them, of x = 2.5 / 3 of it, are 6 asin(x) = 5.9 of its radians. Kicks in time with a mode
-// shake it, even those of a load that rests, and damping makes energy of that.
+// Longest time between kicks over the stable step: two steps of its own then do (2 * step_share). Between
+// kicks of a load that rests a body swings to and fro, at rest at the kicks and midway, where damping acts;
+// with three steps damping takes energy from that swing which nobody brought.
 constexpr double steps_between_kicks = 1.8;
 
 Point product(const std::array<double, 9> &a, const Point &v) {
