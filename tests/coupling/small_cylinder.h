@@ -5,11 +5,11 @@
 
 namespace platen::coupling {
 
-inline dem::Specimen small_cylinder() {
+inline dem::Specimen small_cylinder(unsigned seed = 5) {
   dem::Shape shape;
   shape.radius = 6e-3;
   shape.height = 14e-3;
-  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
+  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, seed);
 }
 
 } // namespace platen::coupling

@@ -167,20 +167,27 @@ TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_book) {
   EXPECT_EQ(problem.model.broken_tension + problem.model.broken_shear, 0);
 }
 
-// All at 0.04 m/s, a hundred thousandth of the speed of waves, with a smooth start of their own.
+// All at 0.04 m/s, a hundred thousandth of the speed of waves, with a smooth start of their own. Which bonds
+// break after the first is decided by round-off after a while: one peak scatters by 2 %, now and then by 9,
+// so that peaks are compared in the mean.
 TEST(static_start, goes_on_to_the_same_modulus_and_strength) {
-  const auto problem = [] { return Problem(small_cylinder(), breakable(0.04)); };
-  Problem scout = problem();
-  const Loaded found = load(scout, 0);
-  const double start = 0.8 * found.first_crack;
-  ASSERT_GT(start, 0.2 * found.strain_at_peak); // worth it
-  Problem whole = problem(), begun = problem();
-  start_statically(begun, start);
-  const Loaded from_nothing = load(whole, 1.05 * start), from_start = load(begun, 1.05 * start);
-  EXPECT_NEAR(from_start.modulus, from_nothing.modulus, 0.005 * from_nothing.modulus);
-  EXPECT_NEAR(from_start.first_crack, from_nothing.first_crack, 0.05 * from_nothing.first_crack);
-  // Which bonds break next is decided by round-off after a while: the peak scatters by a few percent.
-  EXPECT_NEAR(from_start.strength, from_nothing.strength, 0.05 * from_nothing.strength);
+  double strength_from_nothing = 0, strength_from_start = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(testing::Message() << "packing " << seed);
+    const auto problem = [&] { return Problem(small_cylinder(seed), breakable(0.04)); };
+    Problem scout = problem();
+    const Loaded found = load(scout, 0);
+    const double start = 0.8 * found.first_crack;
+    ASSERT_GT(start, 0.1 * found.strain_at_peak); // worth it
+    Problem whole = problem(), begun = problem();
+    start_statically(begun, start);
+    const Loaded from_nothing = load(whole, 1.05 * start), from_start = load(begun, 1.05 * start);
+    EXPECT_NEAR(from_start.modulus, from_nothing.modulus, 0.005 * from_nothing.modulus);
+    EXPECT_NEAR(from_start.first_crack, from_nothing.first_crack, 0.01 * from_nothing.first_crack);
+    strength_from_nothing += from_nothing.strength;
+    strength_from_start += from_start.strength;
+  }
+  EXPECT_NEAR(strength_from_start, strength_from_nothing, 0.05 * strength_from_nothing);
 }
 
 TEST(static_start, is_refused_where_bonds_break_or_the_run_has_begun) {
