@@ -4,12 +4,13 @@
     sanitizers.py thread BUILD     data races: the particle library, whose threads are those of C++
     sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_io ...]
 
-BUILD is a folder for a build of its own, made where it is not there. Programs that link deal.II are not asked for leaks: MPI
-and Trilinos keep memory until a process ends. Exit status: 0; 1 where a test fails or a sanitizer reports. Half an hour and
-two hours on two cores, nearly all of it to compile.
+BUILD is a folder for a build of its own, made where it is not there; two programs run at a time. Programs that link deal.II
+are not asked for leaks: MPI and Trilinos keep memory until a process ends. Exit status: 0; 1 where a test fails or a sanitizer
+reports. Half an hour and an hour on two cores, half of it to compile.
 """
 
 import argparse
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -20,7 +21,8 @@ import faults
 
 PARTICLES = ["test_dem", "test_packing"]
 OTHERS = ["test_layering", "test_scene", "test_io", "test_fem", "test_coupling", "test_bonds", "test_pack", "test_calibrate",
-          "test_bar", "test_compress", "test_brazilian", "test_bending", "test_study", "test_stability"]
+          "test_bar", "test_compress", "test_brazilian", "test_bending", "test_study",
+          "test_report", "test_stability"]
 KINDS = {"thread": (41, "thread", PARTICLES, "OFF"), "address": (40, "address,undefined", PARTICLES + OTHERS, "ON")}
 REPORT = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer|runtime error:")
 
@@ -30,6 +32,12 @@ def build(folder, sanitizers, apps, programs):
                     "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1", f"-DPLATEN_SANITIZE={sanitizers}",
                     f"-DPLATEN_APPS={apps}", "-DPLATEN_BENCH=OFF"], check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", folder, "--target", *programs], check=True, stdout=sys.stderr)
+
+
+def test(folder, program, chosen):
+    leaks = 1 if program in PARTICLES else 0
+    environment = dict(os.environ, ASAN_OPTIONS=f"detect_leaks={leaks}", UBSAN_OPTIONS="print_stacktrace=1")
+    return faults.run([str(folder / "bin" / program), f"--gtest_filter={chosen}"], env=environment, errors="replace")
 
 
 def main():
@@ -47,19 +55,16 @@ def main():
     build(folder, sanitizers, apps, programs)
     figures = faults.Figures(row)
     ran = failed = reports = 0
-    for program in programs:
-        leaks = 1 if program in PARTICLES else 0
-        environment = dict(os.environ, ASAN_OPTIONS=f"detect_leaks={leaks}", UBSAN_OPTIONS="print_stacktrace=1")
-        done = faults.run([str(folder / "bin" / program), f"--gtest_filter={options.filter}"], env=environment,
-                          errors="replace")
-        told = done.stdout + done.stderr
-        tests, bad = len(re.findall(r"^\[       OK \]", told, re.M)), len(re.findall(r"^\[  FAILED  \].*ms\)$", told, re.M))
-        found = len(REPORT.findall(told))
-        print(f"{program}: {tests} tests passed, {bad} failed, {found} reports, status {done.returncode}", flush=True)
-        if bad or found or done.returncode != 0:
-            print(told[-20000:], file=sys.stderr)
-            figures.fail(program)
-        ran, failed, reports = ran + tests + bad, failed + bad, reports + found
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        for program, done in zip(programs, pool.map(lambda p: test(folder, p, options.filter), programs)):
+            told = done.stdout + done.stderr
+            tests, bad = len(re.findall(r"^\[       OK \]", told, re.M)), len(re.findall(r"^\[  FAILED  \].*ms\)$", told, re.M))
+            found = len(REPORT.findall(told))
+            print(f"{program}: {tests} tests passed, {bad} failed, {found} reports, status {done.returncode}", flush=True)
+            if bad or found or done.returncode != 0:
+                print(told[-20000:], file=sys.stderr)
+                figures.fail(program)
+            ran, failed, reports = ran + tests + bad, failed + bad, reports + found
     figures.note("tests under " + sanitizers.replace(",", " and "), ran, "any")
     figures.exactly("tests that failed", failed, 0)
     figures.exactly("reports", reports, 0)
