@@ -1,10 +1,11 @@
 // Studies of friction and slenderness: what they plan, run and compare.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
+#include <thread>
 
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -258,15 +259,17 @@ TEST_F(Study, of_one_run_gives_it_all_threads) {
 // the next study waits for them.
 TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
   const std::vector<std::string> three = also(small, {"-s", "Study/Slenderness list = 1"});
+  const auto start = std::chrono::steady_clock::now();
   ASSERT_EQ(run("whole", three, "friction").status, 0);
+  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::mt19937 engine(7);
-  std::uniform_int_distribution<int> wait(20000, 700000); // us; the whole takes some seconds
+  std::uniform_real_distribution<double> wait(0.01 * whole, 0.3 * whole); // s
   int kills = 0;
   bool begun = false;
   for (int round = 0; round < 10; ++round) {
     const std::vector<std::string> options = also(three, {"-t", "2", begun ? "--resume" : "--overwrite"});
     Program program(command("killed", options, "friction"), folder_);
-    usleep(static_cast<useconds_t>(wait(engine)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait(engine)));
     if (program.running()) {
       program.send(SIGKILL);
       ++kills;
@@ -277,6 +280,7 @@ TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
     ASSERT_EQ(status, -SIGKILL) << content_of(folder_ / "error.txt");
   }
   EXPECT_GE(kills, 2);
+  ASSERT_TRUE(begun);
   EXPECT_EQ(run("killed", also(three, {"--resume"}), "friction").status, 0);
   EXPECT_EQ(table("killed"), table("whole"));
   EXPECT_EQ(content_of(folder_ / "killed/study.json"), content_of(folder_ / "whole/study.json"));

@@ -160,16 +160,19 @@ TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {
   EXPECT_EQ(summary_in(folder_ / "a")["missed"].size(), 2u);
 }
 
+// In the mean of three packings: of 75 spheres, what a crack sets free is as much as the motion of slow
+// platens.
 TEST_F(Study, a_faster_test_is_less_quasi_static) {
   const Outcome outcome =
-      run("a", {"--quiet", "-s", "Study/Axial rate list = 0.2 m/s, 2 m/s", "-s", "Study/Seeds = 1"}, "rate");
+      run("a", {"--quiet", "-s", "Study/Axial rate list = 0.2 m/s, 10 m/s", "-s", "Study/Seeds = 3"}, "rate");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const fs::path csv = folder_ / "a/study.csv";
-  EXPECT_EQ(column_of(csv, "axial_rate_m_s"), (std::vector<double>{0.2, 2}));
+  EXPECT_EQ(column_of(csv, "axial_rate_m_s"), (std::vector<double>{0.2, 0.2, 0.2, 10, 10, 10}));
   const std::vector<double> kinetic = column_of(csv, "kinetic_to_internal_max"),
                             crossings = column_of(csv, "wave_crossings_to_peak");
-  EXPECT_GT(kinetic[1], kinetic[0]);
-  EXPECT_GT(crossings[0], 4 * crossings[1]);
+  EXPECT_GT(kinetic[3] + kinetic[4] + kinetic[5], 1.5 * (kinetic[0] + kinetic[1] + kinetic[2]));
+  for (int seed = 0; seed < 3; ++seed)
+    EXPECT_GT(crossings[seed], 4 * crossings[3 + seed]);
 }
 
 TEST_F(Study, thicker_bonds_and_more_of_them_are_stiffer) {
