@@ -172,13 +172,13 @@ TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_book) {
 // so that peaks are compared in the mean.
 TEST(static_start, goes_on_to_the_same_modulus_and_strength) {
   double strength_from_nothing = 0, strength_from_start = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 2; seed <= 7; ++seed) {
     SCOPED_TRACE(testing::Message() << "packing " << seed);
     const auto problem = [&] { return Problem(small_cylinder(seed), breakable(0.04)); };
     Problem scout = problem();
     const Loaded found = load(scout, 0);
     const double start = 0.8 * found.first_crack;
-    ASSERT_GT(start, 0.1 * found.strain_at_peak); // worth it
+    ASSERT_GT(start, 0.2 * found.strain_at_peak); // worth it
     Problem whole = problem(), begun = problem();
     start_statically(begun, start);
     const Loaded from_nothing = load(whole, 1.05 * start), from_start = load(begun, 1.05 * start);
