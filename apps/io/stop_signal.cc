@@ -14,8 +14,16 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
               "a signal handler must not wait for a lock");
 
 extern "C" void on_stop(int number) {
+  int before = 0;
+  if (stop.compare_exchange_strong(before, number)) return;
+  if (before != SIGHUP || !stop.compare_exchange_strong(before, number))
+    ::_exit(exit_status_of_signal(number));
+}
+
+// A terminal that closes says so more than once, and a system that ends a session says SIGTERM as well.
+extern "C" void on_hang_up(int number) {
   int none = 0;
-  if (!stop.compare_exchange_strong(none, number)) ::_exit(exit_status_of_signal(number));
+  stop.compare_exchange_strong(none, number);
 }
 
 extern "C" void on_checkpoint(int) {
@@ -30,6 +38,11 @@ void install(int number, void (*handler)(int)) {
   sigaction(number, &action, nullptr);
 }
 
+bool is_ignored(int number) {
+  struct sigaction action {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 } // namespace
 
 void catch_stop_signals() {
@@ -37,8 +50,10 @@ void catch_stop_signals() {
   checkpoint = false;
   install(SIGINT, on_stop);
   install(SIGTERM, on_stop);
+  if (!is_ignored(SIGHUP)) install(SIGHUP, on_hang_up); // as nohup leaves it
   install(SIGUSR1, on_checkpoint);
   install(SIGXFSZ, SIG_IGN);
+  install(SIGPIPE, SIG_IGN);
 }
 
 int stop_requested() {

@@ -45,6 +45,43 @@ TEST(StopSignal, given_twice_ends_the_process_at_once) {
             143);
 }
 
+// A terminal that closes sends its hang-up more than once: the kernel does, and the shell.
+TEST(StopSignal, a_hang_up_asks_too_and_never_ends_the_process) {
+  EXPECT_EQ(status_of([] {
+              catch_stop_signals();
+              raise(SIGHUP);
+              raise(SIGHUP);
+              if (stop_requested() != SIGHUP) return 1;
+              raise(SIGTERM);
+              if (stop_requested() != SIGTERM) return 2;
+              raise(SIGHUP);
+              return stop_requested();
+            }),
+            SIGTERM);
+}
+
+TEST(StopSignal, a_hang_up_that_is_ignored_stays_so) {
+  EXPECT_EQ(status_of([] {
+              signal(SIGHUP, SIG_IGN); // as nohup does
+              catch_stop_signals();
+              raise(SIGHUP);
+              return stop_requested();
+            }),
+            0);
+}
+
+TEST(StopSignal, a_reader_that_has_left_is_a_failed_write_and_not_the_end) {
+  EXPECT_EQ(status_of([] {
+              signal(SIGPIPE, SIG_DFL);
+              catch_stop_signals();
+              int ends[2];
+              if (pipe(ends) != 0) return 1;
+              close(ends[0]);
+              return write(ends[1], "text", 4) < 0 ? 0 : 2;
+            }),
+            0);
+}
+
 TEST(StopSignal, user_1_asks_for_one_checkpoint_and_lets_the_run_go_on) {
   EXPECT_EQ(status_of([] {
               catch_stop_signals();
