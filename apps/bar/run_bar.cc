@@ -13,6 +13,7 @@
 #include "apps/bar/summary.h"
 #include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
+#include "apps/io/folder_lock.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/progress.h"
 #include "apps/io/run_log.h"
@@ -210,7 +211,8 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
   costs.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
   costs.setup_seconds = seconds();
   catch_stop_signals();
-  open_output_folder(paths_.folder, use, inputs);
+  std::unique_ptr<FolderLock> lock;
+  open_locked(lock, paths_.folder, use, inputs, log_);
   log_.open(paths_.log(), false, {version_text(), command_.text, costs.threads});
   log_.info("{}", description());
   write_stream_aside(paths_.scene(),

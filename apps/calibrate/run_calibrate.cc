@@ -11,6 +11,7 @@
 #include "apps/calibrate/search.h"
 #include "apps/calibrate/trials.h"
 #include "apps/io/file.h"
+#include "apps/io/folder_lock.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/stop_signal.h"
@@ -75,6 +76,7 @@ private:
   const Scene &scene_;
   Clock::time_point start_ = Clock::now();
   OutputPaths paths_;
+  std::unique_ptr<FolderLock> lock_;
   RunLog log_;
   dem::ThreadLimit limit_;
 };
@@ -102,9 +104,11 @@ void Calibration::open() {
   std::vector<std::filesystem::path> inputs{command_.scene};
   if (!scene_.specimen.file.empty()) inputs.emplace_back(scene_.specimen.file);
   if (command_.resume) {
+    lock_ = lock_of_run(paths_.folder, log_);
     require_same_scene(scene_, paths_);
   } else {
-    open_output_folder(paths_.folder, command_.overwrite ? FolderUse::overwrite : FolderUse::fresh, inputs);
+    open_locked(lock_, paths_.folder, command_.overwrite ? FolderUse::overwrite : FolderUse::fresh, inputs,
+                log_);
     write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
   }
   log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});

@@ -10,6 +10,7 @@ set(PLATEN_IO_SOURCES
   io/vtu.cc
   io/pvd.cc
   io/output_folder.cc
+  io/folder_lock.cc
   io/summary.cc
   io/machine.cc
   io/run_log.cc

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/io/csv_writer.h"
+#include "apps/io/folder_lock.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/progress.h"
 #include "apps/io/run_log.h"
@@ -69,6 +70,7 @@ private:
   const Scene &scene_;
   Clock::time_point start_ = Clock::now(), last_checkpoint_ = Clock::now(), loop_start_ = Clock::now();
   OutputPaths paths_;
+  std::unique_ptr<FolderLock> lock_;
   RunLog log_;
   dem::ThreadLimit threads_;
   std::unique_ptr<coupling::Problem> problem_;

@@ -99,7 +99,10 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   for (const std::string &file :
        {scene.phases.file, scene.platens.top.mesh_file, scene.platens.bottom.mesh_file})
     if (!file.empty()) inputs.emplace_back(file);
-  if (!command.dry_run) check_output_folder(paths_.folder, use, inputs);
+  if (!command.dry_run) {
+    check_output_folder(paths_.folder, use, inputs);
+    lock_ = lock_of_run(paths_.folder, log_);
+  }
   if (command.resume && !command.dry_run) require_same_scene(scene, paths_);
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen =
@@ -121,7 +124,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
-  open_output_folder(paths_.folder, use, inputs);
+  open_locked(lock_, paths_.folder, use, inputs, log_);
   log_.open(paths_.log(), command.resume, {version_text(), command.text, costs().threads});
   if (!command.resume) {
     write_text_aside(paths_.scene(), scene_text(scene, paths_.folder));

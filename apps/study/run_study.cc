@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "apps/io/file.h"
+#include "apps/io/folder_lock.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
@@ -22,7 +23,6 @@
 #include "apps/scene/version.h"
 #include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
-#include "apps/study/folder_lock.h"
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/tables.h"
@@ -33,6 +33,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+// Runs that are asked to end finish their step and write a checkpoint, at most some hundred megabytes.
+constexpr std::chrono::seconds patience_of_study{60};
 
 std::string content_of(const fs::path &path) {
   std::ifstream file(path, std::ios::binary);
@@ -164,7 +167,7 @@ void StudyApp::open_anew() {
 
 void StudyApp::take_folder() {
   if (lock_ == nullptr && fs::is_directory(paths_.folder))
-    lock_ = std::make_unique<FolderLock>(paths_.folder, [&] {
+    lock_ = std::make_unique<FolderLock>(paths_.folder, patience_of_study, [&] {
       log_.info("waits for runs of an earlier study in {}", paths_.folder.string());
     });
 }

@@ -5,7 +5,6 @@ set(PLATEN_STUDY_SOURCES
   study/accuracy_text.cc
   study/cases.cc
   study/comparisons.cc
-  study/folder_lock.cc
   study/laboratory.cc
   study/platen_cases.cc
   study/process.cc

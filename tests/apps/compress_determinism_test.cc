@@ -65,13 +65,41 @@ TEST_F(Determinism, threads_change_no_byte) {
 
 TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   crush("whole", "2");
-  EXPECT_EQ(stop_at("stopped", 30, SIGTERM, {"-t", "1"}), 143);
+  EXPECT_EQ(stop_at("stopped", 30, SIGHUP, {"-t", "1"}), 129);
   EXPECT_EQ(summary_in(folder_ / "stopped")["status"], "stopped");
   EXPECT_EQ(stop_at("stopped", 110, SIGTERM, {"-t", "2", "--resume"}), 143);
   const Outcome last = resume("stopped", "4");
   EXPECT_EQ(last.status, 0) << last.error;
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
   EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
+// The first is held still, so that the others meet it.
+TEST_F(Determinism, a_second_run_in_its_folder_is_refused_and_changes_nothing) {
+  crush("whole", "2");
+  Program first(compress_command({scene_, "-o", "taken", "--quiet", "-t", "2"}), folder_);
+  ASSERT_TRUE(first.wait_until([&] { return lines_in(folder_ / "taken/history.csv") >= 30; }));
+  first.send(SIGSTOP);
+  for (const char *way : {"--overwrite", "--resume"}) {
+    const Outcome second = run_compress({scene_, "-o", "taken", "--quiet", way}, folder_);
+    EXPECT_EQ(second.status, 2) << way;
+    EXPECT_TRUE(contains(second.error, "taken: another run is at work in it")) << second.error;
+  }
+  first.send(SIGCONT);
+  EXPECT_EQ(first.wait(), 0);
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "taken")), "");
+}
+
+TEST_F(Determinism, a_reader_that_leaves_ends_no_run) {
+  crush("whole", "2");
+  const std::string piped = R"({ "$0" "$@"; echo "status $?" >&2; } | head -n 1)";
+  std::vector<std::string> command{"/bin/sh", "-c", piped};
+  for (const std::string &argument : compress_command({scene_, "-o", "piped", "-t", "2"}))
+    command.push_back(argument);
+  Program(command, folder_).wait();
+  EXPECT_EQ(content_of(folder_ / "out.txt"), "Small cylinder, crushed fast\n");
+  EXPECT_TRUE(contains(content_of(folder_ / "error.txt"), "status 0\n")) << content_of(folder_ / "error.txt");
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "piped")), "");
 }
 
 // Begun at a strain by a static solve: first row as packed, second where it begins, and no second start.
