@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "fem/gmsh_check.h"
 
 namespace platen::fem {
 namespace {
@@ -28,24 +31,21 @@ std::string number(double value) {
 }
 
 void read(std::istream &stream, const GmshOptions &options, dealii::Triangulation<3> &grid) {
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  check_gmsh(text, options.name.empty() ? "Gmsh file" : options.name);
+  std::istringstream checked(text);
   dealii::GridIn<3> reader(grid);
   try {
-    reader.read_msh(stream);
+    reader.read_msh(checked);
   } catch (const dealii::ExceptionBase &failure) {
     std::ostringstream why;
     failure.print_info(why);
-    std::string text = why.str();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    refuse(options, "is no mesh of hexahedra that can be read:" + text);
+    std::string reason = why.str();
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    refuse(options, "is no mesh of hexahedra that can be read:" + reason);
   } catch (const std::exception &failure) {
     refuse(options, std::string("is no mesh of hexahedra that can be read: ") + failure.what());
   }
-  if (grid.n_active_cells() == 0) refuse(options, "there are no hexahedra");
-  for (const dealii::ReferenceCell kind : grid.get_reference_cells())
-    if (kind != dealii::ReferenceCells::Hexahedron)
-      refuse(options, "there are cells of the kind " + kind.to_string() +
-                          "; only hexahedra are taken (in Gmsh: transfinite volumes with Recombine, or "
-                          "extrusions with Layers and Recombine)");
 }
 
 void count_materials(dealii::Triangulation<3> &grid) {

@@ -16,8 +16,8 @@ struct GmshOptions {
 // Reads a mesh of hexahedra (format 2.2 or 4.1, ASCII, first order). Physical volumes become material ids,
 // counted from 0 in the order of their numbers; physical surfaces keep their numbers as tags. Where the file
 // names no surfaces, faces whose corners all lie at the lowest or highest z get low_end_tag or high_end_tag.
-// Throws std::invalid_argument, naming the file, where it cannot be read, holds anything but hexahedra, a
-// cell is inverted or warped through itself (with its place), or the size is none that a platen can have.
+// Throws std::invalid_argument, naming the file, where it is no such mesh (with the line: check_gmsh), a cell
+// is inverted or warped through itself (with its place), or the size is none that a platen can have.
 Grid read_gmsh(std::istream &stream, const GmshOptions &options);
 
 } // namespace platen::fem

@@ -2,7 +2,9 @@
 
 import json
 import pathlib
+import shutil
 import subprocess
+import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 CRUSHED = SOURCE / "tests/apps/scenes/crushed.prm"
@@ -17,6 +19,15 @@ PLATENS = {
 }
 COSTS = ["threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds", "peak_memory_bytes",
          "bytes_in_columns_and_search", "trials"]
+
+
+def clang():
+    """Path of Clang; exits with status 77 where there is none."""
+    compiler = shutil.which("clang++") or shutil.which("clang++-14")
+    if compiler is None:
+        print("no clang++ is installed")
+        sys.exit(77)
+    return compiler
 
 
 def command(program, scene, output, entries=(), *options):
