@@ -2,11 +2,11 @@
 """Builds tests under a sanitizer and runs them.
 
     sanitizers.py thread BUILD     data races: the particle library, whose threads are those of C++
-    sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_io ...]
+    sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_io ...] [--clang]
 
 BUILD is a folder for a build of its own, made where it is not there; two programs run at a time. Programs that link deal.II
 are not asked for leaks: MPI and Trilinos keep memory until a process ends. Exit status: 0; 1 where a test fails or a sanitizer
-reports. Half an hour and an hour on two cores, half of it to compile.
+reports; 77 where there is no Clang. Half an hour and an hour on two cores, half of it to compile.
 """
 
 import argparse
@@ -27,10 +27,13 @@ KINDS = {"thread": (41, "thread", PARTICLES, "OFF"), "address": (40, "address,un
 REPORT = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer|runtime error:")
 
 
-def build(folder, sanitizers, apps, programs):
+def build(folder, sanitizers, apps, programs, clang):
+    compilers = []
+    if clang and not (folder / "CMakeCache.txt").exists():  # CMake forgets all options where it is told another compiler
+        compilers = [f"-DCMAKE_CXX_COMPILER={clang}", f"-DCMAKE_C_COMPILER={clang.replace('++', '')}"]
     subprocess.run(["cmake", "-S", faults.SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                     "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1", f"-DPLATEN_SANITIZE={sanitizers}",
-                    f"-DPLATEN_APPS={apps}", "-DPLATEN_BENCH=OFF"], check=True, stdout=sys.stderr)
+                    f"-DPLATEN_APPS={apps}", "-DPLATEN_BENCH=OFF", *compilers], check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", folder, "--target", *programs], check=True, stdout=sys.stderr)
 
 
@@ -46,13 +49,15 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", nargs="+", metavar="PROGRAM", help="these programs [all]")
     parser.add_argument("--filter", default="-*.long_*", help="tests of them, as gtest has it [all but long forms]")
+    parser.add_argument("--clang", action="store_true", help="with Clang, in place of the compiler that CMake finds")
     options = parser.parse_args()
+    clang = faults.clang() if options.clang else None
     row, sanitizers, programs, apps = KINDS[options.kind]
     programs = options.only or programs
     folder = options.build.resolve()
     if set(programs) <= set(PARTICLES):
         apps = "OFF"
-    build(folder, sanitizers, apps, programs)
+    build(folder, sanitizers, apps, programs, clang)
     figures = faults.Figures(row)
     ran = failed = reports = 0
     with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
@@ -65,9 +70,10 @@ def main():
                 print(told[-20000:], file=sys.stderr)
                 figures.fail(program)
             ran, failed, reports = ran + tests + bad, failed + bad, reports + found
-    figures.note("tests under " + sanitizers.replace(",", " and "), ran, "any")
-    figures.exactly("tests that failed", failed, 0)
-    figures.exactly("reports", reports, 0)
+    by = " with Clang" if clang else ""
+    figures.note(f"tests under {sanitizers.replace(',', ' and ')}{by}", ran, "any")
+    figures.exactly(f"tests that failed{by}", failed, 0)
+    figures.exactly(f"reports{by}", reports, 0)
     return figures.status()
 
 
