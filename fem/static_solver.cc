@@ -9,6 +9,7 @@
 #include <deal.II/lac/sparsity_pattern.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
 
@@ -91,6 +92,17 @@ std::vector<double> rigid_motions(const std::vector<Point> &nodes) {
   return modes;
 }
 
+// GCC and Clang give the template SparseMatrix::vmult different names, and so its reinit: a library that one
+// of them has compiled lacks what the other looks for.
+struct Product {
+  const dealii::TrilinosWrappers::SparseMatrix &matrix;
+  void vmult(dealii::TrilinosWrappers::MPI::Vector &to,
+             const dealii::TrilinosWrappers::MPI::Vector &from) const {
+    if (matrix.trilinos_matrix().Multiply(false, from.trilinos_vector(), to.trilinos_vector()) != 0)
+      throw std::runtime_error("elastic solid: Trilinos cannot multiply its matrix");
+  }
+};
+
 } // namespace
 
 struct StaticSolver::Parts {
@@ -112,7 +124,12 @@ struct StaticSolver::Parts {
   void aggregate(const BlockRows &a, const dealii::DynamicSparsityPattern &rows,
                  const std::vector<Point> &nodes) {
     const dealii::IndexSet all = dealii::complete_index_set(rows.n_rows());
-    matrix.reinit(all, rows, MPI_COMM_SELF);
+    dealii::TrilinosWrappers::SparsityPattern pattern(all, MPI_COMM_SELF, rows.max_entries_per_row());
+    for (Index row = 0; row < rows.n_rows(); ++row)
+      for (Index k = 0; k < rows.row_length(row); ++k)
+        pattern.add(row, rows.column_number(row, k));
+    pattern.compress();
+    matrix.reinit(pattern);
     for_entries(a, held, [&](Index r, Index c, double value) { matrix.add(r, c, value); });
     matrix.compress(dealii::VectorOperation::add);
     modes = rigid_motions(nodes);
@@ -139,7 +156,7 @@ struct StaticSolver::Parts {
     dealii::SolverControl control(5000, residual_share * right.l2_norm());
     dealii::SolverCG<dealii::TrilinosWrappers::MPI::Vector> gradients(control);
     try {
-      gradients.solve(matrix, y, b, multigrid);
+      gradients.solve(Product{matrix}, y, b, multigrid);
     } catch (const dealii::SolverControl::NoConvergence &stop) {
       throw std::runtime_error("elastic solid: conjugate gradients stopped after " +
                                std::to_string(stop.last_step) + " iterations at a residual of " +
