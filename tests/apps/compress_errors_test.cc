@@ -116,6 +116,14 @@ TEST_F(Errors, a_time_step_above_the_limit_is_refused_with_the_limit) {
           {"bad.prm:3: error: Integration/Time step = 1 us is above the stability limit of ", "e-07 s"}});
 }
 
+// A slip of a unit: packed for hours, until all memory is gone.
+TEST_F(Errors, spheres_without_number_are_refused_before_they_are_packed) {
+  for (const char *packing : {"advancing front", "random close"})
+    refuse(
+        {{scene_, "-s", "Specimen/Sphere radius = 2 um", "-s", std::string("Specimen/Packing = ") + packing},
+         {"--set 1: error: Specimen/Sphere radius = 2 um is too small: ", "spheres or more", "Allowed: "}});
+}
+
 TEST_F(Errors, specimen_files_are_refused_by_line_or_sphere) {
   const std::string header = "x_m,y_m,z_m,radius_m\n";
   const auto refuse_file = [&](const std::string &text, const std::vector<std::string> &says) {
