@@ -51,6 +51,7 @@ private:
   void open_files();
   void loop();
   void start_pressed();
+  dem::InstructionSet instruction_set_of_checkpoint();
   void sample();
   void keep(const Sample &s);
   void write_cracks();

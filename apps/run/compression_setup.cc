@@ -5,11 +5,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/io/checkpoint_folder.h"
 #include "apps/io/file.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -108,7 +110,9 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   const dem::Specimen specimen =
       command.resume && !command.dry_run ? resumed(scene, paths_) : placed(scene, pressed);
   try {
-    problem_ = std::make_unique<coupling::Problem>(specimen, problem_settings(scene));
+    coupling::ProblemSettings settings = problem_settings(scene);
+    if (command.resume && !command.dry_run) settings.model.instruction_set = instruction_set_of_checkpoint();
+    problem_ = std::make_unique<coupling::Problem>(specimen, settings);
     sampler_ = std::make_unique<Sampler>(*problem_);
     if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
   } catch (const coupling::BadSetup &e) {
@@ -130,6 +134,11 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
     write_text_aside(paths_.scene(), scene_text(scene, paths_.folder));
     write_specimen_csv(paths_.specimen_csv(), specimen);
   }
+}
+
+dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {
+  const FoundCheckpoint found = newest_whole_checkpoint(paths_.checkpoints());
+  return resumed_instruction_set(CheckpointReader(found.path), log_);
 }
 
 // Moduli and strains are told from the specimen as it was packed.

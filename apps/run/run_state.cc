@@ -35,6 +35,7 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
   const dem::Model &model = problem.model;
   to.add("problem", problem.numbers());
   to.add_text("reason", problem.time_step_reason());
+  to.add_text("instruction_set", dem::name(model.settings().instruction_set));
   to.add_table("particles", model.particles.table);
   if (model.bonds) {
     to.add_table("bonds", model.bonds->table);
@@ -58,6 +59,20 @@ void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Re
   to.add("cracks/pulses", results.emission().pulses);
   to.add("cracks/rose", results.emission().rose);
   to.add("marks", marks);
+}
+
+dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog &log) {
+  const dem::InstructionSet best = dem::best_instruction_set();
+  if (!from.has("instruction_set")) return best; // written before there was one
+  const std::string begun = from.text("instruction_set");
+  for (const dem::InstructionSet set :
+       {dem::InstructionSet::baseline, dem::InstructionSet::avx2, dem::InstructionSet::avx512})
+    if (begun == dem::name(set) && set <= best) return set;
+  log.warning(
+      "began with the instruction set {}, which this machine lacks: goes on with {}, and its last digits are "
+      "no longer those of one machine",
+      begun, dem::name(best));
+  return best;
 }
 
 FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results) {

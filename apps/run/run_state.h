@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "apps/io/checkpoint.h"
+#include "apps/io/run_log.h"
 #include "apps/run/fields.h"
 #include "apps/run/results.h"
 #include "coupling/problem.h"
@@ -20,6 +21,9 @@ struct FileMarks {
 
 void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
                 const FileMarks &marks);
+// What to go on with: the instruction set that the run began with, for forces of bonds depend on it in their
+// last bits; where this machine lacks it, its own best, and a warning.
+dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog &log);
 // Into a problem made from the same scene. Throws CheckpointError.
 FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results);
 

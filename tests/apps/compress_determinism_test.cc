@@ -243,6 +243,24 @@ TEST_F(Determinism, a_run_in_a_hurry_goes_on_where_it_stopped) {
   }
 }
 
+// The set is not in the scene but where a user pins it: another machine's best is another.
+TEST_F(Determinism, a_resumed_run_keeps_the_instruction_set_that_it_began_with) {
+  const std::vector<std::string> plain{"-s", "Integration/Instruction set = baseline"};
+  crush("whole", "2", plain);
+  EXPECT_EQ(stop_at("stopped", 30, SIGTERM, plain), 143);
+  std::string scene = content_of(folder_ / "stopped/scene.prm");
+  const std::size_t at = scene.find("Instruction set");
+  ASSERT_NE(at, std::string::npos);
+  scene.replace(scene.find("baseline", at), 8, "best");
+  put(folder_ / "stopped/scene.prm", scene);
+  const Outcome last = resume("stopped", "2");
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(summary_in(folder_ / "stopped")["instruction_set"], "baseline");
+  auto whole = results_in(folder_ / "whole"), stopped = results_in(folder_ / "stopped");
+  whole.erase("scene.prm"), stopped.erase("scene.prm");
+  EXPECT_EQ(difference(whole, stopped), "");
+}
+
 TEST_F(Determinism, only_the_same_scene_is_resumed) {
   EXPECT_EQ(stop_at("stopped", 10, SIGINT, {}), 130);
   const auto before = results_in(folder_ / "stopped");
