@@ -139,7 +139,7 @@ Contents read(Words &words) {
     words.refuse("format " + Words::quoted(version) + ". Allowed: 2.2 or 4.1 (gmsh -format msh22, msh41)");
   if (words.whole("kind of file (1: binary)", 0, 1) != 0)
     words.refuse("a binary file. Allowed: ASCII (gmsh without -bin)");
-  words.whole("size of a number", 1);
+  words.whole("size of a number", 8, 8);
   words.expect("$EndMeshFormat");
   std::string_view section = words.next();
   if (section == "$PhysicalNames") {
@@ -174,6 +174,27 @@ bool holds(const std::vector<Item> &sorted, const Item &item) {
   return std::binary_search(sorted.begin(), sorted.end(), item);
 }
 
+template <class Nodes>
+std::string named(const Nodes &nodes) {
+  std::string text;
+  for (const Id id : nodes)
+    text += " " + std::to_string(id);
+  return text;
+}
+
+// Two faces of the same four nodes are one, unless a cell has its nodes in another order.
+void check_loops(const Words &words, const std::vector<Face> &faces) {
+  std::vector<std::array<Face, 2>> loops; // nodes in order, loop
+  for (const Face &face : faces) {
+    loops.push_back({face, face});
+    std::sort(loops.back()[0].begin(), loops.back()[0].end());
+  }
+  std::sort(loops.begin(), loops.end());
+  for (std::size_t k = 1; k < loops.size(); ++k)
+    if (loops[k][0] == loops[k - 1][0] && loops[k][1] != loops[k - 1][1])
+      words.refuse("two hexahedra go through the nodes" + named(loops[k][0]) + " of a face in another order");
+}
+
 void check_body(const Words &words, const Contents &mesh) {
   constexpr std::size_t sides[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
@@ -195,16 +216,11 @@ void check_body(const Words &words, const Contents &mesh) {
   std::sort(bodies.begin(), bodies.end());
   std::sort(faces.begin(), faces.end());
   std::sort(edges.begin(), edges.end());
-  const auto named = [](const auto &nodes) {
-    std::string text;
-    for (const Id id : nodes)
-      text += " " + std::to_string(id);
-    return text;
-  };
   if (const auto twice = std::adjacent_find(bodies.begin(), bodies.end()); twice != bodies.end())
     words.refuse("two hexahedra have the same nodes" + named(*twice));
   for (std::size_t k = 2; k < faces.size(); ++k)
     if (faces[k] == faces[k - 2]) words.refuse("three hexahedra share the face of nodes" + named(faces[k]));
+  check_loops(words, faces);
   for (const Element &element : mesh.elements) {
     const std::array<Id, 8> &n = element.nodes;
     if (element.kind == quad_kind && !holds(faces, face_of({n[0], n[1], n[2], n[3]})))

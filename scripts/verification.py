@@ -3,7 +3,7 @@
 
     scripts/verification.py BUILD            runs the tests of tests/verification/rows.json, prints the table
     scripts/verification.py BUILD --long     ... their long forms as well (ctest -C Long): hours
-    scripts/verification.py BUILD --rows 4 12    ... those rows only
+    scripts/verification.py BUILD --rows 4 12    ... those rows only [--tests REGEX]
     scripts/verification.py BUILD --write    ... keeps what it found (tests/verification/found.json) and writes
                                              docs/verification.md from all that is kept
     scripts/verification.py BUILD --check    runs none: every test named exists, the table has every row
@@ -166,6 +166,7 @@ def main():
     parser.add_argument("build", help="build folder")
     parser.add_argument("--long", action="store_true", help="run long forms as well")
     parser.add_argument("--rows", nargs="+", type=int, metavar="N", help="these rows only [all]")
+    parser.add_argument("--tests", metavar="REGEX", default="", help="of them, tests whose name has it [all]")
     parser.add_argument("--write", action="store_true", help="keep what is found and write docs/verification.md")
     parser.add_argument("--check", action="store_true", help="run no test: check names and the table")
     options = parser.parse_args()
@@ -179,7 +180,7 @@ def main():
         return 1 if faults else 0
     chosen = [row for row in rows if not options.rows or row["row"] in options.rows]
     patterns = [p for row in chosen for p in (patterns_of(row) if options.long else row["tests"])]
-    found = outcomes(matching(patterns, tests))
+    found = outcomes([t for t in matching(patterns, tests) if re.search(options.tests, t.name)])
     if options.write:
         kept = json.loads(FOUND.read_text()) if FOUND.exists() else {}
         named = {t.name for t in matching([p for row in rows for p in patterns_of(row)], tests)}

@@ -136,6 +136,8 @@ TEST(gmsh, what_is_no_body_is_refused_with_its_reason) {
   tells(refusal(with("$EndElements\n", "")), "the end of the file where $EndElements is due");
   tells(refusal(with("2 3 6 5 11 12 15 14", "1 2 5 4 10 11 14 13")),
         "two hexahedra have the same nodes 1 2 4 5");
+  tells(refusal(with("2 3 6 5 11 12 15 14", "11 3 6 5 2 12 15 14")),
+        "nodes 2 5 11 14 of a face in another order");
   tells(refusal(block("", "12 12 2")), "inverted or warped");
   tells(refusal(block("", "12 12 2")), "cell 3 at");
   tells(refusal(block(), 1e4), "unit of length");
