@@ -23,6 +23,15 @@ std::string last_name(const std::string &path) {
   return path.substr(path.rfind('/') + 1);
 }
 
+// The distance is at least that of the lengths, which costs nothing.
+int length_difference(const std::string &a, const std::string &b) {
+  return std::abs(static_cast<int>(a.size()) - static_cast<int>(b.size()));
+}
+
+bool a_slip_apart(const std::string &a, const std::string &b) {
+  return length_difference(a, b) <= 1 && edit_distance(a, b) <= 1;
+}
+
 std::string shown(const std::string &text) {
   constexpr std::size_t longest = 80; // a message stays readable whatever the value
   std::string cut = text.size() > longest ? text.substr(0, longest) + "..." : text;
@@ -73,6 +82,7 @@ std::string nearest_word(const std::string &word, const std::vector<std::string>
   std::string nearest;
   int least = (static_cast<int>(word.size()) + 2) / 3 + 1;
   for (const std::string &candidate : candidates) {
+    if (length_difference(word, candidate) >= least) continue;
     const int distance = edit_distance(word, candidate);
     if (distance < least && distance < static_cast<int>(candidate.size()))
       least = distance, nearest = candidate;
@@ -146,7 +156,7 @@ std::string Parameters::nearest_section(const std::string &path) const {
   const std::string sibling = nearest_word(last_name(path), siblings), outer = section_of(path);
   if (!sibling.empty()) return (outer.empty() ? "" : outer + "/") + sibling;
   for (const std::string &section : sections_) // right name, wrong place
-    if (edit_distance(last_name(section), last_name(path)) <= 1) return section;
+    if (a_slip_apart(last_name(section), last_name(path))) return section;
   return "";
 }
 
@@ -168,7 +178,7 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
   std::vector<std::string> here, everywhere, last_names;
   for (const Entry &entry : entries_) {
     if (section_of(entry.path) == section) here.push_back(entry.path);
-    if (edit_distance(last_name(entry.path), last_name(path)) <= 1) last_names.push_back(entry.path);
+    if (a_slip_apart(last_name(entry.path), last_name(path))) last_names.push_back(entry.path);
     everywhere.push_back(entry.path);
   }
   const std::string key = last_name(path);
