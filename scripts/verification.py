@@ -112,7 +112,7 @@ def read_printed(test):
     figures = [[int(n), what, value] for n, what, value
                in re.findall(r"^row (\d+) ([^:\n]+): (.+)$", ran.stdout, re.M)]
     if ran.returncode not in (0, 77):
-        print(ran.stdout[-2000:] + ran.stderr[-2000:], file=sys.stderr)
+        print(ran.stdout[-2000:] + ran.stderr[-60000:], file=sys.stderr)
     return {None: ({0: "pass", 77: "skipped"}.get(ran.returncode, "fail"), figures)}
 
 
