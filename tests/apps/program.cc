@@ -27,6 +27,7 @@ constexpr std::chrono::milliseconds glance{1};
 constexpr const char *out_name = "out.txt", *error_name = "error.txt";
 
 [[noreturn]] void become(const std::vector<std::string> &command, const fs::path &folder) {
+  signal(SIGHUP, SIG_DFL); // whatever started the tests may have it ignored
   const int nothing = open("/dev/null", O_RDONLY);
   const int out = open((folder / out_name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   const int error = open((folder / error_name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
