@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what Platen needs on Debian 12 and is not there yet. Where all is there it says so and touches nothing,
-# the network included.
+# Installs what Platen needs on Debian 12 and is not there yet, and further packages that are named. Where all is there it
+# says so and touches nothing, the network included.
+#   scripts/setup.sh [PACKAGE...]
 set -euo pipefail
 
 packages=(
@@ -12,6 +13,7 @@ packages=(
   libnlopt-dev libnlopt-cxx-dev libboost-dev # the search of platen-calibrate
   libgtest-dev                         # tests; holds GTest's CMake configuration too
   xvfb xauth                           # pictures where there is no display
+  "$@"
 )
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Sets up, builds everything into build/ and runs all tests with their long forms: hours on two cores. What they find is
-# kept in tests/verification/found.json and written to docs/verification.md. Arguments are those of verification.py:
+# Sets up (Clang and valgrind too), builds everything into build/ and runs all tests with their long forms: hours on two
+# cores. What they find is kept in tests/verification/found.json and written to docs/verification.md. Arguments are those
+# of verification.py:
 #   scripts/test_long.sh --rows 34 35
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+scripts/setup.sh clang libclang-rt-dev llvm valgrind # fuzzing, sanitizers, memcheck
 scripts/build.sh
 exec scripts/verification.py build --long --write "$@"
