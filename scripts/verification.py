@@ -56,7 +56,8 @@ def tests_of(build):
     listed = subprocess.run(["ctest", "--test-dir", build, "-C", "Long", "--show-only=json-v1"], capture_output=True,
                             text=True)
     if listed.returncode != 0:
-        sys.exit(f"{build}: ctest cannot list its tests: {listed.stderr.strip()}")
+        print(f"{build}: no build folder: ctest cannot list its tests {listed.stderr.strip()}", file=sys.stderr)
+        sys.exit(2)
     tests = [Test(entry) for entry in json.loads(listed.stdout)["tests"]]
     missing = [t.name for t in tests if t.name.endswith("_NOT_BUILT")]
     if missing:
