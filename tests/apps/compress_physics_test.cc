@@ -98,16 +98,17 @@ TEST_F(Physics, a_test_that_was_too_fast_says_so_and_a_slow_one_does_not) {
   EXPECT_EQ(slow["quasi_static"], true) << slow["signs_of_haste"];
   EXPECT_TRUE(contains(content_of(folder_ / "fast/run.log"), "too fast to be quasi-static"));
   EXPECT_FALSE(contains(content_of(folder_ / "slow/run.log"), "too fast to be quasi-static"));
-  // What it warns of: 36 wave crossings carry more than 169 do, 4.5 +- 3 % over six packings, each by two
-  // compilers.
-  double gain = fast["strength_pa"].get<double>() / slow["strength_pa"].get<double>() / 3;
-  for (const char *seed : {"4", "5"}) {
-    std::vector<std::string> quick = to_the_peak, still = slowly;
-    quick.push_back("Scene/Seed = " + std::string(seed)), still.push_back(quick.back());
-    gain += crush("quick " + std::string(seed), quick)["strength_pa"].get<double>() /
+  // What it warns of: 18 wave crossings carry more than 169 do, 9 % in the mean of these packings by two
+  // compilers; one packing of seven has 1 %.
+  double gain = 0;
+  for (const char *seed : {"3", "4", "5"}) {
+    std::vector<std::string> rushed = to_the_peak, still = slowly;
+    rushed.insert(rushed.end(), {"Scene/Seed = " + std::string(seed), "Loading/Axial rate = 0.6 m/s"});
+    still.push_back("Scene/Seed = " + std::string(seed));
+    gain += crush("rushed " + std::string(seed), rushed)["strength_pa"].get<double>() /
             crush("still " + std::string(seed), still)["strength_pa"].get<double>() / 3;
   }
-  EXPECT_GT(gain, 1.01);
+  EXPECT_GT(gain, 1.03);
   // Six times the speed at the same stress.
   EXPECT_NEAR(fast["inertial_number_max"].get<double>() / slow["inertial_number_max"].get<double>(), 6, 1.5);
 }
