@@ -56,7 +56,7 @@ def tests_of(build):
     listed = subprocess.run(["ctest", "--test-dir", build, "-C", "Long", "--show-only=json-v1"], capture_output=True,
                             text=True)
     if listed.returncode != 0:
-        print(f"{build}: no build folder: ctest cannot list its tests {listed.stderr.strip()}", file=sys.stderr)
+        print(f"{build}: ctest lists no tests here; is it a build folder? {listed.stderr.strip()}", file=sys.stderr)
         sys.exit(2)
     tests = [Test(entry) for entry in json.loads(listed.stdout)["tests"]]
     missing = [t.name for t in tests if t.name.endswith("_NOT_BUILT")]
