@@ -8,6 +8,7 @@
 #include "apps/report/field_files.h"
 #include "apps/report/field_frame.h"
 #include "apps/report/report.h"
+#include "apps/report/state_listing.h"
 #include "apps/report/study_pictures.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
@@ -19,8 +20,16 @@ using namespace platen::apps;
 struct Wishes {
   std::string folder, pictures; // pictures: empty for FOLDER/pictures
   std::vector<std::string> others;
-  bool fields = false, quiet = false;
+  std::string other_state; // of --state-diff
+  bool fields = false, quiet = false, state = false;
 };
+
+int tell_state(const Wishes &wishes) {
+  if (wishes.state) report::list_state(wishes.folder, std::cout);
+  if (wishes.other_state.empty()) return status_done;
+  return report::compare_states(wishes.folder, wishes.other_state, std::cout) ? status_done
+                                                                              : status_check_failed;
+}
 
 void report_on(const Wishes &wishes, char **argv) {
   const std::filesystem::path beside = std::filesystem::path(wishes.folder) / "pictures",
@@ -72,6 +81,12 @@ int main(int argc, char **argv) {
   app.add_flag("--fields", wishes.fields,
                "Also write stress, strain, displacement and damage of all frames on one grid: fields.pvd for "
                "ParaView, into FOLDER");
+  app.add_flag("--state", wishes.state,
+               "List what the newest checkpoint holds (names, units, sizes, least and largest number); draws "
+               "nothing");
+  app.add_option("--state-diff", wishes.other_state,
+                 "Tell the first difference to the newest checkpoint of another output folder, and end with "
+                 "status 1 where there is one; draws nothing");
   app.add_flag("-q,--quiet", wishes.quiet, "Print errors only");
   app.set_version_flag("--version", version_text());
   try {
@@ -80,6 +95,7 @@ int main(int argc, char **argv) {
     return app.exit(error) == 0 ? status_done : status_bad_input;
   }
   try {
+    if (wishes.state || !wishes.other_state.empty()) return tell_state(wishes);
     report_on(wishes, argv);
   } catch (const InputError &error) {
     return fail(error, status_bad_input);

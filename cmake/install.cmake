@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(platen_installed dem)
+set(platen_installed base dem)
 if(PLATEN_APPS)
   list(APPEND platen_installed fem coupling)
 endif()

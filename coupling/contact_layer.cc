@@ -61,7 +61,7 @@ std::size_t index(int row) {
 } // namespace
 
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
-                           const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness)
+                           const SurfaceContact &parameters, const Column<double> *particle_stiffness)
     : parameters_(parameters),
       friction_(
           dem::friction_law(parameters.friction_static, parameters.friction_dynamic, parameters.weakening)),
@@ -267,6 +267,15 @@ ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
     load.impedance += std::sqrt(k * particles.mass[index(particle)]);
   }
   return load;
+}
+
+void ContactLayer::describe(Archive &archive) {
+  archive.version(1);
+  archive("friction_work", friction_work, "J");
+  archive("damping_work", damping_work, "J");
+  archive("closed", closed);
+  archive.table("rows", table_);
+  if (archive.reads()) search_.forget();
 }
 
 } // namespace platen::coupling

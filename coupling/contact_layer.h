@@ -21,12 +21,12 @@
 #include <memory>
 #include <vector>
 
+#include "base/archive.h"
 #include "coupling/servo.h"
 #include "coupling/surface_search.h"
 #include "dem/laws/friction_law.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
-#include "dem/table.h"
 #include "fem/body.h"
 
 namespace platen::coupling {
@@ -72,7 +72,7 @@ public:
   // Throws std::invalid_argument, naming the entry, where a parameter is out of range. `particle_stiffness`
   // (N/m, one per particle row) replaces the single value; it must outlive the layer.
   ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
-               const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness = nullptr);
+               const SurfaceContact &parameters, const Column<double> *particle_stiffness = nullptr);
   ~ContactLayer();
 
   // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
@@ -122,7 +122,7 @@ public:
   // Since the start (J).
   double friction_work = 0; // lost to sliding, including rocking seats
   double damping_work = 0;  // lost to dashpots
-  std::size_t closed = 0;   // contacts in the last add_forces; a checkpoint saves it with the works
+  std::size_t closed = 0;   // contacts in the last add_forces
 
   // Springs of all particles near the surface: for the stable step as stiff as they may be anywhere on the
   // face, for equilibria (`whole`) with the dent of the mesh.
@@ -133,11 +133,8 @@ public:
   // What a servo pushes against: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
 
-  // One row per particle near the surface, ascending. A checkpoint saves the table, both works and the number
-  // of closed contacts; after loading them it calls restored().
-  const dem::Table &history() const { return table_; }
-  dem::Table &history() { return table_; }
-  void restored() { search_.forget(); }
+  const Table &history() const { return table_; } // one row per particle near the surface, ascending
+  void describe(Archive &archive);
 
   std::size_t bytes() const; // of rows and search lists
   const SurfaceContact &parameters() const { return parameters_; }
@@ -192,22 +189,22 @@ private:
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
-  const dem::Column<double> *particle_stiffness_;
+  const Column<double> *particle_stiffness_;
   double stiffness_ = 0; // N/m, without a column
   double smallest_radius_;
   SurfaceSearch search_;
 
-  dem::Table table_;
-  dem::Column<int> &particle_ = table_.add<int>("particle", "1");
-  dem::Column<int> &seated_ = table_.add<int>("seated", "1");
-  dem::Column<double> &offset_ = table_.add<double>("offset", "m");
-  dem::Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
-  dem::Column<dem::Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
-  dem::Column<dem::Vector3> *spring_ = nullptr;      // N; with friction or glue
-  dem::Column<int> *sliding_ = nullptr;              // the same
-  dem::Column<double> *slip_ = nullptr;              // m, the same
-  dem::Column<dem::Vector3> *seat_spring_ = nullptr; // N m; with seats
-  dem::Column<int> *seat_sliding_ = nullptr;
+  Table table_;
+  Column<int> &particle_ = table_.add<int>("particle", "1");
+  Column<int> &seated_ = table_.add<int>("seated", "1");
+  Column<double> &offset_ = table_.add<double>("offset", "m");
+  Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
+  Column<dem::Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
+  Column<dem::Vector3> *spring_ = nullptr;      // N; with friction or glue
+  Column<int> *sliding_ = nullptr;              // the same
+  Column<double> *slip_ = nullptr;              // m, the same
+  Column<dem::Vector3> *seat_spring_ = nullptr; // N m; with seats
+  Column<int> *seat_sliding_ = nullptr;
 
   double travelled_ = 0;             // m, sum of the distances told to moved()
   std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that

@@ -10,7 +10,6 @@ using fem::operator*;
 using fem::operator+;
 
 void MeanLoads::add(const fem::Body &body, double dt) {
-  impulse_.resize(body.contact_loads().size(), fem::Point{});
   for (const int v : body.loaded_vertices())
     impulse_[static_cast<std::size_t>(v)] = impulse_[static_cast<std::size_t>(v)] + dt * body.contact_load(v);
   time_ += dt;
@@ -30,23 +29,11 @@ void MeanLoads::reset() {
   steps_ = 0;
 }
 
-std::vector<double> MeanLoads::numbers(std::size_t vertices) const {
-  std::vector<double> all{time_, static_cast<double>(steps_)};
-  std::vector<fem::Point> impulse(impulse_);
-  impulse.resize(vertices, fem::Point{});
-  for (const fem::Point &p : impulse)
-    all.insert(all.end(), p.begin(), p.end());
-  return all;
-}
-
-void MeanLoads::set_numbers(const std::vector<double> &numbers) {
-  if (numbers.size() < 2 || (numbers.size() - 2) % 3 != 0)
-    throw std::invalid_argument("mean loads: a time, a count and three numbers per vertex");
-  time_ = numbers[0];
-  steps_ = static_cast<int>(numbers[1]);
-  impulse_.assign((numbers.size() - 2) / 3, fem::Point{});
-  for (std::size_t k = 2; k < numbers.size(); ++k)
-    impulse_[(k - 2) / 3][(k - 2) % 3] = numbers[k];
+void MeanLoads::describe(Archive &archive) {
+  archive.version(1);
+  archive("time", time_, "s");
+  archive("steps", steps_);
+  archive.same_rows("impulse", impulse_, "N s");
 }
 
 namespace {

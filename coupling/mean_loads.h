@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/archive.h"
 #include "fem/body.h"
 
 namespace platen::coupling {
@@ -11,17 +12,17 @@ namespace platen::coupling {
 // Loads of a body's vertices on the mean over time, for who follows them without inertia.
 class MeanLoads {
 public:
+  MeanLoads() = default;
+  explicit MeanLoads(std::size_t vertices) : impulse_(vertices, fem::Point{}) {}
   void add(const fem::Body &body, double dt); // the loads as they are, for dt (s)
   int steps() const { return steps_; }        // added since the last reset()
   std::vector<fem::Point> mean() const;       // N, one per vertex
   void reset();
 
-  // Everything to the last bit, for a body with so many vertices.
-  std::vector<double> numbers(std::size_t vertices) const;
-  void set_numbers(const std::vector<double> &numbers);
+  void describe(Archive &archive);
 
 private:
-  std::vector<fem::Point> impulse_; // N s; empty before the first add()
+  std::vector<fem::Point> impulse_; // N s
   double time_ = 0;                 // s
   int steps_ = 0;
 };

@@ -54,16 +54,18 @@ void Pace::look(double time, double stress, double closure, double broken) {
   if (!elastic) careful_until_ = time + care;
 }
 
-std::vector<double> Pace::state() const {
-  return {factor_,        careful_until_, next_look_, next_slope_, first_stress_,
-          first_closure_, stress_,        closure_,   broken_,     steepest_};
-}
-
-void Pace::set_state(const std::vector<double> &n) {
-  if (n.size() != states) throw std::invalid_argument("pace: its state is ten numbers");
-  factor_ = n[0], careful_until_ = n[1], next_look_ = n[2], next_slope_ = n[3];
-  first_stress_ = n[4], first_closure_ = n[5];
-  stress_ = n[6], closure_ = n[7], broken_ = n[8], steepest_ = n[9];
+void Pace::describe(Archive &archive) {
+  archive.version(1);
+  archive("factor", factor_);
+  archive("careful_until", careful_until_, "s");
+  archive("next_look", next_look_, "s");
+  archive("next_slope", next_slope_, "s");
+  archive("first_stress", first_stress_, "Pa");
+  archive("first_closure", first_closure_);
+  archive("stress", stress_, "Pa");
+  archive("closure", closure_);
+  archive("broken_bonds", broken_);
+  archive("steepest", steepest_, "Pa");
 }
 
 } // namespace platen::coupling

@@ -7,7 +7,7 @@
 // falls in a third of it.
 #pragma once
 
-#include <vector>
+#include "base/archive.h"
 
 namespace platen::coupling {
 
@@ -27,10 +27,7 @@ public:
   // After a step. `stress` (Pa) and `closure` (1) of one sign; `broken`: bonds so far.
   void look(double time, double stress, double closure, double broken);
 
-  // To the last bit, for checkpoints.
-  std::vector<double> state() const;
-  void set_state(const std::vector<double> &numbers);
-  static constexpr long states = 10;
+  void describe(Archive &archive);
 
 private:
   Parameters parameters_;

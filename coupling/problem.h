@@ -214,12 +214,7 @@ public:
   dem::EnergyLedger energy() const;
   double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
 
-  // Everything beside tables and bodies that a checkpoint keeps, as plain numbers.
-  std::vector<double> numbers() const;
-  void set_numbers(const std::vector<double> &numbers);
-  void set_time_step_reason(const std::string &reason) { reason_ = reason; }
-  // After tables, bodies and numbers have been loaded.
-  void restored();
+  void describe(Archive &archive);
 
 private:
   dem::StableStep limit_now();
@@ -284,6 +279,7 @@ private:
     double direction = 1, speed = 1; // of loading; what the speed is now, which follows within the ramp
     double turns = 0;
     double strain = 0, stress = 0; // of the last turn; Pa
+    void describe(Archive &archive);
   } cycle_;
 };
 

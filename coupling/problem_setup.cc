@@ -255,6 +255,8 @@ Problem::Problem(const dem::Specimen &specimen, const ProblemSettings &settings)
   if (sleeve_ && settings.loading.cell->sleeve->mass_scaling == 0)
     start_sleeve(*settings.loading.cell, mean_bond_stiffness(model), cheap_mass_of_sleeve());
   if (!quasi_static()) return;
+  top_loads_ = MeanLoads(top.surface().vertices.size());
+  bottom_loads_ = MeanLoads(bottom.surface().vertices.size());
   // Lists that choose_step has made.
   const auto support = [&](const ContactLayer &layer, fem::Body &body) {
     static_cast<fem::ElasticSolid &>(body).set_support(layer.vertex_springs(model.particles, body).stiffness);

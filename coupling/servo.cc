@@ -35,9 +35,9 @@ double Servo::velocity(double wanted, double reaction, const ServoLoad &load, do
   return velocity_;
 }
 
-void Servo::set_state(const std::vector<double> &numbers) {
-  if (numbers.size() != 1) throw std::invalid_argument("servo: its state is one number");
-  velocity_ = numbers[0];
+void Servo::describe(Archive &archive) {
+  archive.version(1);
+  archive("velocity", velocity_, "m/s");
 }
 
 } // namespace platen::coupling

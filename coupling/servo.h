@@ -8,7 +8,8 @@
 #pragma once
 
 #include <limits>
-#include <vector>
+
+#include "base/archive.h"
 
 namespace platen::coupling {
 
@@ -32,9 +33,7 @@ public:
   // velocity limit.
   double velocity(double wanted, double reaction, const ServoLoad &load, double dt);
 
-  // To the last bit, for checkpoints.
-  std::vector<double> state() const { return {velocity_}; }
-  void set_state(const std::vector<double> &numbers);
+  void describe(Archive &archive);
 
 private:
   Parameters parameters_;

@@ -22,8 +22,6 @@ void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("sleeve: " + what);
 }
 
-constexpr std::ptrdiff_t head_numbers = 7; // of a state, before those of the solid
-
 // Faces of this many mean radii meet four spheres or so; with fewer the rubber is driven into the gaps
 // between them.
 constexpr double radii_of_face = 5;
@@ -166,30 +164,18 @@ void Sleeve::take_loads() {
   limit_ = limit();
 }
 
-std::vector<double> Sleeve::state() const {
-  std::vector<double> numbers{static_cast<double>(planned_),
-                              static_cast<double>(made_),
-                              elapsed_,
-                              limit_,
-                              own_limit_,
-                              intervals_,
-                              cuts_};
-  const std::vector<double> own = solid.state();
-  numbers.insert(numbers.end(), own.begin(), own.end());
-  return numbers;
-}
-
-void Sleeve::set_state(const std::vector<double> &numbers) {
-  require(numbers.size() > static_cast<std::size_t>(head_numbers), "a state of another sleeve");
-  solid.set_state({numbers.begin() + head_numbers, numbers.end()});
-  planned_ = static_cast<int>(numbers[0]);
-  made_ = static_cast<int>(numbers[1]);
-  elapsed_ = numbers[2];
-  limit_ = numbers[3];
-  own_limit_ = numbers[4];
-  intervals_ = numbers[5];
-  cuts_ = numbers[6];
-  if (made_ < planned_) solid.place_surface_ahead(elapsed_);
+void Sleeve::describe(Archive &archive) {
+  archive.version(1);
+  archive("planned_steps", planned_);
+  archive("steps_made", made_);
+  archive("elapsed", elapsed_, "s");
+  archive("limit", limit_, "s");
+  archive("limit_of_elements", own_limit_, "s");
+  archive("intervals", intervals_);
+  archive("cuts", cuts_);
+  archive.part("solid", solid);
+  archive.part("contacts", layer);
+  if (archive.reads() && made_ < planned_) solid.place_surface_ahead(elapsed_);
 }
 
 } // namespace platen::coupling

@@ -72,9 +72,7 @@ public:
   double stored() const { return solid.kinetic_energy() + solid.internal_energy(); }
   double lost() const { return solid.damping_work(); }
 
-  // To the last bit, beside the layer's table and works.
-  std::vector<double> state() const;
-  void set_state(const std::vector<double> &numbers);
+  void describe(Archive &archive);
 
 private:
   void begin_interval(double dt, const SleeveLead &lead);

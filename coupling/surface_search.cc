@@ -71,7 +71,7 @@ std::vector<Box> SurfaceSearch::face_boxes(const SurfaceMesh &surface) const {
   return boxes;
 }
 
-void SurfaceSearch::rebuild(const SurfaceMesh &surface, const dem::Column<Vector3> &position,
+void SurfaceSearch::rebuild(const SurfaceMesh &surface, const Column<Vector3> &position,
                             const std::vector<double> &reach, const std::vector<int> &always) {
   ++lists_made_;
   tree_.refit(face_boxes(surface));

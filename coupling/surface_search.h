@@ -49,7 +49,7 @@ public:
 
   // Lists all particles whose centre is within reach[row] + skin of the surface, and those in `always`
   // (ascending rows) at any distance. Visits every particle once.
-  void rebuild(const fem::SurfaceMesh &surface, const dem::Column<dem::Vector3> &position,
+  void rebuild(const fem::SurfaceMesh &surface, const Column<dem::Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
 
   // Looks at the faces near particles as they are now, so that until moved() is called again closest() need

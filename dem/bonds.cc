@@ -145,7 +145,15 @@ std::size_t Bonds::bytes() const {
   return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
 }
 
-void Bonds::restored() {
+void Bonds::describe(Archive &archive) {
+  archive.version(1);
+  archive.table("rows", table);
+  archive.table("records", records);
+  if (archive.reads()) count_and_cut();
+}
+
+// What is derived from the rows.
+void Bonds::count_and_cut() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
   failed_rows = 0;
   for (std::size_t k = 0; plastic != nullptr && k < size(); ++k)

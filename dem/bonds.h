@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/laws/bond_law.h"
 #include "dem/loop.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
-#include "dem/table.h"
+#include "base/table.h"
 
 namespace platen::dem {
 
@@ -105,8 +106,7 @@ struct Bonds {
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit.
   void compact();
-  // After the tables have been loaded from a checkpoint.
-  void restored();
+  void describe(Archive &archive);
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
@@ -131,6 +131,7 @@ private:
   void add_history();
   std::size_t particles_ = 0;
   bool rotation_ = false;
+  void count_and_cut();
   void cut_blocks();
 };
 

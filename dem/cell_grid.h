@@ -25,3 +25,8 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
                                   double margin, std::size_t *measured = nullptr);
 
 } // namespace platen::dem
+
+template <>
+struct platen::NumbersOf<platen::dem::IndexPair> {
+  using Number = int;
+};

@@ -138,12 +138,13 @@ void Confinement::add_forces(Particles &p, const Bonds *bonds, const EndPlanes &
     p.force[static_cast<std::size_t>(particle_[k])] -= pressure_ * area_[k];
 }
 
-void Confinement::set_numbers(const std::vector<double> &n) {
-  if (n.size() != numbers().size()) throw std::invalid_argument("a checkpoint of another version");
-  pressure_ = n[0];
-  work_ = n[1];
-  moved_ = n[2];
-  broken_ = n[3];
+void Confinement::describe(Archive &archive) {
+  archive.version(1);
+  archive("pressure", pressure_, "Pa");
+  archive("work", work_, "J");
+  archive("moved", moved_, "m");
+  archive("broken_bonds", broken_);
+  archive.table("areas", table_);
 }
 
 } // namespace platen::dem

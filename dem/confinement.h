@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/bonds.h"
 #include "dem/packing/specimen.h"
 #include "dem/skin.h"
@@ -45,11 +46,7 @@ public:
   int particle(std::size_t k) const { return particle_[k]; }
   const Vector3 &area(std::size_t k) const { return area_[k]; } // m^2, outward
 
-  // A checkpoint keeps the table and the numbers.
-  Table &table() { return table_; }
-  const Table &table() const { return table_; }
-  std::vector<double> numbers() const { return {pressure_, work_, moved_, broken_}; }
-  void set_numbers(const std::vector<double> &numbers);
+  void describe(Archive &archive);
 
 private:
   void find(const Particles &particles, const Bonds *bonds, const EndPlanes &planes);

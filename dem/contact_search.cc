@@ -20,7 +20,8 @@ void drop_bonded(std::vector<IndexPair> &pairs, const Bonds &bonds) {
   pairs.resize(kept);
 }
 
-bool before(const ContactSearch::RestDistance &a, const IndexPair &b) {
+template <class RestDistance>
+bool before(const RestDistance &a, const IndexPair &b) {
   return a.pair < b;
 }
 
@@ -68,7 +69,7 @@ void ContactSearch::add_pair(IndexPair pair) {
 }
 
 void ContactSearch::set_rest_distance(IndexPair pair, double distance) {
-  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before);
+  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before<RestDistance>);
   if (at != state_.rest.end() && at->pair == pair)
     at->distance = distance;
   else
@@ -76,7 +77,7 @@ void ContactSearch::set_rest_distance(IndexPair pair, double distance) {
 }
 
 double ContactSearch::rest_distance(IndexPair pair, const Particles &particles) const {
-  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before);
+  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before<RestDistance>);
   if (at != state_.rest.end() && at->pair == pair) return at->distance;
   return particles.radius[pair.first] + particles.radius[pair.second];
 }
@@ -84,6 +85,27 @@ double ContactSearch::rest_distance(IndexPair pair, const Particles &particles) 
 std::size_t ContactSearch::bytes() const {
   return (state_.wide.capacity() + state_.close.capacity()) * sizeof(IndexPair) +
          state_.rest.capacity() * sizeof(RestDistance);
+}
+
+void ContactSearch::describe(Archive &archive) {
+  archive.version(1);
+  archive("moved_since_wide", state_.moved_since_wide, "m");
+  archive("moved_since_close", state_.moved_since_close, "m");
+  archive("wide_valid", state_.wide_valid);
+  archive("close_valid", state_.close_valid);
+  archive.rows("wide", state_.wide);
+  archive.rows("close", state_.close);
+  std::vector<IndexPair> pairs;
+  std::vector<double> distances;
+  for (const RestDistance &rest : state_.rest)
+    pairs.push_back(rest.pair), distances.push_back(rest.distance);
+  archive.rows("rest_pairs", pairs);
+  archive.rows("rest_distances", distances, "m");
+  if (!archive.reads()) return;
+  if (pairs.size() != distances.size()) throw StateError("contact search: each rest pair has one distance");
+  state_.rest.clear();
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    state_.rest.push_back({pairs[k], distances[k]});
 }
 
 } // namespace platen::dem

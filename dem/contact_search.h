@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/bonds.h"
 #include "dem/cell_grid.h"
 #include "dem/particles.h"
@@ -29,22 +30,21 @@ public:
   const std::vector<IndexPair> &close_pairs() const { return state_.close; }
   std::size_t bytes() const;
 
+  // Everything that decides when lists are rebuilt and what they hold, so that sums over rows are grouped as
+  // they would have been without a stop.
+  void describe(Archive &archive);
+
+private:
   struct RestDistance {
     IndexPair pair;
     double distance; // m
   };
-  // Everything that decides when lists are rebuilt and what they hold: a checkpoint keeps it, so that sums
-  // over rows are grouped as they would have been.
   struct State {
     double moved_since_wide = 0, moved_since_close = 0; // m
-    int wide_valid = 0, close_valid = 0;
+    bool wide_valid = false, close_valid = false;
     std::vector<IndexPair> wide, close;
     std::vector<RestDistance> rest; // pairs with a rest distance of their own, sorted
   };
-  const State &state() const { return state_; }
-  void set_state(State state) { state_ = std::move(state); }
-
-private:
   void rebuild_wide(const Particles &particles, const Bonds *bonds);
   void rebuild_close(const Particles &particles);
 

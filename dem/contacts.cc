@@ -224,4 +224,13 @@ std::size_t Contacts::touching_count() const {
   return count;
 }
 
+void Contacts::describe(Archive &archive) {
+  archive.version(1);
+  archive("friction_work", friction_work, "J");
+  archive("damping_work", damping_work, "J");
+  archive.table("rows", table);
+  archive.part("search", search_);
+  if (archive.reads()) blocks_current_ = false;
+}
+
 } // namespace platen::dem

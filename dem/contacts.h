@@ -90,10 +90,8 @@ public:
   // touching, is taken at 0.2 % of the smaller radius at least.
   ContactStiffness stiffness_bound(const Particles &particles, int first, int second, double approach) const;
 
-  // After the table has been loaded from a checkpoint.
-  void restored() { blocks_current_ = false; }
-  ContactSearch &search_state() { return search_; }
   const ContactSearch &search_state() const { return search_; }
+  void describe(Archive &archive);
   const ContactSettings &settings() const { return settings_; }
 
 private:

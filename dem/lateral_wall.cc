@@ -79,4 +79,10 @@ std::vector<GroundSpring> LateralWall::ground_springs(const Particles &p) const 
   return springs;
 }
 
+// All is found anew from the positions.
+void LateralWall::describe(Archive &archive) {
+  archive.version(1);
+  if (archive.reads()) valid_ = false;
+}
+
 } // namespace platen::dem

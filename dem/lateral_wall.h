@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/packing/specimen.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
@@ -19,7 +20,7 @@ public:
   // Once a step, after the drift; no particle has moved by more than `distance` (m).
   void add_forces(Particles &particles, double distance);
   void make_list(const Particles &particles); // of spheres near the wall; anew in any case
-  void forget() { valid_ = false; }           // the list, after positions have been loaded
+  void describe(Archive &archive);
 
   double force() const { return force_; }                   // N, sum of the normal forces of the last step
   double elastic_energy() const { return elastic_energy_; } // J, of the last step

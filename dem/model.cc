@@ -235,4 +235,19 @@ StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double su
   return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
 }
 
+void Model::describe(Archive &archive) {
+  archive.version(1);
+  std::string set = name(settings_.instruction_set); // told; a state of another one is taken as it is
+  archive.text("instruction_set", set);
+  archive("time", time, "s");
+  archive("damping_work", works.damping, "J");
+  archive("fracture_work", works.fracture, "J");
+  archive("weight_work", works.weight, "J");
+  archive("broken_tension", broken_tension);
+  archive("broken_shear", broken_shear);
+  archive.table("particles", particles.table);
+  if (bonds) archive.part("bonds", *bonds);
+  if (contacts) archive.part("contacts", *contacts);
+}
+
 } // namespace platen::dem

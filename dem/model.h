@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/bonds.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
@@ -91,7 +92,9 @@ public:
   std::size_t broken(BondState mode) const;
   StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const;
 
-  // Sums that a checkpoint keeps.
+  void describe(Archive &archive);
+
+  // Sums since the start.
   struct Works {
     double damping = 0, fracture = 0, weight = 0; // J
   };

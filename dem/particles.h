@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dem/table.h"
+#include "base/table.h"
 #include "dem/vector3.h"
 
 namespace platen::dem {

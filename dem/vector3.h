@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/block_type.h"
+
 namespace platen::dem {
 
 struct Vector3 {
@@ -88,3 +90,16 @@ inline Quaternion rotation_quaternion(const Vector3 &phi) {
 }
 
 } // namespace platen::dem
+
+namespace platen {
+
+template <>
+struct NumbersOf<dem::Vector3> {
+  using Number = double;
+};
+template <>
+struct NumbersOf<dem::Quaternion> {
+  using Number = double;
+};
+
+} // namespace platen

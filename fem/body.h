@@ -55,10 +55,8 @@ public:
 
   virtual BodyBook book() const = 0;
 
-  // Everything that changes in a run, to the last bit.
-  virtual std::vector<double> state() const = 0;
-  // Throws std::invalid_argument where the numbers are not those of such a body.
-  virtual void set_state(const std::vector<double> &numbers) = 0;
+  // Everything that changes in a run.
+  virtual void describe(Archive &archive) = 0;
 
   // Writes the grid where it is now as VTU (binary, zlib) with point data displacement (m), contact_pressure
   // and contact_shear (Pa, as contact_tractions) and slip (m; one value per surface vertex, or an empty

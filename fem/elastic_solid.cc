@@ -154,43 +154,35 @@ double ElasticSolid::largest_move(double dt) const {
   return std::abs(dt) * (velocity + std::abs(dt) * acceleration);
 }
 
-std::vector<double> ElasticSolid::state() const {
-  std::vector<double> numbers = {last_step_, last_move_, elapsed_,   duration_, on_the_way_ ? 1.0 : 0.0,
-                                 load_work_, grip_work_, dissipated_};
-  const auto append = [&](const auto &values) {
-    numbers.insert(numbers.end(), values.begin(), values.end());
-  };
-  append(displacement_), append(velocity_), append(angular_velocity_), append(spin_), append(rotation_);
-  for (const std::vector<Point> *field : {is_static() ? &start_ : &moved_, is_static() ? &target_ : &rate_})
-    for (const Point &p : *field)
-      append(p);
-  append_loads(numbers);
-  return numbers;
+void ElasticSolid::describe(Archive &archive) {
+  archive.version(1);
+  archive("last_step", last_step_, "s");
+  archive("last_move", last_move_, "m");
+  archive("load_work", load_work_, "J");
+  archive("grip_work", grip_work_, "J");
+  archive("dissipated", dissipated_, "J");
+  archive("displacement", displacement_, "m");
+  archive("velocity", velocity_, "m/s");
+  archive("angular_velocity", angular_velocity_, "rad/s");
+  archive("angular_momentum", spin_, "kg m2/s");
+  archive("rotation", rotation_);
+  if (is_static()) {
+    archive("elapsed", elapsed_, "s");
+    archive("duration", duration_, "s");
+    archive("on_the_way", on_the_way_);
+    archive.same_rows("start", start_, "m");
+    archive.same_rows("target", target_, "m");
+  } else {
+    archive.same_rows("node_displacement", moved_, "m");
+    archive.same_rows("node_velocity", rate_, "m/s");
+  }
+  describe_loads(archive);
+  if (archive.reads()) follow_state();
 }
 
-namespace {
-constexpr std::size_t head_numbers = 8 + 4 * 3 + 4;
-} // namespace
-
-void ElasticSolid::set_state(const std::vector<double> &numbers) {
-  const std::size_t fixed = head_numbers + 6 * model_.nodes.size();
-  check_loads(numbers, fixed);
-  auto next = numbers.begin();
-  const auto take = [&](auto &values) {
-    for (double &value : values)
-      value = *next++;
-  };
-  std::array<double, 8> head{};
-  take(head);
-  last_step_ = head[0], last_move_ = head[1], elapsed_ = head[2], duration_ = head[3],
-  on_the_way_ = head[4] != 0;
-  load_work_ = head[5], grip_work_ = head[6], dissipated_ = head[7];
-  take(displacement_), take(velocity_), take(angular_velocity_), take(spin_), take(rotation_);
+// What is derived from it.
+void ElasticSolid::follow_state() {
   turned_ = !is_identity(rotation_);
-  for (std::vector<Point> *field : {is_static() ? &start_ : &moved_, is_static() ? &target_ : &rate_})
-    for (Point &p : *field)
-      take(p);
-  set_loads(numbers, fixed);
   if (is_static())
     measure_path();
   else

@@ -119,9 +119,8 @@ public:
   void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
-  // Everything that changes in a run, to the last bit; to be taken between steps.
-  std::vector<double> state() const override;
-  void set_state(const std::vector<double> &numbers) override;
+  // To be taken between steps.
+  void describe(Archive &archive) override;
 
   // Writes the grid where it is now as VTU (binary, zlib; cells of degree 2 as such) with displacement (m),
   // stress and von_mises (Pa, in the frame's axes, per material), contact_pressure, contact_shear (Pa) and
@@ -134,6 +133,7 @@ private:
   void hold(const Grip &grip);
   void pin_sliding_grip(const Point &middle, std::size_t axis);
   void weigh_rotor();
+  void follow_state();
 
   // Frame.
   Point to_frame(const Point &v) const { return turned_ ? rotated(inverse(rotation_), v) : v; }

@@ -308,7 +308,7 @@ private:
          << tried - share << ", at ";
     for (std::size_t f = 0; f < new_pressure_.size(); ++f)
       solid_.face_pressure_[f] = old_pressure_[f] + tried * (new_pressure_[f] - old_pressure_[f]);
-    text << solid_.describe_loads() << "; ";
+    text << solid_.words_of_loads() << "; ";
     int cell = worst_.cell;
     Point at = worst_place_;
     if (cell >= 0) {

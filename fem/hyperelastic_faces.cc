@@ -122,7 +122,7 @@ Point HyperelasticSolid::cell_middle(int cell, const std::vector<Point> &displac
   return middle;
 }
 
-std::string HyperelasticSolid::describe_loads() const {
+std::string HyperelasticSolid::words_of_loads() const {
   std::map<int, double> pressures;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     if (face_pressure_[f] != 0) pressures[mesh_.faces[f].tag] = face_pressure_[f];
@@ -141,7 +141,7 @@ void HyperelasticSolid::check(const std::vector<Point> &displacement) const {
   std::ostringstream text;
   text << "solid: cell " << worst.cell << " at (" << at[0] << ", " << at[1] << ", " << at[2]
        << ") m would turn inside out: volume ratio " << worst.volume_ratio << ", at least " << inverted_share
-       << " is needed; " << describe_loads();
+       << " is needed; " << words_of_loads();
   throw InvertedElement(text.str(), worst.cell, at, worst.volume_ratio);
 }
 

@@ -254,49 +254,30 @@ void HyperelasticSolid::set_velocity(const std::vector<Point> &velocity) {
   place_surface();
 }
 
-std::vector<double> HyperelasticSolid::state() const {
-  std::vector<double> numbers = {pressure_work_, lead_work_, damping_work_};
-  const auto append = [&](const auto &values) {
-    numbers.insert(numbers.end(), values.begin(), values.end());
-  };
-  for (const Lead &own : leads_)
-    append(own.velocity), append(own.spin), append(own.about);
-  append(face_pressure_);
-  append(acting_);
-  for (const std::vector<Point> *column : {&displacement_, &velocity_, &load_})
-    for (const Point &value : *column)
-      append(value);
-  return numbers;
+void HyperelasticSolid::describe(Archive &archive) {
+  archive.version(1);
+  archive("pressure_work", pressure_work_, "J");
+  archive("lead_work", lead_work_, "J");
+  archive("damping_work", damping_work_, "J");
+  for (std::size_t k = 0; k < leads_.size(); ++k) {
+    const std::string lead = "lead_" + std::to_string(k) + "_";
+    archive(lead + "velocity", leads_[k].velocity, "m/s");
+    archive(lead + "angular_velocity", leads_[k].spin, "rad/s");
+    archive(lead + "about", leads_[k].about, "m");
+  }
+  archive.same_rows("face_pressure", face_pressure_, "Pa");
+  archive.same_rows("acting_pressure", acting_, "Pa");
+  archive.same_rows("node_displacement", displacement_, "m");
+  archive.same_rows("node_velocity", velocity_, "m/s");
+  describe_loads(archive);
+  if (archive.reads()) follow_state();
 }
 
-void HyperelasticSolid::set_state(const std::vector<double> &numbers) {
-  const std::size_t expected =
-      3 + 9 * leads_.size() + 2 * face_pressure_.size() + 6 * displacement_.size() + 3 * load_.size();
-  require(numbers.size() == expected,
-          "state has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(expected));
-  std::vector<Point> displacement(displacement_.size());
-  const std::size_t from = 3 + 9 * leads_.size() + 2 * face_pressure_.size();
-  for (std::size_t k = 0; k < 3 * displacement.size(); ++k)
-    displacement[k / 3][k % 3] = numbers[from + k];
-  check(displacement);
-  auto next = numbers.begin();
-  const auto take = [&](auto &values) {
-    for (double &value : values)
-      value = *next++;
-  };
-  pressure_work_ = *next++, lead_work_ = *next++, damping_work_ = *next++;
-  for (Lead &own : leads_)
-    take(own.velocity), take(own.spin), take(own.about);
-  take(face_pressure_);
-  std::vector<double> acting(acting_);
-  take(acting);
-  clear_loads();
-  for (std::vector<Point> *column : {&displacement_, &velocity_, &load_})
-    for (Point &value : *column)
-      take(value);
-  for (std::size_t v = 0; v < load_.size(); ++v)
-    if (load_[v] != Point{}) loaded_.push_back(static_cast<int>(v)), is_loaded_[v] = 1;
+// Forces under the pressures that acted when they were found.
+void HyperelasticSolid::follow_state() {
+  check(displacement_);
   place_surface();
+  std::vector<double> acting(acting_);
   std::swap(face_pressure_, acting);
   update_forces();
   std::swap(face_pressure_, acting);

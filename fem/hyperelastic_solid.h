@@ -154,10 +154,9 @@ public:
   // or empty for zero), J (volume ratio of the cell).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
 
-  // Everything that changes in a run, to the last bit: motion, leads' velocities, pressures, loads, works.
-  std::vector<double> state() const;
-  // The solid must have been given the same leads. Throws std::invalid_argument on other numbers.
-  void set_state(const std::vector<double> &numbers);
+  // Everything that changes in a run: motion, leads' velocities, pressures, loads, works. The solid must have
+  // been given the same leads. Throws InvertedElement where an element would be inside out.
+  void describe(Archive &archive);
 
 private:
   friend class EquilibriumPath; // hyperelastic_equilibrium.cc
@@ -181,7 +180,7 @@ private:
   // The inverted cell with the lowest number if nodes were displaced so.
   Worst first_inverted(const std::vector<Point> &displacement) const;
   Point cell_middle(int cell, const std::vector<Point> &displacement) const;
-  std::string describe_loads() const;
+  std::string words_of_loads() const;
   void check(const std::vector<Point> &displacement) const; // throws InvertedElement
   double pressure_work_to(const std::vector<Point> &displacement, const std::vector<double> &pressures) const;
   void add_pressure_forces();
@@ -190,6 +189,7 @@ private:
   void assemble(const std::vector<CellStiffness> &cells, BlockRows &rows) const;
   FaceCorners face_places(const BoundaryFace &face, const std::vector<Point> &displacement) const;
   void place_surface();
+  void follow_state();
 
   Grid grid_;
   Rubber material_;

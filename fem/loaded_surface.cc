@@ -1,6 +1,5 @@
 #include "fem/loaded_surface.h"
 
-#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -90,29 +89,21 @@ std::vector<LoadedSurface::Traction> LoadedSurface::contact_tractions() const {
   return tractions;
 }
 
-void LoadedSurface::append_loads(std::vector<double> &numbers) const {
-  for (const int v : loaded_) {
-    numbers.push_back(v);
-    const Point &load = contact_load(v);
-    numbers.insert(numbers.end(), load.begin(), load.end());
-  }
-}
-
-void LoadedSurface::check_loads(const std::vector<double> &numbers, std::size_t first) const {
-  if (numbers.size() < first || (numbers.size() - first) % 4 != 0)
-    throw std::invalid_argument("body: state has " + std::to_string(numbers.size()) + " numbers, expected " +
-                                std::to_string(first) + " and four per loaded vertex");
-  for (std::size_t k = first; k < numbers.size(); k += 4)
-    if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(load_.size()) &&
-          numbers[k] == std::floor(numbers[k])))
-      throw std::invalid_argument("body: state names a vertex that the surface does not have");
-}
-
-void LoadedSurface::set_loads(const std::vector<double> &numbers, std::size_t first) {
-  check_loads(numbers, first);
+void LoadedSurface::describe_loads(Archive &archive) {
+  std::vector<int> vertices(loaded_);
+  std::vector<Point> forces;
+  for (const int v : loaded_)
+    forces.push_back(contact_load(v));
+  archive.rows("loaded_vertices", vertices);
+  archive.rows("loads", forces, "N");
+  if (!archive.reads()) return;
+  if (vertices.size() != forces.size()) throw StateError("body: each loaded vertex has one load");
+  for (const int v : vertices)
+    if (v < 0 || static_cast<std::size_t>(v) >= load_.size())
+      throw StateError("body: a load stands on a vertex that the surface does not have");
   clear_loads();
-  for (std::size_t k = first; k < numbers.size(); k += 4)
-    add_surface_force(static_cast<int>(numbers[k]), {numbers[k + 1], numbers[k + 2], numbers[k + 3]});
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    add_surface_force(vertices[k], forces[k]);
 }
 
 } // namespace platen::fem

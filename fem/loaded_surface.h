@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/archive.h"
 #include "fem/surface_mesh.h"
 
 namespace platen::fem {
@@ -43,11 +44,9 @@ protected:
   // it).
   void set_surface(SurfaceMesh surface);
 
-  // Loads at the end of a state: four numbers per loaded vertex, in the order of their first load. Throws
-  // std::invalid_argument, having changed nothing, where what stands from `first` on is no such list.
-  void append_loads(std::vector<double> &numbers) const;
-  void check_loads(const std::vector<double> &numbers, std::size_t first) const;
-  void set_loads(const std::vector<double> &numbers, std::size_t first);
+  // Loads as part of a state, in the order of their first one. Throws StateError, having changed none, where
+  // a vertex is not there.
+  void describe_loads(Archive &archive);
 
   SurfaceMesh surface_;
   std::vector<Point> load_;     // N, one per vertex

@@ -16,8 +16,6 @@ void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("body: " + what);
 }
 
-constexpr std::size_t motion_numbers = 13; // displacement 3, rotation 4, velocity 3, angular velocity 3
-
 } // namespace
 
 RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
@@ -94,26 +92,14 @@ double RigidBody::stable_step(const VertexSprings &) const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> RigidBody::state() const {
-  std::vector<double> numbers;
-  const auto append = [&](const auto &values) {
-    numbers.insert(numbers.end(), values.begin(), values.end());
-  };
-  append(displacement_), append(rotation_), append(velocity_), append(angular_velocity_);
-  append_loads(numbers);
-  return numbers;
-}
-
-void RigidBody::set_state(const std::vector<double> &numbers) {
-  check_loads(numbers, motion_numbers);
-  auto next = numbers.begin();
-  const auto take = [&](auto &values) {
-    for (double &value : values)
-      value = *next++;
-  };
-  take(displacement_), take(rotation_), take(velocity_), take(angular_velocity_);
-  set_loads(numbers, motion_numbers);
-  place_vertices();
+void RigidBody::describe(Archive &archive) {
+  archive.version(1);
+  archive("displacement", displacement_, "m");
+  archive("rotation", rotation_);
+  archive("velocity", velocity_, "m/s");
+  archive("angular_velocity", angular_velocity_, "rad/s");
+  describe_loads(archive);
+  if (archive.reads()) place_vertices();
 }
 
 } // namespace platen::fem

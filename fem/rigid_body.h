@@ -44,8 +44,7 @@ public:
   BodyBook book() const override { return {}; }
 
   // Motion, velocities and loads.
-  std::vector<double> state() const override;
-  void set_state(const std::vector<double> &numbers) override;
+  void describe(Archive &archive) override;
 
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
 

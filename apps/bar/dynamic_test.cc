@@ -26,7 +26,7 @@ constexpr double station = 2;
 // three passages, and on the way, where the reflected wave follows after one.
 constexpr double smoothing_at_end = 1.2, smoothing_on_the_way = 0.8;
 
-double mean_along_z(const dem::Column<Vector3> &column, const std::vector<int> &rows) {
+double mean_along_z(const Column<Vector3> &column, const std::vector<int> &rows) {
   double sum = 0;
   for (const int row : rows)
     sum += column[static_cast<std::size_t>(row)].z;

@@ -31,7 +31,7 @@ Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
 } // namespace
 
 std::vector<std::string> bar_columns() {
-  std::vector<std::string> names = history_columns({});
+  std::vector<std::string> names = history_names(nullptr);
   for (const char *own :
        {"load", "end_x_m", "end_y_m", "end_z_m", "end_twist_rad", "end_velocity_m_s", "far_end_velocity_m_s",
         "quarter_z_m", "half_z_m", "axial_energy_j", "bending_energy_j", "torsion_energy_j"})
@@ -40,7 +40,7 @@ std::vector<std::string> bar_columns() {
 }
 
 std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger) {
-  std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.of(load), ledger), {});
+  std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.of(load), ledger), nullptr);
   cells[cells.size() - 2] = none; // grain contacts, not counted
   for (const CsvCell &own : std::initializer_list<CsvCell>{
            word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist, s.struck_velocity,

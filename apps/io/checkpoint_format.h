@@ -10,7 +10,7 @@ namespace platen::apps {
 
 constexpr char checkpoint_magic[9] = "PLATENCP", checkpoint_end[9] = "PLATENND"; // 8 bytes each in the file
 // Raised with every change of this layout; an older or newer file is refused, not guessed at.
-constexpr std::uint32_t checkpoint_version = 2;
+constexpr std::uint32_t checkpoint_version = 3;
 constexpr std::uint32_t checkpoint_byte_order = 0x01020304;
 
 struct CheckpointHeader { // 16 bytes
@@ -18,11 +18,12 @@ struct CheckpointHeader { // 16 bytes
   std::uint32_t version, byte_order;
 };
 
-struct CheckpointBlockHeader { // 32 bytes, then the name, then the bytes
-  std::uint32_t name_bytes;
-  std::uint32_t kind; // ElementType::Kind
-  std::uint32_t element_bytes;
-  std::uint32_t reserved; // 0
+struct CheckpointBlockHeader { // 40 bytes, then the name, the unit and the bytes
+  std::uint32_t name_bytes, unit_bytes;
+  std::uint32_t kind;         // BlockType::Kind
+  std::uint32_t number_bytes; // of one number
+  std::uint32_t numbers;      // of one row
+  std::uint32_t reserved;     // 0
   std::uint64_t bytes;
   std::uint64_t checksum; // XXH64 of the bytes
 };
@@ -34,7 +35,7 @@ struct CheckpointTrailer { // 32 bytes, the last of the file
   std::uint64_t checksum; // XXH64 of all bytes before this member
 };
 
-static_assert(sizeof(CheckpointHeader) == 16 && sizeof(CheckpointBlockHeader) == 32 &&
+static_assert(sizeof(CheckpointHeader) == 16 && sizeof(CheckpointBlockHeader) == 40 &&
                   sizeof(CheckpointTrailer) == 32,
               "the layout is the file format");
 

@@ -23,35 +23,24 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path)
 
 CheckpointWriter::~CheckpointWriter() = default;
 
-void CheckpointWriter::add(const std::string &name, const void *data, std::size_t bytes, ElementType type) {
+void CheckpointWriter::add(const std::string &name, const BlockType &type, const void *data,
+                           std::size_t rows) {
   if (std::find(names_.begin(), names_.end(), name) != names_.end())
     throw std::logic_error("checkpoint block \"" + name + "\" is written twice");
   names_.push_back(name);
+  const std::size_t bytes = rows * type.bytes_per_row();
   CheckpointBlockHeader header{};
   header.name_bytes = static_cast<std::uint32_t>(name.size());
+  header.unit_bytes = static_cast<std::uint32_t>(type.unit.size());
   header.kind = static_cast<std::uint32_t>(type.kind);
-  header.element_bytes = type.bytes;
+  header.number_bytes = type.bytes;
+  header.numbers = type.numbers;
   header.bytes = bytes;
   header.checksum = bytes > 0 ? XXH64(data, bytes, 0) : XXH64("", 0, 0);
   put(&header, sizeof header);
   put(name.data(), name.size());
+  put(type.unit.data(), type.unit.size());
   put(data, bytes);
-}
-
-void CheckpointWriter::add_text(const std::string &name, std::string_view text) {
-  add(name, text.data(), text.size(), {ElementType::Kind::text, 1});
-}
-
-void CheckpointWriter::add_table(const std::string &prefix, const dem::Table &table) {
-  std::string columns; // one line each: name, unit
-  for (const auto &column : table.columns())
-    columns += column->name() + '\t' + column->unit() + '\n';
-  add_text(prefix, columns);
-  add(prefix + "/", static_cast<std::uint64_t>(table.size()));
-  for (const auto &column : table.columns())
-    add(prefix + "/" + column->name(), static_cast<const dem::ColumnBase &>(*column).bytes(),
-        column->size() * column->bytes_per_row(),
-        {ElementType::Kind::raw, static_cast<std::uint32_t>(column->bytes_per_row())});
 }
 
 void CheckpointWriter::finish() {

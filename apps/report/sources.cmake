@@ -38,4 +38,5 @@ set(PLATEN_REPORT_SOURCES
   report/study_curves.cc
   report/study_report.cc
   report/study_results.cc
+  report/state_listing.cc
   report/style.cc)

@@ -74,7 +74,7 @@ std::string CompressionRun::description() const {
 
 void CompressionRun::open_files() {
   if (!command_.resume) {
-    history_.emplace(paths_.history(), history_columns(columns_));
+    history_.emplace(paths_.history(), history_names(problem_.get()));
     if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     if (as_packed_) keep(*as_packed_);
@@ -86,7 +86,7 @@ void CompressionRun::open_files() {
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *problem_, results_);
-  history_.emplace(paths_.history(), history_columns(columns_), marks.history_bytes);
+  history_.emplace(paths_.history(), history_names(problem_.get()), marks.history_bytes);
   if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
@@ -103,7 +103,7 @@ void CompressionRun::sample() {
 }
 
 void CompressionRun::keep(const Sample &s) {
-  history_->row(history_row(s, columns_));
+  history_->row(history_row(s, problem_.get()));
   const bool fallen = results_.add(s, *problem_);
   if (fallen && fields_) fields_->write(*problem_); // the state that damage and opening are measured in
 }

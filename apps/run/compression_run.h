@@ -84,7 +84,6 @@ private:
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
-  ExtraColumns columns_;
 };
 
 } // namespace platen::apps

@@ -90,9 +90,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       paths_(command.output),
       log_(loudness(command)),
       threads_(command.threads),
-      results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}),
-      columns_{scene.loading.cell(), scene.loading.sleeved(), pressed == Pressed::across_axis,
-               scene.loading.bending()} {
+      results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
   fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
@@ -120,7 +118,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
     throw InputError(e.entry() + " " + e.what());
   }
   const double seconds = by_time() ? end_time()
-                                   : (columns_.confined ? problem_->cell_ramp() + scene.loading.hold : 0.0) +
+                                   : (problem_->cell() ? problem_->cell_ramp() + scene.loading.hold : 0.0) +
                                          0.5 * problem_->ramp() +
                                          (scene.loading.target_strain - scene.loading.start_strain) *
                                              problem_->shape().height / problem_->axial_rate();

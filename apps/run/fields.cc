@@ -16,7 +16,7 @@
 namespace platen::apps {
 namespace {
 
-std::vector<dem::Vector3> vectors(const dem::Column<dem::Vector3> &column) {
+std::vector<dem::Vector3> vectors(const Column<dem::Vector3> &column) {
   return {column.begin(), column.end()};
 }
 

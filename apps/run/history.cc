@@ -1,81 +1,170 @@
 #include "apps/run/history.h"
 
+#include <limits>
 #include <stdexcept>
+
+#include "base/table.h"
 
 namespace platen::apps {
 
-std::vector<std::string> history_columns(const ExtraColumns &extra) {
-  std::vector<std::string> columns{"time_s",
-                                   "axial_strain_platen",
-                                   "axial_strain_gauge",
-                                   "lateral_strain",
-                                   "volumetric_strain",
-                                   "axial_stress_top_pa",
-                                   "axial_stress_bottom_pa",
-                                   "confining_pressure_pa",
-                                   "intact_bonds",
-                                   "broken_tension",
-                                   "broken_shear",
-                                   "kinetic_energy_j",
-                                   "bond_energy_j",
-                                   "contact_energy_j",
-                                   "body_energy_j",
-                                   "damping_work_j",
-                                   "friction_work_j",
-                                   "fracture_work_j",
-                                   "boundary_work_j",
-                                   "energy_residual_j",
-                                   "unbalanced_force_ratio",
-                                   "lateral_strain_extremal",
-                                   "axial_strain_extremal",
-                                   "platen_speed_m_s",
-                                   "time_step_s",
-                                   "grain_contacts",
-                                   "plastic_work_j"};
-  if (extra.confined) columns.emplace_back("deviator_pa");
-  if (extra.sleeved) columns.insert(columns.end(), {"volumetric_strain_sleeve", "sleeve_deviator_pa"});
-  if (extra.disc) columns.emplace_back("opening_m");
-  if (extra.bent) columns.insert(columns.end(), {"deflection_m", "midspan_moment_n_m"});
+// What is measured at a sample, some of it once for several columns.
+struct Seen {
+  const Sampler &sampler;
+  const coupling::Problem &problem;
+  dem::GaugeStrain gauge;
+  dem::EnergyLedger energy;
+  Seen(const Sampler &by, const coupling::Problem &of)
+      : sampler(by), problem(of), gauge(by.gauge_.strain(of.model.particles)), energy(of.energy()) {}
+  const dem::Particles &particles() const { return problem.model.particles; }
+  double lateral_extremal() const { return -sampler.pairs_.lateral(particles()); }
+  double axial_extremal() const { return -sampler.pairs_.axial(particles()); }
+  double opening() const { return (*sampler.opening_)(particles()); }
+  double deflection() const { return (*sampler.deflection_)(particles()); }
+  double broken(dem::BondState mode) const { return static_cast<double>(problem.model.broken(mode)); }
+};
+
+namespace {
+
+using coupling::Problem;
+constexpr HistoryColumn::Form number = HistoryColumn::Form::number, count = HistoryColumn::Form::count,
+                              state = HistoryColumn::Form::in_checkpoints_alone;
+
+bool in_cell(const Problem &p) {
+  return p.cell();
+}
+bool in_sleeve(const Problem &p) {
+  return p.sleeve() != nullptr;
+}
+bool of_disc(const Problem &p) {
+  return p.shape().kind == dem::ShapeKind::disc;
+}
+bool bent(const Problem &p) {
+  return p.bent();
+}
+
+bool is_there(const HistoryColumn &column, const Problem *problem) {
+  if (column.there == nullptr) return true;
+  return problem != nullptr && column.there(*problem);
+}
+
+} // namespace
+
+const std::vector<HistoryColumn> &history_columns() {
+  using S = Sample;
+  using dem::BondState;
+  static const std::vector<HistoryColumn> columns{
+      {"time_s", "s", &S::time, [](const Seen &s) { return s.problem.time(); }},
+      {"axial_strain_platen", "1", &S::strain_platen,
+       [](const Seen &s) { return s.problem.closure_strain(); }},
+      {"axial_strain_gauge", "1", &S::strain_gauge, [](const Seen &s) { return -s.gauge.axial; }},
+      {"lateral_strain", "1", &S::lateral_strain, [](const Seen &s) { return -s.gauge.lateral(); }},
+      {"volumetric_strain", "1", &S::volumetric_strain,
+       [](const Seen &s) { return -(s.gauge.axial + s.gauge.lateral_x + s.gauge.lateral_y); }},
+      {"axial_stress_top_pa", "Pa", &S::stress_top, [](const Seen &s) { return s.problem.stress_top(); }},
+      {"axial_stress_bottom_pa", "Pa", &S::stress_bottom,
+       [](const Seen &s) { return s.problem.stress_bottom(); }},
+      {"confining_pressure_pa", "Pa", &S::confining_pressure,
+       [](const Seen &s) { return s.problem.confining_pressure(); }},
+      {"intact_bonds", "1", &S::intact_bonds,
+       [](const Seen &s) { return static_cast<double>(s.problem.model.intact_bonds()); }, count},
+      {"broken_tension", "1", &S::broken_tension,
+       [](const Seen &s) { return s.broken(BondState::broken_in_tension); }, count},
+      {"broken_shear", "1", &S::broken_shear,
+       [](const Seen &s) { return s.broken(BondState::broken_in_shear); }, count},
+      {"kinetic_energy_j", "J", &S::kinetic, [](const Seen &s) { return s.energy.kinetic; }},
+      {"bond_energy_j", "J", &S::bond, [](const Seen &s) { return s.energy.bonds; }},
+      {"contact_energy_j", "J", &S::contact, [](const Seen &s) { return s.energy.contacts; }},
+      {"body_energy_j", "J", &S::body, [](const Seen &s) { return s.energy.bodies; }},
+      {"damping_work_j", "J", &S::damping, [](const Seen &s) { return s.energy.damping; }},
+      {"friction_work_j", "J", &S::friction, [](const Seen &s) { return s.energy.friction; }},
+      {"fracture_work_j", "J", &S::fracture, [](const Seen &s) { return s.energy.fracture; }},
+      {"boundary_work_j", "J", &S::boundary, [](const Seen &s) { return s.energy.boundary; }},
+      {"energy_residual_j", "J", &S::residual, [](const Seen &s) { return s.energy.residual(); }},
+      {"unbalanced_force_ratio", "1", &S::unbalanced,
+       [](const Seen &s) { return s.problem.unbalanced_ratio(); }},
+      {"lateral_strain_extremal", "1", &S::lateral_extremal,
+       [](const Seen &s) { return s.lateral_extremal(); }},
+      {"axial_strain_extremal", "1", &S::axial_extremal, [](const Seen &s) { return s.axial_extremal(); }},
+      {"platen_speed_m_s", "m/s", &S::platen_speed, [](const Seen &s) { return s.problem.platen_speed(); }},
+      {"time_step_s", "s", &S::time_step, [](const Seen &s) { return s.problem.time_step(); }},
+      {"grain_contacts", "1", &S::touching,
+       [](const Seen &s) {
+         const auto &contacts = s.problem.model.contacts;
+         return contacts ? static_cast<double>(contacts->touching_count()) : 0.0;
+       },
+       count},
+      {"plastic_work_j", "J", &S::plastic, [](const Seen &s) { return s.energy.plastic; }},
+      {"deviator_pa", "Pa", nullptr,
+       [](const Seen &s) {
+         return 0.5 * (s.problem.stress_top() + s.problem.stress_bottom()) - s.problem.confining_pressure();
+       },
+       number, in_cell},
+      {"volumetric_strain_sleeve", "1", &S::sleeve_volumetric_strain,
+       [](const Seen &s) { return s.problem.sleeve_volumetric_strain(); }, number, in_sleeve},
+      {"sleeve_deviator_pa", "Pa", &S::sleeve_deviator,
+       [](const Seen &s) { return s.problem.sleeve_deviator(); }, number, in_sleeve},
+      {"opening_m", "m", &S::opening, [](const Seen &s) { return s.opening(); }, number, of_disc},
+      {"deflection_m", "m", &S::deflection, [](const Seen &s) { return s.deflection(); }, number, bent},
+      {"midspan_moment_n_m", "N m", &S::midspan_moment,
+       [](const Seen &s) { return s.problem.midspan_moment(); }, number, bent},
+      {"cell_pressure_pa", "Pa", &S::cell_pressure,
+       [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
+      {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},
+      {"axial_stage", "1", &S::axial_stage, [](const Seen &s) { return s.problem.axial_stage() ? 1.0 : 0.0; },
+       state}};
   return columns;
 }
 
-std::vector<CsvCell> history_row(const Sample &s, const ExtraColumns &extra) {
-  const auto count = [](double n) { return CsvCell(static_cast<long long>(n)); };
-  std::vector<CsvCell> row{s.time,
-                           s.strain_platen,
-                           s.strain_gauge,
-                           s.lateral_strain,
-                           s.volumetric_strain,
-                           s.stress_top,
-                           s.stress_bottom,
-                           s.confining_pressure,
-                           count(s.intact_bonds),
-                           count(s.broken_tension),
-                           count(s.broken_shear),
-                           s.kinetic,
-                           s.bond,
-                           s.contact,
-                           s.body,
-                           s.damping,
-                           s.friction,
-                           s.fracture,
-                           s.boundary,
-                           s.residual,
-                           s.unbalanced,
-                           s.lateral_extremal,
-                           s.axial_extremal,
-                           s.platen_speed,
-                           s.time_step,
-                           count(s.touching),
-                           s.plastic};
-  if (extra.confined) row.emplace_back(s.deviator());
-  if (extra.sleeved) row.insert(row.end(), {s.sleeve_volumetric_strain, s.sleeve_deviator});
-  if (extra.disc) row.emplace_back(s.opening);
-  if (extra.bent) row.insert(row.end(), {s.deflection, s.midspan_moment});
+double &value_of(Sample &sample, std::size_t k) {
+  const std::vector<HistoryColumn> &all = history_columns();
+  if (all[k].member != nullptr) return sample.*all[k].member;
+  std::size_t place = 0;
+  for (std::size_t before = 0; before < k; ++before)
+    place += all[before].member == nullptr;
+  if (sample.more.size() <= place) sample.more.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
+  return sample.more[place];
+}
+
+std::vector<std::string> history_names(const Problem *problem) {
+  std::vector<std::string> names;
+  for (const HistoryColumn &column : history_columns())
+    if (column.form != state && is_there(column, problem)) names.emplace_back(column.name);
+  return names;
+}
+
+std::vector<CsvCell> history_row(const Sample &sample, const Problem *problem) {
+  Sample s = sample;
+  std::vector<CsvCell> row;
+  for (std::size_t k = 0; k < history_columns().size(); ++k) {
+    const HistoryColumn &column = history_columns()[k];
+    if (column.form == state || !is_there(column, problem)) continue;
+    const double value = value_of(s, k);
+    if (column.form == count)
+      row.emplace_back(static_cast<long long>(value));
+    else
+      row.emplace_back(value);
+  }
   return row;
 }
 
-Sampler::Sampler(const coupling::Problem &problem)
+void describe(Archive &archive, const std::string &name, std::vector<Sample> &samples) {
+  Table table;
+  std::vector<Column<double> *> columns;
+  for (const HistoryColumn &column : history_columns())
+    columns.push_back(&table.add<double>(column.name, column.unit, std::numeric_limits<double>::quiet_NaN()));
+  table.resize(samples.size());
+  for (std::size_t row = 0; row < samples.size(); ++row)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      (*columns[k])[row] = value_of(samples[row], k);
+  archive.table(name, table);
+  if (!archive.reads()) return;
+  samples.assign(table.size(), Sample{});
+  for (std::size_t row = 0; row < samples.size(); ++row)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      value_of(samples[row], k) = (*columns[k])[row];
+}
+
+Sampler::Sampler(const Problem &problem)
     : gauge_(problem.model.particles, problem.shape(), problem.model.bonds.get()),
       pairs_(problem.model.particles, problem.shape(), problem.model.bonds.get()) {
   if (problem.shape().kind == dem::ShapeKind::disc)
@@ -89,51 +178,12 @@ Sampler::Sampler(const coupling::Problem &problem)
   }
 }
 
-Sample Sampler::operator()(const coupling::Problem &problem) const {
-  const dem::Model &model = problem.model;
-  const dem::GaugeStrain gauge = gauge_.strain(model.particles);
-  const dem::EnergyLedger energy = problem.energy();
-  Sample s;
-  s.time = problem.time();
-  s.strain_platen = problem.closure_strain();
-  s.strain_gauge = -gauge.axial;
-  s.lateral_strain = -gauge.lateral();
-  s.volumetric_strain = -(gauge.axial + gauge.lateral_x + gauge.lateral_y);
-  s.lateral_extremal = -pairs_.lateral(model.particles);
-  s.axial_extremal = -pairs_.axial(model.particles);
-  s.stress_top = problem.stress_top();
-  s.stress_bottom = problem.stress_bottom();
-  s.confining_pressure = problem.confining_pressure();
-  if (problem.cell()) s.cell_pressure = s.confining_pressure;
-  if (problem.sleeve() != nullptr) {
-    s.sleeve_volumetric_strain = problem.sleeve_volumetric_strain();
-    s.sleeve_deviator = problem.sleeve_deviator();
-  }
-  s.intact_bonds = static_cast<double>(model.intact_bonds());
-  s.broken_tension = static_cast<double>(model.broken(dem::BondState::broken_in_tension));
-  s.broken_shear = static_cast<double>(model.broken(dem::BondState::broken_in_shear));
-  s.kinetic = energy.kinetic;
-  s.bond = energy.bonds;
-  s.contact = energy.contacts;
-  s.body = energy.bodies;
-  s.damping = energy.damping;
-  s.friction = energy.friction;
-  s.fracture = energy.fracture;
-  s.plastic = energy.plastic;
-  s.boundary = energy.boundary;
-  s.residual = energy.residual();
-  s.unbalanced = problem.unbalanced_ratio();
-  s.platen_speed = problem.platen_speed();
-  s.time_step = problem.time_step();
-  if (opening_) s.opening = (*opening_)(model.particles);
-  if (deflection_) {
-    s.deflection = (*deflection_)(model.particles);
-    s.midspan_moment = problem.midspan_moment();
-  }
-  s.cycling = problem.cycling() ? 1.0 : 0.0;
-  s.axial_stage = problem.axial_stage() ? 1.0 : 0.0;
-  s.touching = model.contacts ? static_cast<double>(model.contacts->touching_count()) : 0.0;
-  return s;
+Sample Sampler::operator()(const Problem &problem) const {
+  const Seen seen(*this, problem);
+  Sample sample;
+  for (std::size_t k = 0; k < history_columns().size(); ++k)
+    if (is_there(history_columns()[k], &problem)) value_of(sample, k) = history_columns()[k].measure(seen);
+  return sample;
 }
 
 } // namespace platen::apps

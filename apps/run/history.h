@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/io/csv_writer.h"
+#include "base/archive.h"
 #include "coupling/problem.h"
 #include "dem/energy.h"
 #include "dem/measure/bending.h"
@@ -39,6 +40,7 @@ struct Sample {
   double midspan_moment = 0; // N m, of a bent bar
   double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
+  std::vector<double> more;  // of columns without a member, in their order
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
   double deviator() const { return stress() - cell_pressure; }         // Pa
@@ -46,15 +48,25 @@ struct Sample {
   double broken() const { return broken_tension + broken_shear; }      // bonds
 };
 
-// Columns of some tests alone, after the others.
-struct ExtraColumns {
-  bool confined = false; // deviator_pa
-  bool sleeved = false;  // volumetric_strain_sleeve, sleeve_deviator_pa
-  bool disc = false;     // opening_m
-  bool bent = false;     // deflection_m, midspan_moment_n_m
+// A column of history.csv, or a number that only checkpoints keep: declared once, in history.cc. A checkpoint
+// that was written before there was a column gives NaN for it.
+struct Seen;
+struct HistoryColumn {
+  enum class Form { number, count, in_checkpoints_alone };
+  const char *name, *unit;
+  double Sample::*member; // null: kept in `more`
+  double (*measure)(const Seen &);
+  Form form = Form::number;
+  bool (*there)(const coupling::Problem &) = nullptr; // null: in every test
 };
-std::vector<std::string> history_columns(const ExtraColumns &extra);
-std::vector<CsvCell> history_row(const Sample &sample, const ExtraColumns &extra);
+const std::vector<HistoryColumn> &history_columns();
+// Of column k.
+double &value_of(Sample &sample, std::size_t k);
+
+// Of one test; a null problem: those of every test.
+std::vector<std::string> history_names(const coupling::Problem *problem);
+std::vector<CsvCell> history_row(const Sample &sample, const coupling::Problem *problem);
+void describe(Archive &archive, const std::string &name, std::vector<Sample> &samples);
 
 // Measures a problem; the gauges remember its reference state.
 class Sampler {
@@ -64,6 +76,7 @@ public:
   Sample operator()(const coupling::Problem &problem) const;
 
 private:
+  friend struct Seen;
   dem::Gauge gauge_;
   dem::ExtremalPairs pairs_;
   std::optional<dem::DiscOpening> opening_;

@@ -201,15 +201,24 @@ std::vector<Sample> Results::rise() const {
   return {at(c.after), at(peak_row() + 1)};
 }
 
-void Results::restore(std::vector<Sample> samples, const Progress &progress,
-                      std::vector<dem::CrackPulse> pulses, const dem::CrackRose &rose) {
-  emission_.pulses = std::move(pulses);
-  emission_.rose = rose;
-  samples_ = std::move(samples);
-  at_eighty_ = progress.at_eighty;
-  barrel_ = progress.barrel;
-  peak_ = progress.peak;
-  measured_for_ = progress.measured_for;
+void Pattern::describe(Archive &archive) {
+  archive.version(1);
+  archive("time", time, "s");
+  archive("strain", strain);
+  archive("broken_tension", broken_tension);
+  archive("broken_shear", broken_shear);
+  archive.part("failure", failure);
+}
+
+void Results::describe(Archive &archive) {
+  archive.version(1);
+  archive("barrel", barrel_);
+  archive("peak", peak_, "Pa");
+  archive("measured_for", measured_for_, "Pa");
+  archive.part("at_eighty", at_eighty_);
+  archive("crack_rose", emission_.rose.area, "m2");
+  dem::describe(archive, "crack_pulses", emission_.pulses);
+  apps::describe(archive, "samples", samples_);
 }
 
 } // namespace platen::apps

@@ -19,6 +19,7 @@ struct Pattern {
   double time = not_measured, strain = not_measured; // s, platen strain
   dem::FailureMeasures failure;
   double broken_tension = not_measured, broken_shear = not_measured;
+  void describe(Archive &archive);
 };
 Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness);
 
@@ -77,16 +78,7 @@ public:
   const Emission &emission() const { return emission_; }
   const std::vector<Sample> &samples() const { return samples_; }
 
-  // For checkpoints.
-  struct Progress {
-    Pattern at_eighty;
-    double barrel = not_measured;
-    double peak = 0;          // Pa
-    double measured_for = -1; // the peak that at_eighty belongs to, Pa
-  };
-  Progress progress() const { return {at_eighty_, barrel_, peak_, measured_for_}; }
-  void restore(std::vector<Sample> samples, const Progress &progress, std::vector<dem::CrackPulse> pulses,
-               const dem::CrackRose &rose);
+  void describe(Archive &archive);
 
 private:
   std::size_t peak_row() const;
@@ -109,7 +101,8 @@ private:
   std::vector<Sample> samples_;
   Pattern at_eighty_, last_;
   Emission emission_;
-  double barrel_ = not_measured, peak_ = 0, measured_for_ = -1;
+  double barrel_ = not_measured, peak_ = 0; // 1, Pa
+  double measured_for_ = -1;                // the peak that at_eighty_ belongs to, Pa
 };
 
 } // namespace platen::apps

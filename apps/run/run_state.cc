@@ -3,68 +3,36 @@
 namespace platen::apps {
 namespace {
 
-void save_search(CheckpointWriter &to, const dem::ContactSearch::State &s) {
-  to.add("search/moved", std::vector<double>{s.moved_since_wide, s.moved_since_close});
-  to.add("search/valid", std::vector<int>{s.wide_valid, s.close_valid});
-  to.add("search/wide", s.wide);
-  to.add("search/close", s.close);
-  to.add("search/rest", s.rest);
-}
-
-dem::ContactSearch::State load_search(const CheckpointReader &from) {
-  dem::ContactSearch::State s;
-  std::vector<double> moved;
-  std::vector<int> valid;
-  from.get("search/moved", moved);
-  from.get("search/valid", valid);
-  if (moved.size() != 2 || valid.size() != 2) throw CheckpointError("block search/moved has another length");
-  s.moved_since_wide = moved[0];
-  s.moved_since_close = moved[1];
-  s.wide_valid = valid[0];
-  s.close_valid = valid[1];
-  from.get("search/wide", s.wide);
-  from.get("search/close", s.close);
-  from.get("search/rest", s.rest);
-  return s;
-}
+// Parts of a checkpoint.
+constexpr const char *problem_part = "problem", *results_part = "results", *marks_part = "files";
+constexpr const char *instruction_set_block = "problem/specimen/instruction_set";
 
 } // namespace
 
+void FileMarks::describe(Archive &archive) {
+  archive.version(1);
+  archive("history_bytes", history_bytes);
+  archive("cracks_bytes", cracks_bytes);
+  archive("last_frame", last_frame, "s");
+  archive("frames", frames);
+  archive("wall_seconds", wall_seconds, "s");
+}
+
 void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
                 const FileMarks &marks) {
-  const dem::Model &model = problem.model;
-  to.add("problem", problem.numbers());
-  to.add_text("reason", problem.time_step_reason());
-  to.add_text("instruction_set", dem::name(model.settings().instruction_set));
-  to.add_table("particles", model.particles.table);
-  if (model.bonds) {
-    to.add_table("bonds", model.bonds->table);
-    to.add_table("bond_records", model.bonds->records);
-  }
-  if (model.contacts) {
-    to.add_table("contacts", model.contacts->table);
-    save_search(to, model.contacts->search_state().state());
-  }
-  to.add("top/body", problem.top.state());
-  to.add("bottom/body", problem.bottom.state());
-  to.add_table("top/contacts", problem.top_layer.history());
-  to.add_table("bottom/contacts", problem.bottom_layer.history());
-  if (const coupling::Sleeve *sleeve = problem.sleeve()) {
-    to.add("sleeve/body", sleeve->state());
-    to.add_table("sleeve/contacts", sleeve->layer.history());
-  }
-  if (problem.confinement() != nullptr) to.add_table("confinement", problem.confinement()->table());
-  to.add("samples", results.samples());
-  to.add("results", results.progress());
-  to.add("cracks/pulses", results.emission().pulses);
-  to.add("cracks/rose", results.emission().rose);
-  to.add("marks", marks);
+  save_part(to, problem_part, problem);
+  save_part(to, results_part, results);
+  save_part(to, marks_part, marks);
 }
 
 dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog &log) {
   const dem::InstructionSet best = dem::best_instruction_set();
-  if (!from.has("instruction_set")) return best; // written before there was one
-  const std::string begun = from.text("instruction_set");
+  std::string begun;
+  try {
+    begun = text_of(from, instruction_set_block);
+  } catch (const StateError &e) {
+    from.fail(e.what());
+  }
   for (const dem::InstructionSet set :
        {dem::InstructionSet::baseline, dem::InstructionSet::avx2, dem::InstructionSet::avx512})
     if (begun == dem::name(set) && set <= best) return set;
@@ -76,40 +44,17 @@ dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog
 }
 
 FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results) {
-  dem::Model &model = problem.model;
-  std::vector<double> numbers;
-  from.read_table("particles", model.particles.table);
-  if (model.bonds) {
-    from.read_table("bonds", model.bonds->table);
-    from.read_table("bond_records", model.bonds->records);
+  FileMarks marks;
+  try {
+    LoadingArchive archive(from);
+    archive.part(problem_part, problem);
+    archive.part(results_part, results);
+    archive.part(marks_part, marks);
+    archive.require_all_read();
+  } catch (const StateError &e) {
+    from.fail(e.what());
   }
-  if (model.contacts) {
-    from.read_table("contacts", model.contacts->table);
-    model.contacts->search_state().set_state(load_search(from));
-  }
-  if (coupling::Sleeve *sleeve = problem.sleeve()) {
-    from.get("sleeve/body", numbers);
-    sleeve->set_state(numbers);
-    from.read_table("sleeve/contacts", sleeve->layer.history());
-  }
-  if (problem.confinement() != nullptr) from.read_table("confinement", problem.confinement()->table());
-  from.get("top/body", numbers);
-  problem.top.set_state(numbers);
-  from.get("bottom/body", numbers);
-  problem.bottom.set_state(numbers);
-  from.read_table("top/contacts", problem.top_layer.history());
-  from.read_table("bottom/contacts", problem.bottom_layer.history());
-  from.get("problem", numbers);
-  problem.set_numbers(numbers);
-  problem.set_time_step_reason(from.text("reason"));
-  problem.restored();
-  std::vector<Sample> samples;
-  from.get("samples", samples);
-  std::vector<dem::CrackPulse> pulses;
-  from.get("cracks/pulses", pulses);
-  results.restore(std::move(samples), from.value<Results::Progress>("results"), std::move(pulses),
-                  from.value<dem::CrackRose>("cracks/rose"));
-  return from.value<FileMarks>("marks");
+  return marks;
 }
 
 } // namespace platen::apps

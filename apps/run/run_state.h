@@ -17,6 +17,7 @@ struct FileMarks {
   double last_frame = -1; // s
   std::int64_t frames = 0;
   double wall_seconds = 0; // of all runs so far
+  void describe(Archive &archive);
 };
 
 void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,

@@ -94,4 +94,18 @@ BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules) 
   return v;
 }
 
+void describe(Archive &archive, const std::string &name, std::vector<CrackPulse> &pulses) {
+  Table table;
+  Column<double> &time = table.add<double>("time", "s"), &energy = table.add<double>("energy", "J");
+  Column<Vector3> &point = table.add<Vector3>("point", "m");
+  table.resize(pulses.size());
+  for (std::size_t k = 0; k < pulses.size(); ++k)
+    time[k] = pulses[k].time, point[k] = pulses[k].point, energy[k] = pulses[k].energy;
+  archive.table(name, table);
+  if (!archive.reads()) return;
+  pulses.resize(table.size());
+  for (std::size_t k = 0; k < pulses.size(); ++k)
+    pulses[k] = {time[k], point[k], energy[k]};
+}
+
 } // namespace platen::dem

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/vector3.h"
 
 namespace platen::dem {
@@ -16,6 +18,8 @@ struct CrackPulse {
 };
 
 // Two cracks are of one event where they are this near in space and in time.
+void describe(Archive &archive, const std::string &name, std::vector<CrackPulse> &pulses);
+
 struct EventWindow {
   double reach = 0; // m
   double time = 0;  // s

@@ -251,4 +251,20 @@ std::array<ConePiece, 2> measure_cones(const Particles &p, const Bonds &b, const
   return cones;
 }
 
+void ConePiece::describe(Archive &archive) {
+  archive.version(1);
+  archive("verdict", verdict);
+  archive("spheres", spheres);
+  archive("height", height, "m");
+  archive("half_angle", half_angle, "rad");
+  archive("volume_fraction", volume_fraction);
+  archive("apex_depth", apex_depth, "m");
+  archive("tilt", tilt, "rad");
+  archive("apex", apex, "m");
+  archive("axis", axis);
+  archive("overlap", overlap);
+  archive("roundness", roundness);
+  archive("confidence", confidence);
+}
+
 } // namespace platen::dem

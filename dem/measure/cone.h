@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/archive.h"
 #include "dem/measure/sound_pieces.h"
 #include "dem/vector3.h"
 
@@ -65,6 +66,7 @@ struct ConePiece {
   Vector3 apex;               // m, where the specimen stood at the start
   Vector3 axis;               // 1, from the apex towards the platen
   double overlap = 0, roundness = 0, confidence = 0; // 1
+  void describe(Archive &archive);
   bool is_cone() const { return verdict == NoCone::found; }
 };
 

@@ -112,4 +112,19 @@ CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &b) {
   return s;
 }
 
+void CrackPlanes::describe(Archive &archive) {
+  archive.version(1);
+  archive("count", count);
+  archive("broken_bonds", broken);
+  archive("share", share);
+  archive("steep_share", steep_share);
+  archive("mean_inclination", mean_inclination, "rad");
+  archive("largest_bonds", largest.bonds);
+  archive("largest_centre", largest.centre, "m");
+  archive("largest_normal", largest.normal);
+  archive("largest_flatness", largest.flatness);
+  archive("largest_inclination", largest.inclination, "rad");
+  archive("largest_extent", largest.extent, "m");
+}
+
 } // namespace platen::dem

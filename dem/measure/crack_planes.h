@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/archive.h"
 #include "dem/bonds.h"
 #include "dem/particles.h"
 
@@ -42,6 +43,7 @@ struct CrackPlanes {
   double steep_share = 0;      // of them, in planes within `steep` of the axis
   double mean_inclination = 0; // rad, weighed by bonds; NaN without planes
   CrackPlane largest;
+  void describe(Archive &archive);
 };
 CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &bonds);
 

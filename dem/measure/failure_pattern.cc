@@ -84,4 +84,19 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
   return {};
 }
 
+void FailureMeasures::describe(Archive &archive) {
+  archive.version(1);
+  archive("damage_top", damage.end_top);
+  archive("damage_bottom", damage.end_bottom);
+  archive("damage_middle", damage.middle);
+  archive.part("cone_bottom", cones[bottom_end]);
+  archive.part("cone_top", cones[top_end]);
+  archive.part("crack_planes", planes);
+  archive("end_spread", end_spread);
+  archive("columns", columns);
+  archive("broken_share", broken_share);
+  archive("width", width, "m");
+  archive("height", height, "m");
+}
+
 } // namespace platen::dem

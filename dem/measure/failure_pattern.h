@@ -21,6 +21,7 @@ struct FailureMeasures {
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
   double broken_share = std::numeric_limits<double>::quiet_NaN(); // of all bonds
   double width = 0, height = 0; // m, of the specimen; width of a circle as large as its section
+  void describe(Archive &archive);
 };
 FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
                                 const Soundness &soundness = {});

@@ -18,8 +18,8 @@ protected:
   fs::path checkpoints_ = folder_ / "checkpoint";
   fs::path write(std::uint64_t step) const {
     return write_checkpoint(checkpoints_, step, [&](CheckpointWriter &writer) {
-      writer.add("step", step);
-      writer.add("field", std::vector<double>(20000, static_cast<double>(step)));
+      add_rows(writer, "step", std::vector<std::uint64_t>{step});
+      add_rows(writer, "field", std::vector<double>(20000, static_cast<double>(step)));
     });
   }
   std::set<std::string> names() const {
@@ -38,7 +38,7 @@ TEST_F(CheckpointFolder, keeps_the_two_newest) {
   const FoundCheckpoint found = newest_whole_checkpoint(checkpoints_);
   EXPECT_EQ(found.step, 40u);
   EXPECT_TRUE(found.remarks.empty());
-  EXPECT_EQ(CheckpointReader(found.path).value<std::uint64_t>("step"), 40u);
+  EXPECT_EQ(rows_of<std::uint64_t>(CheckpointReader(found.path), "step").front(), 40u);
 }
 
 TEST_F(CheckpointFolder, falls_back_on_the_older_one_and_says_so) {
@@ -117,8 +117,7 @@ TEST_F(CheckpointFolder, always_holds_a_whole_one_however_the_run_is_killed) {
     ASSERT_GE(found.step, step);
     EXPECT_TRUE(found.remarks.empty()) << found.remarks[0]; // none is half written under its name
     step = found.step;
-    std::vector<double> field;
-    CheckpointReader(found.path).get("field", field);
+    const std::vector<double> field = rows_of<double>(CheckpointReader(found.path), "field");
     EXPECT_EQ(field, std::vector<double>(20000, static_cast<double>(step)));
   }
   EXPECT_GT(step, 20u) << "the runs were killed before they wrote anything";

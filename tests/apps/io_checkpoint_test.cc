@@ -6,6 +6,7 @@
 #include "apps/io/checkpoint.h"
 #include "dem/vector3.h"
 #include "io_folder.h"
+#include "tests/same_state.h"
 
 namespace platen::apps {
 namespace {
@@ -14,10 +15,11 @@ using namespace testing;
 using dem::Vector3;
 
 struct Spheres {
-  dem::Table table;
-  dem::Column<Vector3> &position = table.add<Vector3>("position", "m");
-  dem::Column<double> &radius = table.add<double>("radius", "m");
-  dem::Column<int> &id = table.add<int>("id", "1");
+  Table table;
+  Column<Vector3> &position = table.add<Vector3>("position", "m");
+  Column<double> &radius = table.add<double>("radius", "m");
+  Column<int> &id = table.add<int>("id", "1");
+  void describe(Archive &archive) { archive.table("rows", table); }
 };
 
 void fill(Spheres &spheres, std::size_t n) {
@@ -31,63 +33,58 @@ void fill(Spheres &spheres, std::size_t n) {
   }
 }
 
-void write_all(CheckpointWriter &writer, const Spheres &spheres) {
-  writer.add("clock/time", 0.1 + 0.2);
-  writer.add("clock/step", std::uint64_t{123456789012});
-  writer.add("servo/gain", -3);
-  writer.add("servo/axis", Vector3{1, -0.0, std::numeric_limits<double>::denorm_min()});
-  writer.add("body/displacement", std::vector<double>{1.0 / 3, std::nan(""), -INFINITY});
-  writer.add("body/empty", std::vector<float>{});
-  writer.add_text("scene", "set Title = \xc3\xa4\nsecond line");
-  writer.add_table("particles", spheres.table);
-  writer.finish();
-}
+// One of every kind of value.
+struct Part {
+  double time = 0.1 + 0.2;
+  std::uint64_t step = 123456789012;
+  int gain = -3;
+  bool on = true;
+  Vector3 axis{1, -0.0, std::numeric_limits<double>::denorm_min()};
+  std::vector<double> displacement{1.0 / 3, std::nan(""), -INFINITY};
+  std::vector<float> empty;
+  std::string scene = "set Title = \xc3\xa4\nsecond line";
+  Spheres spheres;
+  void describe(Archive &archive) {
+    archive.version(1);
+    archive("time", time, "s");
+    archive("step", step);
+    archive("gain", gain);
+    archive("on", on);
+    archive("axis", axis, "m");
+    archive.rows("displacement", displacement, "m");
+    archive.rows("empty", empty);
+    archive.text("scene", scene);
+    archive.part("spheres", spheres);
+  }
+};
 
 class Checkpoint : public ScratchFolder {
 protected:
   fs::path path_ = folder_ / "state.platen";
-  Spheres spheres_;
+  Part part_;
   void write(std::size_t particles) {
-    fill(spheres_, particles);
+    fill(part_.spheres, particles);
     CheckpointWriter writer(path_);
-    write_all(writer, spheres_);
+    save_part(writer, "part", part_);
+    writer.finish();
+  }
+  void read(Part &into) const {
+    const CheckpointReader reader(path_);
+    LoadingArchive archive(reader);
+    archive.part("part", into);
+    archive.require_all_read();
   }
 };
 
-template <class T>
-bool same_bits(const T &a, const T &b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
-
 TEST_F(Checkpoint, gives_back_every_bit) {
   write(100000); // columns larger than the writer's buffer, and others that go through it
-  CheckpointReader reader(path_);
-  EXPECT_TRUE(same_bits(reader.value<double>("clock/time"), 0.1 + 0.2));
-  EXPECT_EQ(reader.value<std::uint64_t>("clock/step"), 123456789012u);
-  EXPECT_EQ(reader.value<int>("servo/gain"), -3);
-  EXPECT_TRUE(same_bits(reader.value<Vector3>("servo/axis"),
-                        Vector3{1, -0.0, std::numeric_limits<double>::denorm_min()}));
-  std::vector<double> displacement;
-  reader.get("body/displacement", displacement);
-  ASSERT_EQ(displacement.size(), 3u);
-  EXPECT_TRUE(same_bits(displacement[0], 1.0 / 3) && same_bits(displacement[1], std::nan("")) &&
-              same_bits(displacement[2], -double(INFINITY)));
-  std::vector<float> empty(5);
-  reader.get("body/empty", empty);
-  EXPECT_TRUE(empty.empty());
-  EXPECT_EQ(reader.text("scene"), "set Title = \xc3\xa4\nsecond line");
-
-  Spheres back;
-  back.table.resize(3); // another length than the stored one
-  reader.read_table("particles", back.table);
-  ASSERT_EQ(back.table.size(), spheres_.table.size());
-  for (std::size_t c = 0; c < back.table.columns().size(); ++c) {
-    const auto &column = *back.table.columns()[c];
-    EXPECT_EQ(std::memcmp(column.bytes(), spheres_.table.columns()[c]->bytes(),
-                          column.size() * column.bytes_per_row()),
-              0)
-        << column.name();
-  }
+  Part back;
+  back.time = 0, back.step = 0, back.gain = 0, back.on = false, back.axis = {}, back.scene = "other";
+  back.displacement = {5}, back.empty = {1, 2};
+  fill(back.spheres, 3); // another length than the stored one
+  read(back);
+  EXPECT_TRUE(same_state(part_, back));
+  EXPECT_EQ(back.spheres.table.size(), 100000u);
 }
 
 TEST_F(Checkpoint, of_equal_states_are_equal_files) {
@@ -97,68 +94,30 @@ TEST_F(Checkpoint, of_equal_states_are_equal_files) {
   EXPECT_EQ(first, content_of(path_));
 }
 
-TEST_F(Checkpoint, matches_columns_by_name_whatever_their_order) {
-  write(10);
-  dem::Table other;
-  other.add<int>("id", "1");
-  auto &radius = other.add<double>("radius", "m");
-  other.add<Vector3>("position", "m");
-  CheckpointReader(path_).read_table("particles", other);
-  for (std::size_t k = 0; k < 10; ++k)
-    EXPECT_EQ(radius[k], spheres_.radius[k]);
-}
-
 TEST_F(Checkpoint, of_an_empty_table_is_an_empty_table) {
   write(0);
-  Spheres back;
-  back.table.resize(4);
-  CheckpointReader(path_).read_table("particles", back.table);
-  EXPECT_EQ(back.table.size(), 0u);
+  Part back;
+  back.spheres.table.resize(4);
+  read(back);
+  EXPECT_EQ(back.spheres.table.size(), 0u);
 }
 
-TEST_F(Checkpoint, refuses_a_table_of_other_columns_by_name_and_leaves_it_alone) {
-  write(10);
+TEST_F(Checkpoint, tells_what_its_blocks_are) {
+  write(4);
   const CheckpointReader reader(path_);
-  const auto refused = [&](dem::Table &table) {
-    table.resize(2);
-    const std::string text = message_of<CheckpointError>([&] { reader.read_table("particles", table); });
-    EXPECT_EQ(table.size(), 2u);
-    return text;
-  };
-  Spheres more;
-  more.table.add<double>("damage", "1");
-  EXPECT_TRUE(contains(refused(more.table), "no column damage"));
-  dem::Table fewer;
-  fewer.add<Vector3>("position", "m");
-  fewer.add<double>("radius", "m");
-  EXPECT_TRUE(contains(refused(fewer), "column id"));
-  dem::Table other_unit;
-  other_unit.add<Vector3>("position", "mm");
-  other_unit.add<double>("radius", "m");
-  other_unit.add<int>("id", "1");
-  EXPECT_TRUE(contains(refused(other_unit), "position (mm)"));
-  dem::Table other_size;
-  other_size.add<Vector3>("position", "m");
-  other_size.add<float>("radius", "m");
-  other_size.add<int>("id", "1");
-  EXPECT_TRUE(contains(refused(other_size), "particles/radius"));
-}
-
-TEST_F(Checkpoint, gives_a_block_only_as_what_it_was_written) {
-  write(1);
-  const CheckpointReader reader(path_);
-  const auto message = [](const auto &act) { return message_of<CheckpointError>(act); };
-  EXPECT_TRUE(contains(message([&] { reader.value<std::uint64_t>("clock/time"); }), "clock/time"));
-  EXPECT_TRUE(contains(message([&] { reader.value<float>("clock/time"); }), "8-byte floating"));
-  EXPECT_TRUE(contains(message([&] { reader.value<double>("body/displacement"); }), "24 bytes"));
-  EXPECT_TRUE(contains(message([&] { reader.text("clock/time"); }), "text"));
-  EXPECT_TRUE(contains(message([&] { reader.value<int>("clock/day"); }), "no block \"clock/day\""));
+  const StoredBlock axis = *reader.find("part/axis"), position = *reader.find("part/spheres/rows/position");
+  EXPECT_EQ(describe(axis.type), "8-byte floating-point numbers (m), 3 in a row");
+  EXPECT_EQ(axis.rows, 1u);
+  EXPECT_EQ(position.rows, 4u);
+  EXPECT_EQ(describe(reader.find("part/step")->type), "8-byte unsigned integers");
+  EXPECT_EQ(range_of(reader, "part/gain").least, -3);
+  EXPECT_FALSE(reader.find("part/day"));
 }
 
 TEST_F(Checkpoint, holds_no_name_twice) {
   CheckpointWriter writer(path_);
-  writer.add("time", 1.0);
-  EXPECT_THROW(writer.add("time", 2.0), std::logic_error);
+  add_rows(writer, "time", std::vector<double>{1.0});
+  EXPECT_THROW(add_rows(writer, "time", std::vector<double>{2.0}), std::logic_error);
 }
 
 TEST_F(Checkpoint, cut_off_anywhere_is_refused) {
@@ -201,7 +160,8 @@ TEST_F(Checkpoint, names_the_block_that_is_damaged) {
   ASSERT_NE(place, std::string::npos);
   bytes[place] = 'S';
   put(path_, bytes);
-  EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }), "block \"scene\""));
+  EXPECT_TRUE(
+      contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }), "block \"part/scene\""));
 }
 
 TEST_F(Checkpoint, of_another_version_or_program_is_refused_with_the_reason) {
@@ -211,16 +171,20 @@ TEST_F(Checkpoint, of_another_version_or_program_is_refused_with_the_reason) {
   other[8] = 99; // the version follows eight bytes of magic
   put(path_, other);
   EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }), "version 99"));
+  other[8] = 2; // the layout before this one
+  put(path_, other);
+  EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }),
+                       "has format version 2, this program reads version 3: its state has no names"));
   put(path_, std::string(5000, 'x'));
   EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{path_}; }), "not a checkpoint"));
   EXPECT_TRUE(contains(message_of<CheckpointError>([&] { CheckpointReader{folder_}; }), "no such"));
 }
 
 TEST_F(Checkpoint, without_its_end_is_refused) {
-  fill(spheres_, 5);
+  fill(part_.spheres, 5);
   {
     CheckpointWriter writer(path_);
-    writer.add_table("particles", spheres_.table);
+    save_part(writer, "spheres", part_.spheres);
   }
   EXPECT_THROW(CheckpointReader{path_}, CheckpointError);
 }
@@ -236,14 +200,15 @@ TEST_F(Checkpoint, changed_after_it_was_verified_gives_no_wrong_values) {
   file.seekp(static_cast<std::streamoff>(place));
   file.put('!');
   file.close();
-  EXPECT_THROW(reader.value<double>("clock/time"), CheckpointError);
+  EXPECT_THROW(rows_of<double>(reader, "part/time", "s"), CheckpointError);
 }
 
 TEST_F(Checkpoint, on_a_full_disk_says_so) {
-  fill(spheres_, 1000);
+  fill(part_.spheres, 1000);
   const std::string text = message_of<OutputError>([&] {
     CheckpointWriter writer("/dev/full");
-    write_all(writer, spheres_);
+    save_part(writer, "part", part_);
+    writer.finish();
   });
   EXPECT_TRUE(contains(text, "/dev/full") && contains(text, "No space left")) << text;
 }

@@ -10,6 +10,7 @@
 #include "dem/parallel.h"
 #include "sphere_scene.h"
 #include "tests/measured.h"
+#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
@@ -142,20 +143,10 @@ std::unique_ptr<SphereScene> heap(double skin, int n = 300, const dem::Weakening
   return scene;
 }
 
-bool same_bits(const dem::Table &a, const dem::Table &b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t c = 0; c < a.columns().size(); ++c)
-    if (std::memcmp(a.columns()[c]->bytes(), b.columns()[c]->bytes(),
-                    a.size() * a.columns()[c]->bytes_per_row()) != 0)
-      return false;
-  return true;
-}
-
 void expect_same(const SphereScene &a, const SphereScene &b) {
-  EXPECT_TRUE(same_bits(a.particles.table, b.particles.table));
-  EXPECT_EQ(a.body.state(), b.body.state());
-  EXPECT_EQ(a.layer.friction_work, b.layer.friction_work);
-  EXPECT_EQ(a.layer.damping_work, b.layer.damping_work);
+  // But for the rows: which particles are listed as near depends on when the list was made.
+  EXPECT_TRUE(same_state(without(state_of(a), "/rows/"), without(state_of(b), "/rows/")));
+  EXPECT_EQ(a.layer.closed, b.layer.closed);
   EXPECT_EQ(a.layer.elastic_energy(), b.layer.elastic_energy());
   EXPECT_EQ(a.layer.contacts().size(), b.layer.contacts().size());
 }
@@ -176,13 +167,6 @@ TEST(contact_history, the_result_does_not_know_when_the_list_was_made) {
   expect_same(*often, *seldom);
 }
 
-void copy_table(const dem::Table &from, dem::Table &to) {
-  to.resize(from.size());
-  for (std::size_t c = 0; c < from.columns().size(); ++c)
-    std::memcpy(to.columns()[c]->bytes(), from.columns()[c]->bytes(),
-                from.size() * from.columns()[c]->bytes_per_row());
-}
-
 TEST(contact_history, a_checkpoint_goes_on_to_the_same_bit) {
   using By = dem::Weakening::By;
   double work[3];
@@ -190,14 +174,8 @@ TEST(contact_history, a_checkpoint_goes_on_to_the_same_bit) {
     const dem::Weakening weakening{by, 1e-5, 0.5};
     const auto whole = heap(0.1 * sphere_radius, 300, weakening);
     run(*whole, 1111);
-    // What a checkpoint keeps: both tables, the body, two works.
     const auto resumed = heap(0.1 * sphere_radius, 300, weakening);
-    copy_table(whole->particles.table, resumed->particles.table);
-    copy_table(whole->layer.history(), resumed->layer.history());
-    resumed->body.set_state(whole->body.state());
-    resumed->layer.friction_work = whole->layer.friction_work;
-    resumed->layer.damping_work = whole->layer.damping_work;
-    resumed->layer.restored();
+    set_state(*resumed, state_of(*whole));
     run(*whole, 1000), run(*resumed, 1000);
     expect_same(*whole, *resumed);
     work[static_cast<int>(by)] = whole->layer.friction_work;

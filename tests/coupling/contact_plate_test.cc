@@ -149,7 +149,7 @@ TEST(contact_plate, stiffness_is_that_of_springs_in_series) {
   SphereScene scene(plate(0.01, 1), {{0, 0, 0.99 * sphere_radius}}, contact);
   scene.compute_forces(0);
   EXPECT_NEAR(scene.particles.force[0].z, 0.75 * stiffness * 0.01 * sphere_radius, 1e-12);
-  dem::Column<double> &column = scene.particles.table.add<double>("platen_stiffness", "N/m");
+  Column<double> &column = scene.particles.table.add<double>("platen_stiffness", "N/m");
   column[0] = 1e3;
   ContactLayer layer(scene.particles, scene.body, frictional(0, 0), &column);
   scene.particles.force[0] = {};

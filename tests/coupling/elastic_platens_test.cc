@@ -11,6 +11,7 @@
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/measured.h"
+#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
@@ -211,28 +212,6 @@ TEST(elastic_platens, the_book_closes_in_a_cell) {
   EXPECT_LT(std::abs(problem.energy().residual()), 5e-3 * problem.energy().boundary);
 }
 
-void copy(const dem::Table &from, dem::Table &to) {
-  to.resize(from.size());
-  for (std::size_t c = 0; c < from.columns().size(); ++c)
-    std::memcpy(to.columns()[c]->bytes(), from.columns()[c]->bytes(),
-                from.size() * from.columns()[c]->bytes_per_row());
-}
-
-// What a checkpoint keeps.
-void restore(const Problem &from, Problem &to) {
-  copy(from.model.particles.table, to.model.particles.table);
-  copy(from.model.bonds->table, to.model.bonds->table);
-  copy(from.model.bonds->records, to.model.bonds->records);
-  copy(from.model.contacts->table, to.model.contacts->table);
-  to.model.contacts->search_state().set_state(from.model.contacts->search_state().state());
-  to.top.set_state(from.top.state());
-  to.bottom.set_state(from.bottom.state());
-  copy(from.top_layer.history(), to.top_layer.history());
-  copy(from.bottom_layer.history(), to.bottom_layer.history());
-  to.set_numbers(from.numbers());
-  to.restored();
-}
-
 TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
   for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     ProblemSettings settings = crushing(motion);
@@ -240,13 +219,12 @@ TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
     Problem run(cylinder(), settings);
     advance_to(run, 1013); // in the middle of the loads' mean
     Problem resumed(cylinder(), settings);
-    restore(run, resumed);
-    EXPECT_EQ(run.top.state(), resumed.top.state());
+    set_state(resumed, state_of(run));
     advance_to(run, 1500);
     advance_to(resumed, 1500);
-    EXPECT_EQ(run.numbers(), resumed.numbers());
-    EXPECT_EQ(run.top.state(), resumed.top.state());
-    EXPECT_EQ(run.bottom.state(), resumed.bottom.state());
+    // But for rows of platen contacts: which particles are listed as near depends on when that was done.
+    EXPECT_TRUE(same_state(without(state_of(run), "_contacts/rows/"),
+                           without(state_of(resumed), "_contacts/rows/")));
     EXPECT_EQ(run.energy().boundary, resumed.energy().boundary);
   }
 }

@@ -1,4 +1,6 @@
 #include "coupling/pace.h"
+#include "base/state.h"
+#include "coupling/servo.h"
 
 #include <gtest/gtest.h>
 
@@ -83,7 +85,7 @@ TEST(pace, goes_on_from_its_state_to_the_last_bit) {
     whole.to(stop, specimen);
     Ride resumed = whole;
     resumed.pace = Pace(parameters);
-    resumed.pace.set_state(whole.pace.state());
+    set_state(resumed.pace, state_of(whole.pace));
     for (int n = 0; n < 3000; ++n)
       ASSERT_EQ(whole.step(specimen), resumed.step(specimen)) << stop << ", " << n;
   }
@@ -95,7 +97,7 @@ TEST(pace, of_no_hurry_is_one_and_nonsense_is_refused) {
   EXPECT_THROW(Pace({0.5, crossing, crossing, 10}), std::invalid_argument);
   EXPECT_THROW(Pace({2, 0, crossing, 10}), std::invalid_argument);
   EXPECT_THROW(Pace({2, crossing, 0, 10}), std::invalid_argument);
-  EXPECT_THROW(calm.set_state({1, 2}), std::invalid_argument);
+  EXPECT_THROW(set_state(calm, state_of(Servo({1, 1}))), StateError);
 }
 
 } // namespace

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include "tests/coupling/small_cylinder.h"
+#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
@@ -30,14 +30,6 @@ ProblemSettings crushing() {
   s.loading.rate = 1;
   s.loading.ramp = 1e-6;
   return s;
-}
-
-void expect_same_bits(const dem::Table &a, const dem::Table &b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t c = 0; c < a.columns().size(); ++c) {
-    const dem::ColumnBase &one = *a.columns()[c], &other = *b.columns()[c];
-    EXPECT_EQ(std::memcmp(one.bytes(), other.bytes(), one.size() * one.bytes_per_row()), 0) << one.name();
-  }
 }
 
 // The spheres weigh what the shape filled with the solid weighs, and a wave crosses in h sqrt(rho / E).
@@ -80,34 +72,7 @@ TEST(problem, steps_in_one_go_are_the_same_as_one_by_one) {
   EXPECT_GT(one_by_one.model.broken_tension, 20);
   EXPECT_GT(stops, steps / 29 + 5); // breaks end a run of steps early
   EXPECT_LT(stops, steps);
-  EXPECT_EQ(one_by_one.numbers(), in_one_go.numbers());
-  expect_same_bits(one_by_one.model.particles.table, in_one_go.model.particles.table);
-  expect_same_bits(one_by_one.model.bonds->table, in_one_go.model.bonds->table);
-  expect_same_bits(one_by_one.model.contacts->table, in_one_go.model.contacts->table);
-  expect_same_bits(one_by_one.top_layer.history(), in_one_go.top_layer.history());
-}
-
-void copy(const dem::Table &from, dem::Table &to) {
-  to.resize(from.size());
-  for (std::size_t c = 0; c < from.columns().size(); ++c) {
-    const dem::ColumnBase &column = *from.columns()[c];
-    std::memcpy(to.columns()[c]->bytes(), column.bytes(), column.size() * column.bytes_per_row());
-  }
-}
-
-// What a checkpoint keeps.
-void restore(const Problem &from, Problem &to) {
-  copy(from.model.particles.table, to.model.particles.table);
-  copy(from.model.bonds->table, to.model.bonds->table);
-  copy(from.model.bonds->records, to.model.bonds->records);
-  copy(from.model.contacts->table, to.model.contacts->table);
-  to.model.contacts->search_state().set_state(from.model.contacts->search_state().state());
-  to.top.set_state(from.top.state());
-  to.bottom.set_state(from.bottom.state());
-  copy(from.top_layer.history(), to.top_layer.history());
-  copy(from.bottom_layer.history(), to.bottom_layer.history());
-  to.set_numbers(from.numbers());
-  to.restored();
+  EXPECT_TRUE(same_state(one_by_one, in_one_go));
 }
 
 // The time step is chosen anew every 400 steps where contacts have closed; a run that is resumed just there
@@ -117,21 +82,23 @@ TEST(problem, a_run_resumed_where_the_step_is_chosen_goes_on_the_same) {
   ProblemSettings slow = crushing();
   slow.loading.rate = 0.3; // few contacts close between two choices
   Problem run(specimen, slow);
-  constexpr std::size_t springs_at_choice = 4; // place in numbers()
+  const auto near_at_choice = [](const Problem &problem) {
+    return rows_of<std::size_t>(state_of(problem), "state/near_at_choice").front();
+  };
   int choices = 0;
   for (int part = 0; part < 8; ++part) {
     run.advance(400 - run.steps() % 400);
     while (run.steps() % 400 != 0)
       run.advance(400 - run.steps() % 400);
     Problem resumed(specimen, slow);
-    restore(run, resumed);
+    set_state(resumed, state_of(run));
     EXPECT_EQ(run.springs_near(), resumed.springs_near());
     EXPECT_GT(resumed.springs_near(), 0u);
-    const double before = run.numbers()[springs_at_choice];
+    const std::size_t before = near_at_choice(run);
     run.step();
     resumed.step();
-    choices += run.numbers()[springs_at_choice] != before;
-    EXPECT_EQ(run.numbers(), resumed.numbers()) << run.steps();
+    choices += near_at_choice(run) != before;
+    EXPECT_TRUE(same_state(run, resumed)) << run.steps();
   }
   EXPECT_GT(choices, 0);
 }

@@ -1,4 +1,5 @@
 #include "coupling/servo.h"
+#include "base/state.h"
 
 #include <gtest/gtest.h>
 
@@ -139,10 +140,10 @@ TEST(servo, state_comes_back_to_the_last_bit) {
   Servo a({1, 1}), b({1, 1});
   for (int n = 0; n < 10; ++n)
     a.velocity(10, n, {1e6, 3}, 1e-6);
-  b.set_state(a.state());
+  set_state(b, state_of(a));
   for (int n = 0; n < 10; ++n)
     EXPECT_EQ(a.velocity(10, n, {1e6, 3}, 1e-6), b.velocity(10, n, {1e6, 3}, 1e-6));
-  EXPECT_THROW(b.set_state({}), std::invalid_argument);
+  EXPECT_THROW(set_state(b, State()), StateError);
 }
 
 TEST(servo, parameters_that_are_not_positive_are_refused) {

@@ -50,6 +50,12 @@ struct SphereScene {
         body(std::move(plate_body)),
         layer(particles, body, contact) {}
 
+  void describe(Archive &archive) {
+    archive.table("particles", particles.table);
+    archive.part("body", body);
+    archive.part("contacts", layer);
+  }
+
   // Forces at the present positions, history advanced by the motion of the last dt.
   void compute_forces(double dt) {
     for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -24,12 +24,12 @@ TEST(Layering, particles_may_not_include_elements_coupling_apps_or_big_libraries
                            "<Epetra_CrsMatrix.h>", "<Teuchos_RCP.hpp>", "<ml_epetra_utils.h>", "<fstream>"})
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 1u) << path;
   for (const char *path :
-       {"\"dem/table.h\"", "<vector>", "<Eigen/Dense>", "<tbb/parallel_for.h>", "<cstdio>"})
+       {"\"dem/bonds.h\"", "\"base/table.h\"", "<vector>", "<Eigen/Dense>", "<tbb/parallel_for.h>", "<cstdio>"})
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 0u) << path;
 }
 
 TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both) {
-  const std::string particles = "#include \"dem/table.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
+  const std::string particles = "#include \"dem/bonds.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
   const std::string coupling = "#include \"coupling/problem.h\"\n", apps = "#include \"apps/io/output.h\"\n";
   EXPECT_EQ(faults("fem", particles + coupling + apps), 3u);
   EXPECT_EQ(faults("fem", elements + "#include <deal.II/base/tensor.h>\n"), 0u);

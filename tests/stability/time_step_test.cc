@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/state.h"
 #include "coupling/problem.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/random.h"
@@ -181,7 +182,7 @@ TEST(time_step, energy_that_was_given_is_not_from_nowhere) {
     for (dem::Vector3 &v : p->model.particles.velocity)
       v = {0, 0, 5}; // a thousand times the energy that the platens bring in
   thrown.advance(50);
-  resumed.set_numbers(thrown.numbers());
+  set_state(resumed, state_of(thrown));
   EXPECT_EQ(thrown.steps(), 50);
   EXPECT_NO_THROW(resumed.advance(5));
 }

@@ -41,26 +41,42 @@ void attempt(const Read &read) {
   try {
     read();
   } catch (const CheckpointError &) {
+  } catch (const platen::StateError &) {
   }
 }
 
+struct Spheres {
+  platen::Table table;
+  std::uint64_t step = 0;
+  std::vector<double> numbers;
+  std::string reason;
+  Spheres() {
+    table.add<dem::Vector3>("position", "m");
+    table.add<double>("radius", "m");
+    table.add<int>("id", "1");
+  }
+  void describe(platen::Archive &archive) {
+    archive.version(1);
+    archive("step", step);
+    archive.rows("numbers", numbers);
+    archive.text("reason", reason);
+    archive.table("particles", table);
+  }
+};
+
 void read_out(const CheckpointReader &reader) {
   for (const std::string &name : reader.names()) {
-    attempt([&] { reader.text(name); });
-    attempt([&] { reader.value<double>(name); });
-    attempt([&] { reader.value<std::uint64_t>(name); });
-    attempt([&] {
-      std::vector<double> numbers;
-      reader.get(name, numbers);
-    });
-    attempt([&] {
-      dem::Table table;
-      table.add<dem::Vector3>("position", "m");
-      table.add<double>("radius", "m");
-      table.add<int>("id", "1");
-      reader.read_table(name, table);
-    });
+    attempt([&] { platen::range_of(reader, name); });
+    attempt([&] { platen::text_of(reader, name); });
+    attempt([&] { platen::rows_of<double>(reader, name); });
   }
+  attempt([&] { platen::first_difference(reader, reader); });
+  attempt([&] {
+    platen::LoadingArchive archive(reader);
+    Spheres spheres;
+    archive.part("part", spheres);
+    archive.require_all_read();
+  });
 }
 
 } // namespace

@@ -2,23 +2,37 @@
 #include "apps/io/checkpoint.h"
 #include "dem/vector3.h"
 
+namespace {
+
+struct Spheres {
+  platen::Table table;
+  platen::Column<platen::dem::Vector3> &position = table.add<platen::dem::Vector3>("position", "m");
+  platen::Column<double> &radius = table.add<double>("radius", "m");
+  platen::Column<int> &id = table.add<int>("id", "1");
+  void describe(platen::Archive &archive) {
+    archive.version(1);
+    std::uint64_t step = 12;
+    std::vector<double> numbers{1, 2};
+    std::string reason = "bond 1";
+    archive("step", step);
+    archive.rows("numbers", numbers);
+    archive.text("reason", reason);
+    archive.table("particles", table);
+  }
+};
+
+} // namespace
+
 int main(int, char **arguments) {
-  namespace dem = platen::dem;
-  dem::Table table;
-  auto &position = table.add<dem::Vector3>("position", "m");
-  auto &radius = table.add<double>("radius", "m");
-  auto &id = table.add<int>("id", "1");
-  table.resize(2);
+  Spheres spheres;
+  spheres.table.resize(2);
   for (int k = 0; k < 2; ++k) {
     const auto row = static_cast<std::size_t>(k);
-    position[row] = {1.0 * k, 0, 0};
-    radius[row] = 0.5;
-    id[row] = k;
+    spheres.position[row] = {1.0 * k, 0, 0};
+    spheres.radius[row] = 0.5;
+    spheres.id[row] = k;
   }
   platen::apps::CheckpointWriter writer(arguments[1]);
-  writer.add("step", std::uint64_t{12});
-  writer.add("problem", std::vector<double>{1, 2});
-  writer.add_text("reason", "bond 1");
-  writer.add_table("particles", table);
+  platen::save_part(writer, "part", spheres);
   writer.finish();
 }

@@ -6,12 +6,15 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-namespace platen::dem {
+#include "base/block_type.h"
+
+namespace platen {
 
 class ColumnBase {
 public:
@@ -23,9 +26,14 @@ public:
   virtual void resize(std::size_t n) = 0;
   // Row k becomes the former row order[k]; order may be shorter than the column (gather).
   virtual void permute(const std::vector<int> &order) = 0;
+  virtual BlockType type() const = 0;
   virtual std::size_t bytes_per_row() const = 0;
   virtual void *bytes() = 0;
   virtual const void *bytes() const = 0;
+  // Of a column that states lack which were written before it was added: whether it has a value for them,
+  // and every row that value.
+  virtual bool may_lack() const = 0;
+  virtual void fill_lacking() = 0;
 
 private:
   std::string name_, unit_;
@@ -36,7 +44,8 @@ class Column : public ColumnBase {
   static_assert(std::is_trivially_copyable_v<T>, "columns are saved and sorted as plain bytes");
 
 public:
-  using ColumnBase::ColumnBase;
+  Column(std::string name, std::string unit, std::optional<T> lacking = std::nullopt)
+      : ColumnBase(std::move(name), std::move(unit)), lacking_(lacking) {}
   T *data() { return values_.data(); }
   const T *data() const { return values_.data(); }
   T &operator[](std::size_t k) { return values_[k]; }
@@ -56,22 +65,31 @@ public:
       moved[k] = values_[static_cast<std::size_t>(order[k])];
     values_.swap(moved);
   }
+  BlockType type() const override { return block_type<T>(unit()); }
   std::size_t bytes_per_row() const override { return sizeof(T); }
   void *bytes() override { return values_.data(); }
   const void *bytes() const override { return values_.data(); }
+  bool may_lack() const override { return lacking_.has_value(); }
+  void fill_lacking() override {
+    for (T &value : *this)
+      value = *lacking_;
+  }
 
 private:
   // One row beyond the end, so that kernels may read a vector of three doubles as four.
   static constexpr std::size_t spare = 1;
   std::vector<T> values_ = std::vector<T>(spare);
+  std::optional<T> lacking_;
 };
 
 class Table {
 public:
-  // Adds a column of the table's length. The reference stays valid for the life of the table.
+  // Adds a column of the table's length. The reference stays valid for the life of the table. `lacking`: the
+  // value of its rows in states that were written before there was such a column; without one such a state is
+  // refused.
   template <class T>
-  Column<T> &add(const std::string &name, const std::string &unit) {
-    auto column = std::make_unique<Column<T>>(name, unit);
+  Column<T> &add(const std::string &name, const std::string &unit, std::optional<T> lacking = std::nullopt) {
+    auto column = std::make_unique<Column<T>>(name, unit, lacking);
     column->resize(size_);
     Column<T> &reference = *column;
     columns_.push_back(std::move(column));
@@ -101,4 +119,4 @@ private:
   std::vector<std::unique_ptr<ColumnBase>> columns_;
 };
 
-} // namespace platen::dem
+} // namespace platen

@@ -1,0 +1,128 @@
+// States as named blocks: what an Archive writes to and reads from, in memory (State) or in a file (a sink
+// and a source of the apps), and what can be told of one without knowing whose it is.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/archive.h"
+
+namespace platen {
+
+struct StoredBlock {
+  BlockType type;
+  std::size_t rows = 0;
+};
+
+class StateSink {
+public:
+  virtual ~StateSink() = default;
+  // Names are unique; one that is given twice throws std::logic_error.
+  virtual void add(const std::string &name, const BlockType &type, const void *data, std::size_t rows) = 0;
+};
+
+class StateSource {
+public:
+  virtual ~StateSource() = default;
+  virtual std::vector<std::string> names() const = 0;
+  virtual std::optional<StoredBlock> find(const std::string &name) const = 0;
+  virtual void read(const std::string &name, void *data) const = 0; // all rows of a block that is there
+};
+
+// Writes and reads a part under a name. A part that cannot take a state (StateError) is of no further use:
+// some of it has been read.
+class SavingArchive : public Archive {
+public:
+  explicit SavingArchive(StateSink &sink) : sink_(sink) {}
+  bool reads() const override { return false; }
+
+private:
+  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack) override;
+  void expect(const std::string &, const BlockType &, std::size_t, bool) override {}
+  StateSink &sink_;
+};
+
+class LoadingArchive : public Archive {
+public:
+  explicit LoadingArchive(const StateSource &source) : source_(source) {}
+  bool reads() const override { return true; }
+  // After all parts: throws StateError where the source holds what none of them asked for.
+  void require_all_read() const;
+
+private:
+  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack) override;
+  void expect(const std::string &path, const BlockType &type, std::size_t rows, bool may_lack) override;
+  std::optional<StoredBlock> wanted(const std::string &path, const BlockType &type, bool may_lack) const;
+  const StateSource &source_;
+  std::map<std::string, bool> read_;
+};
+
+template <class Part>
+void save_part(StateSink &sink, const std::string &name, const Part &part) {
+  SavingArchive archive(sink);
+  archive.part(name, const_cast<Part &>(part)); // an archive that writes changes nothing
+}
+
+// A state in memory.
+class State : public StateSink, public StateSource {
+public:
+  void add(const std::string &name, const BlockType &type, const void *data, std::size_t rows) override;
+  std::vector<std::string> names() const override; // in the order in which they were added
+  std::optional<StoredBlock> find(const std::string &name) const override;
+  void read(const std::string &name, void *data) const override;
+
+private:
+  struct Block {
+    StoredBlock stored;
+    std::vector<char> bytes;
+  };
+  std::vector<std::string> names_;
+  std::map<std::string, Block> blocks_;
+};
+
+template <class Part>
+State state_of(const Part &part) {
+  State state;
+  save_part(state, "state", part);
+  return state;
+}
+// Throws StateError where the state is not that of such a part.
+template <class Part>
+void set_state(Part &part, const State &state) {
+  LoadingArchive archive(state);
+  archive.part("state", part);
+  archive.require_all_read();
+}
+
+// Single blocks by hand, for what is no part. The readers throw StateError where the block is missing or
+// holds something else.
+template <class T>
+void add_rows(StateSink &sink, const std::string &name, const std::vector<T> &values,
+              const std::string &unit = "1") {
+  sink.add(name, block_type<T>(unit), values.data(), values.size());
+}
+void add_text(StateSink &sink, const std::string &name, const std::string &text);
+std::string text_of(const StateSource &source, const std::string &name);
+// A block of that type; its number of rows.
+std::size_t rows_of_type(const StateSource &source, const std::string &name, const BlockType &type);
+template <class T>
+std::vector<T> rows_of(const StateSource &source, const std::string &name, const std::string &unit = "1") {
+  std::vector<T> values(rows_of_type(source, name, block_type<T>(unit)));
+  if (!values.empty()) source.read(name, values.data());
+  return values;
+}
+
+// Least and largest of all numbers of a block; NaN of text and of no rows. Numbers that are NaN are passed
+// over.
+struct BlockRange {
+  double least, largest;
+};
+BlockRange range_of(const StateSource &source, const std::string &name);
+
+// The first block, in the order of `a`, in which two states differ, and where in it: by name, row and number
+// in the row, with both values. One sentence; none where they are the same to the last bit.
+std::optional<std::string> first_difference(const StateSource &a, const StateSource &b);
+
+} // namespace platen

@@ -1,0 +1,80 @@
+// What platen-report tells of the state in a checkpoint.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "apps/io/checkpoint_folder.h"
+#include "apps/report/state_listing.h"
+#include "apps/report_folder.h"
+
+namespace platen::apps::report {
+namespace {
+
+struct Spheres {
+  Table table;
+  Column<double> &radius = table.add<double>("radius", "m");
+  double pressure = 2e6;
+  std::string reason = "bond 7";
+  Spheres() {
+    table.resize(3);
+    radius[0] = 1, radius[1] = 0.5, radius[2] = 2;
+  }
+  void describe(Archive &archive) {
+    archive.version(4);
+    archive("pressure", pressure, "Pa");
+    archive.text("reason", reason);
+    archive.table("particles", table);
+  }
+};
+
+std::filesystem::path keep(const TestFolder &folder, const std::string &run, const Spheres &spheres) {
+  write_checkpoint(folder / run / "checkpoint", 12,
+                   [&](CheckpointWriter &to) { save_part(to, "specimen", spheres); });
+  return folder / run;
+}
+
+// With one blank for several.
+std::string squeezed(const std::string &text) {
+  return std::regex_replace(text, std::regex(" +"), " ");
+}
+
+bool holds(const std::string &text, const std::string &part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(report_state, every_block_is_listed_with_rows_kind_unit_and_range) {
+  const TestFolder folder;
+  std::ostringstream out;
+  list_state(keep(folder, "run", Spheres()), out);
+  const std::string text = squeezed(out.str());
+  EXPECT_TRUE(holds(text, "step_000000000012.platen: step 12, 5 blocks, ")) << text;
+  EXPECT_TRUE(holds(text, "\nspecimen (version 4)\n")) << text;
+  EXPECT_TRUE(holds(text, "\nspecimen/pressure 1 float64 Pa 2000000\n")) << text;
+  EXPECT_TRUE(holds(text, "\nspecimen/reason 6 text 1 \"bond 7\"\n")) << text;
+  EXPECT_TRUE(holds(text, "\nspecimen/particles/radius 3 float64 m 0.5 ... 2\n")) << text;
+}
+
+TEST(report_state, the_first_difference_of_two_runs_is_told) {
+  const TestFolder folder;
+  Spheres other;
+  const std::filesystem::path first = keep(folder, "first", Spheres()),
+                              same = keep(folder, "same", Spheres());
+  other.radius[1] = 0.25;
+  const std::filesystem::path changed = keep(folder, "changed", other);
+  std::ostringstream out;
+  EXPECT_TRUE(compare_states(first, same, out));
+  EXPECT_TRUE(holds(out.str(), ": the same to the last bit\n")) << out.str();
+  out.str("");
+  EXPECT_FALSE(compare_states(first, changed, out));
+  EXPECT_TRUE(holds(out.str(), ": specimen/particles/radius, row 1: 0.5 and 0.25 m\n")) << out.str();
+}
+
+TEST(report_state, a_folder_without_a_checkpoint_is_refused) {
+  const TestFolder folder;
+  std::ostringstream out;
+  EXPECT_THROW(list_state(folder / "none", out), CheckpointError);
+}
+
+} // namespace
+} // namespace platen::apps::report
