@@ -26,12 +26,12 @@ double seconds_of(const Work &work) {
 }
 
 // One solve with every sphere near the platens held, by our multigrid and by ML.
-void compare_with_ml(coupling::Problem &problem) {
+void compare_with_ml(coupling::PlatenTest &problem) {
   const dem::Particles &p = problem.model.particles;
   const dem::Bonds &bonds = *problem.model.bonds;
   dem::StaticCase load;
   for (const bool top : {false, true})
-    for (const dem::GroundSpring &s : problem.springs_at(top))
+    for (const dem::GroundSpring &s : (top ? problem.top() : problem.bottom()).whole_springs(problem.model.particles))
       load.supports.push_back({s, {0, 0, top ? -1e-6 : 1e-6}});
   dem::StaticState ours;
   const double seconds = seconds_of([&] { ours = dem::solve_static(p, bonds, load); });
@@ -66,12 +66,12 @@ double percent_off(double a, double b) {
 
 // The same strain by so many steps: platens that start smoothly over the first half of the run and then keep
 // their speed, thousands of wave crossings for the whole way.
-void compare_with_steps(const dem::Specimen &specimen, coupling::ProblemSettings settings, long steps,
+void compare_with_steps(const dem::Specimen &specimen, coupling::PlatenTestSettings settings, long steps,
                         double time_step, const coupling::StaticPress &still, double still_seconds) {
   settings.loading.ramp = 0.5 * static_cast<double>(steps) * time_step;
   settings.loading.rate = still.strain_platen * specimen.shape.height /
                           (static_cast<double>(steps) * time_step - 0.5 * settings.loading.ramp);
-  coupling::Problem problem(specimen, settings);
+  coupling::PlatenTest problem(specimen, settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const double seconds = seconds_of([&] { bench::run(problem, steps); });
 
@@ -90,7 +90,7 @@ void compare_with_steps(const dem::Specimen &specimen, coupling::ProblemSettings
               percent_off(still.platen_modulus(), made.platens),
               percent_off(still.poisson_ratio(), made.poisson_ratio), seconds / still_seconds);
   std::printf("  contacts of the platens: %zu + %zu, static %zu + %zu; touching grains %zu; cracks %ld\n",
-              problem.bottom_layer.closed, problem.top_layer.closed, still.closed_bottom, still.closed_top,
+              problem.bottom().layer().closed, problem.top().layer().closed, still.closed_bottom, still.closed_top,
               problem.model.contacts->touching_count(),
               problem.model.broken_tension + problem.model.broken_shear);
   std::printf("  kinetic over internal energy %.1e, unbalanced over bond force %.1e\n",
@@ -124,9 +124,9 @@ int main(int argc, char **argv) {
   const dem::ThreadLimit limit(threads);
   const dem::Specimen specimen =
       read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen;
-  coupling::ProblemSettings settings = bench::elastic_press(law);
+  coupling::PlatenTestSettings settings = bench::elastic_press(law);
   settings.platens.top = settings.platens.bottom = {friction, friction};
-  coupling::Problem problem(specimen, settings);
+  coupling::PlatenTest problem(specimen, settings);
   if (ml) compare_with_ml(problem);
   std::vector<double> still, step;
   coupling::StaticPress p;

@@ -38,7 +38,7 @@ dem::Specimen specimen_for(const Options &o) {
   return specimen;
 }
 
-void print_memory(const coupling::Problem &problem, double before) {
+void print_memory(const coupling::PlatenTest &problem, double before) {
   const double particles = static_cast<double>(problem.model.particles.size());
   std::printf(
       "memory: %.0f bytes per particle in columns and search, bonds included; process %.0f MB, %.0f "
@@ -57,7 +57,7 @@ struct Series {
   long steps = 0;
 };
 
-Series series_on(int threads, const Options &o, const coupling::Problem &problem) {
+Series series_on(int threads, const Options &o, const coupling::PlatenTest &problem) {
   Series s;
   s.threads = threads;
   if (o.alone) return s;
@@ -67,7 +67,7 @@ Series series_on(int threads, const Options &o, const coupling::Problem &problem
 }
 
 // Who comes after another needs a moment until its threads have found their processors.
-void repeat(Series &s, const Options &o, coupling::Problem &problem) {
+void repeat(Series &s, const Options &o, coupling::PlatenTest &problem) {
   const dem::ThreadLimit limit(s.threads);
   const int settling = o.steps / 10 + 1;
   const double bonds = static_cast<double>(problem.model.bonds->size());
@@ -124,7 +124,7 @@ void print_gain(const Series &one, const Series &several) {
       part.largest);
 }
 
-void measure(const Options &o, coupling::Problem &problem, double memory_before) {
+void measure(const Options &o, coupling::PlatenTest &problem, double memory_before) {
   Series several = series_on(o.threads, o, problem), one;
   if (o.gain) one = series_on(1, o, problem);
   bench::run(problem, o.steps / 5 + 1); // warm
@@ -163,11 +163,11 @@ int main(int argc, char **argv) {
 
   const dem::ThreadLimit limit(o.threads);
   const dem::Specimen specimen = specimen_for(o);
-  coupling::ProblemSettings chosen = bench::elastic_press(o.law);
+  coupling::PlatenTestSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
   const double before = bench::peak_memory();
   const auto start = Clock::now();
-  coupling::Problem problem(specimen, chosen);
+  coupling::PlatenTest problem(specimen, chosen);
   std::printf("set up in %.3g s\n", seconds_since(start));
   std::printf("%zu particles, %zu bonds, %d threads, %s kernels, step %.4g s\n",
               problem.model.particles.size(), problem.model.bonds->size(), o.threads,

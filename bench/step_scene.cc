@@ -53,8 +53,8 @@ const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
                                       {"cohesive-beam", Law::cohesive_beam},
                                       {"elasto-damage-plastic", Law::elasto_damage_plastic}};
 
-coupling::ProblemSettings elastic_press(Law law) {
-  coupling::ProblemSettings s;
+coupling::PlatenTestSettings elastic_press(Law law) {
+  coupling::PlatenTestSettings s;
   s.model.bond_layout.modulus = 40e9;
   s.model.bond_layout.gap = 0.1;
   s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3};
@@ -95,7 +95,7 @@ Network network_of(const dem::Model &model) {
   return network;
 }
 
-void run(coupling::Problem &problem, long steps) {
+void run(coupling::PlatenTest &problem, long steps) {
   while (steps > 0)
     steps -= problem.advance(steps);
 }

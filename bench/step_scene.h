@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/packing/specimen.h"
 #include "limit/idealised_loop.h"
 
@@ -20,12 +20,12 @@ dem::Specimen close_packed(int particles);
 // Failure checks, energy book, local damping and contacts on; strengths that nothing reaches.
 enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
 extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
-coupling::ProblemSettings elastic_press(Law law = Law::parallel_bond);
+coupling::PlatenTestSettings elastic_press(Law law = Law::parallel_bond);
 
 // The bonds of a problem for the idealised loop.
 Network network_of(const dem::Model &model);
 
-void run(coupling::Problem &problem, long steps);
+void run(coupling::PlatenTest &problem, long steps);
 
 struct Spread {
   double median = 0, smallest = 0, largest = 0;

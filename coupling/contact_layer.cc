@@ -63,8 +63,7 @@ std::size_t index(int row) {
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
                            const SurfaceContact &parameters, const Column<double> *particle_stiffness)
     : parameters_(parameters),
-      friction_(
-          dem::friction_law(parameters.friction_static, parameters.friction_dynamic, parameters.weakening)),
+      friction_(dem::friction_law(parameters)),
       particle_stiffness_(particle_stiffness),
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin) {

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "base/archive.h"
-#include "coupling/servo.h"
+#include "coupling/program/servo.h"
 #include "coupling/surface_search.h"
 #include "dem/laws/friction_law.h"
 #include "dem/particles.h"
@@ -36,16 +36,14 @@ enum class Attachment {
   glued // seated particles are tied to the surface: pull as well as push, no limit to the tangential force
 };
 
-struct SurfaceContact {
+// Frictionless surfaces have no tangential columns.
+struct SurfaceContact : dem::SurfaceFriction {
   double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m; unused where a column is given
   double body_stiffness = std::numeric_limits<double>::infinity(); // N/m, in series: 1/k_n = 1/k_p + 1/k_b
   // Of a body that yields: the dents of its mesh under single forces, which the stiffness above holds already
   // and which are therefore taken out of the spring (see below). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
   double tangential_ratio = 0.8;                    // k_t / k_n, > 0
-  double friction_static = 0;                       // 1, >= 0; infinity: never slides
-  double friction_dynamic = 0;                      // 1; both zero: frictionless, no tangential columns
-  dem::Weakening weakening;                         // from static to dynamic
   double damping = 0;                               // fraction of critical, >= 0
   Attachment attachment = Attachment::free;
   // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up

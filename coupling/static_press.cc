@@ -27,13 +27,13 @@ struct Contacts {
   bool glued = false;
 };
 
-Contacts contacts_of(Problem &problem, double strain) {
+Contacts contacts_of(PlatenTest &test, double strain) {
   Contacts c;
-  c.glued = problem.settings().platens.glued;
-  const double way = 0.5 * strain * problem.shape().height;
+  c.glued = test.top().glued();
+  const double way = 0.5 * strain * test.shape().height;
   for (const bool top : {false, true}) {
     if (top) c.first_of_top = c.near.size();
-    for (dem::GroundSpring &s : problem.springs_at(top))
+    for (dem::GroundSpring &s : (top ? test.top() : test.bottom()).whole_springs(test.model.particles))
       if (s.gap <= way) c.near.push_back({s, {0, 0, top ? -way : way}});
   }
   c.pressed.assign(c.near.size(), true);
@@ -79,7 +79,7 @@ bool update(Contacts &c, const dem::StaticState &state, double band) {
   return settled;
 }
 
-StaticPress measured(const Problem &problem, const Contacts &c, const dem::StaticState &state,
+StaticPress measured(const PlatenTest &test, const Contacts &c, const dem::StaticState &state,
                      double strain) {
   StaticPress p;
   p.strain_platen = strain;
@@ -88,10 +88,10 @@ StaticPress measured(const Problem &problem, const Contacts &c, const dem::Stati
     const bool top = k >= c.first_of_top;
     ++(top ? p.closed_top : p.closed_bottom);
     const double up = normal_force(c.near[k], state) * c.near[k].spring.normal.z;
-    p.stress += 0.5 * (top ? -up : up) / problem.nominal_area();
+    p.stress += 0.5 * (top ? -up : up) / test.nominal_area();
   }
-  dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
-  const dem::GaugeStrain s = gauge.strain_of(problem.model.particles, state.displacement);
+  dem::Gauge gauge(test.model.particles, test.shape(), test.model.bonds.get());
+  const dem::GaugeStrain s = gauge.strain_of(test.model.particles, state.displacement);
   p.strain_gauge = -s.axial;
   p.lateral_strain = s.lateral();
   return p;
@@ -99,11 +99,11 @@ StaticPress measured(const Problem &problem, const Contacts &c, const dem::Stati
 
 } // namespace
 
-StaticPress press_statically(Problem &problem, double strain, const dem::StaticSettings &settings) {
-  if (!problem.model.bonds || !(strain > 0))
+StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings) {
+  if (!test.model.bonds || !(strain > 0))
     throw NumericsStopped("a static solve needs bonds and a strain above 0");
-  Contacts contacts = contacts_of(problem, strain);
-  dem::StaticSolver solver(problem.model.particles, *problem.model.bonds);
+  Contacts contacts = contacts_of(test, strain);
+  dem::StaticSolver solver(test.model.particles, *test.model.bonds);
   // While the set of contacts still changes a rough answer tells which.
   dem::StaticSettings now = settings;
   now.tolerance = std::max(settings.tolerance, rough);
@@ -121,7 +121,7 @@ StaticPress press_statically(Problem &problem, double strain, const dem::StaticS
       now.tolerance = settings.tolerance;
       continue;
     }
-    StaticPress p = measured(problem, contacts, state, strain);
+    StaticPress p = measured(test, contacts, state, strain);
     p.solves = solve;
     p.iterations = iterations;
     p.displacement = std::move(state.displacement);
@@ -132,9 +132,13 @@ StaticPress press_statically(Problem &problem, double strain, const dem::StaticS
                         " solves");
 }
 
-StaticPress start_statically(Problem &problem, double strain, const dem::StaticSettings &settings) {
-  StaticPress p = press_statically(problem, strain, settings);
-  problem.carry(p.displacement, p.turn, 0.5 * strain * problem.shape().height);
+StaticPress start_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings) {
+  StaticPress p = press_statically(test, strain, settings);
+  const double rise = 0.5 * strain * test.shape().height; // m, of each platen towards the other
+  std::vector<fem::Point> of_boundaries(test.boundaries().size(), fem::Point{});
+  of_boundaries[0] = {0, 0, rise}; // bottom
+  of_boundaries[1] = {0, 0, -rise};
+  test.carry(p.displacement, p.turn, of_boundaries);
   return p;
 }
 

@@ -2,7 +2,7 @@
 // instead of a hundred thousand steps.
 #pragma once
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/equilibrium.h"
 
 namespace platen::coupling {
@@ -25,10 +25,10 @@ struct StaticPress {
 // there is friction, sticks; one that would have to be pulled is let go, until no sphere changes. Linear
 // otherwise: stress grows with strain alone where the set of contacts does not change. Glued ends hold in
 // either sense. Throws NumericsStopped where the set does not settle or no equilibrium is found.
-StaticPress press_statically(Problem &problem, double strain, const dem::StaticSettings &settings = {});
+StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings = {});
 
-// The same, and carries a problem that has made no step there (Problem::carry): an explicit run begins at
+// The same, and carries a test that has made no step there (Experiment::carry): an explicit run begins at
 // that strain, at rest. Friction has its share of slip then, if it has any. Throws BadSetup too.
-StaticPress start_statically(Problem &problem, double strain, const dem::StaticSettings &settings = {});
+StaticPress start_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings = {});
 
 } // namespace platen::coupling

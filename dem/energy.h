@@ -14,6 +14,12 @@ struct EnergyLedger {
   double plastic = 0;  // lost when bonds yield
   double boundary = 0; // done by platens, servo and weight
 
+  EnergyLedger &operator+=(const EnergyLedger &b) {
+    kinetic += b.kinetic, bonds += b.bonds, contacts += b.contacts, bodies += b.bodies;
+    damping += b.damping, friction += b.friction, fracture += b.fracture, plastic += b.plastic;
+    boundary += b.boundary;
+    return *this;
+  }
   double stored() const { return kinetic + bonds + contacts + bodies; }
   double lost() const { return damping + friction + fracture + plastic; }
   // Zero when the book closes.

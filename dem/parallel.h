@@ -45,14 +45,14 @@ void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_
       per_block);
 }
 
-// Two pieces of work that touch nothing in common; each may hold loops of its own. Two threads take a piece
-// each; more threads are worth more in the loops inside.
-template <class One, class Other>
-void both(const One &one, const Other &other) {
-  const auto piece = [&](std::size_t p) { p == 0 ? one() : other(); };
-  if (loop_threads() == 2) return run_loops(loop_of(2, piece));
-  one();
-  other();
+// Pieces of work that touch nothing in common; each may hold loops of its own. As many threads as pieces or
+// fewer take a piece each; more threads are worth more in the loops inside.
+template <class Piece>
+void at_once(std::size_t pieces, const Piece &piece) {
+  if (pieces > 1 && static_cast<std::size_t>(loop_threads()) <= pieces)
+    return run_loops(loop_of(pieces, piece));
+  for (std::size_t p = 0; p < pieces; ++p)
+    piece(p);
 }
 
 // Sum of body(first, last) over blocks, added in the order of the blocks. T needs T{} = 0 and +=.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/run/member_names.h"
 #include "apps/run/problem_setup.h"
-#include "apps/scene/parameters.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
 
@@ -35,12 +35,11 @@ Scene chosen(const Scene &scene, const BondChoice &choice) {
   return s;
 }
 
-coupling::Problem problem_of(const Scene &scene, const dem::Specimen &specimen) {
+coupling::PlatenTest problem_of(const Scene &scene, const dem::Specimen &specimen) {
   try {
-    return coupling::Problem(specimen, problem_settings(scene));
+    return coupling::PlatenTest(specimen, problem_settings(scene));
   } catch (const coupling::BadSetup &e) {
-    if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
-    throw InputError(e.entry() + " " + e.what());
+    refuse(scene, e);
   }
 }
 
@@ -72,7 +71,7 @@ void add_moduli(const std::vector<Look> &all, double peak, TrialResult &result) 
   }
 }
 
-void load_to_peak(coupling::Problem &problem, TrialKind kind, double target, TrialResult &result) {
+void load_to_peak(coupling::PlatenTest &problem, TrialKind kind, double target, TrialResult &result) {
   const double sign = kind == TrialKind::tension ? -1 : 1;
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const double step_closes = problem.settings().loading.rate * problem.time_step() / problem.shape().height;
@@ -126,13 +125,13 @@ BondChoice choice_of(const Scene &scene) {
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
   TrialResult result;
   try {
-    coupling::Problem problem = problem_of(chosen(scene, choice), specimen);
+    coupling::PlatenTest problem = problem_of(chosen(scene, choice), specimen);
     const coupling::StaticPress p = coupling::press_statically(problem, scene.calibrate.strain);
     result.young_modulus = p.youngs_modulus();
     result.platen_modulus = p.platen_modulus();
     result.poisson_ratio = p.poisson_ratio();
   } catch (const coupling::NumericsStopped &e) {
-    result.status = e.what();
+    result.status = with_entries(e.what());
   }
   return result;
 }
@@ -154,10 +153,10 @@ TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, co
   }
   TrialResult result;
   try {
-    coupling::Problem problem = problem_of(s, specimen);
+    coupling::PlatenTest problem = problem_of(s, specimen);
     load_to_peak(problem, kind, s.loading.target_strain, result);
   } catch (const coupling::NumericsStopped &e) {
-    result.status = e.what();
+    result.status = with_entries(e.what());
   }
   return result;
 }

@@ -1,4 +1,5 @@
 #include "apps/run/compression.h"
+#include "apps/run/member_names.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,7 +18,7 @@ RunCosts CompressionRun::costs() const {
   c.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
   c.wall_seconds = earlier_seconds_ + seconds_since(start_);
   c.setup_seconds = setup_seconds_;
-  c.steps_here = problem_->steps() - first_step_;
+  c.steps_here = test_->steps() - first_step_;
   c.step_seconds = seconds_since(loop_start_);
   return c;
 }
@@ -26,17 +27,17 @@ void CompressionRun::loop() {
   Progress progress(log_);
   loop_start_ = Clock::now();
   while (!finished()) {
-    problem_->advance(steps_unobserved());
-    if (!problem_->model.cracks.empty()) write_cracks();
+    test_->advance(steps_unobserved());
+    if (!test_->model.cracks.empty()) write_cracks();
     if (due(scene_.output.every, automatic_rows)) sample();
     // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
     if (fields_ && (finished() || due(scene_.output.fields_every, automatic_frames))) {
-      dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::output);
-      fields_->write(*problem_);
+      dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
+      fields_->write(*test_);
     }
     signal_ = stop_requested();
     if (signal_ != 0 || checkpoint_due() || take_checkpoint_request()) {
-      dem::StageClock::Lap lap(problem_->model.clock, dem::Stage::output);
+      dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
       checkpoint();
     }
     if (signal_ != 0) break;
@@ -47,7 +48,7 @@ void CompressionRun::loop() {
 
 int CompressionRun::run() {
   if (command_.dry_run) {
-    fmt::print("{}{}", description(), cost_estimate(*problem_, expected_steps_));
+    fmt::print("{}{}", description(), cost_estimate(*test_, expected_steps_));
     return status_done;
   }
   log_.info("{}", description());
@@ -58,26 +59,26 @@ int CompressionRun::run() {
     save_summary("failed");
     std::error_code ignored;
     const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);
-    throw NumericsError(fmt::format("{}\n{}", e.what(),
+    throw NumericsError(fmt::format("{}\n{}", with_entries(e.what()),
                                     kept ? "the last checkpoint is in " + paths_.checkpoints().string()
                                          : "no checkpoint had been written"));
   }
-  results_.finish(*problem_, event_window());
-  if (problem_->model.bonds) write_bond_stress();
+  results_.finish(*test_, event_window());
+  if (test_->model.bonds) write_bond_stress();
   if (scene_.effects.crack_log) write_events();
-  if (fields_) fields_->write(*problem_);
+  if (fields_) fields_->write(*test_);
   save_summary(signal_ != 0 ? "stopped" : "done");
-  log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));
-  const std::vector<std::string> haste = signs_of_haste(slowness(*problem_, results_), problem_->bent());
+  log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
+  const std::vector<std::string> haste = signs_of_haste(slowness(*test_, results_), test_->bent());
   if (!haste.empty())
     log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}", fmt::join(haste, "; "));
   if (signal_ != 0) {
-    log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*problem_), command_.scene,
+    log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*test_), command_.scene,
               command_.output);
     return exit_status_of_signal(signal_);
   }
   log_.info("results are in {}", paths_.folder.string());
-  return tell_expectations(scene_, summary_of_run("done", scene_, *problem_, results_, costs()), log_);
+  return tell_expectations(scene_, summary_of_run("done", scene_, *test_, results_, costs()), log_);
 }
 
 int run_compression(const CommandLine &command, const Scene &scene) {

@@ -17,7 +17,7 @@
 #include "apps/run/summary_of_run.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/scene.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/parallel.h"
 
 namespace platen::apps {
@@ -59,8 +59,6 @@ private:
   bool checkpoint_due() const;
   ProgressSample where() const;
   bool finished() const;
-  bool by_time() const; // the run ends after a time (hydrostatic: or a little later), not at a strain
-  double end_time() const;
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
   void write_events() const;
@@ -74,7 +72,7 @@ private:
   std::unique_ptr<FolderLock> lock_;
   RunLog log_;
   dem::ThreadLimit threads_;
-  std::unique_ptr<coupling::Problem> problem_;
+  std::unique_ptr<coupling::PlatenTest> test_;
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there
   Results results_;

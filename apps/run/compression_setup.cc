@@ -10,6 +10,7 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
+#include "apps/run/member_names.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
@@ -108,21 +109,15 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   const dem::Specimen specimen =
       command.resume && !command.dry_run ? resumed(scene, paths_) : placed(scene, pressed);
   try {
-    coupling::ProblemSettings settings = problem_settings(scene);
+    coupling::PlatenTestSettings settings = problem_settings(scene);
     if (command.resume && !command.dry_run) settings.model.instruction_set = instruction_set_of_checkpoint();
-    problem_ = std::make_unique<coupling::Problem>(specimen, settings);
-    sampler_ = std::make_unique<Sampler>(*problem_);
+    test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
+    sampler_ = std::make_unique<Sampler>(*test_);
     if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
   } catch (const coupling::BadSetup &e) {
-    if (scene.parameters) scene.parameters->refuse(e.entry(), e.what());
-    throw InputError(e.entry() + " " + e.what());
+    refuse(scene, e);
   }
-  const double seconds = by_time() ? end_time()
-                                   : (problem_->cell() ? problem_->cell_ramp() + scene.loading.hold : 0.0) +
-                                         0.5 * problem_->ramp() +
-                                         (scene.loading.target_strain - scene.loading.start_strain) *
-                                             problem_->shape().height / problem_->axial_rate();
-  expected_steps_ = std::max(1.0, seconds / problem_->time_step());
+  expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
@@ -141,11 +136,11 @@ dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {
 
 // Moduli and strains are told from the specimen as it was packed.
 void CompressionRun::start_pressed() {
-  as_packed_ = (*sampler_)(*problem_);
+  as_packed_ = (*sampler_)(*test_);
   try {
-    coupling::start_statically(*problem_, scene_.loading.start_strain);
+    coupling::start_statically(*test_, scene_.loading.start_strain);
   } catch (const coupling::NumericsStopped &e) {
-    throw coupling::BadSetup("Loading/Start strain", std::string("has no static solution: ") + e.what() +
+    throw coupling::BadSetup("loading.start_strain", std::string("has no static solution: ") + e.what() +
                                                          ". Allowed: 0, from nothing.");
   }
 }

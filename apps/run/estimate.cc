@@ -1,4 +1,5 @@
 #include "apps/run/estimate.h"
+#include "apps/run/member_names.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ constexpr long warm_up = 3, most_trials = 1000, at_a_time = 8;
 
 } // namespace
 
-std::string cost_estimate(coupling::Problem &problem, double steps) {
+std::string cost_estimate(coupling::PlatenTest &problem, double steps) {
   using Clock = std::chrono::steady_clock;
   const auto seconds_since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -30,7 +31,7 @@ std::string cost_estimate(coupling::Problem &problem, double steps) {
     for (; trials < most_trials && seconds < trial_seconds; seconds = seconds_since(start))
       trials += problem.advance(at_a_time);
   } catch (const coupling::NumericsStopped &e) {
-    return fmt::format("  estimate: none, it stops within the first steps: {}\n", e.what());
+    return fmt::format("  estimate: none, it stops within the first steps: {}\n", with_entries(e.what()));
   }
   const double step = seconds / static_cast<double>(trials);
   return fmt::format(

@@ -78,12 +78,12 @@ void add_state(Json &to, const std::string &start, const Pattern &p, bool patter
 
 } // namespace
 
-bool tells_pattern(const Scene &scene, const coupling::Problem &problem) {
+bool tells_pattern(const Scene &scene, const coupling::PlatenTest &problem) {
   return scene.loading.test == LoadingTest::compression && problem.shape().kind != dem::ShapeKind::disc &&
          !problem.bent();
 }
 
-void add_failure(Json &to, const Scene &scene, const coupling::Problem &problem, const Results &results) {
+void add_failure(Json &to, const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
   const bool pattern = tells_pattern(scene, problem);
   add_state(to, "", results.pattern(), pattern);
   add_state(to, "final_", results.last_pattern(), pattern);

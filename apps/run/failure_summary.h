@@ -7,17 +7,17 @@
 
 #include "apps/run/results.h"
 #include "apps/scene/scene.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
 // Whether platens press the specimen along its axis until it fails: cones and patterns are told of no other
 // test.
-bool tells_pattern(const Scene &scene, const coupling::Problem &problem);
+bool tells_pattern(const Scene &scene, const coupling::PlatenTest &problem);
 
 // Adds the keys cone_top, cone_bottom, pattern, pattern_reasons and crack_planes, of 0.8 of the peak and with
 // "final_" before them of the end, crack_rose and acoustic; null where not measured.
-void add_failure(nlohmann::ordered_json &to, const Scene &scene, const coupling::Problem &problem,
+void add_failure(nlohmann::ordered_json &to, const Scene &scene, const coupling::PlatenTest &problem,
                  const Results &results);
 
 // For the screen: "24.1 mm high, half-angle 44 degrees, 0.13 of the volume, confidence 0.58", or why there is

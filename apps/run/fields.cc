@@ -33,12 +33,11 @@ FieldSeries::FieldSeries(const std::filesystem::path &folder)
   write_text_aside(OutputPaths(folder).view(), view_script);
 }
 
-void FieldSeries::write(const coupling::Problem &problem) {
+void FieldSeries::write(const coupling::PlatenTest &problem) {
   if (problem.time() <= last_time_) return;
   write_specimen(problem);
   if (problem.model.bonds) write_bonds(problem);
-  write_platens(problem);
-  if (problem.sleeve() != nullptr) write_sleeve(problem);
+  write_boundaries(problem);
   write_contacts(problem);
   last_time_ = problem.time();
   ++count_;
@@ -51,7 +50,7 @@ void FieldSeries::resume(double last_time, int count) {
     series->resume(last_time);
 }
 
-void FieldSeries::write_specimen(const coupling::Problem &problem) {
+void FieldSeries::write_specimen(const coupling::PlatenTest &problem) {
   const dem::Model &model = problem.model;
   const dem::Particles &p = model.particles;
   const std::size_t n = p.size();
@@ -61,7 +60,7 @@ void FieldSeries::write_specimen(const coupling::Problem &problem) {
   std::vector<double> stress;
   stress.reserve(9 * n);
   for (const auto &s :
-       dem::particle_stress(p, model.bonds.get(), model.contacts.get(), problem.packing_fraction()))
+       dem::particle_stress(p, model.bonds.get(), model.contacts.get(), problem.facts().packing_fraction))
     stress.insert(stress.end(), s.begin(), s.end());
   std::vector<Field> fields{{"radius", std::vector<double>(p.radius.begin(), p.radius.end())},
                             {"displacement", displacement},
@@ -96,7 +95,7 @@ void FieldSeries::write_specimen(const coupling::Problem &problem) {
   specimen_.append(problem.time(), OutputPaths::frame_name("specimen", count_));
 }
 
-void FieldSeries::write_bonds(const coupling::Problem &problem) {
+void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
   const dem::Particles &p = problem.model.particles;
   const dem::Bonds &b = *problem.model.bonds;
   const std::size_t n = b.initial_count();
@@ -129,35 +128,30 @@ void FieldSeries::write_bonds(const coupling::Problem &problem) {
   bonds_.append(problem.time(), OutputPaths::frame_name("bonds", count_));
 }
 
-void FieldSeries::write_platens(const coupling::Problem &problem) {
-  // Two files a frame: parts of one series.
-  const auto one = [&](const fem::Body &body, const coupling::ContactLayer &layer, int index) {
-    const std::string name = OutputPaths::frame_name("platens", index);
-    write_stream_aside(folder_ / name,
-                       [&](std::ostream &stream) { body.write_vtu(stream, layer.vertex_slip(body)); });
-    platens_.append(problem.time(), name);
-  };
-  one(problem.bottom, problem.bottom_layer, 2 * count_);
-  one(problem.top, problem.top_layer, 2 * count_ + 1);
+// As many files a frame as boundaries belong to a series: its parts.
+void FieldSeries::write_boundaries(const coupling::PlatenTest &problem) {
+  for (PvdSeries *series : {&platens_, &sleeve_}) {
+    const std::string name = series == &platens_ ? "platens" : "sleeve";
+    std::vector<const coupling::Boundary *> parts;
+    for (const auto &boundary : problem.boundaries())
+      if (boundary->series() == name) parts.push_back(boundary.get());
+    const int count = static_cast<int>(parts.size());
+    for (int part = 0; part < count; ++part) {
+      const std::string file = OutputPaths::frame_name(name, count * count_ + part);
+      write_stream_aside(folder_ / file, [&](std::ostream &stream) {
+        parts[static_cast<std::size_t>(part)]->write_vtu(stream);
+      });
+      series->append(problem.time(), file);
+    }
+  }
 }
 
-void FieldSeries::write_sleeve(const coupling::Problem &problem) {
-  const coupling::Sleeve &sleeve = *problem.sleeve();
-  const std::string name = OutputPaths::frame_name("sleeve", count_);
-  write_stream_aside(folder_ / name, [&](std::ostream &stream) {
-    sleeve.solid.write_vtu(stream, sleeve.layer.vertex_slip(sleeve.solid));
-  });
-  sleeve_.append(problem.time(), name);
-}
-
-void FieldSeries::write_contacts(const coupling::Problem &problem) {
+void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
   std::vector<dem::Vector3> points, normals, shears;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
-  std::vector<const coupling::ContactLayer *> layers{&problem.bottom_layer, &problem.top_layer};
-  if (problem.sleeve() != nullptr) layers.push_back(&problem.sleeve()->layer);
-  for (const coupling::ContactLayer *layer : layers)
-    for (const coupling::ActiveContact &c : layer->contacts()) {
+  for (const auto &boundary : problem.boundaries())
+    for (const coupling::ActiveContact &c : boundary->contacts()) {
       points.push_back(c.point);
       normals.push_back(c.normal);
       shears.push_back(c.shear);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/io/pvd.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
@@ -14,18 +14,17 @@ public:
   explicit FieldSeries(const std::filesystem::path &folder);
 
   // Writes one frame of everything; a second call at the same time does nothing. Throws OutputError.
-  void write(const coupling::Problem &problem);
+  void write(const coupling::PlatenTest &problem);
   // Goes on after the frame of `last_time` (s), the number of frames written so far being `count`.
   void resume(double last_time, int count);
   double last_time() const { return last_time_; } // s, of the last frame; -1 before the first
   int count() const { return count_; }
 
 private:
-  void write_specimen(const coupling::Problem &problem);
-  void write_bonds(const coupling::Problem &problem);
-  void write_platens(const coupling::Problem &problem);
-  void write_sleeve(const coupling::Problem &problem);
-  void write_contacts(const coupling::Problem &problem);
+  void write_specimen(const coupling::PlatenTest &problem);
+  void write_bonds(const coupling::PlatenTest &problem);
+  void write_boundaries(const coupling::PlatenTest &problem);
+  void write_contacts(const coupling::PlatenTest &problem);
 
   std::filesystem::path folder_;
   PvdSeries specimen_, bonds_, platens_, sleeve_, contacts_;

@@ -10,10 +10,10 @@ namespace platen::apps {
 // What is measured at a sample, some of it once for several columns.
 struct Seen {
   const Sampler &sampler;
-  const coupling::Problem &problem;
+  const coupling::PlatenTest &problem;
   dem::GaugeStrain gauge;
   dem::EnergyLedger energy;
-  Seen(const Sampler &by, const coupling::Problem &of)
+  Seen(const Sampler &by, const coupling::PlatenTest &of)
       : sampler(by), problem(of), gauge(by.gauge_.strain(of.model.particles)), energy(of.energy()) {}
   const dem::Particles &particles() const { return problem.model.particles; }
   double lateral_extremal() const { return -sampler.pairs_.lateral(particles()); }
@@ -25,24 +25,24 @@ struct Seen {
 
 namespace {
 
-using coupling::Problem;
+using coupling::PlatenTest;
 constexpr HistoryColumn::Form number = HistoryColumn::Form::number, count = HistoryColumn::Form::count,
                               state = HistoryColumn::Form::in_checkpoints_alone;
 
-bool in_cell(const Problem &p) {
+bool in_cell(const PlatenTest &p) {
   return p.cell();
 }
-bool in_sleeve(const Problem &p) {
+bool in_sleeve(const PlatenTest &p) {
   return p.sleeve() != nullptr;
 }
-bool of_disc(const Problem &p) {
+bool of_disc(const PlatenTest &p) {
   return p.shape().kind == dem::ShapeKind::disc;
 }
-bool bent(const Problem &p) {
+bool bent(const PlatenTest &p) {
   return p.bent();
 }
 
-bool is_there(const HistoryColumn &column, const Problem *problem) {
+bool is_there(const HistoryColumn &column, const PlatenTest *problem) {
   if (column.there == nullptr) return true;
   return problem != nullptr && column.there(*problem);
 }
@@ -125,14 +125,14 @@ double &value_of(Sample &sample, std::size_t k) {
   return sample.more[place];
 }
 
-std::vector<std::string> history_names(const Problem *problem) {
+std::vector<std::string> history_names(const PlatenTest *problem) {
   std::vector<std::string> names;
   for (const HistoryColumn &column : history_columns())
     if (column.form != state && is_there(column, problem)) names.emplace_back(column.name);
   return names;
 }
 
-std::vector<CsvCell> history_row(const Sample &sample, const Problem *problem) {
+std::vector<CsvCell> history_row(const Sample &sample, const PlatenTest *problem) {
   Sample s = sample;
   std::vector<CsvCell> row;
   for (std::size_t k = 0; k < history_columns().size(); ++k) {
@@ -164,7 +164,7 @@ void describe(Archive &archive, const std::string &name, std::vector<Sample> &sa
       value_of(samples[row], k) = (*columns[k])[row];
 }
 
-Sampler::Sampler(const Problem &problem)
+Sampler::Sampler(const PlatenTest &problem)
     : gauge_(problem.model.particles, problem.shape(), problem.model.bonds.get()),
       pairs_(problem.model.particles, problem.shape(), problem.model.bonds.get()) {
   if (problem.shape().kind == dem::ShapeKind::disc)
@@ -173,12 +173,12 @@ Sampler::Sampler(const Problem &problem)
   try {
     deflection_.emplace(problem.model.particles, problem.shape(), problem.three_points().span);
   } catch (const std::invalid_argument &e) {
-    throw coupling::BadSetup("Specimen/Sphere radius",
+    throw coupling::BadSetup("specimen.radius",
                              std::string("is too large for a deflection: ") + e.what() + ".");
   }
 }
 
-Sample Sampler::operator()(const Problem &problem) const {
+Sample Sampler::operator()(const PlatenTest &problem) const {
   const Seen seen(*this, problem);
   Sample sample;
   for (std::size_t k = 0; k < history_columns().size(); ++k)

@@ -7,7 +7,7 @@
 
 #include "apps/io/csv_writer.h"
 #include "base/archive.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/energy.h"
 #include "dem/measure/bending.h"
 #include "dem/measure/gauge.h"
@@ -57,23 +57,23 @@ struct HistoryColumn {
   double Sample::*member; // null: kept in `more`
   double (*measure)(const Seen &);
   Form form = Form::number;
-  bool (*there)(const coupling::Problem &) = nullptr; // null: in every test
+  bool (*there)(const coupling::PlatenTest &) = nullptr; // null: in every test
 };
 const std::vector<HistoryColumn> &history_columns();
 // Of column k.
 double &value_of(Sample &sample, std::size_t k);
 
 // Of one test; a null problem: those of every test.
-std::vector<std::string> history_names(const coupling::Problem *problem);
-std::vector<CsvCell> history_row(const Sample &sample, const coupling::Problem *problem);
+std::vector<std::string> history_names(const coupling::PlatenTest *problem);
+std::vector<CsvCell> history_row(const Sample &sample, const coupling::PlatenTest *problem);
 void describe(Archive &archive, const std::string &name, std::vector<Sample> &samples);
 
 // Measures a problem; the gauges remember its reference state.
 class Sampler {
 public:
   // Throws coupling::BadSetup where a bar has too few spheres for its deflection to be measured.
-  explicit Sampler(const coupling::Problem &problem);
-  Sample operator()(const coupling::Problem &problem) const;
+  explicit Sampler(const coupling::PlatenTest &problem);
+  Sample operator()(const coupling::PlatenTest &problem) const;
 
 private:
   friend struct Seen;

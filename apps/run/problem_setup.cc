@@ -106,7 +106,7 @@ fem::Grid platen_grid(const Scene &scene, bool top) {
 
 coupling::PlatenSide platen_side(const PlatenSide &from, fem::Grid grid) {
   using By = dem::Weakening::By;
-  coupling::PlatenSide to{from.friction_static, from.friction_dynamic, std::move(grid), {}};
+  coupling::PlatenSide to{{from.friction_static, from.friction_dynamic, {}}, std::move(grid)};
   to.weakening.by = from.friction_law == FrictionLaw::slip_weakening       ? By::slip
                     : from.friction_law == FrictionLaw::velocity_weakening ? By::velocity
                                                                            : By::nothing;
@@ -121,6 +121,7 @@ coupling::CellSettings cell_settings(const Loading &from) {
   to.ramp = from.confining_ramp;
   to.path = from.pressure_path;
   to.hold = from.hold;
+  to.alone = from.hydrostatic();
   to.area = from.confinement_area == ConfinementArea::sphere ? dem::ConfinementArea::sphere
                                                              : dem::ConfinementArea::voronoi;
   return to;
@@ -135,9 +136,9 @@ std::vector<std::string> effects_off(const Scene &scene) {
   return chosen(scene, false);
 }
 
-coupling::ProblemSettings problem_settings(const Scene &scene) {
+coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   const Platens &from = scene.platens;
-  coupling::ProblemSettings to;
+  coupling::PlatenTestSettings to;
   to.model = model_settings(scene);
   to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
   to.end_layer = scene.specimen.end_layer;
@@ -173,11 +174,14 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   to.loading.tension = scene.loading.test == LoadingTest::tension;
   to.loading.rate = std::isnan(scene.loading.axial_rate) ? 0.0 : scene.loading.axial_rate;
   if (std::isnan(scene.loading.axial_rate) && !std::isnan(scene.loading.wave_crossings))
-    to.loading.crossings = scene.loading.wave_crossings;
-  to.loading.hurry = scene.loading.hurry;
+    to.loading.wave_transits = scene.loading.wave_crossings;
+  to.loading.rate_multiplier = scene.loading.hurry;
   to.loading.ramp = scene.loading.ramp;
   to.loading.servo = from.top_control == PlatenControl::stress;
   to.loading.top_stress = from.top_stress;
+  to.loading.hold = scene.loading.hold;
+  to.loading.target_strain = scene.loading.target_strain;
+  to.loading.start_strain = scene.loading.start_strain;
   to.loading.servo_gain = scene.loading.servo_gain;
   if (scene.loading.cell()) to.loading.cell = cell_settings(scene.loading);
   if (scene.loading.sleeved()) {
@@ -188,8 +192,7 @@ coupling::ProblemSettings problem_settings(const Scene &scene) {
   if (scene.loading.walled()) to.loading.wall_stiffness = scene.loading.wall_stiffness;
   to.loading.unload_at = scene.loading.unload_at;
   to.loading.unload_to = scene.loading.unload_to;
-  to.safety = scene.integration.safety;
-  to.fixed_step = scene.integration.time_step;
+  to.time_step = {scene.integration.safety, scene.integration.time_step};
   return to;
 }
 

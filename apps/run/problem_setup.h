@@ -2,11 +2,11 @@
 #pragma once
 
 #include "apps/scene/scene.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
-coupling::ProblemSettings problem_settings(const Scene &scene);
+coupling::PlatenTestSettings problem_settings(const Scene &scene);
 
 // Words of the effects that a scene has on, and of those it has off, for --dry-run and summary.json.
 std::vector<std::string> effects_on(const Scene &scene);

@@ -24,16 +24,16 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-Slowness slowness(const coupling::Problem &problem, const Results &results) {
+Slowness slowness(const coupling::PlatenTest &problem, const Results &results) {
   Slowness s;
   s.kinetic = results.kinetic_to_internal_max();
   std::vector<double> unbalanced;
-  const double height = problem.shape().height, diameter = 2 * problem.mean_radius();
+  const double height = problem.shape().height, diameter = 2 * problem.facts().mean_radius;
   for (const Sample &sample : results.rise()) {
     if (!std::isnan(sample.unbalanced)) unbalanced.push_back(sample.unbalanced);
     const double rate = std::abs(sample.platen_speed) / height, stress = std::abs(sample.stress());
     if (stress > 0)
-      s.inertial = std::fmax(s.inertial, rate * diameter * std::sqrt(problem.grain_density() / stress));
+      s.inertial = std::fmax(s.inertial, rate * diameter * std::sqrt(problem.facts().grain_density / stress));
   }
   s.unbalanced = median(unbalanced);
   s.crossings = crossings_to_peak(problem, results);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/run/results.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
@@ -16,7 +16,7 @@ struct Slowness {
   double inertial = not_measured;   // largest inertial number, d eps/dt d sqrt(rho / sigma) (GDR MiDi 2004)
   double crossings = not_measured;  // of a wave over the height, from the start of the axial stage
 };
-Slowness slowness(const coupling::Problem &problem, const Results &results);
+Slowness slowness(const coupling::PlatenTest &problem, const Results &results);
 
 // What says that the test was too fast, each with its bound: "36 wave crossings to the peak, 60 at least".
 // Empty where it was slow enough. Of a bent bar, which swings much more slowly than waves cross it, crossings

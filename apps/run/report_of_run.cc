@@ -28,7 +28,7 @@ private:
   std::string text_;
 };
 
-void report_strength(Report &report, const Scene &scene, const coupling::Problem &problem,
+void report_strength(Report &report, const Scene &scene, const coupling::PlatenTest &problem,
                      const Results &results) {
   const bool disc = problem.shape().kind == dem::ShapeKind::disc,
              tension = scene.loading.test == LoadingTest::tension;
@@ -45,7 +45,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::Problem
   }
 }
 
-void report_stiffness(Report &report, const coupling::Problem &problem, const Results &results) {
+void report_stiffness(Report &report, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.bent()) {
     report.line("deflection at peak", "{:.2f} um", 1e6 * results.deflection_at_peak());
     report.line("flexural modulus", "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
@@ -67,7 +67,7 @@ void report_stiffness(Report &report, const coupling::Problem &problem, const Re
     report.line("Poisson's ratio", "{:.3f}", results.poisson_ratio());
 }
 
-void report_damage(Report &report, const Scene &scene, const coupling::Problem &problem,
+void report_damage(Report &report, const Scene &scene, const coupling::PlatenTest &problem,
                    const Results &results) {
   const dem::Model &model = problem.model;
   report.line("broken bonds (tension, shear)", "{}, {} of {}",
@@ -108,7 +108,7 @@ void report_emission(Report &report, const Results &results) {
 
 } // namespace
 
-std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
+std::string report_of_run(const Scene &scene, const coupling::PlatenTest &problem, const Results &results,
                           const RunCosts &costs) {
   Report report;
   report_strength(report, scene, problem, results);

@@ -15,7 +15,7 @@ constexpr double modulus_share = 0.4;
 
 } // namespace
 
-Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness) {
+Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness) {
   Pattern p;
   p.time = problem.time();
   p.strain = problem.closure_strain();
@@ -27,7 +27,7 @@ Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &
   return p;
 }
 
-bool Results::add(const Sample &sample, const coupling::Problem &problem) {
+bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   samples_.push_back(sample);
   if (sample.axial_stage == 0 || sample.cycling != 0) return false;
   const double now = stress(sample);
@@ -52,7 +52,7 @@ void Results::listen(const dem::Crack &c) {
   emission_.pulses.push_back({c.time, c.point, c.energy});
 }
 
-void Results::finish(const coupling::Problem &problem, const dem::EventWindow &window) {
+void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow &window) {
   last_ = measure_pattern(problem, soundness_);
   emission_.events = dem::gather_events(emission_.pulses, window);
   std::vector<double> before, after;

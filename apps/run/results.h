@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/run/history.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/measure/acoustic_emission.h"
 #include "dem/measure/crack_rose.h"
 #include "dem/measure/failure_pattern.h"
@@ -21,7 +21,7 @@ struct Pattern {
   double broken_tension = not_measured, broken_shear = not_measured;
   void describe(Archive &archive);
 };
-Pattern measure_pattern(const coupling::Problem &problem, const dem::Soundness &soundness);
+Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness);
 
 // What cracks told while they came.
 struct Emission {
@@ -41,13 +41,13 @@ public:
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
-  bool add(const Sample &sample, const coupling::Problem &problem);
+  bool add(const Sample &sample, const coupling::PlatenTest &problem);
   // The stress has fallen to this share of the peak, after it; where there are bonds, one has broken since
   // the platens began.
   bool fallen_to(double share) const;
   void listen(const dem::Crack &crack);
   // The state at the end, and events of the cracks so far.
-  void finish(const coupling::Problem &problem, const dem::EventWindow &window);
+  void finish(const coupling::PlatenTest &problem, const dem::EventWindow &window);
 
   // Of all samples; NaN where the run did not get there.
   double strength() const;          // Pa, positive: largest axial stress, or that at the largest deviator

@@ -4,8 +4,8 @@ namespace platen::apps {
 namespace {
 
 // Parts of a checkpoint.
-constexpr const char *problem_part = "problem", *results_part = "results", *marks_part = "files";
-constexpr const char *instruction_set_block = "problem/specimen/instruction_set";
+constexpr const char *test_part = "test", *results_part = "results", *marks_part = "files";
+constexpr const char *instruction_set_block = "test/specimen/instruction_set";
 
 } // namespace
 
@@ -18,9 +18,9 @@ void FileMarks::describe(Archive &archive) {
   archive("wall_seconds", wall_seconds, "s");
 }
 
-void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
+void save_state(CheckpointWriter &to, const coupling::PlatenTest &problem, const Results &results,
                 const FileMarks &marks) {
-  save_part(to, problem_part, problem);
+  save_part(to, test_part, problem);
   save_part(to, results_part, results);
   save_part(to, marks_part, marks);
 }
@@ -43,11 +43,11 @@ dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog
   return best;
 }
 
-FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results) {
+FileMarks load_state(const CheckpointReader &from, coupling::PlatenTest &problem, Results &results) {
   FileMarks marks;
   try {
     LoadingArchive archive(from);
-    archive.part(problem_part, problem);
+    archive.part(test_part, problem);
     archive.part(results_part, results);
     archive.part(marks_part, marks);
     archive.require_all_read();

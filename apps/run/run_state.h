@@ -7,7 +7,7 @@
 #include "apps/io/run_log.h"
 #include "apps/run/fields.h"
 #include "apps/run/results.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
@@ -20,12 +20,12 @@ struct FileMarks {
   void describe(Archive &archive);
 };
 
-void save_state(CheckpointWriter &to, const coupling::Problem &problem, const Results &results,
+void save_state(CheckpointWriter &to, const coupling::PlatenTest &problem, const Results &results,
                 const FileMarks &marks);
 // What to go on with: the instruction set that the run began with, for forces of bonds depend on it in their
 // last bits; where this machine lacks it, its own best, and a warning.
 dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog &log);
 // Into a problem made from the same scene. Throws CheckpointError.
-FileMarks load_state(const CheckpointReader &from, coupling::Problem &problem, Results &results);
+FileMarks load_state(const CheckpointReader &from, coupling::PlatenTest &problem, Results &results);
 
 } // namespace platen::apps

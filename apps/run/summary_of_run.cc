@@ -49,26 +49,26 @@ const char *word_of(LoadingTest test) {
 }
 
 // Of a pressure on the lateral surface: where it acts, and what the hydrostatic stage says.
-void add_cell(Json &to, const coupling::Problem &problem, const Results &results) {
+void add_cell(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (!problem.cell()) return;
   to["confining_pressure_pa"] = problem.confining_pressure();
   to["deviator_strength_pa"] = results.deviator_strength();
   to["bulk_modulus_pa"] = results.bulk_modulus();
   if (const coupling::Sleeve *sleeve = problem.sleeve()) {
-    to["sleeve_elements"] = sleeve->solid.mesh().cells.size();
-    to["sleeve_seats"] = sleeve->layer.seats();
+    to["sleeve_elements"] = sleeve->solid().mesh().cells.size();
+    to["sleeve_seats"] = sleeve->layer().seats();
     to["sleeve_steps_of_interval"] = sleeve->steps_of_interval();
     to["sleeve_mass_scaling"] = sleeve->mass_scaling();
     to["sleeve_interval_cuts"] = sleeve->cuts();
     to["sleeve_volumetric_strain"] = problem.sleeve_volumetric_strain();
     to["sleeve_deviator_pa"] = problem.sleeve_deviator();
-    to["confinement_work_j"] = sleeve->solid.pressure_work();
+    to["confinement_work_j"] = sleeve->solid().pressure_work();
   }
-  const dem::Confinement *skin = problem.confinement();
-  if (skin == nullptr) return;
-  to["skin_spheres"] = skin->size();
-  to["skin_coverage"] = skin->coverage(problem.model.particles, problem.end_planes());
-  to["confinement_work_j"] = skin->work();
+  if (problem.skin() == nullptr) return;
+  const dem::Confinement &skin = problem.skin()->skin();
+  to["skin_spheres"] = skin.size();
+  to["skin_coverage"] = skin.coverage(problem.model.particles, problem.end_planes());
+  to["confinement_work_j"] = skin.work();
 }
 
 // What a test says nothing of.
@@ -79,7 +79,7 @@ void withdraw_moduli(Json &to) {
 }
 
 // Between a stiff wall neither Young's modulus nor Poisson's ratio is measured, but these.
-void add_wall(Json &to, const coupling::Problem &problem, const Results &results) {
+void add_wall(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.wall() == nullptr) return;
   to["wall_seats"] = problem.wall()->seats();
   to["constrained_modulus_pa"] = results.youngs_modulus_gauge();
@@ -88,7 +88,7 @@ void add_wall(Json &to, const coupling::Problem &problem, const Results &results
 }
 
 // Of a disc: strength is 2 P / (pi D t); Young's modulus is not measured.
-void add_disc(Json &to, const coupling::Problem &problem, const Results &results) {
+void add_disc(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.shape().kind != dem::ShapeKind::disc) return;
   to["failure_load_n"] = results.strength() * problem.shape().cross_section();
   to["opening_at_peak_m"] = results.opening_at_peak();
@@ -102,7 +102,7 @@ void add_disc(Json &to, const coupling::Problem &problem, const Results &results
 }
 
 // Of a bent bar: stresses are 3 P L / (2 b d^2); what is true of the moduli is in the deflection.
-void add_bar(Json &to, const coupling::Problem &problem, const Results &results) {
+void add_bar(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (!problem.bent()) return;
   to["failure_load_n"] = results.strength() * problem.nominal_area();
   to["deflection_at_peak_m"] = results.deflection_at_peak();
@@ -116,7 +116,7 @@ void add_bar(Json &to, const coupling::Problem &problem, const Results &results)
 }
 
 // Without a peak nothing is told.
-void add_slowness(Json &to, const coupling::Problem &problem, const Results &results) {
+void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   const Slowness slow = slowness(problem, results);
   to["unbalanced_force_median"] = slow.unbalanced;
   to["inertial_number_max"] = slow.inertial;
@@ -128,7 +128,7 @@ void add_slowness(Json &to, const coupling::Problem &problem, const Results &res
 
 } // namespace
 
-const char *app_of(const coupling::Problem &problem) {
+const char *app_of(const coupling::PlatenTest &problem) {
   return problem.shape().kind == dem::ShapeKind::disc ? "platen-brazilian" : "platen-compress";
 }
 
@@ -138,7 +138,7 @@ std::size_t bytes_per_bond(const dem::Model &model) {
   return b.table.bytes_per_row() + b.records.bytes_per_row() + sizeof(b.blocks.ends[0]);
 }
 
-Json summary_of_run(const std::string &status, const Scene &scene, const coupling::Problem &problem,
+Json summary_of_run(const std::string &status, const Scene &scene, const coupling::PlatenTest &problem,
                     const Results &results, const RunCosts &costs) {
   const dem::Model &model = problem.model;
   const double particles = static_cast<double>(model.particles.size());
@@ -153,10 +153,10 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["particles"] = model.particles.size();
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
-  s["packing_fraction"] = problem.packing_fraction();
-  s["grain_density_kg_m3"] = problem.grain_density();
-  s["seated_top"] = problem.top_layer.seats();
-  s["seated_bottom"] = problem.bottom_layer.seats();
+  s["packing_fraction"] = problem.facts().packing_fraction;
+  s["grain_density_kg_m3"] = problem.facts().grain_density;
+  s["seated_top"] = problem.top().layer().seats();
+  s["seated_bottom"] = problem.bottom().layer().seats();
   s["steps"] = problem.steps();
   s["time_step_s"] = problem.time_step();
   s["time_step_reason"] = problem.time_step_reason();
@@ -179,7 +179,8 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["youngs_modulus_platen_pa"] = results.youngs_modulus_platen();
   s["poisson_ratio"] = results.poisson_ratio();
   s["poisson_ratio_extremal"] = results.poisson_ratio_extremal();
-  s["youngs_modulus_voigt_pa"] = problem.voigt_modulus() > 0 ? problem.voigt_modulus() : not_measured;
+  s["youngs_modulus_voigt_pa"] =
+      problem.facts().voigt_modulus > 0 ? problem.facts().voigt_modulus : not_measured;
   add_cell(s, problem, results);
   add_wall(s, problem, results);
   add_disc(s, problem, results);

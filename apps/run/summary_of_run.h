@@ -8,7 +8,7 @@
 
 #include "apps/run/results.h"
 #include "apps/scene/scene.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::apps {
 
@@ -21,16 +21,16 @@ struct RunCosts {
 
 // status: "done", "stopped" or "failed". Numbers that were not measured are NaN, written null.
 nlohmann::ordered_json summary_of_run(const std::string &status, const Scene &scene,
-                                      const coupling::Problem &problem, const Results &results,
+                                      const coupling::PlatenTest &problem, const Results &results,
                                       const RunCosts &costs);
 
 // "platen-compress" or "platen-brazilian".
-const char *app_of(const coupling::Problem &problem);
+const char *app_of(const coupling::PlatenTest &problem);
 
 // Bytes of one bond in its columns and in its block.
 std::size_t bytes_per_bond(const dem::Model &model);
 // A few lines for the screen: strength, strains, moduli, damage, energy.
-std::string report_of_run(const Scene &scene, const coupling::Problem &problem, const Results &results,
+std::string report_of_run(const Scene &scene, const coupling::PlatenTest &problem, const Results &results,
                           const RunCosts &costs);
 
 } // namespace platen::apps

@@ -18,16 +18,23 @@ struct Weakening {
   double slip_velocity = std::numeric_limits<double>::quiet_NaN(); // m/s, > 0; by velocity
 };
 
-inline FrictionLaw friction_law(double friction_static, double friction_dynamic, const Weakening &weakening) {
-  switch (weakening.by) {
+// Friction of a surface.
+struct SurfaceFriction {
+  double friction_static = 0;  // 1, >= 0; infinity: never slides
+  double friction_dynamic = 0; // 1; both zero: frictionless
+  Weakening weakening{};       // from static to dynamic
+};
+
+inline FrictionLaw friction_law(const SurfaceFriction &f) {
+  switch (f.weakening.by) {
     case Weakening::By::slip:
-      return SlipWeakeningFriction{{friction_static, friction_dynamic, weakening.slip_length}};
+      return SlipWeakeningFriction{{f.friction_static, f.friction_dynamic, f.weakening.slip_length}};
     case Weakening::By::velocity:
-      return VelocityWeakeningFriction{{friction_static, friction_dynamic, weakening.slip_velocity}};
+      return VelocityWeakeningFriction{{f.friction_static, f.friction_dynamic, f.weakening.slip_velocity}};
     case Weakening::By::nothing:
       break;
   }
-  return CoulombFriction{{friction_static, friction_dynamic}};
+  return CoulombFriction{{f.friction_static, f.friction_dynamic}};
 }
 
 // One step of a contact by a law that weakens; arguments as those of the laws. Not for inlining: beside it a

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <coupling/problem.h>
+#include <coupling/platen_test.h>
 #include <dem/packing/growth.h>
 
 using namespace platen;
@@ -10,7 +10,7 @@ using namespace platen;
 int main() {
   const dem::Specimen specimen = dem::random_close_packing(dem::cylinder(5e-3, 10e-3), 0.8e-3, 0.25, 1);
 
-  coupling::ProblemSettings settings;
+  coupling::PlatenTestSettings settings;
   settings.model.bond_layout.modulus = 36e9;
   settings.model.bond_layout.gap = 0.05;                                             // of the smaller radius
   settings.model.bond = dem::ParallelBond::Parameters{0.4, 9.5e6, 26.6e6, 1.0, 0.3}; // tan 45 degrees
@@ -22,7 +22,7 @@ int main() {
   settings.platens.thickness = 2e-3;
   settings.loading.rate = 0.05;
 
-  coupling::Problem problem(specimen, settings);
+  coupling::PlatenTest problem(specimen, settings);
   double strength = 0;
   for (double stress = 0; problem.closure_strain() < 0.01 && stress >= 0.5 * strength;) {
     problem.step();

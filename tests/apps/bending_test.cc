@@ -7,7 +7,7 @@
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "coupling/static_press.h"
 #include "dem/packing/growth.h"
 #include "tests/coupling/elastic_problem.h"
@@ -119,15 +119,15 @@ TEST_F(Bending, what_cannot_be_bent_is_refused) {
 TEST(bending, an_elastic_bar_bends_like_a_beam) {
   const double length = 60e-3, side = 12e-3;
   const dem::Specimen standing = dem::random_close_packing(dem::box(side, side, length), 0.9e-3, 0.25, 3);
-  coupling::ProblemSettings settings = coupling::elastic_settings(0.05);
-  coupling::Problem pressed(standing, settings);
+  coupling::PlatenTestSettings settings = coupling::elastic_settings(0.05);
+  coupling::PlatenTest pressed(standing, settings);
   const coupling::StaticPress press = coupling::press_statically(pressed, 1e-5);
   const double e = press.youngs_modulus(), nu = press.poisson_ratio();
 
   settings.platens.strip_width = 3e-3;
   const auto bent = [&](double span) {
     settings.platens.span = span;
-    coupling::Problem problem(dem::laid_along_x(standing), settings);
+    coupling::PlatenTest problem(dem::laid_along_x(standing), settings);
     const dem::Deflection deflection(problem.model.particles, problem.shape(), span);
     const double enough = 2e-4 * span * span / side / 6; // m; a strain of 2e-4 at the skin
     while (deflection(problem.model.particles) < enough)

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "apps/crushed.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/measure/stress.h"
 #include "dem/packing/growth.h"
 #include "tests/coupling/elastic_problem.h"
@@ -75,9 +75,9 @@ TEST(brazilian, the_centre_of_an_elastic_disc_has_the_stress_of_the_closed_form)
   const double radius = 15e-3, thickness = 12e-3;
   const dem::Specimen specimen =
       dem::laid_down(dem::random_close_packing(dem::cylinder(radius, thickness), 1.1e-3, 0.25, 3));
-  coupling::ProblemSettings settings = coupling::elastic_settings(1);
+  coupling::PlatenTestSettings settings = coupling::elastic_settings(1);
   settings.platens.strip_width = 2e-3;
-  coupling::Problem problem(specimen, settings);
+  coupling::PlatenTest problem(specimen, settings);
   while (problem.closure_strain() < 1e-4)
     problem.advance(16);
   const dem::Particles &p = problem.model.particles;

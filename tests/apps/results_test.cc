@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/coupling/elastic_problem.h"
 
@@ -23,7 +23,7 @@ protected:
     results_.add(s, problem_);
   }
   double bonds_ = 100;
-  coupling::Problem problem_{dem::advancing_front(dem::box(6e-3, 6e-3, 8e-3), dem::equal_radii(1e-3), 3),
+  coupling::PlatenTest problem_{dem::advancing_front(dem::box(6e-3, 6e-3, 8e-3), dem::equal_radii(1e-3), 3),
                              coupling::elastic_settings(0.5)};
   Results results_{false};
 };

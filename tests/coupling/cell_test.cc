@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
@@ -19,8 +19,8 @@ const dem::Specimen &cylinder() {
   return s;
 }
 
-ProblemSettings lubricated() {
-  ProblemSettings s = elastic_settings(0.3);
+PlatenTestSettings lubricated() {
+  PlatenTestSettings s = elastic_settings(0.3);
   s.platens.damping = 0;
   return s;
 }
@@ -36,7 +36,7 @@ struct Elastic {
 };
 const Elastic &elastic() {
   static const Elastic e = [] {
-    Problem problem(cylinder(), lubricated());
+    PlatenTest problem(cylinder(), lubricated());
     const StaticPress p = press_statically(problem, 1e-5);
     return Elastic{p.youngs_modulus(), p.poisson_ratio()};
   }();
@@ -44,9 +44,9 @@ const Elastic &elastic() {
 }
 
 TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
-  ProblemSettings settings = lubricated();
+  PlatenTestSettings settings = lubricated();
   settings.loading.cell = cell_of(2e6);
-  Problem problem(cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
     problem.advance(16);
@@ -63,13 +63,13 @@ TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
   EXPECT_NEAR(s.lateral_y / s.axial, 1, 0.15);
   // The only forces from outside are platens and pressure, and both are in the book.
   EXPECT_LT(std::abs(problem.energy().residual()), 1e-6 * problem.energy().boundary);
-  EXPECT_GT(problem.confinement()->work(), 0.5 * problem.energy().boundary);
+  EXPECT_GT(problem.skin()->skin().work(), 0.5 * problem.energy().boundary);
 }
 
 TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
-  ProblemSettings settings = lubricated();
+  PlatenTestSettings settings = lubricated();
   settings.loading.cell = cell_of(2e6);
-  Problem problem(cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
     problem.advance(16);
@@ -86,10 +86,10 @@ TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
 }
 
 TEST(cell, a_stiff_wall_takes_nu_over_one_minus_nu_of_the_axial_stress) {
-  ProblemSettings settings = lubricated();
+  PlatenTestSettings settings = lubricated();
   settings.loading.wall_stiffness = 10;
   settings.loading.wall_layer = 1;
-  Problem problem(cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (problem.closure_strain() < 2e-4)
     problem.advance(16);
@@ -107,10 +107,10 @@ TEST(cell, a_stiff_wall_takes_nu_over_one_minus_nu_of_the_axial_stress) {
 }
 
 TEST(cell, what_is_elastic_unloads_along_the_way_it_was_loaded) {
-  ProblemSettings settings = lubricated();
+  PlatenTestSettings settings = lubricated();
   settings.loading.unload_at = {1e-4};
   settings.loading.unload_to = 0.2;
-  Problem problem(cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const auto stress = [&] { return 0.5 * (problem.stress_top() + problem.stress_bottom()); };
   const auto run_until = [&](const auto &met) {
     for (int k = 0; k < 100000 && !met(); ++k)

@@ -1,7 +1,7 @@
 // Settings of a specimen that nothing breaks, for tests against closed forms.
 #pragma once
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 
 namespace platen::coupling {
 
@@ -12,9 +12,9 @@ inline dem::ParallelBond::Parameters unbreakable_bond() {
 }
 
 // Ground ends of `end_layer` mean radii between platens without friction that close at 0.02 m/s.
-inline ProblemSettings elastic_settings(double end_layer,
+inline PlatenTestSettings elastic_settings(double end_layer,
                                         const dem::BondParameters &bond = unbreakable_bond()) {
-  ProblemSettings s;
+  PlatenTestSettings s;
   s.model.bond_layout.modulus = 36e9; // Pa
   s.model.bond_layout.gap = 0.05;
   s.model.bond = bond;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/measured.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-ProblemSettings pressed() {
-  ProblemSettings s;
+PlatenTestSettings pressed() {
+  PlatenTestSettings s;
   s.model.bond_layout.modulus = 36e9;
   s.model.bond_layout.gap = 0.05;
   s.model.bond = dem::ParallelBond::Parameters{0.4, 2e9, 6e9, 1.0, 0.3};
@@ -41,7 +41,7 @@ struct Stopped {
   std::string message;
 };
 
-Stopped run(Problem &problem, long most) {
+Stopped run(PlatenTest &problem, long most) {
   const long start = problem.steps();
   try {
     while (problem.steps() < start + most)
@@ -73,7 +73,7 @@ const std::vector<std::pair<std::string, Spoil>> columns{
 TEST(not_finite, in_any_column_of_a_bonded_sphere_is_found_within_ten_steps_and_named) {
   long slowest = 0;
   for (const auto &[name, spoil] : columns) {
-    Problem problem(small_cylinder(), pressed());
+    PlatenTest problem(small_cylinder(), pressed());
     problem.advance(137);
     const int id = 41;
     spoil(problem.model.particles, row_of(problem.model.particles, id), none);
@@ -89,7 +89,7 @@ TEST(not_finite, in_any_column_of_a_bonded_sphere_is_found_within_ten_steps_and_
 
 TEST(not_finite, of_a_sphere_that_touches_nothing_is_found_within_a_hundred_steps_and_named) {
   for (const auto &[name, spoil] : columns) {
-    Problem problem(with_a_loose_sphere(), pressed());
+    PlatenTest problem(with_a_loose_sphere(), pressed());
     problem.advance(137);
     const int id = static_cast<int>(problem.model.particles.size()) - 1;
     spoil(problem.model.particles, row_of(problem.model.particles, id), none);
@@ -103,7 +103,7 @@ TEST(not_finite, of_a_sphere_that_touches_nothing_is_found_within_a_hundred_step
 
 // It would be past a platen before the search looks again.
 TEST(escape, of_a_sphere_is_stopped_at_once_and_named) {
-  Problem problem(with_a_loose_sphere(), pressed());
+  PlatenTest problem(with_a_loose_sphere(), pressed());
   problem.advance(137);
   const int id = static_cast<int>(problem.model.particles.size()) - 1;
   problem.model.particles.velocity[row_of(problem.model.particles, id)] = {1e5, 0, 0};
@@ -115,7 +115,7 @@ TEST(escape, of_a_sphere_is_stopped_at_once_and_named) {
 
 // A sphere that leaves at a speed that can be followed stays in the run and in its count.
 TEST(escape, of_a_slow_sphere_is_followed) {
-  Problem problem(with_a_loose_sphere(), pressed());
+  PlatenTest problem(with_a_loose_sphere(), pressed());
   const int id = static_cast<int>(problem.model.particles.size()) - 1;
   const std::size_t row = row_of(problem.model.particles, id);
   problem.model.particles.velocity[row] = {100, 0, 0};
@@ -127,7 +127,7 @@ TEST(escape, of_a_slow_sphere_is_followed) {
 
 // Put one on the other in a run: what they are pushed apart with can be no physics.
 TEST(coincident, spheres_in_a_run_stop_it_and_are_named) {
-  Problem problem(with_a_loose_sphere(), pressed());
+  PlatenTest problem(with_a_loose_sphere(), pressed());
   problem.advance(137);
   dem::Particles &p = problem.model.particles;
   const int id = static_cast<int>(p.size()) - 1;
@@ -144,7 +144,7 @@ TEST(coincident, spheres_in_a_run_stop_it_and_are_named) {
 }
 
 TEST(not_finite, is_refused_before_a_checkpoint) {
-  Problem problem(with_a_loose_sphere(), pressed());
+  PlatenTest problem(with_a_loose_sphere(), pressed());
   problem.advance(30);
   EXPECT_NO_THROW(problem.require_finite());
   problem.model.particles.position[5].x = std::numeric_limits<double>::infinity();

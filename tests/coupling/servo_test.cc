@@ -1,4 +1,4 @@
-#include "coupling/servo.h"
+#include "coupling/program/servo.h"
 #include "base/state.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
 #include "dem/parallel.h"
@@ -31,8 +31,8 @@ SleeveSettings butyl(bool bonded) {
   return s;
 }
 
-ProblemSettings in_cell(double pressure, bool sleeve, bool bonded = false) {
-  ProblemSettings s = elastic_settings(0.3);
+PlatenTestSettings in_cell(double pressure, bool sleeve, bool bonded = false) {
+  PlatenTestSettings s = elastic_settings(0.3);
   s.platens.damping = 0;
   s.loading.cell.emplace();
   s.loading.cell->pressure = pressure;
@@ -46,7 +46,7 @@ struct Answer {
   double gauge_axial = 0, gauge_lateral = 0;
 };
 
-Answer run(Problem &problem) {
+Answer run(PlatenTest &problem) {
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   while (!problem.axial_stage())
     problem.advance(16);
@@ -62,7 +62,7 @@ Answer run(Problem &problem) {
 }
 
 TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
-  Problem oil(cylinder(), in_cell(10e6, true)), skin(cylinder(), in_cell(10e6, false));
+  PlatenTest oil(cylinder(), in_cell(10e6, true)), skin(cylinder(), in_cell(10e6, false));
   const Answer a = run(oil), b = run(skin);
   EXPECT_EQ(oil.confining_pressure(), 10e6);
   EXPECT_EQ(oil.sleeve()->cuts(), 0);
@@ -77,10 +77,10 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
 
 TEST(sleeve_cell, the_book_of_sleeve_cell_and_specimen_closes) {
   for (const bool bonded : {true, false}) {
-    Problem problem(cylinder(), in_cell(10e6, true, bonded));
+    PlatenTest problem(cylinder(), in_cell(10e6, true, bonded));
     run(problem);
     const dem::EnergyLedger e = problem.energy();
-    EXPECT_GT(problem.sleeve()->solid.pressure_work(), 0.2 * e.boundary);
+    EXPECT_GT(problem.sleeve()->solid().pressure_work(), 0.2 * e.boundary);
     EXPECT_GT(e.bodies, 0);
     EXPECT_LT(std::abs(e.residual()), 2e-3 * e.boundary) << bonded;
   }
@@ -88,7 +88,7 @@ TEST(sleeve_cell, the_book_of_sleeve_cell_and_specimen_closes) {
 
 // The platens follow the rising pressure, and have reached it within 1 % when their own stage begins.
 TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
-  Problem problem(cylinder(), in_cell(10e6, true));
+  PlatenTest problem(cylinder(), in_cell(10e6, true));
   double largest = 0, stress = 0;
   while (!problem.axial_stage()) {
     problem.advance(1);
@@ -103,11 +103,11 @@ TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
 TEST(sleeve_cell, slow_and_quick_servos_keep_up_with_the_pressure) {
   const dem::Specimen small = dem::random_close_packing(dem::cylinder(6e-3, 12e-3), 1.3e-3, 0.25, 7);
   for (const double gain : {0.1, 1.0, 10.0}) {
-    ProblemSettings settings = in_cell(4e6, false);
+    PlatenTestSettings settings = in_cell(4e6, false);
     settings.loading.servo_gain = gain;
     for (PlatenSide *end : {&settings.platens.top, &settings.platens.bottom})
       end->friction_static = end->friction_dynamic = 0.5; // or it slides off in time
-    Problem problem(small, settings);
+    PlatenTest problem(small, settings);
     double largest = 0, stress = 0;
     while (!problem.axial_stage()) {
       problem.advance(1);
@@ -124,9 +124,9 @@ TEST(sleeve_cell, slow_and_quick_servos_keep_up_with_the_pressure) {
 TEST(sleeve_cell, a_stress_path_is_followed) {
   for (const bool sleeve : {false, true})
     for (const double path : {-1.0 / 3, 0.5}) {
-      ProblemSettings settings = in_cell(10e6, sleeve);
+      PlatenTestSettings settings = in_cell(10e6, sleeve);
       settings.loading.cell->path = path;
-      Problem problem(cylinder(), settings);
+      PlatenTest problem(cylinder(), settings);
       while (!problem.axial_stage())
         problem.advance(16);
       double worst = 0, last = 0;
@@ -143,13 +143,13 @@ TEST(sleeve_cell, a_stress_path_is_followed) {
 }
 
 TEST(sleeve_cell, its_rims_stay_with_the_platens) {
-  Problem problem(cylinder(), in_cell(5e6, true, true));
+  PlatenTest problem(cylinder(), in_cell(5e6, true, true));
   run(problem);
-  const fem::HyperelasticSolid &solid = problem.sleeve()->solid;
+  const fem::HyperelasticSolid &solid = problem.sleeve()->solid();
   for (const bool top : {true, false}) {
     const auto node =
         static_cast<std::size_t>(solid.nodes_of(top ? fem::high_end_tag : fem::low_end_tag).front());
-    const double platen = (top ? problem.top : problem.bottom).displacement()[2];
+    const double platen = (top ? problem.top() : problem.bottom()).body().displacement()[2];
     // Within what the platen goes in an interval.
     const double way = problem.platen_speed() * problem.sleeve()->steps_of_interval() * problem.time_step();
     EXPECT_NEAR(solid.displacement()[node][2], platen, 2 * way) << top;
@@ -162,7 +162,7 @@ TEST(sleeve_cell, threads_change_no_bit) {
   const auto state = [](int threads) {
     const dem::ThreadLimit limit(threads);
     fem::limit_threads(threads);
-    Problem problem(cylinder(), in_cell(5e6, true));
+    PlatenTest problem(cylinder(), in_cell(5e6, true));
     problem.advance(300);
     return state_of(problem);
   };

@@ -1,6 +1,6 @@
 // A sleeve around a bonded cylinder: what the cell presses on it arrives at the particles, and no energy is
 // lost on the way.
-#include "coupling/sleeve.h"
+#include "coupling/boundaries/sleeve.h"
 
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ struct Cell {
   explicit Cell(const SleeveSettings &settings = butyl())
       : model(specimen, with_contacts()),
         sleeve(model.particles, specimen.shape, 0, specimen.shape.height, settings) {
-    sleeve.layer.seat_within(model.particles, sleeve.solid, 1e-3);
-    dt = 0.5 * model.stable_step(sleeve.layer.ground_springs(model.particles, sleeve.solid), 0).limit;
+    sleeve.layer().seat_within(model.particles, sleeve.solid(), 1e-3);
+    dt = 0.5 * model.stable_step(sleeve.layer().ground_springs(model.particles, sleeve.solid()), 0).limit;
   }
   static dem::ModelSettings with_contacts() {
     dem::ModelSettings s = elastic_settings(0.5).model;
@@ -53,9 +53,9 @@ struct Cell {
     model.begin_step(dt);
     const double x = std::min(1.0, model.time / ramp);
     sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
-    sleeve.layer.moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
+    sleeve.layer().moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
     model.compute_forces(dt);
-    sleeve.layer.add_forces(model.particles, sleeve.solid, dt);
+    sleeve.layer().add_forces(model.particles, sleeve.solid(), dt);
     sleeve.take_loads();
     model.end_step(dt);
   }
@@ -65,11 +65,11 @@ struct Cell {
   }
   double residual() {
     dem::EnergyLedger e = model.energy();
-    e.kinetic += sleeve.solid.kinetic_energy();
-    e.bodies += sleeve.solid.internal_energy();
-    e.contacts += sleeve.layer.elastic_energy();
-    e.damping += sleeve.layer.damping_work + sleeve.lost();
-    e.friction += sleeve.layer.friction_work;
+    e.kinetic += sleeve.solid().kinetic_energy();
+    e.bodies += sleeve.solid().internal_energy();
+    e.contacts += sleeve.layer().elastic_energy();
+    e.damping += sleeve.layer().damping_work + sleeve.lost();
+    e.friction += sleeve.layer().friction_work;
     e.boundary += sleeve.work();
     return e.residual();
   }
@@ -78,7 +78,7 @@ struct Cell {
 // Sum of the normal forces on the particles along the radius, N.
 double radial_force(const Cell &cell) {
   double sum = 0;
-  for (const ActiveContact &c : cell.sleeve.layer.contacts())
+  for (const ActiveContact &c : cell.sleeve.layer().contacts())
     sum -=
         c.normal_force * (c.normal.x * c.point.x + c.normal.y * c.point.y) / std::hypot(c.point.x, c.point.y);
   return sum;
@@ -87,7 +87,7 @@ double radial_force(const Cell &cell) {
 TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
   Cell cell;
   cell.run(1e-3);
-  EXPECT_GT(cell.sleeve.layer.closed, 50u);
+  EXPECT_GT(cell.sleeve.layer().closed, 50u);
   // The pressure acts on the polygon of the outer face. Rims are held: they bear an eighth (half an element
   // at each end of eight) and what spans from the last spheres to them; the tube itself keeps next to
   // nothing.
@@ -98,14 +98,14 @@ TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
   EXPECT_LT(radial_force(cell), whole);
   // What the particles got the sleeve has got with the other sign.
   fem::Point on_particles{}, on_sleeve{};
-  cell.sleeve.solid.clear_loads();
+  cell.sleeve.solid().clear_loads();
   for (std::size_t i = 0; i < cell.model.particles.size(); ++i)
     cell.model.particles.force[i] = {};
-  cell.sleeve.layer.add_forces(cell.model.particles, cell.sleeve.solid, cell.dt);
+  cell.sleeve.layer().add_forces(cell.model.particles, cell.sleeve.solid(), cell.dt);
   for (std::size_t i = 0; i < cell.model.particles.size(); ++i)
     for (int k = 0; k < 3; ++k)
       on_particles[static_cast<std::size_t>(k)] += cell.model.particles.force[i][k];
-  on_sleeve = cell.sleeve.solid.total_force();
+  on_sleeve = cell.sleeve.solid().total_force();
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(on_particles[k] + on_sleeve[k], 0, 1e-12 * whole);
 }
@@ -125,7 +125,7 @@ TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
   const State kept = state_of(first.sleeve);
   set_state(second.sleeve, kept);
   EXPECT_TRUE(same_state(kept, second.sleeve));
-  EXPECT_EQ(second.sleeve.solid.surface().vertices, first.sleeve.solid.surface().vertices);
+  EXPECT_EQ(second.sleeve.solid().surface().vertices, first.sleeve.solid().surface().vertices);
   first.run(1e-4);
   EXPECT_TRUE(same_state(whole.sleeve, first.sleeve));
 }

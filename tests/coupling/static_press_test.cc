@@ -12,8 +12,8 @@
 namespace platen::coupling {
 namespace {
 
-ProblemSettings elastic(double friction, const dem::BondParameters &bond) {
-  ProblemSettings s = elastic_settings(0.5, bond);
+PlatenTestSettings elastic(double friction, const dem::BondParameters &bond) {
+  PlatenTestSettings s = elastic_settings(0.5, bond);
   s.platens.top = s.platens.bottom = {friction, friction};
   s.platens.damping = 0;
   s.loading.rate = 4e-4;
@@ -33,14 +33,14 @@ void PrintTo(const Case &c, std::ostream *out) {
 class StaticAgainstExplicit : public testing::TestWithParam<Case> {};
 
 TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
-  ProblemSettings settings = elastic(GetParam().friction, GetParam().bond);
+  PlatenTestSettings settings = elastic(GetParam().friction, GetParam().bond);
   settings.platens.glued = GetParam().glued;
-  Problem problem(small_cylinder(), settings);
+  PlatenTest problem(small_cylinder(), settings);
   const StaticPress still = press_statically(problem, 1e-5);
   EXPECT_GT(still.closed_top, 10u);
   EXPECT_GT(still.closed_bottom, 10u);
   EXPECT_GT(still.poisson_ratio(), 0.02);
-  EXPECT_LT(still.youngs_modulus(), problem.voigt_modulus());
+  EXPECT_LT(still.youngs_modulus(), problem.facts().voigt_modulus);
   EXPECT_EQ(problem.closure_strain(), 0); // the problem itself has not moved
 
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
@@ -62,9 +62,9 @@ INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
                          [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
 
 TEST(static_press, stress_is_linear_where_no_contact_changes) {
-  ProblemSettings settings = elastic(1e6, unbreakable_bond());
+  PlatenTestSettings settings = elastic(1e6, unbreakable_bond());
   settings.end_layer = 0.05; // few seats, and no other sphere within reach
-  Problem problem(small_cylinder(), settings);
+  PlatenTest problem(small_cylinder(), settings);
   const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
   ASSERT_EQ(once.closed_top, twice.closed_top);
   EXPECT_NEAR(twice.stress, 2 * once.stress, 1e-6 * once.stress);
@@ -72,19 +72,19 @@ TEST(static_press, stress_is_linear_where_no_contact_changes) {
 
 // Glue holds sideways without friction, and where free ends would let go.
 TEST(static_press, glued_ends_are_stiffer_than_free_ones) {
-  ProblemSettings settings = elastic(0, unbreakable_bond());
-  Problem lubricated(small_cylinder(), settings);
+  PlatenTestSettings settings = elastic(0, unbreakable_bond());
+  PlatenTest lubricated(small_cylinder(), settings);
   settings.platens.glued = true;
-  Problem glued(small_cylinder(), settings);
+  PlatenTest glued(small_cylinder(), settings);
   settings = elastic(1e6, unbreakable_bond());
-  Problem sticking(small_cylinder(), settings);
+  PlatenTest sticking(small_cylinder(), settings);
   const StaticPress slides = press_statically(lubricated, 1e-5), holds = press_statically(glued, 1e-5),
                     sticks = press_statically(sticking, 1e-5);
   EXPECT_GT(holds.platen_modulus(), 1.001 * slides.platen_modulus());
   EXPECT_GE(holds.platen_modulus(), (1 - 1e-6) * sticks.platen_modulus()); // one spring more or as many
   EXPECT_GE(holds.closed_top, sticks.closed_top);
-  EXPECT_EQ(holds.closed_top, static_cast<std::size_t>(glued.top_layer.seats()));
-  EXPECT_EQ(holds.closed_bottom, static_cast<std::size_t>(glued.bottom_layer.seats()));
+  EXPECT_EQ(holds.closed_top, static_cast<std::size_t>(glued.top().layer().seats()));
+  EXPECT_EQ(holds.closed_bottom, static_cast<std::size_t>(glued.bottom().layer().seats()));
 }
 
 // One on the lower platen, carried up by it alone, and one that touches nothing.
@@ -97,7 +97,7 @@ TEST(static_press, loose_spheres_change_nothing) {
     more.radius.push_back(r);
   }
   for (const double friction : {0., 1e6}) {
-    Problem without(bonded, elastic(friction, unbreakable_bond())),
+    PlatenTest without(bonded, elastic(friction, unbreakable_bond())),
         with(more, elastic(friction, unbreakable_bond()));
     ASSERT_EQ(with.model.bonds->size(), without.model.bonds->size());
     const StaticPress a = press_statically(without, 1e-5), b = press_statically(with, 1e-5);
@@ -108,25 +108,25 @@ TEST(static_press, loose_spheres_change_nothing) {
   }
 }
 
-ProblemSettings breakable(double rate) {
+PlatenTestSettings breakable(double rate) {
   dem::ParallelBond::Parameters bond = unbreakable_bond();
   bond.tensile_strength = 10e6;
   bond.shear_strength = 28e6;
   bond.friction_coefficient = 1;
-  ProblemSettings s = elastic(1e6, bond);
+  PlatenTestSettings s = elastic(1e6, bond);
   s.model.contact = dem::ContactSettings{};
   s.model.contact->friction = 0.5;
   s.loading.rate = rate;
   return s;
 }
-double mean_stress(const Problem &p) {
+double mean_stress(const PlatenTest &p) {
   return 0.5 * (p.stress_top() + p.stress_bottom());
 }
 struct Loaded {
   double modulus = 0, strength = 0, first_crack = 0, strain_at_peak = 0;
 };
 // To well beyond the peak; the modulus is the gauge's secant at the strain `at`.
-Loaded load(Problem &problem, double at) {
+Loaded load(PlatenTest &problem, double at) {
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   Loaded result;
   while (problem.closure_strain() < 6e-3 && mean_stress(problem) > 0.6 * result.strength - 1) {
@@ -143,7 +143,7 @@ Loaded load(Problem &problem, double at) {
 
 TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_book) {
   constexpr double strain = 5e-4;
-  Problem problem(small_cylinder(), breakable(1e-6)); // platens that all but stand
+  PlatenTest problem(small_cylinder(), breakable(1e-6)); // platens that all but stand
   const StaticPress p = start_statically(problem, strain);
   EXPECT_EQ(problem.time(), 0);
   EXPECT_EQ(problem.steps(), 0);
@@ -174,12 +174,12 @@ TEST(static_start, goes_on_to_the_same_modulus_and_strength) {
   double strength_from_nothing = 0, strength_from_start = 0;
   for (unsigned seed = 2; seed <= 7; ++seed) {
     SCOPED_TRACE(testing::Message() << "packing " << seed);
-    const auto problem = [&] { return Problem(small_cylinder(seed), breakable(0.04)); };
-    Problem scout = problem();
+    const auto problem = [&] { return PlatenTest(small_cylinder(seed), breakable(0.04)); };
+    PlatenTest scout = problem();
     const Loaded found = load(scout, 0);
     const double start = 0.8 * found.first_crack;
     ASSERT_GT(start, 0.2 * found.strain_at_peak); // worth it
-    Problem whole = problem(), begun = problem();
+    PlatenTest whole = problem(), begun = problem();
     start_statically(begun, start);
     const Loaded from_nothing = load(whole, 1.05 * start), from_start = load(begun, 1.05 * start);
     EXPECT_NEAR(from_start.modulus, from_nothing.modulus, 0.005 * from_nothing.modulus);
@@ -191,15 +191,15 @@ TEST(static_start, goes_on_to_the_same_modulus_and_strength) {
 }
 
 TEST(static_start, is_refused_where_bonds_break_or_the_run_has_begun) {
-  Problem beyond(small_cylinder(), breakable(0.04));
+  PlatenTest beyond(small_cylinder(), breakable(0.04));
   EXPECT_THROW(start_statically(beyond, 5e-3), BadSetup);
-  Problem late(small_cylinder(), breakable(0.04));
+  PlatenTest late(small_cylinder(), breakable(0.04));
   late.step();
   EXPECT_THROW(start_statically(late, 1e-5), std::logic_error);
 }
 
 TEST(static_press, asks_for_bonds_and_a_strain) {
-  Problem problem(small_cylinder(), elastic(0, unbreakable_bond()));
+  PlatenTest problem(small_cylinder(), elastic(0, unbreakable_bond()));
   EXPECT_THROW(press_statically(problem, 0), NumericsStopped);
 }
 

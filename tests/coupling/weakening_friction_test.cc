@@ -139,7 +139,7 @@ TEST(velocity_weakening_friction, a_high_slip_velocity_is_the_static_law_and_a_l
 TEST(friction_law, work_is_stored_or_lost_to_the_last_digit) {
   using By = Weakening::By;
   for (const By by : {By::slip, By::velocity}) {
-    const FrictionLaw law = friction_law(mu_s, mu_d, {by, 3e-6, 1e-4});
+    const FrictionLaw law = friction_law({mu_s, mu_d, {by, 3e-6, 1e-4}});
     CoulombFriction::State state;
     double work = 0, lost = 0;
     for (int n = 0; n < 100000; ++n) {

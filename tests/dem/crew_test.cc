@@ -136,13 +136,17 @@ TEST(crew, the_lowest_part_that_throws_reaches_the_caller) {
     }
 }
 
-TEST(crew, both_does_each_of_two_pieces_once) {
+TEST(crew, at_once_does_each_piece_once) {
   for (const int threads : {1, 2, 3}) {
     const ThreadLimit limit(threads);
     std::vector<int> one(3000, 0), other(3000, 0);
     for (int k = 0; k < 100; ++k)
-      both([&] { for_each(one.size(), [&](std::size_t i) { ++one[i]; }); },
-           [&] { for_each(other.size(), [&](std::size_t i) { other[i] += 2; }); });
+      at_once(2, [&](std::size_t piece) {
+        if (piece == 0)
+          for_each(one.size(), [&](std::size_t i) { ++one[i]; });
+        else
+          for_each(other.size(), [&](std::size_t i) { other[i] += 2; });
+      });
     EXPECT_EQ(one, std::vector<int>(3000, 100));
     EXPECT_EQ(other, std::vector<int>(3000, 200));
   }

@@ -34,6 +34,30 @@ const std::regex &file_opening() {
   return words;
 }
 
+// "Loading/Axial rate": a user of the library has no scene file; messages name members.
+const std::regex &scene_entry() {
+  static const std::regex words(
+      R"(\b(Scene|Specimen|Material|Effects|Bond|Phases|Contact|Platens|Sleeve|Loading|Integration|Output)"
+      R"(|Checkpoint|Expect|Study|Calibrate|Pair test|Bar test)/[A-Z][a-z])");
+  return words;
+}
+
+// Blanks comments alone, keeps line breaks.
+std::string without_comments(const std::string &text) {
+  static const std::regex parts(R"re(("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*[\s\S]*?\*/)re");
+  std::string code;
+  auto from = text.cbegin();
+  for (std::sregex_iterator match(text.begin(), text.end(), parts), end; match != end; ++match) {
+    code.append(from, (*match)[0].first);
+    if ((*match)[1].matched)
+      code += match->str(1);
+    else
+      code.append(static_cast<std::size_t>(std::count((*match)[0].first, (*match)[0].second, '\n')), '\n');
+    from = (*match)[0].second;
+  }
+  return code.append(from, text.cend());
+}
+
 // Blanks comments and literals, keeps line breaks and includes (whose quotes are no literals).
 std::string code_only(const std::string &text) {
   static const std::regex noise(
@@ -72,6 +96,10 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
       violations.push_back({file, number, folder + "/ must not open files: " + line});
     }
   }
+  std::istringstream literals(without_comments(text));
+  for (int number = 1; std::getline(literals, line); ++number)
+    if (std::regex_search(line, match, scene_entry()))
+      violations.push_back({file, number, folder + "/ must not name an entry of a scene: " + match.str()});
   return violations;
 }
 

@@ -1,5 +1,5 @@
-// Reads sources and reports what breaks the layers: which folder may include what, and that numerics opens no
-// file.
+// Reads sources and reports what breaks the layers: which folder may include what, that numerics opens no
+// file, and that it names no entry of a scene file.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,9 @@ struct Violation {
   std::string what;
 };
 
-// Checks one source file. `folder` is the layer it belongs to: "dem", "fem" or "coupling" (others may do
-// anything); `file` is only repeated in the result. Comments and string literals are not looked at.
+// Checks one source file. `folder` is the layer it belongs to: "base", "dem", "fem" or "coupling" (others
+// may do anything); `file` is only repeated in the result. Comments are not looked at, string literals for
+// entries of scenes alone.
 std::vector<Violation> check_source(const std::string &folder, const std::string &file,
                                     const std::string &text);
 
@@ -24,7 +25,7 @@ struct Survey {
   int files = 0; // sources read
 };
 
-// Checks all .h and .cc files of the three layers below `root`. Throws std::runtime_error where a file cannot
+// Checks all .h and .cc files of these layers below `root`. Throws std::runtime_error where a file cannot
 // be read.
 Survey check_tree(const std::filesystem::path &root);
 

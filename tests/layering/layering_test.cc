@@ -23,8 +23,8 @@ TEST(Layering, particles_may_not_include_elements_coupling_apps_or_big_libraries
                            "\"../fem/surface_mesh.h\"", "<deal.II/base/tensor.h>", "<vtkPoints.h>", "<mpi.h>",
                            "<Epetra_CrsMatrix.h>", "<Teuchos_RCP.hpp>", "<ml_epetra_utils.h>", "<fstream>"})
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 1u) << path;
-  for (const char *path :
-       {"\"dem/bonds.h\"", "\"base/table.h\"", "<vector>", "<Eigen/Dense>", "<tbb/parallel_for.h>", "<cstdio>"})
+  for (const char *path : {"\"dem/bonds.h\"", "\"base/table.h\"", "<vector>", "<Eigen/Dense>",
+                           "<tbb/parallel_for.h>", "<cstdio>"})
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 0u) << path;
 }
 
@@ -44,6 +44,18 @@ TEST(Layering, numerics_may_not_open_a_file) {
         "std::filesystem::remove(name);", "data_out.write_vtu_in_parallel(name, comm);"})
     for (const char *folder : {"dem", "fem", "coupling"})
       EXPECT_EQ(faults(folder, std::string(statement) + "\n"), 1u) << folder << ": " << statement;
+}
+
+TEST(Layering, the_library_names_no_entry_of_a_scene) {
+  for (const char *folder : {"base", "dem", "fem", "coupling"}) {
+    EXPECT_EQ(faults(folder, "throw Bad(\"try a smaller Loading/Axial rate\");\n"), 1u) << folder;
+    EXPECT_EQ(faults(folder, "throw Bad(\"Sleeve/Elements around\" + why);\n"), 1u) << folder;
+  }
+  for (const char *text :
+       {"// as Loading/Axial rate has it\n", "throw Bad(\"try a smaller `loading.rate`\");\n",
+        "/* Platens/Span */ int a = b / c;\n", "const double x = Bond / Area;\n"})
+    EXPECT_EQ(faults("coupling", text), 0u) << text;
+  EXPECT_EQ(faults("apps", "refuse(\"Loading/Axial rate\");\n"), 0u);
 }
 
 TEST(Layering, words_in_comments_and_strings_and_gaps_that_open_are_no_files) {

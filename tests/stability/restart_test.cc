@@ -21,8 +21,8 @@
 namespace platen::apps {
 namespace {
 
-using coupling::Problem;
-using coupling::ProblemSettings;
+using coupling::PlatenTest;
+using coupling::PlatenTestSettings;
 
 constexpr long steps_after = 300; // M
 
@@ -43,7 +43,7 @@ const dem::Specimen &specimen() {
   return s;
 }
 
-void choose(ProblemSettings &s, Law law) {
+void choose(PlatenTestSettings &s, Law law) {
   s.model.contact = dem::ContactSettings{};
   s.model.contact->friction = 0.4;
   if (law == parallel_bond) s.model.bond = dem::ParallelBond::Parameters{0.4, 10e6, 30e6, 1, 0.3};
@@ -64,7 +64,7 @@ void choose(ProblemSettings &s, Law law) {
   }
 }
 
-void choose(ProblemSettings &s, Held held) {
+void choose(PlatenTestSettings &s, Held held) {
   if (held == elastic || held == quasi_static) {
     s.platens.elastic = coupling::ElasticPlatens{};
     s.platens.elastic->seat = true;
@@ -82,8 +82,8 @@ void choose(ProblemSettings &s, Held held) {
   s.loading.cell->sleeve = v;
 }
 
-ProblemSettings settings_of(Law law, Held held) {
-  ProblemSettings s = coupling::elastic_settings(0.5);
+PlatenTestSettings settings_of(Law law, Held held) {
+  PlatenTestSettings s = coupling::elastic_settings(0.5);
   s.model.local_damping = 0.3;
   choose(s, law);
   s.platens.top = s.platens.bottom = {0.3, 0.2};
@@ -107,14 +107,14 @@ private:
   dem::ThreadLimit loops_;
 };
 
-long broken(const Problem &p) {
+long broken(const PlatenTest &p) {
   return p.model.broken_tension + p.model.broken_shear;
 }
-double stress(const Problem &p) {
+double stress(const PlatenTest &p) {
   return 0.5 * (p.stress_top() + p.stress_bottom()) - p.confining_pressure();
 }
 
-void advance_to(Problem &problem, long steps) {
+void advance_to(PlatenTest &problem, long steps) {
   while (problem.steps() < steps) {
     problem.advance(steps - problem.steps());
     problem.model.take_cracks();
@@ -130,7 +130,7 @@ struct Life {
 
 Life life_of(Law law, Held held) {
   constexpr long between_looks = 10, most = 20000;
-  Problem problem(specimen(), settings_of(law, held));
+  PlatenTest problem(specimen(), settings_of(law, held));
   Life life;
   while (problem.steps() < most) {
     advance_to(problem, problem.steps() + between_looks);
@@ -145,7 +145,7 @@ Life life_of(Law law, Held held) {
   return life;
 }
 
-void expect_moment(const Problem &p, const Life &life, Moment moment) {
+void expect_moment(const PlatenTest &p, const Life &life, Moment moment) {
   if (moment == before_cracks) {
     EXPECT_EQ(broken(p), 0);
     EXPECT_GT(stress(p) + p.confining_pressure(), 0);
@@ -161,8 +161,8 @@ void expect_moment(const Problem &p, const Life &life, Moment moment) {
 class Restart : public testing::ScratchFolder {
 protected:
   // All that a checkpoint holds, as its file has it.
-  std::string bytes_of(const Problem &problem) { return testing::content_of(kept(problem)); }
-  std::filesystem::path kept(const Problem &problem) {
+  std::string bytes_of(const PlatenTest &problem) { return testing::content_of(kept(problem)); }
+  std::filesystem::path kept(const PlatenTest &problem) {
     return write_checkpoint(folder_, static_cast<std::uint64_t>(problem.steps()), [&](CheckpointWriter &to) {
       save_state(to, problem, Results(false), FileMarks{});
     });
@@ -170,12 +170,12 @@ protected:
   // Of `first` threads until the moment, then, from the file, of each of `then`. Returns how many differ.
   int different(Law law, Held held, Moment moment, const Life &life, int first,
                 const std::vector<int> &then) {
-    const ProblemSettings settings = settings_of(law, held);
+    const PlatenTestSettings settings = settings_of(law, held);
     const long at = life.at[moment];
     std::string expected, stopped;
     {
       const Threads threads(first);
-      Problem whole(specimen(), settings);
+      PlatenTest whole(specimen(), settings);
       advance_to(whole, at);
       expect_moment(whole, life, moment);
       stopped = bytes_of(whole);
@@ -188,7 +188,7 @@ protected:
       const Threads threads(next);
       const std::filesystem::path file = folder_ / "stopped.platen";
       testing::put(file, stopped);
-      Problem resumed(specimen(), settings);
+      PlatenTest resumed(specimen(), settings);
       Results results(false);
       load_state(CheckpointReader(file), resumed, results);
       advance_to(resumed, at + steps_after);

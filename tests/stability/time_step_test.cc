@@ -1,6 +1,6 @@
 // Whole problems from a twentieth of the limit of their step to half as much again: stable as far as the
 // limit is said to be, and stopped soon where it is passed. A step above the limit is refused at the start
-// and where the limit is looked at anew; here it is slipped past that by a safety above 1, as if what is
+// and where the limit is checked again; here it is slipped past that by a safety above 1, as if what is
 // stiff had grown since.
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/state.h"
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/random.h"
 #include "tests/coupling/elastic_problem.h"
@@ -27,12 +27,12 @@ constexpr long soon = 100;              // steps
 struct Case {
   std::string name;
   dem::Specimen specimen;
-  ProblemSettings settings;
+  PlatenTestSettings settings;
 };
 
 // Nothing damps and nothing breaks; particles start with noise, so that every mode is there.
-ProblemSettings pressed_hard(double contact_over_bond) {
-  ProblemSettings s = elastic_settings(0.5);
+PlatenTestSettings pressed_hard(double contact_over_bond) {
+  PlatenTestSettings s = elastic_settings(0.5);
   s.model.local_damping = 0;
   s.platens.damping = 0;
   s.platens.stiffness_of_bond = contact_over_bond;
@@ -87,7 +87,7 @@ struct Outcome {
   std::string message; // where it stopped
 };
 
-Outcome run(Problem &problem, long steps) {
+Outcome run(PlatenTest &problem, long steps) {
   dem::Random random(1);
   for (dem::Vector3 &v : problem.model.particles.velocity)
     v = 1e-6 * random.direction();
@@ -107,9 +107,9 @@ Outcome run(Problem &problem, long steps) {
 }
 
 Outcome run_at(const Case &c, double share, long steps) {
-  ProblemSettings settings = c.settings;
-  settings.safety = share;
-  Problem problem(c.specimen, settings);
+  PlatenTestSettings settings = c.settings;
+  settings.time_step.safety = share;
+  PlatenTest problem(c.specimen, settings);
   return run(problem, steps);
 }
 
@@ -177,8 +177,8 @@ TEST(time_step, far_above_the_limit_a_body_that_breaks_is_stopped_too) {
 // Given a motion before the first step, a problem has that energy too; stopped and resumed as well.
 TEST(time_step, energy_that_was_given_is_not_from_nowhere) {
   const Case c = bonded_block();
-  Problem thrown(c.specimen, c.settings), resumed(c.specimen, c.settings);
-  for (Problem *p : {&thrown, &resumed})
+  PlatenTest thrown(c.specimen, c.settings), resumed(c.specimen, c.settings);
+  for (PlatenTest *p : {&thrown, &resumed})
     for (dem::Vector3 &v : p->model.particles.velocity)
       v = {0, 0, 5}; // a thousand times the energy that the platens bring in
   thrown.advance(50);
@@ -190,11 +190,11 @@ TEST(time_step, energy_that_was_given_is_not_from_nowhere) {
 // Spheres of scaled mass have steps that are too long for the sleeve, which then sets the step of all. Its
 // limit falls as contacts close, and the step follows.
 Outcome run_in_sleeve(double share, long steps, double mass_scaling = 1e4, double sleeve_safety = 0.5) {
-  ProblemSettings s = elastic_settings(0.3);
+  PlatenTestSettings s = elastic_settings(0.3);
   s.model.local_damping = 0;
   s.platens.damping = 0;
   s.model.mass_scaling = mass_scaling;
-  s.safety = share;
+  s.time_step.safety = share;
   s.loading.cell.emplace();
   s.loading.cell->pressure = 5e6;
   SleeveSettings sleeve;
@@ -203,7 +203,7 @@ Outcome run_in_sleeve(double share, long steps, double mass_scaling = 1e4, doubl
   sleeve.contact.friction_static = sleeve.contact.friction_dynamic = 0.5;
   sleeve.safety = sleeve_safety;
   s.loading.cell->sleeve = sleeve;
-  Problem problem(small_cylinder(), s);
+  PlatenTest problem(small_cylinder(), s);
   EXPECT_EQ(problem.time_step_reason().find("sleeve") != std::string::npos, mass_scaling > 1)
       << problem.time_step_reason();
   const Outcome o = run(problem, steps);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "coupling/problem.h"
+#include "coupling/platen_test.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
@@ -72,7 +72,7 @@ void press_column(double modulus_ratio, fem::ElasticMotion motion) {
   column.centre = {{0, 0, r}, {0, 0, 3 * r}, {0, 0, 5 * r}};
   column.radius = {r, r, r};
   column.shape = dem::box(2 * r, 2 * r, 6 * r);
-  coupling::ProblemSettings s = coupling::elastic_settings(0.5);
+  coupling::PlatenTestSettings s = coupling::elastic_settings(0.5);
   s.ends = coupling::Ends::as_packed;
   s.model.bond_layout.modulus = steel / modulus_ratio;
   s.platens.material.young_modulus = steel;
@@ -82,10 +82,10 @@ void press_column(double modulus_ratio, fem::ElasticMotion motion) {
   s.platens.elastic->motion = fem::ElasticMotion::quasi_static;
   s.loading.rate = 1; // to be replaced
   constexpr double strain = 1e-4;
-  const double time = 3000 * coupling::Problem(column, s).time_step();
+  const double time = 3000 * coupling::PlatenTest(column, s).time_step();
   s.loading.rate = strain * 6 * r / time;
   s.platens.elastic->motion = motion;
-  coupling::Problem problem(column, s);
+  coupling::PlatenTest problem(column, s);
   problem.advance(std::lround(time / problem.time_step()));
   const double force = .5 * (problem.stress_top() + problem.stress_bottom()) * problem.nominal_area();
   ASSERT_TRUE(std::isfinite(force));

@@ -1,4 +1,4 @@
-#include "coupling/bending.h"
+#include "coupling/boundaries/strips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,18 +26,6 @@ bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, do
     return false;
   };
   return std::all_of(strips.middles.begin(), strips.middles.end(), meets);
-}
-
-double midspan_moment(const fem::LoadedSurface &body, double z) {
-  const fem::SurfaceMesh &surface = body.surface();
-  double sum = 0;
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-    const fem::Point &load = body.contact_load(static_cast<int>(v)), &x = surface.vertices[v];
-    // Force on the bar: -load. A push up at |x| pulls the lower side, as does a pull outwards below z.
-    const double outwards = std::copysign(1.0, x[0]) * load[0];
-    sum += -load[2] * std::abs(x[0]) - outwards * (z - x[2]);
-  }
-  return 0.5 * sum;
 }
 
 } // namespace platen::coupling

@@ -8,9 +8,9 @@
 // and a spring that answers late feeds every swing.
 #pragma once
 
-#include <vector>
+#include <optional>
 
-#include "coupling/contact_layer.h"
+#include "coupling/boundaries/platen.h"
 #include "dem/packing/specimen.h"
 #include "fem/hyperelastic_solid.h"
 
@@ -22,65 +22,105 @@ struct SleeveSettings {
   // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
   int elements_around = 0, elements_along = 0, elements_through = 1;
   bool bonded_rims = true; // to the platens' rims; else they slide along them
-  // Of the sleeve alone, whose inertia hardly counts. A Problem takes 0 for what makes it cheap.
+  // Of the sleeve alone, whose inertia hardly counts. 0: what makes it cheap, once the time step of the
+  // particles is known; 1 until then.
   double mass_scaling = 1;
   double mass_damping = 0; // 1/s, rate at which its velocities die away
   double safety = 0.5;     // interval over its limit
   int most_steps = 200;    // of the particles in an interval
+  double seat_depth = 0;   // m: particles no deeper lie flush with its inner face; 0: none is seated
   SurfaceContact contact;  // of its inner face with the particles
 };
 
 // Motion of the ends and pressure for the next interval: rims go where platens are, on the velocities that
 // these have now.
-struct SleeveLead {
+struct RimMotion {
   fem::Point bottom{}, top{};             // m/s
   double pressure = 0;                    // Pa, on the outer face
   fem::Point bottom_place{}, top_place{}; // m, displacements of the platens since the start
 };
 
-class Sleeve {
+class Sleeve : public ContactBoundary {
 public:
   // Around a cylinder of `shape`, from z = low to z = high (m). The middles of the inner faces lie on the
   // mantle of the shape. Throws std::invalid_argument where a setting is out of range or the shape is no
   // cylinder.
   Sleeve(const dem::Particles &particles, const dem::Shape &shape, double low, double high,
          const SleeveSettings &settings);
+  // Around a specimen between platens, with which its rims go.
+  Sleeve(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
+         const SleeveSettings &settings);
+
+  void drift(const Step &step, const Command &command) override; // the command's pressure
+  void finish(const Step &step) override;
+  bool follows_others() const override { return true; }
+  bool can_be_carried() const override { return false; }
+  StepLimit limit(const dem::Particles &) const override { return limit_now(); }
+  StepLimit limit_now() const override { return {limit_, reason_of_limit}; }
+  void fit(const dem::Particles &particles, double time_step) override;
+  void add_energy(dem::EnergyLedger &energy) const override;
+  double pressure() const override { return solid_->pressure(fem::mantle_tag); }
+  std::string series() const override { return "sleeve"; }
+  void write_vtu(std::ostream &stream) const override;
+  const ContactLayer &layer() const override { return *contact_; }
+  const fem::LoadedSurface &surface() const override { return *solid_; }
+  using ContactBoundary::layer;
+  using ContactBoundary::surface;
+  static constexpr const char *reason_of_limit =
+      "the finite elements of the sleeve with the springs of its contacts";
 
   // Each step of the particles, after their drift over dt (s) and before forces: moves the surface. Begins an
   // interval where the last one has ended.
-  void move(double dt, const SleeveLead &lead);
+  void move(double dt, const RimMotion &rims);
   // Bound on how far the surface moves over dt (m).
   double largest_move(double dt) const;
   // After the contact layer has given its forces: ends the interval where it is due. Throws
   // fem::InvertedElement before an element is used that would be inside out.
   void take_loads();
 
-  fem::HyperelasticSolid solid;
-  ContactLayer layer;
+  const fem::HyperelasticSolid &solid() const { return *solid_; }
+  fem::HyperelasticSolid &solid() { return *solid_; }
 
   int steps_of_interval() const { return planned_; }
   int steps_of_next_interval(double dt) const;       // of dt (s) each
   double longest_interval() const { return limit_; } // s, stability limit of the next one
-  double axial_force_top() const { return solid.lead_force(top_lead_)[2]; } // N, of the platen on the sleeve
-  double axial_force_bottom() const { return solid.lead_force(bottom_lead_)[2]; } // N
-  double pressure() const { return solid.pressure(fem::mantle_tag); }             // Pa
-  double inner_volume() const { return solid.enclosed_volume(fem::inner_tag); }   // m^3, of the specimen
-  double mass_scaling() const { return settings_.mass_scaling; }
+  double axial_force_top() const {
+    return solid_->lead_force(top_lead_)[2];
+  } // N, of the platen on the sleeve
+  double axial_force_bottom() const { return solid_->lead_force(bottom_lead_)[2]; } // N
+  double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); }   // m^3, of the specimen
+  // Of the volume within it, positive in compression.
+  double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
+  // N: what platens press on its ends (the mean of both) beyond the pressure that stands in the rubber
+  // anyway.
+  double axial_force_beyond_pressure() const;
+  double mass_scaling() const { return settings_.mass_scaling == 0 ? 1.0 : settings_.mass_scaling; }
   long cuts() const { return static_cast<long>(cuts_); } // halvings of intervals that would invert an element
   // Work of pressure and platens on the sleeve since the start, and what it stores and has lost (J).
-  double work() const { return solid.pressure_work() + solid.lead_work(); }
-  double stored() const { return solid.kinetic_energy() + solid.internal_energy(); }
-  double lost() const { return solid.damping_work(); }
+  double work() const { return solid_->pressure_work() + solid_->lead_work(); }
+  double stored() const { return solid_->kinetic_energy() + solid_->internal_energy(); }
+  double lost() const { return solid_->damping_work(); }
 
-  void describe(Archive &archive);
+  void describe(Archive &archive) override;
+
+protected:
+  double farthest(const Step &step) const override { return largest_move(step.dt); }
 
 private:
-  void begin_interval(double dt, const SleeveLead &lead);
-  void kick_into(double interval, double dt, const SleeveLead &lead);
-  void end_interval();
-  double limit();
+  void begin_interval(double dt, const RimMotion &rims);
+  void kick_into(double interval, double dt, const RimMotion &rims);
+  double find_limit();
+  double cheap_mass(double time_step) const;
+
+  void build(const dem::Particles &particles);
 
   SleeveSettings settings_;
+  dem::Shape shape_;
+  double low_, high_; // m, z
+  std::unique_ptr<fem::HyperelasticSolid> solid_;
+  std::unique_ptr<ContactLayer> contact_;
+  std::optional<EndPlatens> ends_;
+  double volume_at_start_ = 0, ring_ = 0; // m^3 within it; m^2 of an end of it
   int bottom_lead_ = 0, top_lead_ = 0;
   std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
   int planned_ = 0, made_ = 0;               // steps of the interval

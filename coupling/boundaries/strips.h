@@ -1,11 +1,10 @@
-// The strips between which a bar along x is bent, and the moment that they make in its middle.
+// The strips between which a bar along x is bent.
 #pragma once
 
 #include <vector>
 
 #include "dem/packing/specimen.h"
 #include "fem/grids.h"
-#include "fem/loaded_surface.h"
 
 namespace platen::coupling {
 
@@ -22,9 +21,5 @@ fem::Grid make_grid(const Strips &strips);
 
 // Each strip has a sphere of the specimen within `depth` (m) of its face.
 bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth);
-
-// What the forces of one body on the bar add to its bending moment at x = 0, about the height z (m), N m:
-// the mean of what those left of it and those right of it say. Positive where it pulls the lower side.
-double midspan_moment(const fem::LoadedSurface &body, double z);
 
 } // namespace platen::coupling

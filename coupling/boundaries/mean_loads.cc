@@ -1,4 +1,4 @@
-#include "coupling/mean_loads.h"
+#include "coupling/boundaries/mean_loads.h"
 
 #include <array>
 #include <stdexcept>

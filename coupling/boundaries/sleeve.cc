@@ -1,0 +1,258 @@
+#include "coupling/boundaries/sleeve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "coupling/errors.h"
+#include "coupling/text_of.h"
+
+namespace platen::coupling {
+
+// fem::Point is an array: its operators are not found by its type.
+using fem::operator+;
+using fem::operator-;
+using fem::operator*;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+// The elements' own limit costs as much as twenty of their steps and changes with their shape alone.
+constexpr int intervals_between_limits = 100;
+// Intervals of so many steps make a sleeve cheap. Springs grow with the pressure; so does then the mass that
+// is given to the sleeve, and what its inertia presses stays the same small share of the pressure.
+constexpr double steps_of_cheap_interval = 8;
+constexpr double bound_over_mean =
+    2.5; // of a row of the contacts' stiffness: one for the nearest, half for three
+
+void require(bool holds, const std::string &what) {
+  if (!holds) throw std::invalid_argument("sleeve: " + what);
+}
+
+// Faces of this many mean radii meet four spheres or so; with fewer the rubber is driven into the gaps
+// between them.
+constexpr double radii_of_face = 5;
+constexpr int fewest_around = 8;
+
+int elements_around(const dem::Particles &particles, const dem::Shape &shape, const SleeveSettings &s) {
+  if (s.elements_around > 0) return s.elements_around;
+  double sum = 0; // m
+  for (const double r : particles.radius)
+    sum += r;
+  const double face = radii_of_face * sum / static_cast<double>(particles.size());
+  return std::max(fewest_around, static_cast<int>(std::lround(2 * pi * shape.radius / face)));
+}
+
+fem::Grid tube_around(const dem::Shape &shape, double low, double high, const SleeveSettings &s) {
+  require(shape.kind == dem::ShapeKind::cylinder, "only a cylinder has one");
+  require(s.thickness > 0, "thickness must be positive");
+  require(s.elements_around >= fewest_around, "at least 8 elements around");
+  require(s.elements_along >= 0, "elements along must not be negative");
+  require(high > low, "its ends must lie apart");
+  fem::Tube tube;
+  tube.inner_radius = shape.radius / std::cos(pi / s.elements_around);
+  tube.thickness = s.thickness;
+  tube.z_low = low;
+  tube.height = high - low;
+  tube.elements_around = s.elements_around;
+  const double width = 2 * pi * shape.radius / s.elements_around;
+  tube.elements_along = s.elements_along > 0
+                            ? s.elements_along
+                            : std::max(2, static_cast<int>(std::lround(tube.height / width)));
+  tube.elements_through = s.elements_through;
+  return fem::make_grid(tube);
+}
+
+SleeveSettings with_elements(const dem::Particles &particles, const dem::Shape &shape, SleeveSettings s) {
+  s.elements_around = elements_around(particles, shape, s);
+  return s;
+}
+
+} // namespace
+
+Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double low, double high,
+               const SleeveSettings &settings)
+    : ContactBoundary("sleeve"),
+      settings_(with_elements(particles, shape, settings)),
+      shape_(shape),
+      low_(low),
+      high_(high) {
+  require(settings.safety > 0 && settings.safety <= 1, "safety must lie in (0, 1]");
+  require(settings.most_steps >= 1, "an interval has at least one step");
+  require(settings.mass_scaling == 0 || settings.mass_scaling >= 1, "mass scaling must be 0, or at least 1");
+  build(particles);
+}
+
+Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
+               const SleeveSettings &settings)
+    : Sleeve(particles, shape, ends.planes().low, ends.planes().high, settings) {
+  ends_.emplace(ends);
+}
+
+void Sleeve::build(const dem::Particles &particles) {
+  fem::Rubber rubber = settings_.rubber;
+  rubber.density *= mass_scaling();
+  solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,
+                                                    std::vector<int>{fem::inner_tag});
+  contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);
+  const std::array<bool, 3> held = {settings_.bonded_rims, settings_.bonded_rims, true};
+  const std::vector<int> below = solid_->nodes_of(fem::low_end_tag),
+                         above = solid_->nodes_of(fem::high_end_tag);
+  bottom_lead_ = solid_->lead(below, held);
+  top_lead_ = solid_->lead(above, held);
+  bottom_rim_ = static_cast<std::size_t>(below.front());
+  top_rim_ = static_cast<std::size_t>(above.front());
+  solid_->set_damping(settings_.mass_damping);
+  limit_ = find_limit();
+  if (settings_.seat_depth > 0) contact_->seat_within(particles, *solid_, settings_.seat_depth);
+  volume_at_start_ = inner_volume();
+  ring_ = solid_->volume() / (high_ - low_);
+}
+
+// As the sleeve's own limit has it when all spheres press that lie flush with it, evenly.
+double Sleeve::cheap_mass(double time_step) const {
+  double mass = 0; // kg, of the face that meets the spheres
+  for (std::size_t v = 0; v < solid_->surface().vertices.size(); ++v)
+    mass += solid_->surface_mass(static_cast<int>(v));
+  const SurfaceContact &p = contact_->parameters();
+  const double springs =
+      bound_over_mean * contact_->seats() * p.particle_stiffness * std::max(1.0, p.tangential_ratio);
+  const double interval = steps_of_cheap_interval * time_step / settings_.safety;
+  return std::max(1.0, springs / mass * 0.25 * interval * interval);
+}
+
+void Sleeve::fit(const dem::Particles &particles, double time_step) {
+  if (settings_.mass_scaling > 0) return;
+  settings_.mass_scaling = cheap_mass(time_step);
+  build(particles);
+}
+
+void Sleeve::drift(const Step &step, const Command &command) {
+  RimMotion rims;
+  rims.bottom = ends_->low.body().velocity();
+  rims.top = ends_->high.body().velocity();
+  rims.pressure = command.pressure;
+  rims.bottom_place = {0, 0, ends_->low.face_rise()};
+  rims.top_place = {0, 0, ends_->high.face_rise()};
+  move(step.dt, rims);
+}
+
+void Sleeve::finish(const Step &step) {
+  try {
+    take_loads();
+  } catch (const fem::InvertedElement &e) {
+    throw NumericsStopped(
+        "step " + std::to_string(step.number + 1) + ": the sleeve would turn inside out: " + e.what() +
+        "; try wider elements (`sleeve.elements_around`), a thicker or a stiffer sleeve, or "
+        "a slower `loading.rate`");
+  }
+}
+
+void Sleeve::add_energy(dem::EnergyLedger &energy) const {
+  ContactBoundary::add_energy(energy);
+  energy.damping += lost();
+  energy.bodies += stored();
+  energy.boundary += work();
+}
+
+void Sleeve::write_vtu(std::ostream &stream) const {
+  solid_->write_vtu(stream, contact_->vertex_slip(*solid_));
+}
+
+double Sleeve::axial_force_beyond_pressure() const {
+  return 0.5 * (axial_force_bottom() - axial_force_top()) - pressure() * ring_;
+}
+
+// Of the elements, and of the contacts that press now: the sum of a row of the contacts' stiffness at a
+// vertex is at most that of the spheres for which it is the nearest, and half of that of the others on its
+// faces (weights of a bilinear face sum to one).
+double Sleeve::find_limit() {
+  if (std::fmod(intervals_, intervals_between_limits) == 0) own_limit_ = solid_->stable_step();
+  const fem::SurfaceMesh &surface = solid_->surface();
+  std::vector<double> stiffness(surface.vertices.size(), 0.0);
+  for (const ActiveContact &c : contact_->contacts()) {
+    const std::array<int, 4> &face = surface.faces[static_cast<std::size_t>(c.face)];
+    const fem::Point at = {c.point.x, c.point.y, c.point.z};
+    const auto far = [&](int v) { return fem::norm(surface.vertices[static_cast<std::size_t>(v)] - at); };
+    const int nearest =
+        *std::min_element(face.begin(), face.end(), [&](int a, int b) { return far(a) < far(b); });
+    for (const int v : face)
+      stiffness[static_cast<std::size_t>(v)] += (v == nearest ? 1.0 : 0.5) *
+                                                settings_.contact.particle_stiffness *
+                                                std::max(1.0, settings_.contact.tangential_ratio);
+  }
+  double squared = 0; // of the contacts' frequency, 1/s^2
+  for (std::size_t v = 0; v < stiffness.size(); ++v)
+    squared = std::max(squared, stiffness[v] / solid_->surface_mass(static_cast<int>(v)));
+  const double own = 2 / own_limit_;
+  return 2 / std::sqrt(own * own + squared);
+}
+
+int Sleeve::steps_of_next_interval(double dt) const {
+  return std::clamp(static_cast<int>(settings_.safety * limit_ / dt), 1, settings_.most_steps);
+}
+
+void Sleeve::begin_interval(double dt, const RimMotion &rims) {
+  planned_ = steps_of_next_interval(dt);
+  solid_->set_pressure(fem::mantle_tag, rims.pressure);
+  made_ = 0;
+  elapsed_ = 0;
+  kick_into(planned_ * dt, dt, rims);
+  // A half-kick back undoes one, drag and works included. What a single step inverts is told by drift().
+  while (planned_ > 1 && !solid_->can_drift(planned_ * dt)) {
+    solid_->half_kick(-planned_ * dt);
+    planned_ /= 2;
+    ++cuts_;
+    kick_into(planned_ * dt, dt, rims);
+  }
+}
+
+// Platens have made the first step of the interval already.
+void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
+  const auto follow = [&](int number, std::size_t node, const fem::Point &velocity, const fem::Point &place) {
+    const fem::Point &rim = solid_->displacement()[node];
+    solid_->set_lead_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
+  };
+  follow(bottom_lead_, bottom_rim_, rims.bottom, rims.bottom_place);
+  follow(top_lead_, top_rim_, rims.top, rims.top_place);
+  solid_->half_kick(interval);
+}
+
+void Sleeve::move(double dt, const RimMotion &rims) {
+  if (made_ == planned_) begin_interval(dt, rims);
+  ++made_;
+  elapsed_ += dt;
+  solid_->place_surface_ahead(elapsed_);
+  solid_->clear_loads();
+}
+
+double Sleeve::largest_move(double dt) const {
+  return solid_->largest_move(dt);
+}
+
+// The loads of the last step stand on the surface.
+void Sleeve::take_loads() {
+  if (made_ < planned_) return;
+  solid_->drift(elapsed_);
+  solid_->update_forces();
+  solid_->half_kick(elapsed_);
+  ++intervals_;
+  limit_ = find_limit();
+}
+
+void Sleeve::describe(Archive &archive) {
+  archive.version(1);
+  archive("planned_steps", planned_);
+  archive("steps_made", made_);
+  archive("elapsed", elapsed_, "s");
+  archive("limit", limit_, "s");
+  archive("limit_of_elements", own_limit_, "s");
+  archive("intervals", intervals_);
+  archive("cuts", cuts_);
+  archive.part("solid", *solid_);
+  archive.part("contacts", *contact_);
+  if (archive.reads() && made_ < planned_) solid_->place_surface_ahead(elapsed_);
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,130 @@
+// What a specimen may meet: platens, strips, a sleeve, a pressure on its skin, a wall. An experiment holds a
+// list of any number of them and knows no more of each than this.
+#pragma once
+
+#include <iosfwd>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/archive.h"
+#include "coupling/contact_layer.h"
+#include "coupling/program/servo.h"
+#include "dem/energy.h"
+#include "dem/particles.h"
+#include "dem/stable_step.h"
+#include "fem/point.h"
+
+namespace platen::coupling {
+
+// What the machine asks of a boundary in a step.
+struct Command {
+  fem::Point velocity{}; // m/s, of what the machine moves
+  double pressure = 0;   // Pa
+};
+
+// The step that is being made; the particles have drifted.
+struct Step {
+  double dt = 0;       // s
+  double time = 0;     // s, of its end
+  long number = 0;     // steps made before it
+  double farthest = 0; // m, bound on what any particle moved
+};
+
+struct StepLimit {
+  double seconds = std::numeric_limits<double>::infinity();
+  std::string reason;
+};
+
+class Boundary {
+public:
+  explicit Boundary(std::string name) : name_(std::move(name)) {}
+  virtual ~Boundary() = default;
+  Boundary(const Boundary &) = delete;
+  Boundary &operator=(const Boundary &) = delete;
+  const std::string &name() const { return name_; }
+
+  // A step, in this order. Takes a command and moves what is its own over the step.
+  virtual void drift(const Step &step, const Command &command) = 0;
+  // What of its contacts has to be looked at, in how many parts. Throws std::runtime_error where a particle
+  // may have passed through it unseen.
+  virtual std::size_t prepare(const dem::Particles &, const Step &) { return 0; }
+  // The forces of one part, in any order, on any thread and beside the bonds; writes nothing of others.
+  virtual void compute_part(const dem::Particles &, const Step &, std::size_t) {}
+  // What the particles get, and what is its own of it.
+  virtual void apply_forces(dem::Particles &particles, const Step &step) = 0;
+  // The end of its own step. Throws NumericsStopped where it cannot go on.
+  virtual void finish(const Step &) {}
+  // Of a boundary without an energy balance of its own, which a machine holds against the particles: their
+  // power on it (W) at the start and at the end of the drift, added up.
+  virtual double power_on_machine() const { return 0; }
+  virtual bool is_finite() const { return true; }
+  // Whether it may be carried to a start without inertia (Experiment::carry).
+  virtual bool can_be_carried() const { return true; }
+  // Stands still from now on; loads stay.
+  virtual void rest() {}
+
+  // Whether it goes with others, which have to drift before; and whether its drift is worth a thread of its
+  // own. Asked once.
+  virtual bool follows_others() const { return false; }
+  virtual bool drifts_long() const { return false; }
+  // Particles that it may push, ascending, and how often they were listed so far; null: any.
+  virtual const std::vector<int> *listed_particles() const { return nullptr; }
+  virtual long lists_made() const { return 0; }
+
+  // Springs of the particles near it, listed anew, for the stable step; fraction of critical damping of its
+  // dashpots; its own limit, once they are listed; the same as far as it is known without work.
+  virtual void add_springs(const dem::Particles &, std::vector<dem::GroundSpring> &) {}
+  virtual double dashpots() const { return 0; }
+  virtual StepLimit limit(const dem::Particles &) const { return {}; }
+  virtual StepLimit limit_now() const { return {}; }
+  // Contacts listed, and closed, whose growth is a reason to look at the step again.
+  virtual std::size_t near() const { return 0; }
+  virtual std::size_t closed() const { return 0; }
+  // Once, when the first time step (s) has been chosen: sets itself up for it.
+  virtual void fit(const dem::Particles &, double /*time_step*/) {}
+
+  virtual void add_energy(dem::EnergyLedger &) const {}
+  virtual fem::Point force() const { return {}; } // N, of the particles on it
+  virtual double pressure() const { return 0; }   // Pa, mean, on the specimen
+  virtual double speed() const { return 0; }      // m/s, at which the machine moves it
+  virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
+  virtual std::size_t bytes() const { return 0; } // of rows and search lists
+
+  // Pictures: the series that it belongs to ("platens"; empty: none), its VTU, its contacts of the last step.
+  virtual std::string series() const { return ""; }
+  virtual void write_vtu(std::ostream &) const {}
+  virtual std::vector<ActiveContact> contacts() const { return {}; }
+
+  virtual void describe(Archive &archive) = 0;
+
+private:
+  std::string name_;
+};
+
+// One whose surface meets the particles by a contact layer.
+class ContactBoundary : public Boundary {
+public:
+  using Boundary::Boundary;
+  std::size_t prepare(const dem::Particles &particles, const Step &step) override;
+  void compute_part(const dem::Particles &particles, const Step &step, std::size_t part) override;
+  void apply_forces(dem::Particles &particles, const Step &step) override;
+  const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
+  long lists_made() const override { return layer().search().lists_made(); }
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
+  void add_energy(dem::EnergyLedger &energy) const override;
+  std::size_t bytes() const override { return layer().bytes(); }
+  void write_vtu(std::ostream &stream) const override = 0;
+  std::vector<ActiveContact> contacts() const override { return layer().contacts(); }
+
+  virtual const ContactLayer &layer() const = 0;
+  virtual const fem::LoadedSurface &surface() const = 0;
+  ContactLayer &layer() { return const_cast<ContactLayer &>(std::as_const(*this).layer()); }
+  fem::LoadedSurface &surface() { return const_cast<fem::LoadedSurface &>(std::as_const(*this).surface()); }
+
+protected:
+  virtual double farthest(const Step &step) const = 0; // m, bound on what its surface moved
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,221 @@
+#include "coupling/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+#include "coupling/text_of.h"
+#include "dem/not_finite.h"
+#include "dem/parallel.h"
+
+namespace platen::coupling {
+namespace {
+
+// What touches nothing shows in no sum, so all are checked after this many steps: a thousandth of their cost.
+constexpr long steps_between_checks = 100;
+
+bool share_none(const Boundary &a, const Boundary &b) {
+  const std::vector<int> *one = a.listed_particles(), *other = b.listed_particles();
+  if (one == nullptr || other == nullptr) return false;
+  std::vector<int> shared;
+  std::set_intersection(one->begin(), one->end(), other->begin(), other->end(), std::back_inserter(shared));
+  return shared.empty();
+}
+
+} // namespace
+
+Experiment::Experiment(const dem::Specimen &specimen, const dem::ModelSettings &settings,
+                       const TimeStepSettings &time_step)
+    : model(specimen, settings), shape_(specimen.shape), settings_(time_step) {}
+
+void Experiment::begin(std::unique_ptr<Program> program) {
+  program_ = std::move(program);
+  half_lightest_ = 0.5 * *std::min_element(model.particles.mass.begin(), model.particles.mass.end());
+  // Pairs that are about to touch count in the first step too.
+  if (model.contacts) model.contacts->search(model.particles, model.bonds.get(), 0.0);
+  choose_step(true);
+  for (const auto &boundary : boundaries_)
+    boundary->fit(model.particles, time_step_);
+  commands_.resize(boundaries_.size());
+  for (const bool followers : {false, true})
+    for (std::size_t b = 0; b < boundaries_.size(); ++b)
+      if (boundaries_[b]->follows_others() == followers)
+        (boundaries_[b]->drifts_long() && !followers ? at_once_ : in_turn_).push_back(b);
+}
+
+long Experiment::advance(long most) {
+  if (steps_ == 0) given_energy_ = dem::kinetic_energy(model.particles);
+  const bool was_finished = program_->finished();
+  for (long made = 1; made <= most; ++made) {
+    make_step(made == 1);
+    const bool ends = program_->finished() && !was_finished;
+    if (made < most && !ends && !(model.breaks > 0 && model.settings().crack_log)) continue;
+    model.end_step(time_step_);
+    if (!std::isfinite(model.last_sums().unbalanced)) stop_not_finite();
+    return made;
+  }
+  return 0;
+}
+
+// All of a step but its end, which the next one makes in one pass with its own start.
+void Experiment::make_step(bool first_of_call) {
+  const double before = time_step_;
+  check_step();
+  try {
+    if (first_of_call)
+      model.begin_step(time_step_);
+    else
+      model.end_and_begin_step(before, time_step_);
+  } catch (const dem::NotFinite &) {
+    stop_not_finite();
+  }
+  if (!std::isfinite(model.last_motion().speed_squares)) stop_not_finite();
+  program_->command(commands_);
+  compute_forces();
+  program_->update();
+  ++steps_;
+  require_boundaries_finite();
+  if (steps_ % steps_between_checks == 0) require_finite();
+  check_energy();
+}
+
+// What boundaries do to particles is found while bonds are: its parts are small, for threads that are done
+// with theirs.
+void Experiment::compute_forces() {
+  const Step step{time_step_, model.time, steps_, model.last_motion().fastest * time_step_};
+  drift_boundaries(step);
+  prepare_contacts(step);
+  const auto part = [&](std::size_t p) {
+    const auto after = std::upper_bound(first_part_.begin(), first_part_.end(), p);
+    const std::size_t b = static_cast<std::size_t>(after - first_part_.begin()) - 1;
+    boundaries_[b]->compute_part(model.particles, step, p - first_part_[b]);
+  };
+  model.compute_forces(time_step_, dem::loop_of(first_part_.back(), part));
+  apply_boundary_forces(step);
+  finish_boundaries(step);
+}
+
+void Experiment::drift_boundaries(const Step &step) {
+  dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
+  const auto drift = [&](std::size_t b) { boundaries_[b]->drift(step, commands_[b]); };
+  dem::at_once(at_once_.size(), [&](std::size_t k) { drift(at_once_[k]); });
+  for (const std::size_t b : in_turn_)
+    drift(b);
+}
+
+void Experiment::prepare_contacts(const Step &step) {
+  dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+  first_part_.assign(1, 0);
+  try {
+    for (const auto &boundary : boundaries_)
+      first_part_.push_back(first_part_.back() + boundary->prepare(model.particles, step));
+  } catch (const std::runtime_error &e) {
+    stop_unseen(e.what());
+  }
+}
+
+// At once where no particle feels two boundaries: then no sum depends on which comes first. Particles are
+// sorted by height before all else, so that two threads share them out as here: each platen meets what its
+// thread has at hand.
+void Experiment::apply_boundary_forces(const Step &step) {
+  dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+  group_boundaries();
+  for (const std::vector<std::size_t> &group : groups_)
+    dem::at_once(group.size(),
+                 [&](std::size_t k) { boundaries_[group[k]]->apply_forces(model.particles, step); });
+}
+
+void Experiment::group_boundaries() {
+  long lists = 0;
+  for (const auto &boundary : boundaries_)
+    lists += boundary->lists_made();
+  if (lists == lists_grouped_) return;
+  lists_grouped_ = lists;
+  groups_.clear();
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    const auto apart = [&](std::size_t other) { return share_none(*boundaries_[b], *boundaries_[other]); };
+    if (groups_.empty() || !std::all_of(groups_.back().begin(), groups_.back().end(), apart))
+      groups_.emplace_back();
+    groups_.back().push_back(b);
+  }
+}
+
+// The machine holds a boundary without an energy balance against the particles: its work is minus theirs, by
+// the trapezoid over the drift.
+void Experiment::finish_boundaries(const Step &step) {
+  dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
+  double power = 0; // W
+  for (const auto &boundary : boundaries_) {
+    boundary->finish(step);
+    power += boundary->power_on_machine();
+  }
+  machine_work_ -= 0.5 * step.dt * power;
+}
+
+// One step so long that no speed in it counts: what dashpots take of it is their fraction of critical times a
+// period over this, and forces at its end, which balance, do nothing.
+void Experiment::carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
+                       const std::vector<fem::Point> &of_boundaries) {
+  if (steps_ > 0) throw std::logic_error("an experiment is carried to its start before its first step");
+  for (const auto &boundary : boundaries_)
+    if (!boundary->can_be_carried())
+      throw std::logic_error(boundary->name() + ": a boundary with inertia is not carried to a start");
+  constexpr double pseudo_step = 1; // s, against periods of microseconds
+  dem::Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = displacement[i] / pseudo_step;
+    if (p.has_rotation() && !turn.empty()) (*p.angular_velocity)[i] = turn[i] / pseudo_step;
+  }
+  for (std::size_t b = 0; b < boundaries_.size(); ++b)
+    commands_[b].velocity = fem::operator*(1 / pseudo_step, of_boundaries.at(b));
+  const double chosen = time_step_, damped = model.works.damping;
+  time_step_ = pseudo_step;
+  model.begin_step(pseudo_step);
+  compute_forces();
+  model.end_step(pseudo_step);
+  time_step_ = chosen;
+  if (model.breaks > 0)
+    throw BadSetup("loading.start_strain", "breaks " + std::to_string(model.breaks) +
+                                               " bonds at once, which a static solve does not follow. "
+                                               "Allowed: less, before the first crack.");
+  model.works.damping = damped; // of the kick alone, which is taken back
+  model.time = 0;
+  std::fill(p.velocity.begin(), p.velocity.end(), dem::Vector3{});
+  if (p.has_rotation()) std::fill(p.angular_velocity->begin(), p.angular_velocity->end(), dem::Vector3{});
+  for (const auto &boundary : boundaries_)
+    boundary->rest();
+}
+
+dem::EnergyLedger Experiment::energy() const {
+  dem::EnergyLedger around;
+  for (const auto &boundary : boundaries_)
+    boundary->add_energy(around);
+  around.boundary += machine_work_;
+  dem::EnergyLedger all = model.energy();
+  all += around;
+  return all;
+}
+
+std::size_t Experiment::bytes() const {
+  std::size_t sum = model.bytes();
+  for (const auto &boundary : boundaries_)
+    sum += boundary->bytes();
+  return sum;
+}
+
+void Experiment::describe(Archive &archive) {
+  archive.version(1);
+  archive("time_step", time_step_, "s");
+  archive.text("time_step_reason", reason_);
+  archive("steps", steps_);
+  archive("near_at_choice", near_at_choice_);
+  archive("machine_work", machine_work_, "J");
+  archive("given_energy", given_energy_, "J");
+  archive.part("specimen", model);
+  for (const auto &boundary : boundaries_)
+    archive.part(boundary->name(), *boundary);
+  archive.part("program", *program_);
+}
+
+} // namespace platen::coupling

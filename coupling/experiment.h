@@ -1,0 +1,107 @@
+// An experiment is made of parts: a specimen, what it meets, and a program that says what is done with it, on
+// one clock.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupling/boundary.h"
+#include "coupling/errors.h"
+#include "coupling/program/program.h"
+#include "dem/model.h"
+#include "dem/packing/specimen.h"
+
+namespace platen::coupling {
+
+struct TimeStepSettings {
+  double safety = 0.8;   // time step over the limit
+  double fixed_step = 0; // s; 0: safety times the limit
+};
+
+class Experiment {
+public:
+  // Without boundaries and program. Throws std::invalid_argument as dem::Model does.
+  Experiment(const dem::Specimen &specimen, const dem::ModelSettings &settings,
+             const TimeStepSettings &time_step);
+  virtual ~Experiment() = default;
+
+  // What the specimen meets, in this order; before begin().
+  template <class Kind>
+  Kind &add(std::unique_ptr<Kind> boundary) {
+    Kind &added = *boundary;
+    boundaries_.push_back(std::move(boundary));
+    return added;
+  }
+  // Takes what is to be done with it and chooses the time step, once all boundaries are there. Throws
+  // BadSetup.
+  void begin(std::unique_ptr<Program> program);
+
+  // Up to `most` steps, to the same bits as one by one and faster; ends early after a step that leaves
+  // cracks to be written, and after the one that finishes the program. Returns how many were made. Throws
+  // NumericsStopped, naming particles and columns, where numbers are not finite: within a step or two where
+  // they reach a force, else within a hundred.
+  long advance(long most);
+  // Before the first step: carries the particles by displacements (m) and turns (rad; empty without rotation)
+  // and each boundary by what is given for it (m), so slowly that nothing is left in motion, as a solve
+  // without inertia has it. Bonds, contacts, friction springs and the energy balance are then as after a very
+  // slow loading; the clock stands at zero. Throws BadSetup where a bond breaks on the way, and
+  // std::logic_error after the first step or where a boundary has inertia.
+  void carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
+             const std::vector<fem::Point> &of_boundaries);
+  // Throws NumericsStopped where a particle's motion is not finite: to be asked before a state is kept.
+  void require_finite() const;
+
+  dem::Model model; // the specimen
+
+  const std::vector<std::unique_ptr<Boundary>> &boundaries() const { return boundaries_; }
+  const Program &program() const { return *program_; }
+  const dem::Shape &shape() const { return shape_; }
+  double time() const { return model.time; } // s
+  long steps() const { return steps_; }
+  double time_step() const { return time_step_; } // s
+  const std::string &time_step_reason() const { return reason_; }
+  dem::EnergyLedger energy() const;
+  std::size_t bytes() const; // of all columns and of the search lists
+  virtual void describe(Archive &archive);
+
+private:
+  void make_step(bool first_of_call);
+  void compute_forces();
+  void drift_boundaries(const Step &step);
+  void prepare_contacts(const Step &step);
+  void apply_boundary_forces(const Step &step);
+  void group_boundaries();
+  void finish_boundaries(const Step &step);
+  // Time step (experiment_time_step.cc).
+  dem::StableStep limit_now();
+  std::size_t contacts_closed() const;
+  void choose_step(bool first);
+  void check_step();
+  // What stops a run (experiment_guards.cc).
+  [[noreturn]] void stop_not_finite() const;
+  [[noreturn]] void stop_unseen(const std::string &reason) const;
+  void require_boundaries_finite() const;
+  void check_energy();
+
+  dem::Shape shape_;
+  TimeStepSettings settings_;
+  std::vector<std::unique_ptr<Boundary>> boundaries_;
+  std::unique_ptr<Program> program_;
+  Commands commands_;                            // one for each boundary
+  std::vector<std::size_t> first_part_;          // of each boundary's contact work, and the end
+  std::vector<std::size_t> at_once_, in_turn_;   // boundaries whose drift is worth a thread; the others
+  std::vector<std::vector<std::size_t>> groups_; // of boundaries of which no two push the same particle
+  long lists_grouped_ = -1;                      // search lists made when that was found
+  double time_step_ = 0;
+  std::string reason_;
+  long steps_ = 0;
+  std::size_t near_at_choice_ = 0;
+  double machine_work_ = 0;   // J, on boundaries without an energy balance of their own
+  double given_energy_ = 0;   // J, of motion before the first step
+  double energy_allowed_ = 0; // J, of motion, when it was last checked
+  double half_lightest_ = 0;  // kg, of the particles' masses
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,206 @@
+// A test between two platens at its start: platens against the specimen, what holds its sides, its program.
+#include "coupling/platen_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/platens_of_test.h"
+#include "coupling/program/axial_loading.h"
+#include "coupling/program/consolidation.h"
+#include "dem/measure/moduli.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+// Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
+// hard specimen.
+constexpr double servo_gain = 5;
+// A specimen is loaded within this many wave transits, a bar within this many of its own periods, where
+// nothing else is said.
+constexpr double transits_of_ramp = 10, periods_of_ramp = 2;
+// A cell's pressure rises over this many wave transits where nothing else is said.
+constexpr double transits_of_cell = 60;
+// Of a specimen in contact the servo may be as quick as it can. Its time constant is then that of its
+// dashpot, ten impedances, over the specimen's stiffness: ten wave transits, more where ends are soft. What
+// it is told runs ahead by that, so that the stress on the platens keeps up with the pressure. A slower servo
+// gets as much more time.
+constexpr double gain_of_cell = 10, transits_ahead = 9;
+// The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
+constexpr double servo_reserve = 10;
+// A path follows the deviator with this lag in wave transits: long enough for waves to pass, and for the
+// specimen's own answer to the pressure, which would ring otherwise.
+constexpr double lag_of_path = 4;
+// Spheres bear on the sleeve with springs that the pressure presses in by about a twenty-fifth of a radius
+// (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
+constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
+
+} // namespace
+
+SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
+                       const dem::Model &model) {
+  SpecimenFacts facts;
+  facts.mean_radius = dem::mean_radius(specimen);
+  double solid = 0;
+  for (const double r : specimen.radius)
+    solid += 4.0 / 3.0 * pi * r * r * r;
+  const double volume = specimen.shape.volume();
+  facts.packing_fraction = solid / volume;
+  facts.voigt_modulus = model.bonds ? dem::network_moduli(*model.bonds, volume).young_voigt : 0.0;
+  facts.grain_density = dem::grain_density(specimen, settings.density, settings.density_of);
+  const double density = facts.grain_density * settings.mass_scaling * facts.packing_fraction;
+  facts.wave_transit =
+      facts.voigt_modulus > 0 ? specimen.shape.height * std::sqrt(density / facts.voigt_modulus) : 0.0;
+  return facts;
+}
+
+PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &settings)
+    : Experiment(specimen, settings.model, settings.time_step), settings_(settings) {
+  add_platens(specimen);
+  facts_ = facts_of(specimen, settings.model, model);
+  seat_platens(specimen);
+  choose_rates();
+  add_lateral(mean_bond_stiffness(model));
+  begin(make_program());
+}
+
+void PlatenTest::add_platens(const dem::Specimen &specimen) {
+  for (const bool above : {false, true}) {
+    PlatenOfTest made = make_platen(specimen, settings_, above, model);
+    (above ? top_ : bottom_) = made.platen.get();
+    if (above) elastic_top_ = made.elastic;
+    add(std::move(made.platen));
+  }
+  ends_.emplace(EndPlatens{*bottom_, *top_, platen_plane(specimen, false, settings_.ends),
+                           platen_plane(specimen, true, settings_.ends)});
+}
+
+void PlatenTest::seat_platens(const dem::Specimen &specimen) {
+  const double depth = settings_.end_layer * dem::mean_radius(specimen);
+  if (settings_.ends == Ends::ground || settings_.platens.glued) {
+    const auto seats = [&](Platen &platen) {
+      return platen.layer().seat_within(model.particles, platen.body(), depth, bent());
+    };
+    if (std::min(seats(*top_), seats(*bottom_)) == 0)
+      throw BadSetup("end_layer",
+                     "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen "
+                     "that reaches its end planes.");
+  }
+  if (bent()) require_strips_to_meet(specimen, settings_, depth);
+}
+
+void PlatenTest::choose_rates() {
+  LoadingSettings &loading = settings_.loading;
+  const double transit = facts_.wave_transit;
+  if (loading.wave_transits > 0) {
+    if (transit == 0)
+      throw BadSetup("loading.wave_transits", "needs bonds: they carry the wave. Allowed: a `loading.rate`.");
+    loading.rate = 1e-3 * shape().height / (loading.wave_transits * transit);
+  }
+  ramp_ = loading.ramp > 0 ? loading.ramp
+          : bent()         ? periods_of_ramp * bending_period()
+                           : transits_of_ramp * transit;
+  if (loading.rate_multiplier > 1 && (!(transit > 0) || !(ramp_ > 0)))
+    throw BadSetup("loading.rate_multiplier", "needs bonds: they tell when the specimen fails. Allowed: 1.");
+  if (!loading.cell) return;
+  servo_slowness_ = gain_of_cell / (loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell);
+  cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : servo_slowness_ * transits_of_cell * transit;
+  if (!(cell_ramp_ > 0))
+    throw BadSetup("loading.cell.ramp", "has to be given: without bonds there is no wave to take it from.");
+}
+
+void PlatenTest::add_lateral(double bond) {
+  const LoadingSettings &loading = settings_.loading;
+  if (loading.cell) {
+    try {
+      if (loading.cell->sleeve)
+        add_sleeve(*loading.cell, bond);
+      else
+        skin_ = &add(std::make_unique<SkinPressure>(model.particles, model.bonds.get(), shape(), *ends_,
+                                                    loading.cell->area));
+    } catch (const std::invalid_argument &e) {
+      throw BadSetup("loading.cell", std::string("cannot be: ") + e.what() + ".");
+    }
+  }
+  if (loading.wall_stiffness > 0)
+    wall_ =
+        &add(std::make_unique<LateralWall>(model.particles, shape(), *ends_, loading.wall_stiffness * bond,
+                                           loading.wall_layer * facts_.mean_radius));
+}
+
+// Penalty springs of the skin are in series with the specimen: stiff enough for the pressure, and no stiffer,
+// since with the light nodes of the sleeve they decide on its steps.
+void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
+  SleeveSettings settings = *cell.sleeve;
+  settings.contact.particle_stiffness =
+      cell.sleeve_stiffness > 0
+          ? cell.sleeve_stiffness * bond
+          : std::max(springs_of_pressure * cell.pressure * facts_.mean_radius, least_share_of_bond * bond);
+  settings.contact.skin = surface_skin * facts_.mean_radius;
+  settings.seat_depth = cell.sleeve_seat_depth * facts_.mean_radius;
+  sleeve_ = &add(std::make_unique<Sleeve>(model.particles, shape(), *ends_, settings));
+}
+
+Sides PlatenTest::sides() const {
+  Sides sides;
+  if (settings_.loading.cell) sides.lateral = 2; // added after the platens
+  return sides;
+}
+
+std::unique_ptr<Program> PlatenTest::make_program() const {
+  const LoadingSettings &loading = settings_.loading;
+  std::vector<std::unique_ptr<Stage>> stages;
+  if (loading.cell) {
+    const CellSettings &cell = *loading.cell;
+    const double stiffness =
+        facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
+    const double fastest = servo_reserve * cell.pressure / stiffness * shape().height / cell_ramp_;
+    Consolidation::Parameters p;
+    p.sides = sides();
+    p.pressure = cell.pressure;
+    p.ramp = cell_ramp_;
+    p.hold = cell.hold;
+    p.area = nominal_area();
+    p.lag_of_servo = servo_slowness_ * transits_ahead * facts_.wave_transit;
+    p.servo = {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, loading.rate)};
+    stages.push_back(std::make_unique<Consolidation>(p));
+    if (cell.alone) return std::make_unique<Program>(*this, std::move(stages));
+  }
+  stages.push_back(axial_stage_of_settings());
+  return std::make_unique<Program>(*this, std::move(stages));
+}
+
+std::unique_ptr<Stage> PlatenTest::axial_stage_of_settings() const {
+  const LoadingSettings &loading = settings_.loading;
+  if (loading.servo) {
+    AxialStress::Parameters p;
+    p.sides = sides();
+    p.stress = loading.top_stress;
+    p.ramp = ramp_;
+    p.hold = loading.hold;
+    p.target_strain = loading.target_strain;
+    p.area = nominal_area();
+    p.servo = {loading.servo_gain > 0 ? loading.servo_gain : servo_gain, loading.rate};
+    return std::make_unique<AxialStress>(p);
+  }
+  AxialRate::Parameters p;
+  p.sides = sides();
+  p.tension = loading.tension;
+  p.rate = loading.rate;
+  p.ramp = ramp_;
+  p.target_strain = loading.target_strain;
+  p.start_strain = loading.start_strain;
+  p.height = shape().height;
+  p.unload_at = loading.unload_at;
+  p.unload_to = loading.unload_to;
+  if (loading.rate_multiplier > 1)
+    p.rate_control =
+        RateControl::Parameters{loading.rate_multiplier, bent() ? bending_period() : facts_.wave_transit,
+                                ramp_, static_cast<double>(model.bonds->size())};
+  if (loading.cell)
+    p.lateral = LateralPressure::Parameters{loading.cell->pressure, loading.cell->path,
+                                            lag_of_path * facts_.wave_transit};
+  return std::make_unique<AxialRate>(p);
+}
+
+} // namespace platen::coupling

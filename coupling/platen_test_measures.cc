@@ -1,0 +1,78 @@
+// What is read off a test between two platens: strains, stresses, sizes.
+#include <cmath>
+#include <limits>
+
+#include "coupling/platen_test.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, none = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+double PlatenTest::coordination_number() const {
+  if (!model.bonds || model.particles.size() == 0) return 0;
+  return 2.0 * static_cast<double>(model.bonds->initial_count()) /
+         static_cast<double>(model.particles.size());
+}
+
+double PlatenTest::closure_strain() const {
+  return (bottom_->face_rise() - top_->face_rise()) / shape().height;
+}
+
+double PlatenTest::grip_closure() const {
+  return bottom_->body().displacement()[2] - top_->body().displacement()[2];
+}
+
+double PlatenTest::platen_speed() const {
+  return bottom_->body().velocity()[2] - top_->body().velocity()[2];
+}
+
+double PlatenTest::stress_top() const {
+  return top_->force()[2] / nominal_area();
+}
+
+double PlatenTest::stress_bottom() const {
+  return -bottom_->force()[2] / nominal_area();
+}
+
+double PlatenTest::confining_pressure() const {
+  double sum = 0; // at most one of a test's boundaries presses its sides
+  for (const auto &boundary : boundaries())
+    sum += boundary->pressure();
+  return sum;
+}
+
+double PlatenTest::sleeve_volumetric_strain() const {
+  return sleeve_ == nullptr ? none : sleeve_->volumetric_strain();
+}
+
+double PlatenTest::sleeve_deviator() const {
+  return sleeve_ == nullptr ? none : sleeve_->axial_force_beyond_pressure() / nominal_area();
+}
+
+double PlatenTest::bending_period() const {
+  const double slenderness = settings_.platens.span / shape().height;
+  return 2 / pi * std::sqrt(12.0) * slenderness * slenderness * facts_.wave_transit;
+}
+
+double PlatenTest::midspan_moment() const {
+  const dem::EndPlanes planes = end_planes();
+  const double middle = 0.5 * (planes.low + planes.high);
+  return top_->midspan_moment(middle) + bottom_->midspan_moment(middle);
+}
+
+double PlatenTest::broken_bonds() const {
+  return static_cast<double>(model.broken_tension + model.broken_shear);
+}
+
+double PlatenTest::unbalanced_ratio() const {
+  if (!model.bonds || model.intact_bonds() == 0) return none;
+  const double sum = dem::bond_totals(model.particles, *model.bonds, model.settings().instruction_set).force;
+  const double bonds = sum / static_cast<double>(model.intact_bonds());
+  const double net = model.last_sums().unbalanced / static_cast<double>(model.particles.size());
+  return bonds > 0 ? net / bonds : none;
+}
+
+} // namespace platen::coupling
