@@ -37,8 +37,7 @@ enum class Attachment {
 };
 
 struct SurfaceContact {
-  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m; unused where a column is given
-  double body_stiffness = std::numeric_limits<double>::infinity(); // N/m, in series: 1/k_n = 1/k_p + 1/k_b
+  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m, k_n of the whole contact
   // Of a body that yields: the dents of its mesh under single forces, which the stiffness above holds already
   // and which are therefore taken out of the spring (see below). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
@@ -69,10 +68,9 @@ struct ActiveContact {
 
 class ContactLayer {
 public:
-  // Throws std::invalid_argument, naming the entry, where a parameter is out of range. `particle_stiffness`
-  // (N/m, one per particle row) replaces the single value; it must outlive the layer.
+  // Throws std::invalid_argument, naming the entry, where a parameter is out of range.
   ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
-               const SurfaceContact &parameters, const dem::Column<double> *particle_stiffness = nullptr);
+               const SurfaceContact &parameters);
   ~ContactLayer();
 
   // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
@@ -177,9 +175,8 @@ private:
   void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  double stiffness(int particle) const;                      // N/m, of the whole contact
-  double spring(int particle, const SurfacePoint &at) const; // N/m, without the dent of the mesh
-  double stiffest_spring(int particle, int face) const;
+  double spring(const SurfacePoint &at) const; // N/m, without the dent of the mesh
+  double stiffest_spring(int face) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
@@ -192,8 +189,7 @@ private:
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
-  const dem::Column<double> *particle_stiffness_;
-  double stiffness_ = 0; // N/m, without a column
+  double stiffness_ = 0; // N/m, of the whole contact
   double smallest_radius_;
   SurfaceSearch search_;
 
