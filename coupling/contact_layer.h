@@ -73,11 +73,8 @@ public:
                const SurfaceContact &parameters);
   ~ContactLayer();
 
-  // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
-  // last; a second call moves the zero.
-  void seat(int particle, double offset);
   // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
-  // sawn flush with the surface. Returns how many.
+  // sawn flush with the surface: that gap is from then on the zero of its own. Returns how many.
   // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
   // beside its edge would be seated aslant, and wedge.
   int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
@@ -175,6 +172,7 @@ private:
   void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
+  void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
   double spring(const SurfacePoint &at) const; // N/m, without the dent of the mesh
   double stiffest_spring(int face) const;
   bool tied(std::size_t row) const;

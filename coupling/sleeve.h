@@ -79,7 +79,6 @@ public:
 private:
   void begin_interval(double dt, const SleeveLead &lead);
   void kick_into(double interval, double dt, const SleeveLead &lead);
-  void end_interval();
   double limit();
 
   SleeveSettings settings_;

@@ -95,18 +95,6 @@ void ElasticSolid::weigh_rotor() {
   rotor_inverse_ = inverse(rotor_);
 }
 
-double ElasticSolid::largest_move(double dt) const {
-  double velocity = 0, acceleration = 0;
-  for (const Point &v : surface_.velocities)
-    velocity = std::max(velocity, norm(v));
-  if (!is_static())
-    for (const int i : node_of_) {
-      const auto node = static_cast<std::size_t>(i);
-      acceleration = std::max(acceleration, norm(force_[node]) / model_.mass[node]);
-    }
-  return std::abs(dt) * (velocity + std::abs(dt) * acceleration);
-}
-
 std::vector<double> ElasticSolid::state() const {
   std::vector<double> numbers = {last_step_, last_move_, elapsed_,   duration_, on_the_way_ ? 1.0 : 0.0,
                                  load_work_, grip_work_, dissipated_};

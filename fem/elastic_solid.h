@@ -57,7 +57,6 @@ public:
                const ElasticOptions &options = {});
 
   const ElasticModel &model() const { return model_; }
-  const std::vector<int> &surface_nodes() const { return node_of_; } // node of each vertex
   const std::vector<int> &grip_nodes() const { return grip_nodes_; }
   double mass() const override { return mass_; } // kg
 
@@ -80,8 +79,6 @@ public:
   double stable_step(const VertexSprings &springs) const override;
   std::vector<FaceCompliance> face_compliance() const override; // as fem/face_compliance.h, at the start
   int substeps(double dt) const;                                // that drift(dt) takes
-  // How far the surface may go in a drift over dt (m): velocities now, and accelerations now twice over.
-  double largest_move(double dt) const;
   double last_move() const override { return last_move_; }
 
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
@@ -94,7 +91,6 @@ public:
   // body is softer than its contacts. At rest nothing is left of them. Quasi-static, before the first aim().
   void set_support(const std::vector<double> &vertex_stiffness);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
-  int solver_iterations() const;
 
   // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
   // the loads.

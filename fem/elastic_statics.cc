@@ -174,9 +174,4 @@ LinearSolver ElasticSolid::solver_kind() const {
   return used.empty() ? options_.solver : used[0].kind();
 }
 
-int ElasticSolid::solver_iterations() const {
-  const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
-  return used.empty() ? 0 : used[0].iterations();
-}
-
 } // namespace platen::fem

@@ -63,12 +63,10 @@ public:
   // each step while a lead turns.
   void set_lead_velocity(int lead, const Point &velocity, const Point &spin = {}, const Point &about = {});
   Point lead_force(int lead) const; // N, that the lead does on the solid, without inertia
-  Point lead_moment(int lead, const Point &about) const; // N m
 
   // Pa, on all faces of a tag from now on. Throws where there is none.
   void set_pressure(int tag, double pressure);
-  double pressure(int tag) const;      // Pa; 0 where none was set
-  Point pressure_force(int tag) const; // N, sum over its faces where they are now
+  double pressure(int tag) const; // Pa; 0 where none was set
   // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where those lie in planes).
   double enclosed_volume(int tag) const;
 

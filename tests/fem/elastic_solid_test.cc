@@ -57,9 +57,13 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
       const auto before = solid.surface().vertices;
       put(solid, loads);
       solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
-      for (std::size_t v = 0; v < before.size(); ++v) // velocities are those of the way
-        EXPECT_LT(norm(solid.surface().vertices[v] - before[v] - dt * solid.surface().velocities[v]), 1e-16);
-      EXPECT_LE(solid.last_move(), solid.largest_move(dt) * (1 + 1e-9));
+      double farthest = 0;
+      for (std::size_t v = 0; v < before.size(); ++v) { // velocities are those of the way
+        const Point way = solid.surface().vertices[v] - before[v];
+        EXPECT_LT(norm(way - dt * solid.surface().velocities[v]), 1e-16);
+        farthest = std::max(farthest, norm(way));
+      }
+      EXPECT_EQ(solid.last_move(), farthest);
     }
     const auto a = solid.deformation(), b = at_once.deformation();
     for (std::size_t i = 0; i < a.size(); ++i)
