@@ -27,9 +27,8 @@ void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("surface contact: " + what);
 }
 
-void check(const SurfaceContact &p, bool column, bool rotation) {
-  require(column || p.particle_stiffness > 0, "particle stiffness must be positive");
-  require(p.body_stiffness > 0, "body stiffness must be positive");
+void check(const SurfaceContact &p, bool rotation) {
+  require(p.particle_stiffness > 0, "particle stiffness must be positive");
   require(p.tangential_ratio > 0, "tangential stiffness ratio must be positive");
   require(p.friction_static >= 0, "static friction must not be negative");
   require(p.friction_dynamic >= 0, "dynamic friction must not be negative");
@@ -42,10 +41,6 @@ void check(const SurfaceContact &p, bool column, bool rotation) {
   require(p.seat_modulus >= 0 && p.seat_modulus < infinite, "seat modulus must not be negative");
   require(p.seat_modulus == 0 || rotation, "seats need particles that rotate");
   require(p.skin > 0, "skin must be positive");
-}
-
-double in_series(double a, double b) {
-  return 1.0 / (1.0 / a + 1.0 / b);
 }
 
 // N/m, of the spring that makes up the stiffness with a dent (m/N) in series.
@@ -61,17 +56,18 @@ std::size_t index(int row) {
 } // namespace
 
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
-                           const SurfaceContact &parameters, const Column<double> *particle_stiffness)
+                           const SurfaceContact &parameters)
     : parameters_(parameters),
       friction_(dem::friction_law(parameters)),
-      particle_stiffness_(particle_stiffness),
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin) {
-  check(parameters, particle_stiffness != nullptr, particles.has_rotation());
+  check(parameters, particles.has_rotation());
   require(
       parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
       "a compliance of faces needs one entry per face");
-  stiffness_ = in_series(parameters.particle_stiffness, parameters.body_stiffness);
+  // Inverted twice, as in series with a rigid body: an eighth of all numbers come back with another last bit,
+  // and results are held to be the same bits as before.
+  stiffness_ = 1 / (1 / parameters.particle_stiffness);
   for (const double r : particles.radius)
     smallest_radius_ = std::min(smallest_radius_, r);
   const bool friction = parameters.friction_static > 0 || parameters.friction_dynamic > 0;
@@ -185,30 +181,23 @@ void ContactLayer::set_rows(const std::vector<int> &particles) {
   idle_until_.assign(particles.size(), 0);
 }
 
-double ContactLayer::stiffness(int particle) const {
-  return particle_stiffness_ == nullptr
-             ? stiffness_
-             : in_series((*particle_stiffness_)[index(particle)], parameters_.body_stiffness);
-}
-
-double ContactLayer::spring(int particle, const SurfacePoint &at) const {
-  const double k = stiffness(particle);
-  if (parameters_.face_compliance.empty()) return k;
+double ContactLayer::spring(const SurfacePoint &at) const {
+  if (parameters_.face_compliance.empty()) return stiffness_;
   const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
   const std::array<double, 4> &w = at.local.weights;
   double dent = 0;
   for (std::size_t i = 0; i < 4; ++i)
     dent += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
-  return beside_dent(k, dent);
+  return beside_dent(stiffness_, dent);
 }
 
-double ContactLayer::stiffest_spring(int particle, int face) const {
-  const double k = stiffness(particle);
-  if (parameters_.face_compliance.empty()) return k;
+double ContactLayer::stiffest_spring(int face) const {
+  if (parameters_.face_compliance.empty()) return stiffness_;
   // w^T C w is convex, so that nothing within the face dents more than the worst of its corners; where that
   // is more than can be taken out, some other place is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  return beside_dent(k, std::min(most_dent / k, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+  return beside_dent(stiffness_,
+                     std::min(most_dent / stiffness_, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 
 std::size_t ContactLayer::bytes() const {
@@ -228,7 +217,7 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     spring.particle = i;
     spring.normal = at.normal;
     spring.arm = at.local.point;
-    spring.normal_stiffness = whole ? stiffness(i) : stiffest_spring(i, at.face);
+    spring.normal_stiffness = whole ? stiffness_ : stiffest_spring(at.face);
     spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
     if (spring_ != nullptr)
       spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
@@ -246,9 +235,9 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];
     const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
-    const double k = stiffest_spring(i, at.face);
+    const double k = stiffest_spring(at.face);
     const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
-    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness(i) * particles.mass[index(i)]);
+    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[index(i)]);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
       springs.stiffness[v] += at.local.weights[corner] * stiffest;
@@ -261,9 +250,8 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
 ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
   ServoLoad load;
   for (const int particle : particle_) {
-    const double k = stiffness(particle);
-    load.stiffness += k;
-    load.impedance += std::sqrt(k * particles.mass[index(particle)]);
+    load.stiffness += stiffness_;
+    load.impedance += std::sqrt(stiffness_ * particles.mass[index(particle)]);
   }
   return load;
 }

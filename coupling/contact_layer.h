@@ -38,8 +38,7 @@ enum class Attachment {
 
 // Frictionless surfaces have no tangential columns.
 struct SurfaceContact : dem::SurfaceFriction {
-  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m; unused where a column is given
-  double body_stiffness = std::numeric_limits<double>::infinity(); // N/m, in series: 1/k_n = 1/k_p + 1/k_b
+  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m, k_n of the whole contact
   // Of a body that yields: the dents of its mesh under single forces, which the stiffness above holds already
   // and which are therefore taken out of the spring (see below). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
@@ -67,17 +66,13 @@ struct ActiveContact {
 
 class ContactLayer {
 public:
-  // Throws std::invalid_argument, naming the entry, where a parameter is out of range. `particle_stiffness`
-  // (N/m, one per particle row) replaces the single value; it must outlive the layer.
+  // Throws std::invalid_argument, naming the entry, where a parameter is out of range.
   ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
-               const SurfaceContact &parameters, const Column<double> *particle_stiffness = nullptr);
+               const SurfaceContact &parameters);
   ~ContactLayer();
 
-  // Gives a particle its own zero of the gap: offset = gap at rest (m), negative where it overlaps. Seats
-  // last; a second call moves the zero.
-  void seat(int particle, double offset);
   // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
-  // sawn flush with the surface. Returns how many.
+  // sawn flush with the surface: that gap is from then on the zero of its own. Returns how many.
   // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
   // beside its edge would be seated aslant, and wedge.
   int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
@@ -172,9 +167,9 @@ private:
   void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  double stiffness(int particle) const;                      // N/m, of the whole contact
-  double spring(int particle, const SurfacePoint &at) const; // N/m, without the dent of the mesh
-  double stiffest_spring(int particle, int face) const;
+  void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
+  double spring(const SurfacePoint &at) const; // N/m, without the dent of the mesh
+  double stiffest_spring(int face) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
@@ -187,8 +182,7 @@ private:
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
-  const Column<double> *particle_stiffness_;
-  double stiffness_ = 0; // N/m, without a column
+  double stiffness_ = 0; // N/m, of the whole contact
   double smallest_radius_;
   SurfaceSearch search_;
 

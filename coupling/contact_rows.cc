@@ -163,9 +163,9 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   motion.opening_speed = dot(v, n);
   motion.slide = v - motion.opening_speed * n;
   motion.spin = surface.spin;
-  motion.k_n = spring(particle_[row], result.at);
+  motion.k_n = spring(result.at);
   if (parameters_.damping > 0)
-    motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness(particle_[row]) * particles.mass[i]);
+    motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[i]);
   normal_force(row, motion, dt, result);
   if (spring_ != nullptr) tangential_force(row, motion, dt, result);
   if (seat_spring_ != nullptr && seated_[row]) {

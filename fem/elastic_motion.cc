@@ -32,16 +32,6 @@ Point ElasticSolid::carried(std::size_t node) const {
   return displacement_ + (rotated(rotation_, r) - r);
 }
 
-Point ElasticSolid::free_part(std::size_t node, const Point &v) const {
-  const auto &held = held_[node];
-  if (!held[0] && !held[1] && !held[2]) return v;
-  if (held[0] && held[1] && held[2]) return Point{};
-  Point inside = to_frame(v);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (held[k]) inside[k] = 0;
-  return to_space(inside);
-}
-
 void ElasticSolid::set_velocity(const Point &velocity) {
   set_velocity(velocity, turns_freely() ? angular_velocity_ : Point{});
 }
@@ -70,7 +60,7 @@ void ElasticSolid::find_angular_velocity() {
 }
 
 double ElasticSolid::held_kinetic_energy() const {
-  double twice = grip_.inertia * dot(angular_velocity_, angular_velocity_);
+  double twice = 0;
   for (const int i : grip_nodes_) {
     const auto node = static_cast<std::size_t>(i);
     twice += model_.mass[node] * dot(rate_[node], rate_[node]);
@@ -96,19 +86,8 @@ void ElasticSolid::move_frame(double dt) {
 void ElasticSolid::place_held() {
   for (const int i : grip_nodes_) {
     const auto node = static_cast<std::size_t>(i);
-    const auto &held = held_[node];
-    const Point base = carried(node);
-    if (held[0] && held[1] && held[2]) {
-      moved_[node] = base;
-      rate_[node] = carried_velocity(arm(node));
-      continue;
-    }
-    Point u = to_frame(moved_[node] - base);
-    for (std::size_t k = 0; k < 3; ++k)
-      if (held[k]) u[k] = 0;
-    moved_[node] = base + to_space(u);
-    const Point velocity = carried_velocity(arm(node));
-    rate_[node] = velocity + free_part(node, rate_[node] - velocity);
+    moved_[node] = carried(node);
+    rate_[node] = carried_velocity(arm(node));
   }
 }
 
@@ -246,18 +225,10 @@ void ElasticSolid::internal_kick(double dt) {
   if (turns_freely()) place_held();
 }
 
-// Dashpots to the frame and between the nodes, and at the seat. They act where both halves of the loads'
-// impulse meet: the half that has come already is put off meanwhile, else a loaded body at rest would be
-// damped.
+// Dashpots to the frame and between the nodes. They act where both halves of the loads' impulse meet: the
+// half that has come already is put off meanwhile, else a loaded body at rest would be damped.
 void ElasticSolid::damp(double dt) {
   const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
-  if (turns_freely() && grip_.damping > 0) {
-    const double before = held_kinetic_energy();
-    spin_ = std::exp(-grip_.damping * dt) * spin_;
-    find_angular_velocity();
-    place_held();
-    dissipated_ += before - held_kinetic_energy();
-  }
   if (alpha == 0 && beta == 0) return;
   for (Kicked &k : kicked_) {
     rate_[k.node] = rate_[k.node] - k.gain;
@@ -296,7 +267,7 @@ Point ElasticSolid::momentum() const {
 }
 
 Point ElasticSolid::angular_momentum() const {
-  Point sum = grip_.inertia * angular_velocity_;
+  Point sum{};
   for (std::size_t i = 0; i < rate_.size(); ++i)
     sum = sum + model_.mass[i] * cross(arm(i), rate_[i]);
   return sum;

@@ -16,32 +16,13 @@ void require(bool holds, const std::string &what) {
 
 void check(const Grip &grip, const ElasticOptions &options) {
   const bool is_static = options.motion == ElasticMotion::quasi_static;
-  require(!(grip.turns && grip.slides), "a grip that turns on a seat must be glued, not sliding");
   require(!(grip.turns && grip.tag == no_grip), "there is no grip to turn");
   require(!(is_static && grip.tag == no_grip), "a quasi-static body needs a grip");
-  require(grip.inertia >= 0, "the seat's inertia must not be negative");
-  require(grip.damping >= 0, "the seat's damping must not be negative");
-  require(grip.turns || (grip.inertia == 0 && grip.damping == 0),
-          "inertia and damping of a seat need a grip that turns");
   require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
           "damping must not be negative");
   require(!is_static ||
               (options.mass_damping == 0 && options.stiffness_damping == 0 && options.fastest_damping == 0),
           "a quasi-static body has no inertia to damp");
-}
-
-// A component that the grip's normal has beside its axis, and still counts as along it.
-constexpr double skew = 1e-9;
-
-std::size_t grip_axis(const SurfaceMesh &surface, int tag) {
-  Point normal{};
-  for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    if (surface.face_tags[f] == tag) normal = normal + face_area_vector(surface, f);
-  normal = (1 / norm(normal)) * normal;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::abs(normal[k]) > 1 - skew) return k;
-  require(false, "a sliding grip must face along x, y or z");
-  return 0;
 }
 
 std::array<double, 9> inverse(const std::array<double, 9> &a) {
@@ -92,39 +73,11 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
 void ElasticSolid::hold(const Grip &grip) {
   grip_nodes_ = nodes_on(model_, grip.tag);
   require(!grip_nodes_.empty(), "no face has the grip's tag " + std::to_string(grip.tag));
-  if (!grip.slides) {
-    for (const int i : grip_nodes_)
-      held_[static_cast<std::size_t>(i)] = {1, 1, 1};
-    return;
-  }
-  const std::size_t axis = grip_axis(surface_, grip.tag);
-  Point middle{};
-  for (const int i : grip_nodes_) {
-    held_[static_cast<std::size_t>(i)][axis] = 1;
-    middle =
-        middle + (1 / static_cast<double>(grip_nodes_.size())) * model_.nodes[static_cast<std::size_t>(i)];
-  }
-  if (is_static()) pin_sliding_grip(middle, axis);
-}
-
-// The node nearest to the middle is held sideways, and the one farthest from it along one axis against spin.
-void ElasticSolid::pin_sliding_grip(const Point &middle, std::size_t axis) {
-  const std::size_t along = (axis + 1) % 3, across = (axis + 2) % 3;
-  const auto place = [&](int node) { return model_.nodes[static_cast<std::size_t>(node)]; };
-  const int centre = *std::min_element(grip_nodes_.begin(), grip_nodes_.end(), [&](int a, int b) {
-    return norm(place(a) - middle) < norm(place(b) - middle);
-  });
-  const int far = *std::max_element(grip_nodes_.begin(), grip_nodes_.end(), [&](int a, int b) {
-    return std::abs(place(a)[along] - place(centre)[along]) <
-           std::abs(place(b)[along] - place(centre)[along]);
-  });
-  held_[static_cast<std::size_t>(centre)] = {1, 1, 1};
-  held_[static_cast<std::size_t>(far)][across] = 1;
+  for (const int i : grip_nodes_)
+    held_[static_cast<std::size_t>(i)] = {1, 1, 1};
 }
 
 void ElasticSolid::weigh_rotor() {
-  for (const std::size_t k : {0, 4, 8})
-    rotor_[k] = grip_.inertia;
   const auto add = [&](std::size_t i) {
     const Point r = model_.nodes[i] - pivot_;
     rotor_arm_ = rotor_arm_ + model_.mass[i] * r;
@@ -140,18 +93,6 @@ void ElasticSolid::weigh_rotor() {
       add(static_cast<std::size_t>(i));
   }
   rotor_inverse_ = inverse(rotor_);
-}
-
-double ElasticSolid::largest_move(double dt) const {
-  double velocity = 0, acceleration = 0;
-  for (const Point &v : surface_.velocities)
-    velocity = std::max(velocity, norm(v));
-  if (!is_static())
-    for (const int i : node_of_) {
-      const auto node = static_cast<std::size_t>(i);
-      acceleration = std::max(acceleration, norm(force_[node]) / model_.mass[node]);
-    }
-  return std::abs(dt) * (velocity + std::abs(dt) * acceleration);
 }
 
 void ElasticSolid::describe(Archive &archive) {

@@ -27,18 +27,13 @@ namespace platen::fem {
 
 constexpr int no_grip = -1;
 
-// How the machine holds a body: by the nodes on the faces of one tag.
+// How the machine holds a body: by the nodes on the faces of one tag, in all directions.
 struct Grip {
   int tag = high_end_tag; // no_grip: a free body, whose frame stays where it is (small motion; explicit only)
-  // Held along the faces' common normal only (greased); otherwise glued. Quasi-static bodies are then held
-  // sideways and against spin at two nodes, which bear nothing unless the loads push sideways.
-  bool slides = false;
   // Free to turn about the seat, which the machine leads: the frame turns as a rigid rotor under the moment
-  // on the grip (explicit) or of all loads (quasi-static). Needs a glued grip.
+  // on the grip (explicit) or of all loads (quasi-static).
   bool turns = false;
-  Point seat{};       // m, centre of the spherical seat at the start
-  double inertia = 0; // kg m^2 about the seat, of what turns with the grip and is not part of the grid
-  double damping = 0; // 1/s, rate at which turning dies away
+  Point seat{}; // m, centre of the spherical seat at the start
 };
 
 enum class ElasticMotion { explicit_steps, quasi_static };
@@ -62,7 +57,6 @@ public:
                const ElasticOptions &options = {});
 
   const ElasticModel &model() const { return model_; }
-  const std::vector<int> &surface_nodes() const { return node_of_; } // node of each vertex
   const std::vector<int> &grip_nodes() const { return grip_nodes_; }
   double mass() const override { return mass_; } // kg
 
@@ -85,8 +79,6 @@ public:
   double stable_step(const VertexSprings &springs) const override;
   std::vector<FaceCompliance> face_compliance() const override; // as fem/face_compliance.h, at the start
   int substeps(double dt) const;                                // that drift(dt) takes
-  // How far the surface may go in a drift over dt (m): velocities now, and accelerations now twice over.
-  double largest_move(double dt) const;
   double last_move() const override { return last_move_; }
 
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
@@ -99,7 +91,6 @@ public:
   // body is softer than its contacts. At rest nothing is left of them. Quasi-static, before the first aim().
   void set_support(const std::vector<double> &vertex_stiffness);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
-  int solver_iterations() const;
 
   // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
   // the loads.
@@ -110,11 +101,11 @@ public:
   double internal_energy() const { return book().strain; } // J
   BodyBook book() const override;
   Point momentum() const;         // kg m/s, grip nodes included; explicit
-  Point angular_momentum() const; // kg m^2/s about centre or seat, with the seat's rotor; explicit
+  Point angular_momentum() const; // kg m^2/s about centre or seat; explicit
 
   // Displacement of each node in the frame's axes (m): what is strained.
   std::vector<Point> deformation() const;
-  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; held components are
+  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; held nodes are
   // ignored. The book starts anew.
   void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
@@ -131,7 +122,6 @@ private:
   bool turns_freely() const { return grip_.turns; }
   bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }
   void hold(const Grip &grip);
-  void pin_sliding_grip(const Point &middle, std::size_t axis);
   void weigh_rotor();
   void follow_state();
 
@@ -143,7 +133,8 @@ private:
   Point carried_velocity(const Point &arm_of_node) const {
     return velocity_ + cross(angular_velocity_, arm_of_node);
   }
-  Point free_part(std::size_t node, const Point &v) const; // without held components; global axes
+  bool is_held(std::size_t node) const { return held_[node][0] != 0; }
+  Point free_part(std::size_t node, const Point &v) const { return is_held(node) ? Point{} : v; }
   void move_frame(double dt);
   void find_angular_velocity();
   void place_held();
@@ -167,7 +158,7 @@ private:
   Grip grip_;
   ElasticOptions options_;
   std::vector<int> node_of_, grip_nodes_;
-  Held held_; // components in the frame's axes
+  Held held_; // all components of a node, or none
   double mass_ = 0, stable_step_ = 0;
   Point pivot_{};                 // m, centre of mass or seat at the start
   std::array<double, 9> rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one

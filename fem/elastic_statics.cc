@@ -20,9 +20,7 @@ void ElasticSolid::set_deformation(const std::vector<Point> &displacement, const
   if (displacement.size() != n || (!is_static() && rate.size() != n))
     throw std::invalid_argument("elastic solid: a deformation has one vector per node");
   for (std::size_t i = 0; i < n; ++i) {
-    Point u = displacement[i], w = is_static() ? Point{} : rate[i];
-    for (std::size_t k = 0; k < 3; ++k)
-      if (held_[i][k]) u[k] = 0, w[k] = 0;
+    const Point u = free_part(i, displacement[i]), w = is_static() ? Point{} : free_part(i, rate[i]);
     if (is_static()) {
       start_[i] = target_[i] = u;
     } else {
@@ -68,7 +66,7 @@ BodyBook ElasticSolid::book() const {
 
 double ElasticSolid::kinetic_energy() const {
   if (is_static()) return turns_freely() ? 0.5 * dot(angular_velocity_, spin_) : 0.0;
-  double twice = grip_.inertia * dot(angular_velocity_, angular_velocity_);
+  double twice = 0;
   for (std::size_t i = 0; i < rate_.size(); ++i)
     twice += model_.mass[i] * dot(rate_[i], rate_[i]);
   return 0.5 * twice;
@@ -147,12 +145,6 @@ void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) 
 }
 
 void ElasticSolid::drift_evenly(double dt) {
-  if (turns_freely() && grip_.damping > 0) {
-    const double before = kinetic_energy();
-    spin_ = std::exp(-grip_.damping * dt) * spin_;
-    find_angular_velocity();
-    dissipated_ += before - kinetic_energy();
-  }
   move_frame(dt);
   on_the_way_ = elapsed_ < duration_;
   const double before = path_strain();
@@ -180,11 +172,6 @@ void ElasticSolid::set_support(const std::vector<double> &vertex_stiffness) {
 LinearSolver ElasticSolid::solver_kind() const {
   const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
   return used.empty() ? options_.solver : used[0].kind();
-}
-
-int ElasticSolid::solver_iterations() const {
-  const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
-  return used.empty() ? 0 : used[0].iterations();
 }
 
 } // namespace platen::fem

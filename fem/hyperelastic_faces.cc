@@ -38,16 +38,6 @@ void HyperelasticSolid::add_pressure_forces() {
   }
 }
 
-Point HyperelasticSolid::pressure_force(int tag) const {
-  Point sum{};
-  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-    if (mesh_.faces[f].tag != tag || face_pressure_[f] == 0) continue;
-    for (const Point &area : corner_areas(face_places(mesh_.faces[f], displacement_)))
-      sum = sum - face_pressure_[f] * area;
-  }
-  return sum;
-}
-
 double HyperelasticSolid::pressure_work_to(const std::vector<Point> &displacement,
                                            const std::vector<double> &pressures) const {
   double work = 0;

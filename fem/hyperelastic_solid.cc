@@ -115,18 +115,6 @@ Point HyperelasticSolid::lead_force(int lead) const {
   return sum;
 }
 
-Point HyperelasticSolid::lead_moment(int lead, const Point &about) const {
-  const Lead &own = lead_of(lead);
-  Point sum{};
-  for (const int n : own.nodes) {
-    Point force = -1.0 * out_of_balance(index(n));
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!own.components[k]) force[k] = 0;
-    sum = sum + cross(node_place(n) - about, force);
-  }
-  return sum;
-}
-
 void HyperelasticSolid::set_pressure(int tag, double pressure) {
   require(std::isfinite(pressure), "pressure must be finite");
   bool found = false;

@@ -2,9 +2,9 @@
 // cells (mean_dilatation.h) give the internal forces, faces of a tag carry a follower pressure
 // (follower_pressure.h), and one part of the surface meets the particles, as a Body's does.
 //
-// Explicit: velocity Verlet, in the order half_kick, drift, [contact loads], update_forces, half_kick.
-// Quasi-static: solve() (hyperelastic_equilibrium.cc). Either way an element that would turn inside out is
-// found at its new place before the law is asked, and the solid stays where it was.
+// Explicit: velocity Verlet, in the order half_kick, drift, [contact loads], update_forces, half_kick. An
+// element that would turn inside out is found at its new place before the law is asked, and the solid stays
+// where it was.
 //
 // Signs: pressure positive when it pushes into the solid; works positive when done on the solid.
 #pragma once
@@ -36,39 +36,6 @@ struct InvertedElement : std::runtime_error {
   double volume_ratio;
 };
 
-// No equilibrium was found after all cuts of the step; the text names cell, place, load and last residuals.
-struct EquilibriumFailure : std::runtime_error {
-  EquilibriumFailure(const std::string &what, int cell_, const Point &place_, double share_)
-      : std::runtime_error(what), cell(cell_), place(place_), share(share_) {}
-  int cell;     // that stood in the way
-  Point place;  // m
-  double share; // of the path to the new loads that was reached
-};
-
-struct PressureTarget {
-  int tag;
-  double pressure; // Pa
-};
-struct LeadTarget {
-  int lead;                        // number that lead() gave
-  std::vector<Point> displacement; // m, from the reference place; one per node of the lead, or one for all
-};
-// New loads of solve(); what is not named stays as it is. Contact loads are those that stand on the surface.
-struct EquilibriumTarget {
-  std::vector<PressureTarget> pressures;
-  std::vector<LeadTarget> leads;
-};
-
-struct EquilibriumControl {
-  double tolerance = 1e-10; // residual over the forces in the solid, both as root of the sum of squares
-  int iterations = 15;      // per step
-  int cuts = 10;            // halvings of the step in a row before giving up
-};
-struct EquilibriumReport {
-  int steps = 0, cuts = 0, iterations = 0; // in all
-  std::vector<double> residuals;           // of the last step, relative, the start's first
-};
-
 class HyperelasticSolid : public LoadedSurface {
 public:
   // `contact_tags`: the part of the surface that meets the particles (inner_tag for a sleeve: its outer face
@@ -96,12 +63,10 @@ public:
   // each step while a lead turns.
   void set_lead_velocity(int lead, const Point &velocity, const Point &spin = {}, const Point &about = {});
   Point lead_force(int lead) const; // N, that the lead does on the solid, without inertia
-  Point lead_moment(int lead, const Point &about) const; // N m
 
   // Pa, on all faces of a tag from now on. Throws where there is none.
   void set_pressure(int tag, double pressure);
-  double pressure(int tag) const;      // Pa; 0 where none was set
-  Point pressure_force(int tag) const; // N, sum over its faces where they are now
+  double pressure(int tag) const; // Pa; 0 where none was set
   // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where those lie in planes).
   double enclosed_volume(int tag) const;
 
@@ -120,11 +85,6 @@ public:
   // safe side (largest_frequency.h). Costs as much as 30 steps: ask now and then. Springs of contacts come on
   // top: see surface_mass().
   double stable_step() const;
-
-  // Quasi-static: leads and pressures go straight from their present values to the target, whatever is out of
-  // balance at the start fades along the way; velocities become zero. Throws EquilibriumFailure (the solid is
-  // back where it was).
-  EquilibriumReport solve(const EquilibriumTarget &target, const EquilibriumControl &control = {});
 
   double kinetic_energy() const;  // J
   double internal_energy() const; // J, stored, as of the last update_forces
@@ -159,7 +119,6 @@ public:
   void describe(Archive &archive);
 
 private:
-  friend class EquilibriumPath; // hyperelastic_equilibrium.cc
   struct Lead {
     std::vector<int> nodes;
     std::array<bool, 3> components;

@@ -29,14 +29,6 @@ void Section::declare(const std::string &key, const std::string &default_text, c
   parameters_.declare(std::move(entry));
 }
 
-std::string Section::available(const std::vector<std::string> &names,
-                               const std::vector<std::string> &not_yet) {
-  std::vector<std::string> can;
-  for (const std::string &name : names)
-    if (std::find(not_yet.begin(), not_yet.end(), name) == not_yet.end()) can.push_back(name);
-  return joined(can);
-}
-
 void Section::quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
                        const std::string &documentation) {
   declare(key, shortest_text(to), si_unit, range.text(), documentation,

@@ -53,30 +53,24 @@ public:
   // The same for a word of summary.json: which of `words` it may be.
   void expected_words(const std::string &key, std::vector<Expectation> &to,
                       const std::vector<std::string> &words, const std::string &documentation);
-  // One word of several; those in not_yet are names of the interface that this version refuses.
+  // One word of several.
   template <class Enum>
   void word(const std::string &key, Enum &to, const std::vector<std::pair<std::string, Enum>> &words,
-            const std::vector<std::string> &not_yet, const std::string &documentation) {
+            const std::string &documentation) {
     std::vector<std::string> names;
     std::string by_default;
     for (const auto &[name, value] : words) {
       names.push_back(name);
       if (value == to) by_default = name;
     }
-    declare(
-        key, by_default, "", available(names, not_yet),
-        documentation + (not_yet.empty() ? "" : " Not available in this version: " + joined(not_yet) + "."),
-        [&to, words, names, not_yet](const std::string &text) {
-          to = words[read_word(text, names, not_yet)].second;
-        });
+    declare(key, by_default, "", joined(names), documentation,
+            [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
   }
 
 private:
   void declare(const std::string &key, const std::string &default_text, const std::string &unit,
                const std::string &allowed, const std::string &documentation,
                std::function<void(const std::string &)> read, bool is_file = false);
-  static std::string available(const std::vector<std::string> &names,
-                               const std::vector<std::string> &not_yet);
 
   Parameters &parameters_;
   std::string name_;

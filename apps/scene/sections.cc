@@ -14,7 +14,7 @@ void declare_general(Parameters &parameters, General &general) {
   for (const QualityWord &one : quality_words())
     words.emplace_back(one.word, one.kind);
   section.word<Quality>(
-      "Quality", general.quality, words, {},
+      "Quality", general.quality, words,
       "Accuracy against time: entries that a word stands for, each where the scene does not "
       "give it; custom: none. " +
           quality_documentation() +
@@ -25,7 +25,7 @@ void declare_integration(Parameters &parameters, Integration &integration) {
   Section section(parameters, "Integration");
   section.word<Scheme>(
       "Scheme", integration.scheme,
-      {{"velocity verlet", Scheme::velocity_verlet}, {"tchamwa wielgosz", Scheme::tchamwa_wielgosz}}, {},
+      {{"velocity verlet", Scheme::velocity_verlet}, {"tchamwa wielgosz", Scheme::tchamwa_wielgosz}},
       "Tchamwa Wielgosz takes energy from fast swings by the drift itself, for slow tests.");
   section.number(
       "Dissipation", integration.dissipation, between(1, 1.5),
@@ -38,12 +38,12 @@ void declare_integration(Parameters &parameters, Integration &integration) {
                  "Local damping: force against the motion, as a fraction of the unbalanced force.");
   section.word<DampingForm>(
       "Damping form", integration.damping_form,
-      {{"component", DampingForm::component}, {"vector", DampingForm::vector}}, {},
+      {{"component", DampingForm::component}, {"vector", DampingForm::vector}},
       "Local damping of each component of a force by itself, or of the whole along the velocity.");
   section.quantity("Time step", integration.time_step, "s", at_least(0),
                    "0: Safety times the limit; a larger one than the limit is refused.");
   section.word<InstructionSet>("Instruction set", integration.instruction_set,
-                               {{"best", InstructionSet::best}, {"baseline", InstructionSet::baseline}}, {},
+                               {{"best", InstructionSet::best}, {"baseline", InstructionSet::baseline}},
                                "Baseline repeats to the bit on every x86-64 processor.");
 }
 

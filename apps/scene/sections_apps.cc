@@ -46,12 +46,12 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
                           {"twisting", PairPath::twisting},
                           {"cyclic", PairPath::cyclic},
                           {"combined", PairPath::combined}},
-                         {}, "How the upper particle is moved against the lower ones.");
+                         "How the upper particle is moved against the lower ones.");
   section.word<PairPlate>("Plate", pair.plate,
                           {{"frictionless", PairPlate::frictionless},
                            {"rolling", PairPlate::rolling},
                            {"sticking", PairPlate::sticking}},
-                          {}, "Three particles: what the lower two stand on.");
+                          "Three particles: what the lower two stand on.");
   section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
   section.quantity("Force", pair.force, "N", above(0), "Largest force.");
   section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
@@ -75,7 +75,7 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
       {{"bounds", CalibrateMode::bounds},
        {"abacus", CalibrateMode::abacus},
        {"search", CalibrateMode::search}},
-      {}, "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+      "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
   section.quantity("Young modulus", c.young_modulus, "Pa", above(0),
                    "Wanted of the specimen's middle; may be left out.");
   section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
@@ -142,13 +142,13 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
                          {"torsion", BarLoad::torsion},
                          {"impact", BarLoad::impact},
                          {"none", BarLoad::none}},
-                        {}, "What is done to a bar clamped at its lower end; none: its moduli alone.");
+                        "What is done to a bar clamped at its lower end; none: its moduli alone.");
   section.word<BarMethod>(
       "Method", bar.method,
-      {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}}, {},
+      {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},
       "Static: the bar at rest under the load. Dynamic: it is let go from there and swings; an impact is "
       "dynamic.");
-  section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}}, {},
+  section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
                         "The way in which bending pushes the free end.");
   section.number("Strain", bar.strain, above_up_to(0, 0.01),
                  "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "

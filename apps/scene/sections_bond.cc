@@ -31,7 +31,7 @@ void declare_interface(Section &section, Bond &bond) {
                "Modulus over that of each branch, not descending (YRC); as many as limits.");
   section.word<FailureLine>(
       "Failure line", bond.failure_line,
-      {{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}}, {},
+      {{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
       "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
 }
 
@@ -60,7 +60,7 @@ void declare_bond(Parameters &parameters, Bond &bond) {
                             {"mean", RadiusRule::mean},
                             {"harmonic", RadiusRule::harmonic},
                             {"given", RadiusRule::given}},
-                           {}, "Bond radius from the radii of the pair; given: from Radius.");
+                           "Bond radius from the radii of the pair; given: from Radius.");
   section.quantity("Radius", bond.radius, "m", above(0), "Bond radius (Radius rule = given).");
   section.gap(
       "Gap", bond.gap,
@@ -68,7 +68,7 @@ void declare_bond(Parameters &parameters, Bond &bond) {
   section.number("Damping", bond.damping, between(0, 1),
                  "Dashpot of the bond, fraction of critical damping.");
   section.word<StrengthScatter>("Strength scatter", bond.strength_scatter,
-                                {{"none", StrengthScatter::none}, {"weibull", StrengthScatter::weibull}}, {},
+                                {{"none", StrengthScatter::none}, {"weibull", StrengthScatter::weibull}},
                                 "Weibull: a random factor of mean 1 multiplies both strengths of each bond.");
   section.number("Weibull modulus", bond.weibull_modulus, between(0.5, 1000),
                  "Of the factors (Strength scatter = weibull): the larger, the less scatter.");
@@ -79,7 +79,7 @@ void declare_phases(Parameters &parameters, PhasesSection &phases) {
   Section section(parameters, "Phases");
   section.word<PhasesBy>("By", phases.by,
                          {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
-                         {}, "What tells the spheres of the aggregate from those of the matrix.");
+                         "What tells the spheres of the aggregate from those of the matrix.");
   section.quantity("Radius above", phases.radius_above, "m", above(0),
                    "Larger spheres are aggregate (By = radius).");
   section.file("File", phases.file, "Ids of the spheres that are aggregate, one a line (By = file).");

@@ -16,7 +16,7 @@ void declare_friction_law(Section &section, FrictionLaw &law, double &length, do
     return "As Platens/" + key + (key == "Friction law" ? "; common: as both." : " where not given.");
   };
   section.word<FrictionLaw>(
-      "Friction law", law, words, {},
+      "Friction law", law, words,
       of_one_side ? as("Friction law")
                   : "How friction falls from static to dynamic. Constant: at once, and back at rest; slip "
                     "weakening: dynamic + (static - dynamic) s0 / (s0 + s), s the path that the contact has "
@@ -30,7 +30,7 @@ void declare_friction_law(Section &section, FrictionLaw &law, double &length, do
 
 void declare_side(Parameters &parameters, const std::string &name, PlatenSide &side) {
   Section section(parameters, name);
-  section.word<SurfaceKind>("Surface", side.surface, surface_words(true), {},
+  section.word<SurfaceKind>("Surface", side.surface, surface_words(true),
                             "As Platens/Surface, of this platen alone; common: as both.");
   section.number("Friction static", side.friction_static, between(0, 5),
                  "As Platens/Friction static where not given.");
@@ -47,9 +47,9 @@ void declare_side(Parameters &parameters, const std::string &name, PlatenSide &s
 void declare_platens(Parameters &parameters, Platens &platens) {
   Section section(parameters, "Platens");
   section.word<PlatenKind>("Kind", platens.kind,
-                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}}, {},
+                           {{"rigid", PlatenKind::rigid}, {"deformable", PlatenKind::deformable}},
                            "Rigid bodies, or elastic ones by finite elements.");
-  section.word<SurfaceKind>("Surface", platens.surface, surface_words(false), {},
+  section.word<SurfaceKind>("Surface", platens.surface, surface_words(false),
                             "What both platens' faces are: the entries that a word stands for, each where "
                             "the scene does not give it. " +
                                 surface_documentation());
@@ -80,7 +80,7 @@ void declare_platens(Parameters &parameters, Platens &platens) {
                  "Poisson ratio of the platens.");
   section.word<PlatenMotion>(
       "Motion", platens.motion,
-      {{"explicit", PlatenMotion::explicit_steps}, {"quasi-static", PlatenMotion::quasi_static}}, {},
+      {{"explicit", PlatenMotion::explicit_steps}, {"quasi-static", PlatenMotion::quasi_static}},
       "Of deformable platens: with their inertia, step by step; or without, solved for now and then.");
   section.integer("Degree", platens.degree, 1, 2, "Of the elements of deformable platens.");
   section.number(
@@ -98,15 +98,15 @@ void declare_platens(Parameters &parameters, Platens &platens) {
   section.quantity("Pad density", platens.pad_density, "kg/m3", above(0), "Density of that sheet.");
   section.quantity("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.");
   section.word<Attachment>("Attachment", platens.attachment,
-                           {{"contact", Attachment::contact}, {"glued", Attachment::glued}}, {},
+                           {{"contact", Attachment::contact}, {"glued", Attachment::glued}},
                            "Glued: the end grains are held by the platens, in tension too.");
   declare_side(parameters, "Platens/Top", platens.top);
   Section top(parameters, "Platens/Top");
   top.word<PlatenControl>("Control", platens.top_control,
-                          {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}}, {},
+                          {{"motion", PlatenControl::motion}, {"stress", PlatenControl::stress}},
                           "What is prescribed on the top platen.");
   top.word<PlatenSeat>(
-      "Seat", platens.top_seat, {{"fixed", PlatenSeat::fixed}, {"spherical", PlatenSeat::spherical}}, {},
+      "Seat", platens.top_seat, {{"fixed", PlatenSeat::fixed}, {"spherical", PlatenSeat::spherical}},
       "Spherical: the top platen turns freely about the middle of its face (Kind = deformable).");
   top.quantity("Stress", platens.top_stress, "Pa", at_least(0), "Pressing stress (Control = stress).");
   declare_side(parameters, "Platens/Bottom", platens.bottom);
@@ -122,7 +122,7 @@ void declare_sleeve(Parameters &parameters, Sleeve &sleeve) {
                  "squeezes it and the shorter its steps.");
   section.quantity("Density", sleeve.density, "kg/m3", above(0), "Density of the rubber.");
   section.word<SleeveRims>("Rims", sleeve.rims,
-                           {{"bonded", SleeveRims::bonded}, {"sliding", SleeveRims::sliding}}, {},
+                           {{"bonded", SleeveRims::bonded}, {"sliding", SleeveRims::sliding}},
                            "How the ends go with the platens: held on all sides, or along the axis alone.");
   section.integer("Elements around", sleeve.elements_around, 0, 10000,
                   "Finite elements around the sleeve, and along it as wide; 0: five mean radii wide. Faces "
@@ -150,7 +150,6 @@ void declare_loading(Parameters &parameters, Loading &loading) {
        {"hydrostatic", LoadingTest::hydrostatic},
        {"uniaxial strain", LoadingTest::uniaxial_strain},
        {"three point bending", LoadingTest::three_point_bending}},
-      {},
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
       "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
@@ -184,7 +183,6 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       {{"none", ConfinementKind::none},
        {"particles", ConfinementKind::particles},
        {"sleeve", ConfinementKind::sleeve}},
-      {},
       "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
       "through rubber of finite elements.");
   section.quantity("Confining pressure", loading.confining_pressure, "Pa", at_least(0),
@@ -204,7 +202,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "Share of the axial stress at the turn (less a confining pressure) at which they load again.");
   section.word<ConfinementArea>(
       "Confinement area", loading.confinement_area,
-      {{"voronoi", ConfinementArea::voronoi}, {"sphere", ConfinementArea::sphere}}, {},
+      {{"voronoi", ConfinementArea::voronoi}, {"sphere", ConfinementArea::sphere}},
       "What the pressure acts on (Confinement = particles): each sphere's part of the deformed surface, or "
       "pi R^2 of each lateral sphere.");
 }

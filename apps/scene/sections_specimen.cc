@@ -11,7 +11,6 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
        {"box", SpecimenShape::box},
        {"bar", SpecimenShape::bar},
        {"disc", SpecimenShape::disc}},
-      {},
       "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular; a disc (Radius, Height) "
       "is laid on its rim by platen-brazilian. Test = three point bending bends a box that is long along x, "
       "or lays a rectangular bar down along x with its x up.");
@@ -26,7 +25,7 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                                    {{"equal", RadiusDistribution::equal},
                                     {"two sizes", RadiusDistribution::two_sizes},
                                     {"uniform", RadiusDistribution::uniform}},
-                                   {}, "How radii are drawn; uniform with a spread of 0 is equal spheres.");
+                                   "How radii are drawn; uniform with a spread of 0 is equal spheres.");
   section.number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
                  "Two sizes: smaller radius over the larger one.");
   section.number("Second fraction", specimen.second_fraction, between(0, 1),
@@ -35,10 +34,10 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                             {{"advancing front", PackingKind::advancing_front},
                              {"random close", PackingKind::random_close},
                              {"file", PackingKind::file}},
-                            {}, "How the spheres are placed; file takes them from File.");
+                            "How the spheres are placed; file takes them from File.");
   section.file("File", specimen.file, "A specimen.csv to load (Packing = file).");
   section.word<EndsKind>(
-      "Ends", specimen.ends, {{"as packed", EndsKind::as_packed}, {"ground", EndsKind::ground}}, {},
+      "Ends", specimen.ends, {{"as packed", EndsKind::as_packed}, {"ground", EndsKind::ground}},
       "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
       "seated flush, as if sawn.");
   section.number("End layer", specimen.end_layer, between(0.05, 10),
@@ -50,7 +49,7 @@ void declare_material(Parameters &parameters, Material &material) {
   Section section(parameters, "Material");
   section.quantity("Density", material.density, "kg/m3", above(0), "Density of the grains, or of the solid.");
   section.word<DensityOf>("Density of", material.density_of,
-                          {{"grains", DensityOf::grains}, {"solid", DensityOf::solid}}, {},
+                          {{"grains", DensityOf::grains}, {"solid", DensityOf::solid}},
                           "Solid: grains are heavier, so that the specimen with its voids has that density.");
   section.quantity("Young modulus", material.young_modulus, "Pa", above(0),
                    "Young modulus of the grains (hertz contact; bulk stiffness of linear contact).");
@@ -65,17 +64,17 @@ void declare_effects(Parameters &parameters, Effects &effects) {
                           {"parallel bond", BondKind::parallel_bond},
                           {"cohesive beam", BondKind::cohesive_beam},
                           {"elasto damage plastic", BondKind::elasto_damage_plastic}},
-                         {}, "What holds the grains together.");
+                         "What holds the grains together.");
   section.word<ContactKind>(
       "Contact", effects.contact,
-      {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}}, {},
+      {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}},
       "Normal force between grains that touch without a bond.");
   section.word<TangentialKind>(
       "Tangential", effects.tangential,
       {{"none", TangentialKind::none},
        {"coulomb", TangentialKind::coulomb},
        {"coulomb with rolling resistance", TangentialKind::coulomb_with_rolling_resistance}},
-      {}, "Friction between grains that touch without a bond.");
+      "Friction between grains that touch without a bond.");
   section.flag("Rotation", effects.rotation, "Grains turn; without it bonds and contacts carry no moments.");
   section.flag("Bond moments", effects.bond_moments,
                "Bonds resist bending and twisting; without it they carry forces alone (needs Rotation).");

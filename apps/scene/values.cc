@@ -123,7 +123,7 @@ std::vector<StudySurface> read_surfaces(const std::string &text) {
     std::vector<std::string> words;
     for (const Surface &one : surfaces())
       words.push_back(one.word);
-    return {surfaces()[read_word(item, words, {})].kind, not_given};
+    return {surfaces()[read_word(item, words)].kind, not_given};
   });
 }
 
@@ -132,7 +132,7 @@ std::vector<Quality> read_qualities(const std::string &text) {
   for (const QualityWord &one : quality_words())
     words.push_back(one.word);
   return read_items<Quality>(
-      text, [&](const std::string &item) { return quality_words()[read_word(item, words, {})].kind; });
+      text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
 }
 
 std::vector<std::string> read_assignments(const std::string &text) {
@@ -163,17 +163,14 @@ Expectation read_expectation(const std::string &text, const std::string &si_unit
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words) {
   Expectation expectation;
   expectation.text = text;
-  expectation.words = read_items<std::string>(
-      text, [&](const std::string &item) { return words[read_word(item, words, {})]; });
+  expectation.words =
+      read_items<std::string>(text, [&](const std::string &item) { return words[read_word(item, words)]; });
   return expectation;
 }
 
-std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
-                      const std::vector<std::string> &not_yet) {
+std::size_t read_word(const std::string &text, const std::vector<std::string> &words) {
   const std::string word = tidy(text);
   const auto position = std::find(words.begin(), words.end(), word);
-  if (std::find(not_yet.begin(), not_yet.end(), word) != not_yet.end())
-    throw ValueError("is not available in this version");
   if (position == words.end()) {
     const std::string nearest = nearest_word(word, words);
     throw ValueError("is not known." + (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?"));

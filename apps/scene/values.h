@@ -74,9 +74,8 @@ std::vector<std::string> read_assignments(const std::string &text);
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
 // "cones, shear plane": any of `words`.
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
-// The place of a word in `words`; `not_yet` are words that this version knows and cannot do.
-std::size_t read_word(const std::string &text, const std::vector<std::string> &words,
-                      const std::vector<std::string> &not_yet);
+// The place of a word in `words`.
+std::size_t read_word(const std::string &text, const std::vector<std::string> &words);
 
 std::string text_of(const Interval &interval);
 std::string text_of(const Gap &gap);

@@ -43,9 +43,6 @@ constexpr double inverted_share = 0.01;
 inline bool is_inverted(double volume_ratio) {
   return !(volume_ratio > inverted_share);
 }
-inline bool is_inverted(const Tensor &f) {
-  return is_inverted(determinant(f));
-}
 
 struct NeoHookean {
   double shear_modulus; // Pa, mu
@@ -106,22 +103,6 @@ struct NeoHookean {
         tau[3 * i + k] = shape * (b - (i == k ? third : 0.0)) + (i == k ? j * volume_stress(j) : 0.0);
       }
     return tau;
-  }
-  // d P_iJ / d F_kL at [9 (3 i + J) + 3 k + L], Pa.
-  std::array<double, 81> tangent(const Tensor &f) const {
-    const Tensor cof = cofactor(f);
-    const double j = determinant(f, cof), shape = shape_factor(j), third = squared_norm(f) / 3;
-    const double u1 = j * volume_stress(j), u2 = j * j * volume_modulus(j);
-    std::array<double, 81> a;
-    for (std::size_t m = 0; m < 9; ++m)
-      for (std::size_t n = 0; n < 9; ++n) {
-        const std::size_t i = m / 3, jj = m % 3, k = n / 3, l = n % 3;
-        const double gm = cof[m] / j, gn = cof[n] / j, turned = cof[3 * i + l] * cof[3 * k + jj] / (j * j);
-        a[9 * m + n] = shape * ((m == n ? 1.0 : 0.0) - 2.0 / 3.0 * (gn * (f[m] - third * gm) + f[n] * gm) +
-                                third * turned) +
-                       u2 * gm * gn + u1 * (gm * gn - turned);
-      }
-    return a;
   }
 };
 

@@ -142,21 +142,6 @@ TEST(contact_plate, sliding_starts_at_the_static_limit_and_goes_on_at_the_dynami
   EXPECT_TRUE(scene.layer.contacts()[0].sliding);
 }
 
-// Body stiffness in series; offset of a seat; a column of stiffnesses.
-TEST(contact_plate, stiffness_is_that_of_springs_in_series) {
-  SurfaceContact contact = frictional(0, 0);
-  contact.body_stiffness = 3 * stiffness;
-  SphereScene scene(plate(0.01, 1), {{0, 0, 0.99 * sphere_radius}}, contact);
-  scene.compute_forces(0);
-  EXPECT_NEAR(scene.particles.force[0].z, 0.75 * stiffness * 0.01 * sphere_radius, 1e-12);
-  Column<double> &column = scene.particles.table.add<double>("platen_stiffness", "N/m");
-  column[0] = 1e3;
-  ContactLayer layer(scene.particles, scene.body, frictional(0, 0), &column);
-  scene.particles.force[0] = {};
-  layer.add_forces(scene.particles, scene.body, 0);
-  EXPECT_NEAR(scene.particles.force[0].z, 1e3 * 0.01 * sphere_radius, 1e-15);
-}
-
 TEST(contact_plate, a_seat_has_its_own_zero) {
   for (const double height : {0.9, 1.4}) { // sawn into; standing off
     SphereScene scene(plate(0.01, 4), {{0.0012, 0, height * sphere_radius}}, frictional(0, 0));

@@ -37,6 +37,7 @@ struct Cell {
   dem::Model model;
   Sleeve sleeve;
   double ramp = 6e-4, pressure = 1e5, dt;
+  static constexpr int struck = 50;
 
   explicit Cell(const SleeveSettings &settings = butyl())
       : model(specimen, with_contacts()),
@@ -49,13 +50,15 @@ struct Cell {
     s.local_damping = 0.3;
     return s;
   }
-  void step() {
+  // `blow`: a force on one vertex of the inner face (N).
+  void step(const fem::Point &blow = {}) {
     model.begin_step(dt);
     const double x = std::min(1.0, model.time / ramp);
     sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
     sleeve.layer().moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
     model.compute_forces(dt);
     sleeve.layer().add_forces(model.particles, sleeve.solid(), dt);
+    sleeve.solid().add_surface_force(struck, blow);
     sleeve.take_loads();
     model.end_step(dt);
   }
@@ -150,6 +153,46 @@ TEST(sleeve, goes_on_from_its_state_to_the_last_bit) {
   }
   EXPECT_GT(between, 0);
   EXPECT_GT(within, 0);
+}
+
+// A vertex is struck so hard that a whole interval would drive it through the wall: half of one is begun, as
+// if no more had been planned.
+TEST(sleeve, an_interval_that_would_invert_an_element_is_cut) {
+  Cell cell;
+  cell.run(5e-5);
+  const auto between = [&] {
+    const State state = state_of(cell.sleeve);
+    return rows_of<int>(state, "state/planned_steps") == rows_of<int>(state, "state/steps_made");
+  };
+  while (!between())
+    cell.step();
+  const int planned = cell.sleeve.steps_of_next_interval(cell.dt);
+  ASSERT_GT(planned, 3);
+  const fem::Point &at = cell.sleeve.solid().surface().vertices[Cell::struck];
+  const double interval = planned * cell.dt, from_axis = std::hypot(at[0], at[1]);
+  const double wall = 1e-3, mass = cell.sleeve.solid().surface_mass(Cell::struck);
+  const double force = 1.2 * mass * wall / (interval * interval); // at its end and the next one's start
+  do
+    cell.step({force * at[0] / from_axis, force * at[1] / from_axis, 0});
+  while (!between());
+  EXPECT_EQ(cell.sleeve.cuts(), 0);
+  ASSERT_EQ(cell.sleeve.steps_of_next_interval(cell.dt), planned);
+
+  SleeveSettings half = butyl();
+  half.most_steps = planned / 2;
+  Sleeve other(cell.model.particles, cell.specimen.shape, 0, cell.specimen.shape.height, half);
+  set_state(other, state_of(cell.sleeve));
+  for (Sleeve *sleeve : {&cell.sleeve, &other}) {
+    sleeve->move(cell.dt, {{}, {0, 0, -0.1}, 2e5, {}, {0, 0, -1e-6}});
+    EXPECT_EQ(sleeve->steps_of_interval(), planned / 2);
+    EXPECT_EQ(sleeve->cuts(), sleeve == &other ? 0 : 1);
+  }
+  const auto &velocity = cell.sleeve.solid().velocity(), &expected = other.solid().velocity();
+  for (std::size_t n = 0; n < expected.size(); ++n)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(velocity[n][k], expected[n][k], 1e-12 * wall / interval);
+  EXPECT_NEAR(cell.sleeve.work(), other.work(), 1e-12 * other.stored());
+  EXPECT_NEAR(cell.sleeve.lost(), other.lost(), 1e-12 * other.stored());
 }
 
 TEST(sleeve, threads_change_no_bit) {

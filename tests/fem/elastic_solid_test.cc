@@ -58,9 +58,13 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
       const auto before = solid.surface().vertices;
       put(solid, loads);
       solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
-      for (std::size_t v = 0; v < before.size(); ++v) // velocities are those of the way
-        EXPECT_LT(norm(solid.surface().vertices[v] - before[v] - dt * solid.surface().velocities[v]), 1e-16);
-      EXPECT_LE(solid.last_move(), solid.largest_move(dt) * (1 + 1e-9));
+      double farthest = 0;
+      for (std::size_t v = 0; v < before.size(); ++v) { // velocities are those of the way
+        const Point way = solid.surface().vertices[v] - before[v];
+        EXPECT_LT(norm(way - dt * solid.surface().velocities[v]), 1e-16);
+        farthest = std::max(farthest, norm(way));
+      }
+      EXPECT_EQ(solid.last_move(), farthest);
     }
     const auto a = solid.deformation(), b = at_once.deformation();
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -70,30 +74,6 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
     solid.drift(dt); // there: only the machine moves it
     for (const Point &v : solid.surface().velocities)
       EXPECT_EQ(v, (Point{0, 0, -0.1}));
-  }
-}
-
-// Greased, a pressed plate widens at its grip as anywhere and bears no shear there; glued, it cannot.
-TEST(elastic_solid, a_greased_grip_lets_the_plate_widen) {
-  for (const bool slides : {true, false}) {
-    Grip grip;
-    grip.slides = slides;
-    ElasticSolid solid(plate(), {steel}, grip, {1, ElasticMotion::quasi_static});
-    const double p = 1e8;
-    std::vector<Point> loads(solid.surface().vertices.size(), Point{});
-    for (std::size_t f = 0; f < solid.surface().faces.size(); ++f)
-      if (solid.surface().face_tags[f] == low_end_tag)
-        for (const int v : solid.surface().faces[f])
-          loads[static_cast<std::size_t>(v)] =
-              loads[static_cast<std::size_t>(v)] - 0.25 * p * face_area_vector(solid.surface(), f);
-    solid.aim(loads, 0);
-    double shear = 0;
-    for (const Stress &s : solid.stress_of_cells())
-      shear = std::max({shear, std::abs(s[0]), std::abs(s[1]), std::abs(s[3]), std::abs(s[4])});
-    if (slides)
-      EXPECT_LT(shear, 1e-9 * p);
-    else
-      EXPECT_GT(shear, 0.1 * p);
   }
 }
 
@@ -118,7 +98,6 @@ TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
     Grip grip;
     grip.turns = true;
     grip.seat = {0.01, 0, 0.02};
-    grip.inertia = 1e-4;
     const auto make = [&] { return ElasticSolid(plate(), {steel}, grip, {1, kind}); };
     ElasticSolid solid = make();
     const std::vector<Point> loads = uneven_loads(solid, 1e4);
@@ -175,14 +154,11 @@ TEST(elastic_solid, grips_that_cannot_hold_are_refused) {
   grip.tag = 77;
   refused(grip);
   grip = {};
-  grip.slides = grip.turns = true;
+  grip.tag = no_grip, grip.turns = true;
   refused(grip);
   grip = {};
   grip.tag = no_grip;
   refused(grip, {1, ElasticMotion::quasi_static});
-  grip = {};
-  grip.inertia = 1; // no seat that it could belong to
-  refused(grip);
   refused({}, {1, ElasticMotion::quasi_static, 1.0});
   refused({}, {1, ElasticMotion::explicit_steps, -1.0});
   ElasticSolid solid(plate(), {steel}, Grip{});

@@ -57,23 +57,6 @@ TEST(neo_hookean, stress_is_the_slope_of_the_energy) {
     }
 }
 
-TEST(neo_hookean, tangent_is_the_slope_of_the_stress) {
-  Random random;
-  const double h = 1e-5;
-  for (const NeoHookean &law : laws)
-    for (int trial = 0; trial < 20; ++trial) {
-      const Tensor f = random.tensor(0.25);
-      const std::array<double, 81> a = law.tangent(f);
-      for (std::size_t n = 0; n < 9; ++n) {
-        Tensor up = f, down = f;
-        up[n] += h, down[n] -= h;
-        const Tensor p_up = law.first_piola(up), p_down = law.first_piola(down);
-        for (std::size_t m = 0; m < 9; ++m)
-          EXPECT_NEAR(a[9 * m + n], (p_up[m] - p_down[m]) / (2 * h), 1e-6 * law.bulk_modulus);
-      }
-    }
-}
-
 TEST(neo_hookean, small_strains_obey_hooke) {
   const double young = 3e6, poisson = 0.45, e = 1e-6;
   const NeoHookean law = NeoHookean::from_young(young, poisson);
@@ -104,9 +87,9 @@ TEST(neo_hookean, constants_out_of_range_are_refused) {
 }
 
 TEST(neo_hookean, inverted_is_known_before_the_law_is_asked) {
-  EXPECT_FALSE(is_inverted(identity_tensor));
-  EXPECT_TRUE(is_inverted(Tensor{-1, 0, 0, 0, 1, 0, 0, 0, 1}));
-  EXPECT_TRUE(is_inverted(Tensor{0, 0, 0, 0, 1, 0, 0, 0, 1}));
+  EXPECT_FALSE(is_inverted(determinant(identity_tensor)));
+  EXPECT_TRUE(is_inverted(determinant({-1, 0, 0, 0, 1, 0, 0, 0, 1})));
+  EXPECT_TRUE(is_inverted(determinant({0, 0, 0, 0, 1, 0, 0, 0, 1})));
   EXPECT_TRUE(is_inverted(std::nan("")));
 }
 

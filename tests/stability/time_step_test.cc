@@ -148,7 +148,7 @@ TEST_P(Sweep, is_stable_below_the_limit_and_stopped_above_it) {
     ASSERT_GE(o.stopped, 0) << share;
     EXPECT_LE(o.stopped, soon) << share;
     for (const char *part : {"step ", "time ", "J came in", "above the stability limit of", "2/omega",
-                             "highest mode at particle", "Integration/Safety"})
+                             "highest mode at particle", "`time_step.safety`"})
       EXPECT_NE(o.message.find(part), std::string::npos) << o.message;
     if (share == 1.05)
       note_figure(10, "steps_until_stopped_at_1.05_of_" + c.name, static_cast<double>(o.stopped), "<= 100");

@@ -1,0 +1,158 @@
+// Equilibrium of a HyperelasticSolid, for tests: Newton's method with the solid's own tangent, full steps, on
+// meshes of some hundred nodes.
+#pragma once
+
+#include <Eigen/SparseLU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "fem/hyperelastic_solid.h"
+
+namespace platen::fem {
+
+class Newton {
+public:
+  explicit Newton(HyperelasticSolid &solid)
+      : solid_(solid), led_(solid.mesh().nodes.size()), goal_(solid.displacement()), around_(led_.size()) {
+    for (const std::array<int, 8> &cell : solid.mesh().cell_nodes)
+      for (const int n : cell)
+        around_[index(n)].insert(cell.begin(), cell.end());
+    paint();
+  }
+
+  // As the solid's lead(); the nodes stay where they are until they are placed.
+  int lead(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
+    for (const int n : nodes)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (components[k]) led_[index(n)][k] = true;
+    return solid_.lead(nodes, components);
+  }
+  void place(const std::vector<int> &nodes, const Point &displacement) { // m, of their led components
+    for (const int n : nodes)
+      goal_[index(n)] = displacement;
+  }
+
+  // Goes to where pressures, contact loads and leads are in balance, in full steps. Returns what was out of
+  // balance before each step and after the last, over the forces in the solid. Throws std::runtime_error
+  // where that does not get below the tolerance, InvertedElement where a step is too long.
+  std::vector<double> solve(double tolerance = 1e-10) {
+    constexpr int most_steps = 25;
+    std::vector<double> residuals;
+    double size = 0; // N, the largest that the forces were: those of an unloaded solid are round-off
+    for (int k = 0; k <= most_steps; ++k) {
+      solid_.update_forces();
+      const std::vector<Point> balance = out_of_balance();
+      size = std::max({size, root(solid_.internal_forces()), root(solid_.pressure_forces()), root(balance)});
+      residuals.push_back(size > 0 ? root(balance) / size : 0);
+      const std::vector<Point> way = way_of_leads();
+      if (residuals.back() <= tolerance && root(way) == 0) return residuals;
+      step(balance, way);
+    }
+    throw std::runtime_error("Newton's method does not get to an equilibrium");
+  }
+
+private:
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+  static double product(const std::vector<Point> &a, const std::vector<Point> &b) {
+    double sum = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+      sum += dot(a[n], b[n]);
+    return sum;
+  }
+  static double root(const std::vector<Point> &a) { return std::sqrt(product(a, a)); }
+  static void add(std::vector<Point> &to, double factor, const std::vector<Point> &what) {
+    for (std::size_t n = 0; n < to.size(); ++n)
+      to[n] = to[n] + factor * what[n];
+  }
+  void keep(std::vector<Point> &field, bool led) const { // zero where nodes are led, or where they are not
+    for (std::size_t n = 0; n < field.size(); ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (led_[n][k] != led) field[n][k] = 0;
+  }
+
+  std::vector<Point> out_of_balance() const {
+    std::vector<Point> balance = solid_.pressure_forces();
+    add(balance, -1, solid_.internal_forces());
+    const std::vector<Point> loads = solid_.contact_loads();
+    for (std::size_t v = 0; v < loads.size(); ++v) {
+      Point &sum = balance[index(solid_.surface_node(static_cast<int>(v)))];
+      sum = sum + loads[v];
+    }
+    keep(balance, false);
+    return balance;
+  }
+  std::vector<Point> way_of_leads() const {
+    std::vector<Point> way = goal_;
+    add(way, -1, solid_.displacement());
+    keep(way, true);
+    return way;
+  }
+
+  // Nodes of one colour have no neighbour in common: one product with the tangent tells their columns apart.
+  void paint() {
+    colour_.assign(around_.size(), 0);
+    for (std::size_t n = 0; n < around_.size(); ++n) {
+      std::set<std::size_t> taken;
+      for (const int beside : around_[n])
+        for (const int other : around_[index(beside)])
+          if (index(other) < n) taken.insert(colour_[index(other)]);
+      while (taken.count(colour_[n]) != 0)
+        ++colour_[n];
+      colours_ = std::max(colours_, colour_[n] + 1);
+    }
+  }
+
+  // Rows of free components; those of led ones say where they go.
+  Eigen::SparseMatrix<double> tangent() const {
+    const auto row = [](std::size_t node, std::size_t k) { return static_cast<int>(3 * node + k); };
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t c = 0; c < colours_; ++c)
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<Point> probe(led_.size(), Point{});
+        for (std::size_t n = 0; n < probe.size(); ++n)
+          if (colour_[n] == c) probe[n][k] = 1;
+        const std::vector<Point> forces = solid_.stiffness_times(probe);
+        for (std::size_t n = 0; n < probe.size(); ++n) {
+          if (colour_[n] != c) continue;
+          if (led_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);
+          for (const int other : around_[n])
+            for (std::size_t l = 0; l < 3; ++l)
+              if (!led_[index(other)][l])
+                entries.emplace_back(row(index(other), l), row(n, k), forces[index(other)][l]);
+        }
+      }
+    const auto size = static_cast<Eigen::Index>(3 * led_.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
+  void step(const std::vector<Point> &balance, const std::vector<Point> &way) {
+    Eigen::VectorXd right(static_cast<Eigen::Index>(3 * led_.size()));
+    for (std::size_t n = 0; n < led_.size(); ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        right[static_cast<Eigen::Index>(3 * n + k)] = led_[n][k] ? way[n][k] : balance[n][k];
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(tangent());
+    const Eigen::VectorXd move = factors.solve(right);
+    std::vector<Point> place = solid_.displacement();
+    for (std::size_t n = 0; n < led_.size(); ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        place[n][k] = led_[n][k] ? goal_[n][k] : place[n][k] + move[static_cast<Eigen::Index>(3 * n + k)];
+    solid_.set_displacement(place);
+  }
+
+  HyperelasticSolid &solid_;
+  std::vector<std::array<bool, 3>> led_;
+  std::vector<Point> goal_;           // m
+  std::vector<std::set<int>> around_; // each node: itself and the nodes of its cells
+  std::vector<std::size_t> colour_;
+  std::size_t colours_ = 0;
+};
+
+} // namespace platen::fem
