@@ -16,6 +16,8 @@ const std::map<std::string, std::regex> &forbidden_includes() {
   static const std::string trilinos =
       R"(Epetra|EpetraExt|Teuchos|Tpetra|AztecOO|Amesos|Ifpack|ml_|ML_|Zoltan|zoltan|Sacado|ROL_|Kokkos|NOX)";
   static const std::map<std::string, std::regex> rules = {
+      {"base", std::regex("^((\\.\\./)*(dem|fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
+                          files + ")$)")},
       {"dem", std::regex("^((\\.\\./)*(fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
                          files + ")$)")},
       {"fem", std::regex("^((\\.\\./)*(dem|coupling|apps)/|vtk|(" + files + ")$)")},
