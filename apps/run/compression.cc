@@ -64,7 +64,7 @@ int CompressionRun::run() {
   }
   results_.finish(*problem_, event_window());
   if (problem_->model.bonds) write_bond_stress();
-  if (scene_.effects.crack_log) write_events();
+  if (scene_.model.crack_log) write_events();
   if (fields_) fields_->write(*problem_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *problem_, results_, costs()));

@@ -24,13 +24,14 @@ void declare_accuracy_lists(Section &section, Study &study) {
                "Study of accuracy, in place of Sleeve/Elements around.");
   section.list("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
                "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
-  section.qualities(
-      "Quality list", study.qualities,
-      "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
-  section.assignments(
-      "Effects list", study.changes,
-      "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
-      "it is.");
+  section.value("Quality list", study.qualities, "", "words of Scene/Quality with commas between them",
+                read_qualities,
+                "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
+  section.value("Effects list", study.changes, "",
+                "\"Effects/Rotation = off\" with commas between them; no value may hold a comma",
+                read_assignments,
+                "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
+                "it is.");
 }
 
 } // namespace
@@ -164,9 +165,11 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
 void declare_study(Parameters &parameters, Study &study) {
   Section section(parameters, "Study");
   section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
-  section.study_surfaces("Surface list", study.surfaces,
-                         "Study of friction: platens, in place of all that Platens says of friction; "
-                         "custom: what the scene says. A number: constant friction of that coefficient.");
+  section.value("Surface list", study.surfaces, "",
+                "words of Platens/Surface and coefficients of friction (0 ... 5) with commas between them",
+                read_surfaces,
+                "Study of friction: platens, in place of all that Platens says of friction; "
+                "custom: what the scene says. A number: constant friction of that coefficient.");
   section.list("Slenderness list", study.slendernesses, "1", between(0.1, 20),
                "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
   section.list("Confining pressure list", study.pressures, "Pa", at_least(0),
@@ -175,9 +178,12 @@ void declare_study(Parameters &parameters, Study &study) {
       "Sphere radius list", study.sphere_radii, "m", above(0),
       "Studies of size, friction, slenderness and accuracy: mean radii, in place of Specimen/Sphere radius. "
       "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
-  section.domains("Domain list", study.domains,
-                  "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
-  section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");
+  section.value("Domain list", study.domains, "m", "pairs with commas between them, each \"72 mm x 22.5 mm\"",
+                read_domains,
+                "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
+  section.value("Gap list", study.gaps, "",
+                "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
+                "Study of the packing, in place of Bond/Gap.");
   section.list("Radius multiplier list", study.radius_multipliers, "1", above_up_to(0, 10),
                "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
   section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
