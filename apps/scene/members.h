@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -66,6 +67,22 @@ private:
   Section &section_;
   Described &of_;
 };
+
+// What a number, or each of a list, may be. Throws std::logic_error where no member has that name.
+template <class Described>
+Range range_of(const std::string &member) {
+  const Range *found = nullptr;
+  Range range;
+  const Described of;
+  Described::describe(
+      [&](const char *name, const auto & /*value*/, const auto &...about) {
+        if constexpr (sizeof...(about) == 3) // unit, range, sentence
+          if (name == member) range = std::get<1>(std::tie(about...)), found = &range;
+      },
+      of);
+  if (found == nullptr) throw std::logic_error(std::string(Described::name) + " has no number " + member);
+  return range;
+}
 
 // A list of the names of what is described.
 struct Names {

@@ -8,8 +8,6 @@
 
 namespace platen::apps {
 
-using dem::right_angle; // rad
-
 void declare_general(Parameters &parameters, General &general);
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen);
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact);

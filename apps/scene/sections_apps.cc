@@ -1,8 +1,20 @@
 // Sections that one app each reads.
+#include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 
 namespace platen::apps {
 namespace {
+
+// What an entry of section Bond may be.
+Range stiffness_ratio() {
+  return range_of<dem::ParallelBond::Parameters>("stiffness_ratio");
+}
+Range radius_multiplier() {
+  return range_of<dem::BondLayout>("radius_multiplier");
+}
+Range friction_angle() {
+  return range_of<dem::ParallelBond::Parameters>("friction_angle");
+}
 
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {
@@ -14,7 +26,7 @@ void declare_accuracy_lists(Section &section, Study &study) {
                "Study of accuracy, in place of Loading/Wave crossings.");
   section.list("Hurry list", study.hurries, "1", between(1, 100),
                "Study of accuracy, in place of Loading/Hurry.");
-  section.list("Mass scaling list", study.mass_scalings, "1", between(1, 1e6),
+  section.list("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
                "Study of accuracy, in place of Integration/Mass scaling.");
   section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),
                "Study of accuracy, in place of Platens/Elements across (Kind = deformable).");
@@ -64,7 +76,7 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.number("Slip ratio", pair.slip_ratio, above(0),
                  "Slip over opening of the combined path (elasto damage plastic).");
   section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", between(0, 5),
+  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", stiffness_ratio(),
                "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
@@ -102,22 +114,24 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
                  "Relative difference of the strengths that ends the search.");
   section.list("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", c.stiffness_ratios, "1", between(0, 5),
+  section.list("Stiffness ratio list", c.stiffness_ratios, "1", stiffness_ratio(),
                "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
-  section.list("Radius multiplier list", c.radius_multipliers, "1", above_up_to(0, 10),
+  section.list("Radius multiplier list", c.radius_multipliers, "1", radius_multiplier(),
                "Abacus; empty: Bond/Radius multiplier.");
-  section.list("Poisson ratio list", c.poisson_ratios, "1", between_open(-1, 0.5),
+  section.list("Poisson ratio list", c.poisson_ratios, "1",
+               range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
                "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
   section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
   section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
-  section.number("Smallest radius multiplier", c.multiplier_low, above_up_to(0, 10),
+  section.number("Smallest radius multiplier", c.multiplier_low, radius_multiplier(),
                  "Search for Poisson's ratio (cohesive beam).");
-  section.number("Largest radius multiplier", c.multiplier_high, above_up_to(0, 10),
+  section.number("Largest radius multiplier", c.multiplier_high, radius_multiplier(),
                  "Search for Poisson's ratio (cohesive beam).");
   section.number(
-      "Smallest moment contribution", c.moments_low, between(0, 1),
+      "Smallest moment contribution", c.moments_low,
+      range_of<dem::ParallelBond::Parameters>("moment_contribution"),
       "Search for compressive over tensile strength (parallel bond, cohesive beam); the largest is the "
       "bond's own.");
   section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
@@ -125,11 +139,11 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
                  "Search for compressive over tensile strength.");
   section.quantity(
-      "Smallest friction angle", c.friction_low, "rad", {0, right_angle, true, false},
+      "Smallest friction angle", c.friction_low, "rad", friction_angle(),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
       "a triaxial strength is wanted.");
   section.quantity(
-      "Largest friction angle", c.friction_high, "rad", {0, right_angle, true, false},
+      "Largest friction angle", c.friction_high, "rad", friction_angle(),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
       "degree if a triaxial strength is wanted.");
 }
@@ -184,7 +198,7 @@ void declare_study(Parameters &parameters, Study &study) {
   section.value("Gap list", study.gaps, "",
                 "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
                 "Study of the packing, in place of Bond/Gap.");
-  section.list("Radius multiplier list", study.radius_multipliers, "1", above_up_to(0, 10),
+  section.list("Radius multiplier list", study.radius_multipliers, "1", radius_multiplier(),
                "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
   section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
                "Study of the packing, in place of Specimen/Radius spread.");
