@@ -58,14 +58,14 @@ void BondLayout::describe(Visitor &&v, Self &p) {
                       {"mean", RadiusRule::mean},
                       {"harmonic", RadiusRule::harmonic},
                       {"given", RadiusRule::given}},
-    "Bond radius from the radii of the pair; given: from Radius.");
+    "Bond radius from the radii of the pair, or given.");
   v("radius", p.radius, "m", above(0), "Bond radius.");
   v("gap", p.gap,
     "Pairs with at most this distance between their surfaces are bonded; R_min is the smaller radius.");
   v("interaction_range", p.interaction_range, "1", between(0, 1),
     "Pairs whose distance differs from the sum of their radii by at most this share of it are bonded, "
     "instead "
-    "of by Gap.");
+    "of by their gap.");
   v("area_factor", p.area_factor, "1", between(0, 10),
     "Alpha, on the area of the bond; 0: 40 times porosity over mean number of bonds of a sphere.");
 }

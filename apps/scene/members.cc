@@ -23,13 +23,7 @@ std::string key_of(const std::string &member) {
 Declared LawMembers::operator()(const std::string &member) {
   const std::string key = key_of(member);
   section_.join(true);
-  std::apply(
-      [&](auto &...of) {
-        (std::decay_t<decltype(of)>::describe(
-             MemberVisitor(section_, std::decay_t<decltype(of)>::name, member, key), of),
-         ...);
-      },
-      laws_);
+  std::apply([&](auto &...of) { (declare_member(section_, of, member, key), ...); }, laws_);
   section_.join(false);
   const std::vector<std::string> having = dem::BondLaws::words_where([&](auto *law) {
     using Of = typename std::remove_pointer_t<decltype(law)>::Parameters;

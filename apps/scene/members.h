@@ -16,40 +16,39 @@ namespace platen::apps {
 // "stiffness_ratio" is the key "Stiffness ratio".
 std::string key_of(const std::string &member);
 
-// Declares the one member of that name.
-class MemberVisitor {
-public:
-  MemberVisitor(Section &section, std::string owner, const std::string &member, const std::string &key)
-      : section_(section), owner_(std::move(owner)), member_(member), key_(key) {}
+// An entry for each kind of member.
+inline Declared declare(Section &section, const std::string &key, double &to, const char *unit,
+                        const Range &range, const char *sentence) {
+  return section.quantity(key, to, unit, range, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, std::vector<double> &to, const char *unit,
+                        const Range &range, const char *sentence) {
+  return section.list(key, to, unit, range, sentence);
+}
+template <class Enum>
+Declared declare(Section &section, const std::string &key, Enum &to, const Words<Enum> &words,
+                 const char *sentence) {
+  return section.word(key, to, words, {}, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, bool &to, const char *sentence) {
+  return section.flag(key, to, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, Gap &to, const char *sentence) {
+  return section.gap(key, to, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, Stiffness &to, const char *sentence) {
+  return section.stiffness(key, to, true, sentence);
+}
 
-  void operator()(const char *name, double &to, const char *unit, const Range &range, const char *sentence) {
-    if (name == member_) keep(section_.quantity(key_, to, unit, range, sentence));
-  }
-  void operator()(const char *name, std::vector<double> &to, const char *unit, const Range &range,
-                  const char *sentence) {
-    if (name == member_) keep(section_.list(key_, to, unit, range, sentence));
-  }
-  template <class Enum>
-  void operator()(const char *name, Enum &to, const Words<Enum> &words, const char *sentence) {
-    if (name == member_) keep(section_.word(key_, to, words, {}, sentence));
-  }
-  void operator()(const char *name, bool &to, const char *sentence) {
-    if (name == member_) keep(section_.flag(key_, to, sentence));
-  }
-  void operator()(const char *name, Gap &to, const char *sentence) {
-    if (name == member_) keep(section_.gap(key_, to, sentence));
-  }
-  void operator()(const char *name, Stiffness &to, const char *sentence) {
-    if (name == member_) keep(section_.stiffness(key_, to, true, sentence));
-  }
-
-private:
-  void keep(Declared declared) { declared.member(owner_, member_); }
-
-  Section &section_;
-  std::string owner_;
-  const std::string &member_, &key_;
-};
+// Declares the member of that name, if there is one.
+template <class Described>
+void declare_member(Section &section, Described &of, const std::string &member, const std::string &key) {
+  Described::describe(
+      [&](const char *name, auto &to, const auto &...about) {
+        if (name == member) declare(section, key, to, about...).member(Described::name, member);
+      },
+      of);
+}
 
 template <class Described>
 class Members {
@@ -59,7 +58,7 @@ public:
   // member has it.
   Declared operator()(const std::string &member, const std::string &key = "") {
     const std::string under = key.empty() ? key_of(member) : key;
-    Described::describe(MemberVisitor(section_, Described::name, member, under), of_);
+    declare_member(section_, of_, member, under);
     return section_.at(under);
   }
 

@@ -5,25 +5,15 @@
 namespace platen::apps {
 namespace {
 
-// Hands the number of that name to `use`.
-template <class Use>
-struct OneNumber {
-  const std::string &name;
-  const Use &use;
-  template <class Number, class... Rest>
-  void operator()(const char *member, Number &number, const Rest &...) const {
-    if constexpr (std::is_same_v<std::decay_t<Number>, double>)
-      if (member == name) use(number);
-  }
-};
-
-template <class Laws, class Use>
-void each_number(Laws &laws, const std::string &member, const Use &use) {
-  std::apply(
-      [&](auto &...of) {
-        (std::decay_t<decltype(of)>::describe(OneNumber<Use>{member, use}, of), ...);
+// use(number) of the member of that name, if it is a number.
+template <class Parameters, class Use>
+void find_number(Parameters &of, const std::string &wanted, const Use &use) {
+  std::decay_t<Parameters>::describe(
+      [&](const char *name, auto &value, const auto &.../*about*/) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+          if (name == wanted) use(value);
       },
-      laws);
+      of);
 }
 
 } // namespace
@@ -44,22 +34,23 @@ bool Bond::bonds_by_range() const {
 }
 
 bool Bond::has(const std::string &member) const {
-  if (!bonded()) return false;
   bool found = false;
   const auto use = [&](const double &) { found = true; };
-  std::visit([&](const auto &of) { of.describe(OneNumber<decltype(use)>{member, use}, of); }, *parameters());
+  if (bonded()) std::visit([&](const auto &of) { find_number(of, member, use); }, *parameters());
   return found;
 }
 
 double Bond::number(const std::string &member) const {
   std::optional<double> found;
-  each_number(laws, member, [&](const double &number) { found = found.value_or(number); });
+  const auto use = [&](const double &number) { found = found.value_or(number); };
+  std::apply([&](const auto &...of) { (find_number(of, member, use), ...); }, laws);
   if (!found) throw std::logic_error("no bond has " + member);
   return *found;
 }
 
 void Bond::set(const std::string &member, double value) {
-  each_number(laws, member, [&](double &number) { number = value; });
+  const auto use = [&](double &number) { number = value; };
+  std::apply([&](auto &...of) { (find_number(of, member, use), ...); }, laws);
 }
 
 } // namespace platen::apps

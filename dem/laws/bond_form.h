@@ -212,7 +212,7 @@ void describe_strengths(Visitor &&v, Parameters &p) {
 template <class Visitor, class Parameters>
 void describe_poisson_ratio(Visitor &&v, Parameters &p) {
   v("poisson_ratio", p.poisson_ratio, "1", between_open(-1, 0.5),
-    "Of the bond: its shear modulus is Modulus / (2 (1 + nu)).");
+    "Of the bond: its shear modulus is E / (2 (1 + nu)).");
 }
 template <class Visitor, class Parameters>
 void describe_failure(Visitor &&v, Parameters &p) {

@@ -156,7 +156,7 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
     "Opening from the strength to nothing, over that at the strength (delta_n).");
   v("softening_shear", p.softening_shear, "1", between(1e-3, 1000), "The same in shear (delta_s).");
   v("fracture_energy_tension", p.fracture_energy_tension, "J/m2", at_least(0),
-    "Area under the softening branch, for any size of spheres; 0: by Softening tension.");
+    "Area under the softening branch, for any size of spheres; 0: by the softening in tension.");
   v("fracture_energy_shear", p.fracture_energy_shear, "J/m2", at_least(0), "The same in shear.");
   v("compression_limits", p.compression_limits, "Pa", above(0),
     "Up to three stresses, ascending, where the branches of compression begin (LCS); empty: elastic without "

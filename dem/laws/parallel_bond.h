@@ -23,7 +23,7 @@ struct ParallelBond {
       v("stiffness_ratio", p.stiffness_ratio, "1", between(0, 5), "Shear over normal stiffness, k_s / k_n.");
       describe_failure(v, p);
       v("bond_moments", p.moments,
-        "Bonds resist bending and twisting; without it they carry forces alone (needs Rotation).");
+        "Bonds resist bending and twisting; without it they carry forces alone (needs rotation).");
     }
   };
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = false,
