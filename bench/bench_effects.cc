@@ -31,14 +31,15 @@ struct Scene {
 dem::ModelSettings bare() {
   dem::ModelSettings s;
   s.rotation = s.energy_ledger = s.crack_log = false;
+  s.local_damping = 0;
   s.bond_layout.modulus = 40e9;
-  s.bond_layout.gap = 0.1;
+  s.bond_layout.gap.value = 0.1;
   return s;
 }
 
 dem::ModelSettings bonded() {
   dem::ModelSettings s = bare();
-  s.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3, false};
+  s.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 0.7853981633974483, 0.3, false};
   return s;
 }
 
@@ -47,6 +48,7 @@ dem::ModelSettings grains() {
   s.contact = dem::ContactSettings{};
   s.contact->tangential = dem::TangentialContact::none;
   s.contact->friction = 0.5;
+  s.contact->damping = 0;
   s.contact->rolling_friction = 0.2;
   s.contact->young_modulus = 40e9;
   s.contact->poisson_ratio = 0.2;
@@ -69,7 +71,11 @@ void rub(dem::ModelSettings &s) {
 
 std::vector<Effect> effects_of_bonds() {
   return {{compiled::local_damping, "local damping", [](auto &s) { s.local_damping = 0.5; }},
-          {compiled::dissipative_scheme, "dissipative scheme", [](auto &s) { s.dissipation = 1.2; }},
+          {compiled::dissipative_scheme, "dissipative scheme",
+           [](auto &s) {
+             s.scheme = dem::Scheme::tchamwa_wielgosz;
+             s.dissipation = 1.2;
+           }},
           {compiled::gravity, "gravity",
            [](auto &s) {
              s.gravity = {0, 0, -9.80665};

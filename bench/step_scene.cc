@@ -56,10 +56,10 @@ const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
 coupling::PlatenTestSettings elastic_press(Law law) {
   coupling::PlatenTestSettings s;
   s.model.bond_layout.modulus = 40e9;
-  s.model.bond_layout.gap = 0.1;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 1.0, 0.3};
+  s.model.bond_layout.gap.value = 0.1;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e9, 4e9, 0.7853981633974483, 0.3};
   if (law == Law::cohesive_beam) {
-    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 1e9, 4e9, 1.0, 0.3};
+    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 1e9, 4e9, 0.7853981633974483, 0.3};
     s.model.bond_layout.radius_rule = dem::RadiusRule::mean;
     s.model.bond_layout.radius_multiplier = 0.71;
   }
@@ -69,12 +69,12 @@ coupling::PlatenTestSettings elastic_press(Law law) {
     p.shear_strength = 4e9;
     p.friction_static = 0.9;
     p.friction_dynamic = 0.25;
-    for (dem::ElastoDamagePlastic::Branch &b : p.branches)
-      b = {1e9, 3};
+    p.poisson_ratio = 0.2;
+    p.compression_limits = {1e9}, p.compression_slopes = {3};
     s.model.bond = p;
   }
   s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = 0.5;
+  s.model.contact->damping = 0;
   s.model.local_damping = 0.5;
   s.ends = coupling::Ends::ground;
   s.end_layer = 0.3;

@@ -91,20 +91,6 @@ bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
 
 } // namespace
 
-InstructionSet best_instruction_set() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq"))
-    return InstructionSet::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return InstructionSet::avx2;
-#endif
-  return InstructionSet::baseline;
-}
-
-const char *name(InstructionSet set) {
-  return set == InstructionSet::avx512 ? "avx512" : (set == InstructionSet::avx2 ? "avx2" : "baseline");
-}
-
 void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
                          std::vector<BondBreak> &breaks, const Loop &beside) {
   const kernels::BondKernels &kernels = kernels_of(set);

@@ -48,7 +48,7 @@ double BondLayout::bond_radius(double ri, double rj) const {
     case RadiusRule::given:
       break;
   }
-  return multiplier * given_radius;
+  return multiplier * radius;
 }
 
 double BondLayout::axial_stiffness(double ri, double rj) const {
@@ -57,12 +57,11 @@ double BondLayout::axial_stiffness(double ri, double rj) const {
 }
 
 double BondLayout::reach(double ri, double rj) const {
-  if (interaction_range >= 0) return interaction_range * (ri + rj);
-  return gap_is_relative ? gap * std::min(ri, rj) : gap;
+  return by_range ? interaction_range * (ri + rj) : gap.length(std::min(ri, rj));
 }
 
 double BondLayout::largest_overlap(double ri, double rj) const {
-  return interaction_range >= 0 ? interaction_range * (ri + rj) : std::numeric_limits<double>::infinity();
+  return by_range ? interaction_range * (ri + rj) : std::numeric_limits<double>::infinity();
 }
 
 namespace {
@@ -96,6 +95,9 @@ double packing_factor(const Specimen &s, const BondLayout &layout) {
 
 Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
     : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
+  require_in_range(layout);
+  require_given(layout, "modulus", layout.modulus);
+  if (layout.radius_rule == RadiusRule::given) require_given(layout, "radius", layout.radius);
   if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
   const std::vector<IndexPair> pairs =
       pairs_in_range(particles.position.data(), particles.radius.data(), particles.size(), layout);
@@ -249,15 +251,19 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
     const InterfaceGeometry<double> g = interface_geometry(k);
     return interface->bond_response(state_of(k), g, d);
   }
-  if (!p.has_rotation()) return std::get<ParallelBond>(law).without_rotation(geometry(k), d);
-  const BondMotion<double> motion{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])};
-  return response_to(k, motion);
+  if (p.has_rotation())
+    return response_to(k, {d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
+  return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {
+    if constexpr (!std::decay_t<decltype(elastic)>::needs_rotation)
+      return elastic.without_rotation(geometry(k), d);
+    else
+      throw std::logic_error("a bond that needs rotation has none");
+  });
 }
 
 BondResponse<double> Bonds::response_to(std::size_t k, const BondMotion<double> &motion) const {
-  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return (*beam)(geometry(k), motion);
-  if (const auto *bond = std::get_if<ParallelBond>(&law)) return (*bond)(geometry(k), motion);
-  throw std::invalid_argument("bonds that remember have no answer to a motion alone");
+  if (has_history(law)) throw std::invalid_argument("bonds that remember have no answer to a motion alone");
+  return of_elastic(law, [&](const auto &elastic) { return elastic(geometry(k), motion); });
 }
 
 BondTotals Bonds::interface_totals(const Particles &p) const {

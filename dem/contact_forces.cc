@@ -5,8 +5,7 @@
 #include "dem/contacts.h"
 #include "dem/effects.h"
 #include "dem/laws/coulomb_friction.h"
-#include "dem/laws/hertz_contact.h"
-#include "dem/laws/linear_contact.h"
+#include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
 #include "dem/parallel.h"
 
@@ -125,7 +124,7 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, To
   CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], t.n), (*sliding)[k]};
   if constexpr (!Effects::Law::constant_stiffness) {
     // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
-    const double now = HertzContact::tangential_ratio(settings_.poisson_ratio) * t.kn;
+    const double now = Effects::Law::tangential_ratio(settings_) * t.kn;
     const double before = 0.5 * norm_squared(state.spring) / kt;
     if (now < kt) state.spring *= now / kt;
     if (Effects::book && kt > 0 && norm_squared(state.spring) > 0)
@@ -221,9 +220,7 @@ Contacts::Loop Contacts::choose(const LoopChoice &c) {
 }
 
 Contacts::Loop Contacts::loop_for(const LoopChoice &c) {
-  if constexpr (compiled::hertz)
-    if (settings_.normal == NormalContact::hertz) return choose<HertzContact>(c);
-  return choose<LinearContact>(c);
+  return NormalContacts::with(settings_.normal, [&](auto of) { return choose<decltype(of)>(c); });
 }
 
 } // namespace platen::dem

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "dem/laws/coulomb_friction.h"
-#include "dem/laws/hertz_contact.h"
-#include "dem/laws/linear_contact.h"
+#include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
 #include "dem/mean_radius.h"
 #include "dem/parallel.h"
@@ -21,30 +20,26 @@ constexpr double wide_skin = 0.5, close_skin = 0.06;
 constexpr double early_overlap = 2e-3;
 
 double elastic_energy(NormalContact law, double coefficient, double overlap) {
-  return law == NormalContact::linear ? LinearContact::energy(coefficient, overlap)
-                                      : HertzContact::energy(coefficient, overlap);
+  return NormalContacts::with(law, [&](auto of) { return of.energy(coefficient, overlap); });
 }
 
 // The overlap at which the law stores `energy`.
 double overlap_of_energy(NormalContact law, double coefficient, double energy) {
-  return law == NormalContact::linear ? std::sqrt(2 * energy / coefficient)
-                                      : std::pow(2.5 * energy / coefficient, 0.4);
+  return NormalContacts::with(law, [&](auto of) { return of.overlap_of_energy(coefficient, energy); });
 }
 
 } // namespace
 
 double ContactSettings::coefficient(double ri, double rj, const BondLayout &layout) const {
-  if (normal == NormalContact::hertz) return HertzContact::coefficient(young_modulus, poisson_ratio, ri, rj);
-  switch (stiffness_rule) {
-    case StiffnessRule::bond_multiple:
-      return stiffness * layout.axial_stiffness(ri, rj);
-    case StiffnessRule::absolute:
-      return stiffness;
-    case StiffnessRule::bulk_fraction:
-      break;
-  }
-  const double kappa = young_modulus / (3 * (1 - 2 * poisson_ratio));
-  return stiffness * kappa * ri * rj / (ri + rj);
+  return NormalContacts::with(normal, [&](auto of) { return of.coefficient(*this, ri, rj, layout); });
+}
+
+double ContactSettings::dashpot() const {
+  return NormalContacts::with(normal, [&](auto of) { return of.dashpot(*this); });
+}
+
+double ContactSettings::dashpot_reserve() const {
+  return NormalContacts::with(normal, [&](auto of) { return of.dashpot_reserve(*this); });
 }
 
 Contacts::Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
@@ -52,6 +47,9 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
     : settings_(settings),
       layout_(layout),
       search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)) {
+  require_in_range(settings);
+  if (NormalContacts::with(settings.normal, [&](auto of) { return of.follows_bonds(settings); }))
+    require_given(layout, "modulus", layout.modulus);
   if (settings.tangential != TangentialContact::none) {
     normal = &table.add<Vector3>("normal", "1");
     spring = &table.add<Vector3>("spring", "N");
@@ -62,8 +60,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
     rolling = &table.add<Vector3>("rolling", "N m");
     rolling_stiffness = &table.add<double>("rolling_stiffness", "N m");
   }
-  dashpot_ = settings.normal == NormalContact::hertz ? HertzContact::damping_fraction(settings.restitution)
-                                                     : settings.damping;
+  dashpot_ = settings.dashpot();
   if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
   loop_ = loop_for({settings.tangential, dashpot_ > 0, particles.has_rotation(), energy_ledger});
   // Spheres that overlap from the start touch from their initial distance, bonded or not.
@@ -152,9 +149,8 @@ double Contacts::start_contact(const Particles &p, std::size_t k, double dt, Bro
   Vector3 v = p.velocity[b.second] - p.velocity[b.first];
   if (p.has_rotation())
     v += cross((*p.angular_velocity)[b.second], rj) - cross((*p.angular_velocity)[b.first], ri);
-  const double pressing = settings_.normal == NormalContact::linear
-                              ? LinearContact::force(coefficient[k], overlap[k])
-                              : HertzContact::force(coefficient[k], overlap[k]);
+  const double pressing =
+      NormalContacts::with(settings_.normal, [&](auto of) { return of.force(coefficient[k], overlap[k]); });
   double power = -pressing * dot(v, n);
   if (spring != nullptr && b.mode == BondState::broken_in_shear) {
     const Vector3 slip_velocity = v - dot(v, n) * n, kept = keep_shear(k, pressing, b);
@@ -170,9 +166,10 @@ double Contacts::start_contact(const Particles &p, std::size_t k, double dt, Bro
 // allow.
 Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
   double &kt = (*tangential_stiffness)[k];
-  if (settings_.normal == NormalContact::hertz)
-    kt = HertzContact::tangential_ratio(settings_.poisson_ratio) *
-         HertzContact::stiffness(coefficient[k], overlap[k]);
+  kt = NormalContacts::with(settings_.normal, [&, now = kt](auto of) {
+    return of.constant_stiffness ? now
+                                 : of.tangential_ratio(settings_) * of.stiffness(coefficient[k], overlap[k]);
+  });
   if (!(kt > 0) || !(b.last.shear_force > 0)) return {};
   const double kept =
       std::min({b.last.shear_force, settings_.friction * pressing, std::sqrt(2 * kt * b.released)});
@@ -182,21 +179,17 @@ Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
 
 double Contacts::coefficient_of(const Particles &p, int i, int j) const {
   const double c = settings_.coefficient(p.radius[i], p.radius[j], layout_);
-  if (settings_.normal == NormalContact::hertz || settings_.stiffness_rule != StiffnessRule::bond_multiple)
-    return c;
+  if (!NormalContacts::with(settings_.normal, [&](auto of) { return of.follows_bonds(settings_); })) return c;
   return c * settings_.modulus_factors[static_cast<std::size_t>(aggregates_of_pair(p, i, j))];
 }
 
 ContactStiffness Contacts::stiffness_bound(const Particles &p, int i, int j, double approach) const {
-  const double ri = p.radius[i], rj = p.radius[j], c = coefficient_of(p, i, j);
-  const bool linear = settings_.normal == NormalContact::linear;
-  const double normal_stiffness =
-      linear ? LinearContact::stiffness(c, approach)
-             : HertzContact::stiffness(c, std::max(approach, early_overlap * std::min(ri, rj)));
-  if (settings_.tangential == TangentialContact::none) return {normal_stiffness, 0};
-  return {normal_stiffness,
-          normal_stiffness * (linear ? settings_.tangential_ratio
-                                     : HertzContact::tangential_ratio(settings_.poisson_ratio))};
+  const double pressed = std::max(approach, early_overlap * std::min(p.radius[i], p.radius[j]));
+  return NormalContacts::with(settings_.normal, [&](auto of) -> ContactStiffness {
+    const double normal_stiffness = of.stiffness(coefficient_of(p, i, j), pressed);
+    if (settings_.tangential == TangentialContact::none) return {normal_stiffness, 0};
+    return {normal_stiffness, normal_stiffness * of.tangential_ratio(settings_)};
+  });
 }
 
 double Contacts::stored_energy(std::size_t k) const {

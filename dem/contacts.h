@@ -7,40 +7,11 @@
 
 #include "dem/bonds.h"
 #include "dem/contact_search.h"
+#include "dem/laws/contact_settings.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
-
-enum class NormalContact { linear, hertz };
-enum class TangentialContact { none, coulomb, coulomb_with_rolling };
-// How a linear stiffness is stated.
-enum class StiffnessRule {
-  bond_multiple, // multiple of the k_n A that a bond of the pair has
-  absolute,      // N/m
-  bulk_fraction // LS-DYNA's NormK: fraction of kap_i R_i kap_j R_j / (kap_i R_i + kap_j R_j), kap = E / (3 (1
-                // - 2 nu))
-};
-
-struct ContactSettings {
-  NormalContact normal = NormalContact::linear;
-  TangentialContact tangential = TangentialContact::coulomb;
-  StiffnessRule stiffness_rule = StiffnessRule::bond_multiple;
-  double stiffness = 1;                                            // by the rule
-  double tangential_ratio = .5;                                    // k_t / k_n, linear law
-  double friction = 0;                                             // mu
-  double rolling_friction = 0;                                     // torque <= rolling_friction R* N
-  double damping = 0;                                              // fraction of critical, linear law
-  double restitution = 1;                                          // Hertz law
-  double young_modulus = std::numeric_limits<double>::quiet_NaN(); // Pa, of the grains (Hertz, bulk fraction)
-  double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
-
-  // Of bond multiples, by the spheres of the aggregate in a pair (dem/phases.h).
-  std::array<double, 3> modulus_factors{1, 1, 1};
-
-  // Linear: k_n, N/m. Hertz: 4/3 E* sqrt(R*), N/m^1.5.
-  double coefficient(double ri, double rj, const BondLayout &layout) const;
-};
 
 struct ContactStiffness {
   double normal = 0, tangential = 0; // N/m

@@ -29,6 +29,8 @@ struct Ghosts {
 // al. 2015).
 enum class DampingForm { component, vector };
 
+enum class Scheme { velocity_verlet, tchamwa_wielgosz };
+
 // How the particles move, chosen once. Results do not depend on the instruction set.
 struct Integrator {
   bool rotation = true;

@@ -23,6 +23,7 @@ void require_compiled(bool wanted, bool compiled, const char *effect) {
 
 // Refuses what this build leaves out, before a column is made.
 const ModelSettings &checked(const ModelSettings &s) {
+  require_in_range(s);
   require_compiled(s.rotation, compiled::rotation, "rotation");
   require_compiled(s.rotation && s.bond && bends(bond_law(*s.bond)), compiled::bond_moments, "bond moments");
   require_compiled(s.bond_dashpot > 0, compiled::bond_dashpots, "bond dashpots");
@@ -30,7 +31,7 @@ const ModelSettings &checked(const ModelSettings &s) {
   require_compiled(norm_squared(s.gravity) > 0, compiled::gravity, "gravity");
   require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
   require_compiled(s.crack_log, compiled::crack_log, "crack log");
-  require_compiled(s.dissipation > 1, compiled::dissipative_scheme, "dissipative scheme");
+  require_compiled(s.phi() > 1, compiled::dissipative_scheme, "dissipative scheme");
   require_compiled(s.strength_scatter || (s.phases && s.phases->scatters()), compiled::strength_factors,
                    "strength factors");
   if (!s.contact) return s;
@@ -75,9 +76,9 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
           settings.rotation),
       settings_(completed(specimen, settings)),
       integrator_{settings.rotation,      settings.local_damping,   settings.gravity,
-                  settings.energy_ledger, settings.instruction_set, settings.dissipation,
+                  settings.energy_ledger, settings.instruction_set, settings.phi(),
                   settings.damping_form} {
-  if (settings.dissipation > 1) particles.add_excess();
+  if (settings.phi() > 1) particles.add_excess();
   if (settings.phases) mark_phases(particles, *settings.phases);
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
   if (bonds && settings.phases) apply_phases(*bonds, particles, *settings.phases);
@@ -226,12 +227,10 @@ std::size_t Model::broken(BondState mode) const {
 StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const {
   DashpotFractions dashpots;
   dashpots.bonds = settings_.bond_dashpot;
-  dashpots.contacts = settings_.contact && settings_.contact->normal == NormalContact::linear
-                          ? settings_.contact->damping
-                          : 0.5; // Hertz: stiffness grows with the overlap; a reserve instead of a law
+  dashpots.contacts = settings_.contact ? settings_.contact->dashpot_reserve() : 0;
   dashpots.surfaces = surface_dashpot;
   dashpots.local = settings_.local_damping;
-  dashpots.scheme = settings_.dissipation;
+  dashpots.scheme = settings_.phi();
   return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
 }
 

@@ -24,10 +24,11 @@ enum class DensityOf { grains, solid };
 
 struct ModelSettings {
   bool rotation = true;
-  double density = 2400;    // kg/m^3
-  double mass_scaling = 1;  // multiplies mass and inertia
-  Vector3 gravity;          // m/s^2
-  double local_damping = 0; // 0 ... 1
+  double density = 2400; // kg/m^3
+  DensityOf density_of = DensityOf::grains;
+  double mass_scaling = 1;    // multiplies mass and inertia
+  Vector3 gravity;            // m/s^2
+  double local_damping = 0.5; // 0 ... 1
   DampingForm damping_form = DampingForm::component;
   bool energy_ledger = true;              // sums of energies and works
   bool crack_log = true;                  // a record of each bond that breaks
@@ -36,11 +37,39 @@ struct ModelSettings {
   std::optional<BondParameters> bond;     // none: no bonds
   std::optional<ContactSettings> contact; // none: spheres pass through each other
   InstructionSet instruction_set = best_instruction_set();
-  double dissipation = 1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
-  DensityOf density_of = DensityOf::grains;
+  Scheme scheme = Scheme::velocity_verlet;
+  double dissipation = 1.1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
   std::optional<StrengthScatter> strength_scatter; // none: all bonds are as strong
   std::optional<Phases> phases;                    // none: all grains are alike
+
+  double phi() const { return scheme == Scheme::tchamwa_wielgosz ? dissipation : 1; } // of the scheme chosen
+
+  static constexpr const char *name = "ModelSettings";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
 };
+
+template <class Visitor, class Self>
+void ModelSettings::describe(Visitor &&v, Self &p) {
+  v("density", p.density, "kg/m3", above(0), "Density of the grains, or of the solid.");
+  v("density_of", p.density_of, Words<DensityOf>{{"grains", DensityOf::grains}, {"solid", DensityOf::solid}},
+    "Solid: grains are heavier, so that the specimen with its voids has that density.");
+  v("mass_scaling", p.mass_scaling, "1", between(1, 1e6),
+    "Factor on all masses; the time step grows by its root, and inertia with it.");
+  v("local_damping", p.local_damping, "1", from_to_below(0, 1),
+    "Local damping: force against the motion, as a fraction of the unbalanced force.");
+  v("damping_form", p.damping_form,
+    Words<DampingForm>{{"component", DampingForm::component}, {"vector", DampingForm::vector}},
+    "Local damping of each component of a force by itself, or of the whole along the velocity.");
+  v("bond_dashpot", p.bond_dashpot, "1", between(0, 1), "Dashpot of the bond, fraction of critical damping.");
+  v("scheme", p.scheme,
+    Words<Scheme>{{"velocity verlet", Scheme::velocity_verlet},
+                  {"tchamwa wielgosz", Scheme::tchamwa_wielgosz}},
+    "Tchamwa Wielgosz takes energy from fast swings by the drift itself, for slow tests.");
+  v("dissipation", p.dissipation, "1", between(1, 1.5),
+    "phi: a swing of frequency w is damped by (phi - 1) w dt / 2 of critical; 1: none, which is velocity "
+    "Verlet.");
+}
 
 // Density of the grains before mass scaling, kg/m^3: of a solid, such that all spheres together weigh what
 // the specimen's shape filled with it weighs. Throws std::invalid_argument where that shape has no volume.

@@ -10,6 +10,7 @@
 namespace platen::dem {
 
 void mark_phases(Particles &p, const Phases &phases) {
+  require_in_range(phases);
   std::vector<int> ids = phases.aggregate_ids;
   std::sort(ids.begin(), ids.end());
   if (!ids.empty() && (ids.front() < 0 || ids.back() >= static_cast<int>(p.size())))

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/describe.h"
+
 namespace platen::dem {
 
 struct Bonds;
@@ -20,9 +22,24 @@ struct PhaseFactors {
 
 struct Phases {
   // A sphere is of the aggregate where its radius is above this ...
-  double radius_above = std::numeric_limits<double>::infinity(); // m
-  std::vector<int> aggregate_ids;                                // ... or where its id is one of these
+  double radius_above = std::numeric_limits<double>::quiet_NaN(); // m; NaN: none is by its radius
+  std::vector<int> aggregate_ids;                                 // ... or where its id is one of these
   PhaseFactors aggregate, interface; // bonds between two spheres of the aggregate; of one and one
+
+  static constexpr const char *name = "Phases";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p) {
+    v("radius_above", p.radius_above, "m", above(0), "Larger spheres are aggregate.");
+    v("aggregate_modulus_factor", p.aggregate.modulus, "1", above_up_to(0, 1e3),
+      "Modulus of bonds between two spheres of the aggregate, over that within the matrix.");
+    v("aggregate_strength_factor", p.aggregate.strength, "1", above_up_to(0, 1e3),
+      "Both strengths of bonds between two spheres of the aggregate, over those within the matrix.");
+    v("interface_modulus_factor", p.interface.modulus, "1", above_up_to(0, 1e3),
+      "Modulus of bonds between a sphere of the aggregate and one of the matrix, over that within the "
+      "matrix.");
+    v("interface_strength_factor", p.interface.strength, "1", above_up_to(0, 1e3),
+      "Both strengths of bonds between aggregate and matrix, over those within the matrix.");
+  }
 
   // By the number of spheres of the aggregate in a pair.
   std::array<PhaseFactors, 3> factors() const { return {PhaseFactors{}, interface, aggregate}; }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/describe.h"
+
 namespace platen::dem {
 
 struct Bonds;
@@ -13,6 +15,13 @@ struct Bonds;
 struct StrengthScatter {
   double weibull_modulus = std::numeric_limits<double>::quiet_NaN(); // m > 0; large: hardly any scatter
   std::uint64_t seed = 1;
+
+  static constexpr const char *name = "StrengthScatter";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p) {
+    v("weibull_modulus", p.weibull_modulus, "1", between(0.5, 1000),
+      "Of the factors: the larger, the less scatter.");
+  }
 };
 
 // `count` numbers of the distribution P(s < x) = 1 - exp(-(x/s_0)^m), s_0 = 1 / Gamma(1 + 1/m), whose mean is

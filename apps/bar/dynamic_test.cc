@@ -119,7 +119,7 @@ double along(const EndMotion &end, BarLoad load, bool along_x) {
 
 BarTime bar_time_step(const Scene &scene, const Model &model) {
   dem::DashpotFractions dashpots;
-  dashpots.bonds = scene.bond.damping;
+  dashpots.bonds = scene.model.bond_dashpot;
   const dem::StableStep limit =
       dem::stable_step(model.particles, model.bonds.get(), model.contacts.get(), {}, dashpots);
   const double wanted = scene.integration.time_step;

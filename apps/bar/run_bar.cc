@@ -143,7 +143,7 @@ std::string BarRun::description() const {
 }
 
 bool BarRun::take(const BarSample &s, BarLoad load) {
-  history_->row(bar_row(s, load, results_, scene_.effects.energy_ledger));
+  history_->row(bar_row(s, load, results_, scene_.model.energy_ledger));
   ProgressSample p;
   const double made = static_cast<double>(results_.steps) + s.time / results_.time.of(load);
   p.fraction = made / static_cast<double>(planned_);

@@ -47,8 +47,8 @@ dem::Specimen touching_spheres(const Scene &scene) {
 dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiffness_ratio) {
   dem::ModelSettings settings = model_settings(scene);
   settings.bond_layout.modulus = modulus;
-  settings.bond_layout.gap = bonded_gap;
-  settings.bond_layout.gap_is_relative = true;
+  settings.bond_layout.gap.value = bonded_gap;
+  settings.bond_layout.gap.relative = true;
   if (auto *bond = std::get_if<dem::ParallelBond::Parameters>(&*settings.bond))
     bond->stiffness_ratio = stiffness_ratio;
   return settings;
@@ -69,8 +69,8 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
   }
   std::visit(
       [&](const auto &law) {
-        b.tensile_strength = law.tensile_strength;
-        b.shear_strength = law.shear_strength;
+        b.tensile_strength = dem::never_if_zero(law.tensile_strength);
+        b.shear_strength = dem::never_if_zero(law.shear_strength);
         if constexpr (!std::is_same_v<decltype(law), const dem::ElastoDamagePlastic::Parameters &>)
           b.moment_contribution = law.moment_contribution;
       },
@@ -83,7 +83,7 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
 BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
     : scene_(scene),
       section_(section_of(rig_settings(scene, modulus, stiffness_ratio), scene.specimen.sphere_radius)),
-      rotation_(scene.effects.rotation),
+      rotation_(scene.model.rotation),
       model_(touching_spheres(scene), rig_settings(scene, modulus, stiffness_ratio)) {
   const std::size_t spheres = model_.particles.size();
   row_.resize(spheres);

@@ -25,17 +25,19 @@ double SofteningByHand::fracture_energy() const {
 }
 
 SofteningByHand InterfaceSection::tension() const {
-  SofteningByHand s{law.tensile_strength, normal_stiffness(), law.softening_tension};
-  if (law.fracture_energy_tension > 0)
-    s.softening = 2 * law.fracture_energy_tension * s.stiffness / (s.strength * s.strength);
+  const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
+  SofteningByHand s{dem::never_if_zero(p.tensile_strength), normal_stiffness(), p.softening_tension};
+  if (p.fracture_energy_tension > 0)
+    s.softening = 2 * p.fracture_energy_tension * s.stiffness / (s.strength * s.strength);
   return s;
 }
 
 SofteningByHand InterfaceSection::shear(double pressure) const {
-  SofteningByHand s{law.shear_strength + law.friction_static * pressure, shear_stiffness(),
-                    law.softening_shear};
-  if (law.fracture_energy_shear > 0)
-    s.softening = 2 * law.fracture_energy_shear * s.stiffness / (law.shear_strength * law.shear_strength);
+  const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
+  const double strength = dem::never_if_zero(p.shear_strength);
+  SofteningByHand s{strength + p.friction_static * pressure, shear_stiffness(), p.softening_shear};
+  if (p.fracture_energy_shear > 0)
+    s.softening = 2 * p.fracture_energy_shear * s.stiffness / (strength * strength);
   return s;
 }
 
@@ -69,7 +71,7 @@ double InterfaceByHand::pressure() const {
 InterfaceByHand::Used InterfaceByHand::used() const {
   const SofteningByHand tension = section_.tension(), shear = section_.shear(0);
   const double n = widest_ / tension.limit(), s = slip_ratio_ * widest_ / shear.limit();
-  if (section_.law.line == dem::FailureLine::coupled) return {n + s, n + s};
+  if (section_.law.parameters.failure_line == dem::FailureLine::coupled) return {n + s, n + s};
   return {n, s};
 }
 
@@ -138,7 +140,7 @@ std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
   if (combined_) {
     const SofteningByHand tension = section_.tension(), shear = section_.shear(0);
     const double per_n = 1 / tension.limit(), per_s = slip_ratio_ / shear.limit();
-    const bool coupled = section_.law.line == dem::FailureLine::coupled;
+    const bool coupled = section_.law.parameters.failure_line == dem::FailureLine::coupled;
     const double un = 1 / (coupled ? per_n + per_s : per_n), us = 1 / (coupled ? per_n + per_s : per_s);
     const double end = std::min(un * (1 + tension.softening), us * (1 + shear.softening));
     for (const double place : {un, us, widest_, end * (1 - beside_failure), end * (1 + beside_failure)})
@@ -155,7 +157,7 @@ std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
          {shear.limit(), farthest_, shear.end() * (1 - beside_failure), shear.end() * (1 + beside_failure)})
       for (const double side : {-1.0, 1.0})
         slip(side * place);
-    const double stretch = section_.law.friction_dynamic * pressure() / section_.shear_stiffness();
+    const double stretch = section_.law.parameters.friction_dynamic * pressure() / section_.shear_stiffness();
     slip(at_.slip + std::copysign(stretch, slipped) - slider_);
   }
   std::sort(shares.begin(), shares.end());
@@ -171,7 +173,7 @@ void InterfaceByHand::go(const InterfacePlace &to) {
     const InterfacePlace last = at_;
     at_.opening = end < 1 ? from.opening + end * (to.opening - from.opening) : to.opening;
     at_.slip = end < 1 ? from.slip + end * (to.slip - from.slip) : to.slip;
-    const double stretch = section_.law.friction_dynamic * pressure() / section_.shear_stiffness();
+    const double stretch = section_.law.parameters.friction_dynamic * pressure() / section_.shear_stiffness();
     slider_ = std::clamp(slider_ + at_.slip - last.slip, -stretch, stretch);
     update();
     work_ += 0.5 * ((before.normal + now_.normal) * (at_.opening - last.opening) +

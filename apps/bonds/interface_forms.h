@@ -20,11 +20,13 @@ struct SofteningByHand {
 };
 
 struct InterfaceSection {
-  dem::ElastoDamagePlastic::Parameters law;
+  dem::ElastoDamagePlastic law;
   double length = 0, area = 0, modulus = 0; // m, m^2, Pa
 
-  double normal_stiffness() const { return modulus / length; }                                  // Pa/m
-  double shear_stiffness() const { return 0.5 * normal_stiffness() / (1 + law.poisson_ratio); } // Pa/m
+  double normal_stiffness() const { return modulus / length; } // Pa/m
+  double shear_stiffness() const {
+    return 0.5 * normal_stiffness() / (1 + law.parameters.poisson_ratio);
+  } // Pa/m
   SofteningByHand tension() const;
   SofteningByHand shear(double pressure) const; // Pa, under which it is sheared
   double yield_stress(double closing) const;    // Pa, of closing so far (m) for the first time

@@ -16,7 +16,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
 bool is_led(const Scene &scene) {
-  return scene.effects.bond == BondKind::elasto_damage_plastic;
+  return scene.bond.remembers();
 }
 
 BondRun lead_bond(const Scene &scene, double modulus) {

@@ -19,7 +19,7 @@ dem::ModelSettings led_settings(const Scene &scene, double modulus) {
 
 InterfaceSection section_of(const dem::Bonds &bonds, double modulus) {
   const double radius = bonds.bond_radius[0];
-  return {std::get<dem::ElastoDamagePlastic>(bonds.law).parameters, bonds.rest_length[0],
+  return {std::get<dem::ElastoDamagePlastic>(bonds.law), bonds.rest_length[0],
           3.14159265358979323846 * radius * radius, modulus};
 }
 

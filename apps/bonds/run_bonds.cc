@@ -19,6 +19,7 @@
 #include "apps/run/expectations.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
+#include "dem/laws/normal_contact.h"
 #include "dem/parallel.h"
 
 namespace platen::apps {
@@ -30,7 +31,7 @@ bool is_pyramid(const Scene &scene) {
   return scene.pair_test.particles == 3;
 }
 bool is_beam(const Scene &scene) {
-  return scene.effects.bond == BondKind::cohesive_beam;
+  return scene.bond.is<dem::CohesiveBeam>();
 }
 bool turns(const Scene &scene) {
   return scene.pair_test.path == PairPath::bending || scene.pair_test.path == PairPath::twisting;
@@ -50,6 +51,8 @@ void refuse(const Scene &scene, const std::string &path, const std::string &reas
 // What this test cannot do, or what its closed forms know nothing of.
 void check(const Scene &scene) {
   const PairTest &test = scene.pair_test;
+  if (!is_led(scene) && !is_beam(scene) && !scene.bond.is<dem::ParallelBond>())
+    refuse(scene, "Effects/Bond", "has no closed form here. Allowed: any other.");
   if ((is_beam(scene) || is_led(scene)) && test.stiffness_ratios.size() > 1)
     refuse(scene, "Pair test/Stiffness ratio list",
            std::string("is for parallel bonds: ") +
@@ -60,21 +63,21 @@ void check(const Scene &scene) {
   if (scene.effects.gravity)
     refuse(scene, "Effects/Gravity", "would load the bonds before the test does. Allowed: off.");
   if (is_led(scene)) return; // what else it asks for is checked with the scene
-  if (scene.integration.damping < .05)
+  if (scene.model.local_damping < .05)
     refuse(scene, "Integration/Damping",
            "lets the spheres swing for ever. Allowed: 0.05 ... 1 (0.7 is best).");
   if (!std::isnan(test.force) && !std::isnan(test.displacement))
     refuse(scene, "Pair test/Displacement",
            "contradicts Pair test/Force. Allowed: one of both drives the test.");
-  if (!scene.effects.rotation && turns(scene))
+  if (!scene.model.rotation && turns(scene))
     refuse(scene, "Effects/Rotation", "is off, but Pair test/Path turns a sphere. Allowed: on.");
   if (!is_pyramid(scene)) return;
   if (test.path != PairPath::compression && test.path != PairPath::cyclic)
     refuse(scene, "Pair test/Path",
            "needs two particles: three stand on a plate that cannot pull. Allowed: compression, cyclic.");
-  if (!scene.effects.rotation && test.plate == PairPlate::rolling)
+  if (!scene.model.rotation && test.plate == PairPlate::rolling)
     refuse(scene, "Pair test/Plate", "= rolling needs Effects/Rotation = on.");
-  if (!test.base_bond && scene.effects.contact != ContactKind::none)
+  if (!test.base_bond && scene.effects.contact)
     refuse(
         scene, "Pair test/Base bond",
         "= off needs Effects/Contact = none: the base spheres touch, and the closed form knows no contact.");
@@ -106,8 +109,8 @@ std::string description(const Scene &scene) {
   text += fmt::format(" in {} steps\n", t.steps);
   if (is_pyramid(scene))
     text += fmt::format("  plate {}, base bond {}\n", word(t.plate), t.base_bond ? "on" : "off");
-  text += fmt::format("  rotation {}; {} moduli, {} stiffness ratios\n",
-                      scene.effects.rotation ? "on" : "off", t.moduli.size(), t.stiffness_ratios.size());
+  text += fmt::format("  rotation {}; {} moduli, {} stiffness ratios\n", scene.model.rotation ? "on" : "off",
+                      t.moduli.size(), t.stiffness_ratios.size());
   return text;
 }
 
@@ -131,7 +134,7 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
   run.strain_ratio_by_hand = none;
   if (is_pyramid(scene)) {
     const PyramidResponse by_hand =
-        pyramid_response({rig.section(), t.plate, t.base_bond, scene.effects.rotation});
+        pyramid_response({rig.section(), t.plate, t.base_bond, scene.model.rotation});
     run.stiffness_by_hand = by_hand.stiffness;
     run.strain_ratio_by_hand = by_hand.strain_ratio;
     run.strength_by_hand = none;
@@ -234,14 +237,11 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, const Cost
   s["app"] = "platen-bonds";
   s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
   s["version"] = version_line();
-  std::vector<std::string> effects{is_led(scene)    ? "elasto damage plastic"
-                                   : is_beam(scene) ? "cohesive beam"
-                                                    : "parallel bond"};
-  if (scene.effects.rotation) effects.emplace_back("rotation");
-  if (scene.effects.rotation && !is_led(scene)) effects.emplace_back("bond moments");
-  if (scene.effects.contact != ContactKind::none)
-    effects.emplace_back(scene.effects.contact == ContactKind::hertz ? "hertz contact" : "linear contact");
-  if (scene.bond.damping > 0 && !is_led(scene)) effects.emplace_back("bond dashpots");
+  std::vector<std::string> effects{scene.bond.word()};
+  if (scene.model.rotation) effects.emplace_back("rotation");
+  if (scene.model.rotation && !is_led(scene)) effects.emplace_back("bond moments");
+  if (scene.effects.contact) effects.push_back(dem::word(*scene.effects.contact) + std::string(" contact"));
+  if (scene.model.bond_dashpot > 0 && !is_led(scene)) effects.emplace_back("bond dashpots");
   if (!is_led(scene)) effects.emplace_back("local damping");
   s["effects"] = effects;
   s["path"] = word(scene.pair_test.path);

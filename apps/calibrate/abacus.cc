@@ -26,10 +26,10 @@ std::vector<double> or_own(const std::vector<double> &list, double own) {
 std::vector<BondChoice> combinations(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   std::vector<BondChoice> all;
-  for (const double multiplier : or_own(c.radius_multipliers, scene.bond.radius_multiplier))
-    for (const double ratio : or_own(c.stiffness_ratios, scene.bond.stiffness_ratio))
-      for (const double poisson : or_own(c.poisson_ratios, scene.bond.poisson_ratio))
-        for (const double modulus : or_own(c.moduli, scene.bond.modulus)) {
+  for (const double multiplier : or_own(c.radius_multipliers, scene.model.bond_layout.radius_multiplier))
+    for (const double ratio : or_own(c.stiffness_ratios, scene.bond.number("stiffness_ratio")))
+      for (const double poisson : or_own(c.poisson_ratios, scene.bond.number("poisson_ratio")))
+        for (const double modulus : or_own(c.moduli, scene.model.bond_layout.modulus)) {
           BondChoice choice = choice_of(scene);
           choice.radius_multiplier = multiplier;
           choice.stiffness_ratio = ratio;
@@ -44,14 +44,14 @@ std::vector<BondChoice> combinations(const Scene &scene) {
 
 Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, RunLog &log) {
   const std::vector<BondChoice> choices = combinations(scene);
-  const bool beams = scene.effects.bond == BondKind::cohesive_beam;
+  const bool beams = scene.bond.is<dem::CohesiveBeam>();
   const bool linear = scene.platens.stiffness.kind != Stiffness::Kind::absolute;
   const std::vector<unsigned long> seeds = training_seeds(scene);
   std::vector<Trial> asked;
   for (const BondChoice &choice : choices)
     for (const unsigned long seed : seeds) {
       asked.push_back({TrialKind::elastic, seed, choice});
-      if (linear) asked.back().choice.modulus = scene.bond.modulus;
+      if (linear) asked.back().choice.modulus = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
 
@@ -66,7 +66,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     SeedStatistics young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
-      const double scale = linear ? c.modulus / scene.bond.modulus : 1.0;
+      const double scale = linear ? c.modulus / scene.model.bond_layout.modulus : 1.0;
       const dem::NetworkModuli b = bounds_of(scene, trials.packing(seeds[s]), c);
       table.row({seeds[s], c.modulus, ratio, c.radius_multiplier, bond_poisson, scale * r.young_modulus,
                  scale * r.platen_modulus, r.poisson_ratio, b.young_voigt, b.poisson_voigt, b.young_reuss,

@@ -221,7 +221,8 @@ void Calibration::write_found(const Found &f) {
   set("Tensile strength", c.tensile_strength, " Pa");
   set("Shear strength", c.shear_strength, " Pa");
   set("Moment contribution", c.moment_contribution, "");
-  if (c.friction_angle != scene_.bond.friction_angle) set("Friction angle", c.friction_angle, " rad");
+  if (c.friction_angle != scene_.bond.number("friction_angle"))
+    set("Friction angle", c.friction_angle, " rad");
   const Scene scene = read_scene(command_.scene, overrides, AppKind::calibrate);
   std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", scene_.name,
                                     version_line(), table_of(scene_, f));

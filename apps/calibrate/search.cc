@@ -39,7 +39,7 @@ public:
   }
 
 private:
-  bool beam() const { return scene_.effects.bond == BondKind::cohesive_beam; }
+  bool beam() const { return scene_.bond.is<dem::CohesiveBeam>(); }
   Measured measure(const BondChoice &choice, const std::vector<unsigned long> &seeds, bool strengths);
   double &poisson_knob(BondChoice &choice) const {
     return beam() ? choice.radius_multiplier : choice.stiffness_ratio;

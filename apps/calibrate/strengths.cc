@@ -178,19 +178,21 @@ std::string Search::story(const FoundStrengths &found, const Eigen::VectorXd &mi
 
 StrengthKnobs strength_knobs(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
-  const Effects &e = scene.effects;
   const int goals = int(wanted(c.compressive_strength)) + int(wanted(c.tensile_strength));
   StrengthKnobs to;
   to.shear = goals == 2;
   // Elasto-damage-plastic bonds have neither; without moments there is nothing to count.
-  const bool classic = e.bond == BondKind::parallel_bond || e.bond == BondKind::cohesive_beam;
-  to.moments =
-      goals == 2 && classic && e.rotation && e.bond_moments && c.moments_low < scene.bond.moment_contribution;
+  const std::optional<dem::BondParameters> bond = scene.bond.parameters();
+  to.moments = goals == 2 && scene.bond.has("moment_contribution") && scene.model.rotation &&
+               dem::bends(dem::bond_law(*bond)) && c.moments_low < scene.bond.number("moment_contribution");
   const bool free = wanted(c.triaxial_strength);
-  to.friction_low = wanted(c.friction_low) ? c.friction_low : (free ? 0 : scene.bond.friction_angle);
-  to.friction_high =
-      wanted(c.friction_high) ? c.friction_high : (free ? largest_friction : scene.bond.friction_angle);
-  to.friction = classic && (goals == 2 || free) && to.friction_low < to.friction_high;
+  to.friction_low =
+      wanted(c.friction_low) ? c.friction_low : (free ? 0 : scene.bond.number("friction_angle"));
+  to.friction_high = wanted(c.friction_high)
+                         ? c.friction_high
+                         : (free ? largest_friction : scene.bond.number("friction_angle"));
+  to.friction =
+      scene.bond.has("friction_angle") && (goals == 2 || free) && to.friction_low < to.friction_high;
   return to;
 }
 

@@ -23,15 +23,15 @@ constexpr double tension_strain = 0.25;
 
 Scene chosen(const Scene &scene, const BondChoice &choice) {
   Scene s = scene;
-  s.bond.modulus = choice.modulus;
-  s.bond.stiffness_ratio = choice.stiffness_ratio;
-  s.bond.radius_multiplier = choice.radius_multiplier;
-  s.bond.poisson_ratio = choice.poisson_ratio;
-  s.bond.tensile_strength = choice.tensile_strength;
-  s.bond.shear_strength = choice.shear_strength;
-  s.bond.moment_contribution = choice.moment_contribution;
-  s.bond.friction_angle = choice.friction_angle;
-  s.effects.energy_ledger = s.effects.crack_log = false;
+  s.model.bond_layout.modulus = choice.modulus;
+  s.model.bond_layout.radius_multiplier = choice.radius_multiplier;
+  s.bond.set("stiffness_ratio", choice.stiffness_ratio);
+  s.bond.set("poisson_ratio", choice.poisson_ratio);
+  s.bond.set("tensile_strength", choice.tensile_strength);
+  s.bond.set("shear_strength", choice.shear_strength);
+  s.bond.set("moment_contribution", choice.moment_contribution);
+  s.bond.set("friction_angle", choice.friction_angle);
+  s.model.energy_ledger = s.model.crack_log = false;
   return s;
 }
 
@@ -118,8 +118,15 @@ const char *word(TrialKind kind) {
 
 BondChoice choice_of(const Scene &scene) {
   const Bond &b = scene.bond;
-  return {b.modulus,          b.stiffness_ratio, b.radius_multiplier,   b.poisson_ratio,
-          b.tensile_strength, b.shear_strength,  b.moment_contribution, b.friction_angle};
+  const dem::BondLayout &layout = scene.model.bond_layout;
+  return {layout.modulus,
+          b.number("stiffness_ratio"),
+          layout.radius_multiplier,
+          b.number("poisson_ratio"),
+          b.number("tensile_strength"),
+          b.number("shear_strength"),
+          b.number("moment_contribution"),
+          b.number("friction_angle")};
 }
 
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {

@@ -65,7 +65,7 @@ int CompressionRun::run() {
   }
   results_.finish(*test_, event_window());
   if (test_->model.bonds) write_bond_stress();
-  if (scene_.effects.crack_log) write_events();
+  if (scene_.model.crack_log) write_events();
   if (fields_) fields_->write(*test_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));

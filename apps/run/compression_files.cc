@@ -75,7 +75,7 @@ std::string CompressionRun::description() const {
 void CompressionRun::open_files() {
   if (!command_.resume) {
     history_.emplace(paths_.history(), history_names(test_.get()));
-    if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
+    if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     if (as_packed_) keep(*as_packed_);
     sample();
@@ -87,7 +87,7 @@ void CompressionRun::open_files() {
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *test_, results_);
   history_.emplace(paths_.history(), history_names(test_.get()), marks.history_bytes);
-  if (scene_.effects.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
+  if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
     fields_->resume(marks.last_frame, static_cast<int>(marks.frames));

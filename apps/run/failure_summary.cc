@@ -89,8 +89,7 @@ void add_failure(Json &to, const Scene &scene, const coupling::PlatenTest &probl
   add_state(to, "final_", results.last_pattern(), pattern);
   const Emission &e = results.emission();
   to["crack_rose"] = e.pulses.empty() ? Json() : Json(e.rose.over_isotropic());
-  const bool heard =
-      scene.effects.crack_log && problem.model.bonds && !std::isnan(results.last_pattern().time);
+  const bool heard = scene.model.crack_log && problem.model.bonds && !std::isnan(results.last_pattern().time);
   to["acoustic"] = heard ? json_of(e) : Json();
 }
 

@@ -6,9 +6,8 @@
 
 namespace platen::apps {
 
-// Effects, Bond, Contact, Material and Integration as the particle model takes them. A strength of 0 becomes
-// infinite. The bond layout is set without bonds too: it gives unbonded pairs their stiffness.
+// What the scene leaves out is no part of the settings; the rest is the scene's as it is.
 dem::ModelSettings model_settings(const Scene &scene);
-dem::DensityOf density_of(const Scene &scene);
+std::optional<dem::ContactSettings> contact_settings(const Scene &scene);
 
 } // namespace platen::apps

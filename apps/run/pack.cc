@@ -46,13 +46,10 @@ Judgement judge(const dem::Specimen &specimen, const Scene &scene) {
     j.coordination.push_back(
         2.0 * static_cast<double>(dem::touching_pairs(specimen, tolerance * j.quality.mean_radius).size()) /
         static_cast<double>(specimen.size()));
-  const bool ground = scene.specimen.ends == EndsKind::ground;
-  const dem::SpecimenEnds ends =
-      dem::seat_ends(specimen, ground ? dem::EndPreparation::ground : dem::EndPreparation::as_packed,
-                     scene.specimen.end_layer);
+  const dem::SpecimenEnds ends = dem::seat_ends(specimen, scene.specimen.ends, scene.specimen.end_layer);
   j.seated_bottom = ends.bottom.particle.size();
   j.seated_top = ends.top.particle.size();
-  j.grain_density = dem::grain_density(specimen, scene.material.density, density_of(scene));
+  j.grain_density = dem::grain_density(specimen, scene.model.density, scene.model.density_of);
   return j;
 }
 

@@ -7,6 +7,7 @@
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
+#include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
 
 namespace platen::apps {
@@ -14,67 +15,57 @@ namespace {
 
 struct Effect {
   bool on;
-  const char *word;
+  std::string word;
 };
 
-const char *word(BondKind bond) {
-  switch (bond) {
-    case BondKind::cohesive_beam:
-      return "cohesive beam";
-    case BondKind::elasto_damage_plastic:
-      return "elasto damage plastic";
-    case BondKind::parallel_bond:
-    case BondKind::none:
-      break;
-  }
-  return "parallel bond";
-}
-
+// Every effect that a scene may have: its laws by their words, then the rest.
 std::vector<Effect> effects(const Scene &s) {
-  const Effects &e = s.effects;
-  const bool bonded = e.bond != BondKind::none, touching = e.contact != ContactKind::none;
-  const bool moments = e.rotation && e.bond_moments && e.bond != BondKind::elasto_damage_plastic;
-  return {{bonded, word(e.bond)},
-          {touching && e.contact == ContactKind::linear, "linear contact"},
-          {touching && e.contact == ContactKind::hertz, "hertz contact"},
-          {touching && e.tangential != TangentialKind::none, "coulomb friction"},
-          {touching && e.tangential == TangentialKind::coulomb_with_rolling_resistance, "rolling resistance"},
-          {e.rotation, "rotation"},
-          {bonded && moments, "bond moments"},
-          {e.gravity, "gravity"},
-          {s.integration.damping > 0, s.integration.damping_form == DampingForm::vector
-                                          ? "local damping along the velocity"
-                                          : "local damping"},
-          {s.integration.scheme == Scheme::tchamwa_wielgosz && s.integration.dissipation > 1,
-           "dissipative scheme"},
-          {bonded && s.bond.damping > 0, "bond dashpots"},
-          {bonded && s.phases.by != PhasesBy::none, "phases"},
-          {bonded && s.bond.strength_scatter != StrengthScatter::none, "scattered strengths"},
-          {touching && (e.contact == ContactKind::linear ? s.contact.damping > 0 : s.contact.restitution < 1),
-           "contact dashpots"},
-          {s.platens.kind == PlatenKind::deformable, "elastic platens"},
-          {s.platens.top_seat == PlatenSeat::spherical, "spherical seat"},
-          {s.platens.damping > 0, "platen dashpots"},
-          {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
-          {s.platens.top.friction_law != FrictionLaw::constant ||
-               s.platens.bottom.friction_law != FrictionLaw::constant,
-           "weakening friction"},
-          {s.platens.attachment == Attachment::glued, "glued ends"},
-          {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
-          {s.loading.sleeved(), "sleeve"},
-          {s.loading.walled(), "lateral wall"},
-          {!s.loading.unload_at.empty(), "unloading"},
-          {s.specimen.seat, "seats"},
-          {s.integration.mass_scaling > 1, "mass scaling"},
-          {e.energy_ledger, "energy ledger"},
-          {bonded && e.crack_log, "crack log"},
-          {s.output.fields, "fields"}};
+  const dem::ModelSettings &m = s.model;
+  const std::optional<dem::BondParameters> bond = s.bond.parameters();
+  const std::optional<dem::ContactSettings> contact = contact_settings(s);
+  const bool bonded = bond.has_value(), touching = contact.has_value();
+  const dem::TangentialContact tangential = s.contact.tangential;
+  std::vector<Effect> all{{bonded, bonded ? s.bond.word() : dem::BondLaws::words.front()}};
+  for (const auto &[word, law] : dem::NormalContacts::words())
+    all.push_back({s.effects.contact == law, word + " contact"});
+  const std::vector<Effect> others{
+      {touching && tangential != dem::TangentialContact::none, "coulomb friction"},
+      {touching && tangential == dem::TangentialContact::coulomb_with_rolling, "rolling resistance"},
+      {m.rotation, "rotation"},
+      {bonded && m.rotation && dem::bends(dem::bond_law(*bond)), "bond moments"},
+      {s.effects.gravity, "gravity"},
+      {m.local_damping > 0,
+       m.damping_form == dem::DampingForm::vector ? "local damping along the velocity" : "local damping"},
+      {m.phi() > 1, "dissipative scheme"},
+      {bonded && m.bond_dashpot > 0, "bond dashpots"},
+      {bonded && s.phases.by != PhasesBy::none, "phases"},
+      {bonded && s.bond.scattered, "scattered strengths"},
+      {touching && contact->dashpot() > 0, "contact dashpots"},
+      {s.platens.kind == PlatenKind::deformable, "elastic platens"},
+      {s.platens.top_seat == PlatenSeat::spherical, "spherical seat"},
+      {s.platens.damping > 0, "platen dashpots"},
+      {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
+      {s.platens.top.friction_law != FrictionLaw::constant ||
+           s.platens.bottom.friction_law != FrictionLaw::constant,
+       "weakening friction"},
+      {s.platens.attachment == Attachment::glued, "glued ends"},
+      {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
+      {s.loading.sleeved(), "sleeve"},
+      {s.loading.walled(), "lateral wall"},
+      {!s.loading.unload_at.empty(), "unloading"},
+      {s.specimen.seat, "seats"},
+      {m.mass_scaling > 1, "mass scaling"},
+      {m.energy_ledger, "energy ledger"},
+      {bonded && m.crack_log, "crack log"},
+      {s.output.fields, "fields"}};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
 std::vector<std::string> chosen(const Scene &scene, bool on) {
   std::vector<std::string> words;
   for (const Effect &e : effects(scene))
-    if (e.on == on) words.emplace_back(e.word);
+    if (e.on == on) words.push_back(e.word);
   return words;
 }
 
@@ -140,7 +131,8 @@ coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   const Platens &from = scene.platens;
   coupling::PlatenTestSettings to;
   to.model = model_settings(scene);
-  to.ends = scene.specimen.ends == EndsKind::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
+  to.ends =
+      scene.specimen.ends == dem::EndPreparation::ground ? coupling::Ends::ground : coupling::Ends::as_packed;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
   to.platens.top = platen_side(from.top, platen_grid(scene, true));

@@ -29,11 +29,11 @@ constexpr double same_length = 1e-6;
 dem::RadiusDistribution radii(const SpecimenSection &specimen) {
   const double mean = specimen.sphere_radius;
   switch (specimen.radius_distribution) {
-    case RadiusDistribution::equal:
+    case RadiusKind::equal:
       return dem::equal_radii(mean);
-    case RadiusDistribution::uniform:
+    case RadiusKind::uniform:
       return dem::uniform_radii_of_spread(mean, specimen.radius_spread);
-    case RadiusDistribution::two_sizes:
+    case RadiusKind::two_sizes:
       break;
   }
   const double ratio = specimen.second_radius_ratio, fraction_of_small = specimen.second_fraction;
@@ -102,8 +102,8 @@ dem::Shape specimen_shape(const Scene &scene) {
 
 void check_phases(const Scene &scene, const dem::Specimen &specimen) {
   const PhasesSection &phases = scene.phases;
-  if (phases.by == PhasesBy::radius && (dem::largest_radius(specimen) <= phases.radius_above ||
-                                        dem::smallest_radius(specimen) > phases.radius_above))
+  if (phases.by == PhasesBy::radius && (dem::largest_radius(specimen) <= phases.phases.radius_above ||
+                                        dem::smallest_radius(specimen) > phases.phases.radius_above))
     refuse(scene, "Phases/Radius above",
            "leaves one phase empty: the radii are " + shortest_text(dem::smallest_radius(specimen)) +
                " ... " + shortest_text(dem::largest_radius(specimen)) + " m.");
@@ -142,12 +142,12 @@ dem::Specimen place_spheres(const Scene &scene, dem::GrowthReport *growth) {
   check_count(scene, shape);
   if (specimen.packing == PackingKind::advancing_front)
     return dem::advancing_front(shape, radii(specimen), scene.general.seed);
-  if (specimen.radius_distribution == RadiusDistribution::two_sizes)
+  if (specimen.radius_distribution == RadiusKind::two_sizes)
     refuse(
         scene, "Specimen/Radius distribution",
         "does not go with Specimen/Packing = random close. Allowed: equal, uniform; or Packing = advancing "
         "front.");
-  const bool equal = specimen.radius_distribution == RadiusDistribution::equal;
+  const bool equal = specimen.radius_distribution == RadiusKind::equal;
   return dem::random_close_packing(shape, specimen.sphere_radius, equal ? 0.0 : specimen.radius_spread,
                                    scene.general.seed, growth);
 }

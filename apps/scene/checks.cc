@@ -14,6 +14,14 @@ void SceneCheck::readable(const std::string &path, const std::string &file, cons
     refuse(path, "cannot be read (looked for " + file + ").");
 }
 
+void SceneCheck::needed() const {
+  for (const Entry &entry : parameters_.entries())
+    for (const auto &needed : entry.needed) {
+      const std::string why = entry.text.empty() ? needed({scene_, parameters_, app_}) : "";
+      if (!why.empty()) refuse(entry.path, "is not set: " + why + " Allowed: " + limits(entry) + ".");
+    }
+}
+
 std::string resolved_path(const Entry &entry) {
   if (entry.text.empty() || entry.origin.line == 0) return entry.text;
   return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
@@ -23,6 +31,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   SceneCheck check(scene, parameters, app);
   check.specimen();
   check.effects();
+  check.needed();
   check.bond();
   check.phases();
   check.contact();

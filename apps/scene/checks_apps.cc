@@ -10,9 +10,8 @@ namespace platen::apps {
 
 void SceneCheck::pair_test() const {
   if (app_ != AppKind::bonds) return;
-  if (scene_.effects.bond == BondKind::none)
-    refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
-  if (scene_.effects.bond == BondKind::elasto_damage_plastic) return led_pair();
+  if (!scene_.bond.bonded()) refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
+  if (scene_.bond.remembers()) return led_pair();
   if (scene_.pair_test.path == PairPath::combined)
     refuse("Pair test/Path",
            "needs Effects/Bond = elasto damage plastic. Allowed: tension, compression, "
@@ -49,17 +48,16 @@ void SceneCheck::led_pair() const {
       refuse("Pair test/Turns", "closes a combined path. Allowed: >= 0.");
     at = turn;
   }
-  if (slips && !scene_.effects.rotation)
+  if (slips && !scene_.model.rotation)
     refuse("Effects/Rotation", "is off, but Pair test/Path slides spheres by turning them. Allowed: on.");
-  if (scene_.bond.area_factor == 0)
+  if (scene_.model.bond_layout.area_factor == 0)
     refuse("Bond/Area factor", "is taken from a packing, and two spheres are none. Allowed: > 0.");
 }
 
 void SceneCheck::calibrate() const {
   if (app_ != AppKind::calibrate) return;
   const Calibrate &c = scene_.calibrate;
-  if (scene_.effects.bond == BondKind::none)
-    refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
+  if (!scene_.bond.bonded()) refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
   if (scene_.platens.top_control == PlatenControl::stress)
     refuse("Platens/Top/Control", "is not for calibration: platens are moved. Allowed: motion.");
   const auto ascending = [&](double low, double high, const std::string &path) {
@@ -70,19 +68,18 @@ void SceneCheck::calibrate() const {
   ascending(c.ratio_low, c.ratio_high, "stiffness ratio");
   ascending(c.multiplier_low, c.multiplier_high, "radius multiplier");
   ascending(c.strengths_low, c.strengths_high, "shear over tensile strength");
-  const BondKind kind = scene_.effects.bond;
-  const bool has_friction = kind == BondKind::parallel_bond || kind == BondKind::cohesive_beam;
+  const bool has_friction = scene_.bond.has("friction_angle");
   for (const char *key : {"Calibrate/Smallest friction angle", "Calibrate/Largest friction angle",
                           "Calibrate/Triaxial strength"})
     if (parameters_.at(key).changed() && !has_friction)
       refuse(key,
              "needs a bond with a friction angle. Allowed: Effects/Bond = parallel bond, cohesive beam.");
-  const double own = given(c.triaxial_strength) ? not_given : scene_.bond.friction_angle;
+  const double own = given(c.triaxial_strength) ? not_given : scene_.bond.number("friction_angle");
   if ((given(c.friction_low) ? c.friction_low : own) > (given(c.friction_high) ? c.friction_high : own))
     refuse(given(c.friction_low) ? "Calibrate/Smallest friction angle" : "Calibrate/Largest friction angle",
            given(c.friction_low) ? "is above the largest, or the bond's own where none is given."
                                  : "is below the bond's own, which is the smallest where none is given.");
-  const bool beam = scene_.effects.bond == BondKind::cohesive_beam;
+  const bool beam = scene_.bond.is<dem::CohesiveBeam>();
   if (beam && !c.stiffness_ratios.empty())
     refuse("Calibrate/Stiffness ratio list", "is for parallel bonds: a beam has the ratio of its section.");
   if (!beam && !c.poisson_ratios.empty())
@@ -96,9 +93,9 @@ void SceneCheck::calibrate() const {
            "strength.");
   if (!strengths) return;
   need("Loading/Axial rate", scene_.loading.axial_rate, "the platens have to move.");
-  if (scene_.bond.tensile_strength == 0)
+  if (scene_.bond.number("tensile_strength") == 0)
     refuse("Bond/Tensile strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
-  if (scene_.bond.shear_strength == 0)
+  if (scene_.bond.number("shear_strength") == 0)
     refuse("Bond/Shear strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
   if (given(c.compressive_strength) && given(c.tensile_strength) &&
       c.compressive_strength <= c.tensile_strength)
@@ -124,14 +121,14 @@ void SceneCheck::triaxial_strength() const {
 void SceneCheck::bar_test() const {
   if (app_ != AppKind::bar) return;
   const BarTest &bar = scene_.bar_test;
-  if (scene_.effects.bond == BondKind::none)
+  if (!scene_.bond.bonded())
     refuse("Effects/Bond", "leaves a heap of grains, no bar. Allowed: parallel bond, cohesive beam.");
   if (scene_.effects.gravity)
     refuse("Effects/Gravity", "would load the bar before the test does. Allowed: off.");
   const bool swings = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
   const std::string damps = "would damp what is to swing freely. Allowed: 0, or Bar test/Method = static.";
-  if (swings && scene_.integration.damping > 0) refuse("Integration/Damping", damps);
-  if (swings && scene_.bond.damping > 0) refuse("Bond/Damping", damps);
+  if (swings && scene_.model.local_damping > 0) refuse("Integration/Damping", damps);
+  if (swings && scene_.model.bond_dashpot > 0) refuse("Bond/Damping", damps);
   if (bar.load == BarLoad::impact && bar.method == BarMethod::at_rest)
     refuse("Bar test/Method", "leaves nothing of Bar test/Load = impact. Allowed: both, dynamic.");
   const SpecimenSection &specimen = scene_.specimen;
@@ -184,8 +181,7 @@ void SceneCheck::study() const {
   if (!study.domains.empty() && scene_.specimen.shape != SpecimenShape::cylinder)
     refuse("Study/Domain list", "holds cylinders, but Specimen/Shape = " +
                                     parameters_.at("Specimen/Shape").text + ". Allowed: Shape = cylinder.");
-  if (study.seeds > 1 && scene_.specimen.packing == PackingKind::file &&
-      scene_.bond.strength_scatter == StrengthScatter::none)
+  if (study.seeds > 1 && scene_.specimen.packing == PackingKind::file && !scene_.bond.scattered)
     refuse("Study/Seeds",
            "would repeat one run: with Specimen/Packing = file and Bond/Strength scatter = none nothing is "
            "drawn. Allowed: 1.");

@@ -77,7 +77,7 @@ void SceneCheck::deformable_platens() const {
   if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
   if (scene_.platens.top_control == PlatenControl::stress) refuse_kind("needs Platens/Top/Control = motion.");
   if (scene_.platens.attachment == Attachment::glued) refuse_kind("needs Platens/Attachment = contact.");
-  if (scene_.integration.scheme != Scheme::velocity_verlet)
+  if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
     refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
@@ -116,7 +116,7 @@ void SceneCheck::loading() const {
   if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic() && !crossed)
     need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
   if (crossed) wave_crossings();
-  if (loading.hurry > 1 && scene_.effects.bond == BondKind::none)
+  if (loading.hurry > 1 && !scene_.bond.bonded())
     refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
 }
 
@@ -129,7 +129,7 @@ void SceneCheck::wave_crossings() const {
   };
   if (test != LoadingTest::compression && test != LoadingTest::uniaxial_strain)
     refuse_rate("sets no speed but of Loading/Test = compression, uniaxial strain.");
-  if (scene_.effects.bond == BondKind::none) refuse_rate("needs bonds: they carry the wave.");
+  if (!scene_.bond.bonded()) refuse_rate("needs bonds: they carry the wave.");
 }
 
 void SceneCheck::start() const {
@@ -144,8 +144,8 @@ void SceneCheck::start() const {
     refuse_start("does not go with Loading/Confinement. Allowed: 0.");
   if (scene_.platens.top_control == PlatenControl::stress)
     refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
-  if (scene_.effects.bond == BondKind::none) refuse_start("needs bonds to solve for. Allowed: 0.");
-  if (scene_.effects.bond == BondKind::elasto_damage_plastic)
+  if (!scene_.bond.bonded()) refuse_start("needs bonds to solve for. Allowed: 0.");
+  if (scene_.bond.remembers())
     refuse_start(
         "needs bonds without a memory: Effects/Bond = elasto damage plastic answers to its whole "
         "path. Allowed: 0.");
@@ -176,14 +176,14 @@ void SceneCheck::bending() const {
   const bool round = specimen.shape == SpecimenShape::cylinder || specimen.round();
   if (round && specimen.packing != PackingKind::file)
     refuse("Specimen/Shape", with + "box, rectangular bar.");
-  if (specimen.ends != EndsKind::ground) refuse("Specimen/Ends", with + "ground.");
+  if (specimen.ends != dem::EndPreparation::ground) refuse("Specimen/Ends", with + "ground.");
   need("Platens/Span", platens.span, "a bar needs its supports.");
   if (platens.strip_width == 0)
     refuse("Platens/Strip width", "is not set: a bar is bent by strips. Allowed: > 0 m.");
   if (platens.attachment == Attachment::glued) refuse("Platens/Attachment", with + "contact.");
   if (platens.top_control == PlatenControl::stress) refuse("Platens/Top/Control", with + "motion.");
   if (scene_.loading.confinement != ConfinementKind::none) refuse("Loading/Confinement", with + "none.");
-  if (scene_.effects.bond == BondKind::none)
+  if (!scene_.bond.bonded())
     refuse("Effects/Bond", "leaves a heap of grains, no bar to bend. Allowed: any other.");
 }
 
@@ -211,7 +211,7 @@ void SceneCheck::cell() const {
   if (!loading.cell()) return;
   if (loads() && !(loading.confining_pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
-  if (loads() && scene_.effects.bond == BondKind::none)
+  if (loads() && !scene_.bond.bonded())
     refuse("Loading/Confinement",
            "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
   if (scene_.platens.top_control == PlatenControl::stress)
@@ -226,7 +226,7 @@ void SceneCheck::cell() const {
     refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
   if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)
     refuse("Loading/Confinement", "goes around a cylinder. Allowed: none, particles.");
-  if (scene_.integration.scheme != Scheme::velocity_verlet)
+  if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse("Integration/Scheme", "does not go with Loading/Confinement = sleeve. Allowed: velocity verlet.");
   if (scene_.sleeve.mass_scaling > 0 && scene_.sleeve.mass_scaling < 1)
     refuse("Sleeve/Mass scaling", "makes the sleeve lighter. Allowed: 0, or 1 and more.");

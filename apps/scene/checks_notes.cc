@@ -1,4 +1,4 @@
-// Entries that were set and have no effect, in the order of the sections.
+// Entries that were set and have no effect: as declared, then what several entries or the app decide.
 #include "apps/scene/scene_check.h"
 
 namespace platen::apps {
@@ -10,68 +10,14 @@ void SceneCheck::note(const std::string &path, const std::string &why) {
                          " has no effect: " + why + ".");
 }
 
-void SceneCheck::specimen_notes() {
-  const SpecimenSection &specimen = scene_.specimen;
-  if (specimen.packing != PackingKind::file) note("Specimen/File", "Specimen/Packing is not file");
-  if (specimen.radius_distribution != RadiusDistribution::two_sizes)
-    for (const char *key : {"Specimen/Second radius ratio", "Specimen/Second fraction"})
-      note(key, "Specimen/Radius distribution is not two sizes");
-  if (specimen.ends == EndsKind::as_packed) note("Specimen/End layer", "Specimen/Ends = as packed");
-}
-
-void SceneCheck::bond_notes() {
-  if (scene_.bond.radius_rule != RadiusRule::given) note("Bond/Radius", "Bond/Radius rule is not given");
-  const BondKind kind = scene_.effects.bond;
-  if (kind == BondKind::cohesive_beam)
-    note("Bond/Stiffness ratio", "a cohesive beam has that of its section");
-  if (kind == BondKind::parallel_bond)
-    note("Bond/Poisson ratio", "Effects/Bond is not cohesive beam or elasto damage plastic");
-  if (scene_.bond.shear_strength == 0) note("Bond/Friction angle", "Bond/Shear strength is infinite");
-  if (kind == BondKind::elasto_damage_plastic) {
-    for (const char *key : {"Bond/Stiffness ratio", "Bond/Friction angle", "Bond/Moment contribution",
-                            "Bond/Gap", "Effects/Bond moments"})
-      note(key, "Effects/Bond = elasto damage plastic, which has its own or none");
-    if (scene_.bond.fracture_energy_tension > 0)
-      note("Bond/Softening tension", "Bond/Fracture energy tension takes its place");
-    if (scene_.bond.fracture_energy_shear > 0)
-      note("Bond/Softening shear", "Bond/Fracture energy shear takes its place");
-    return;
-  }
-  for (const char *key :
-       {"Bond/Interaction range", "Bond/Friction static", "Bond/Friction dynamic", "Bond/Softening tension",
-        "Bond/Softening shear", "Bond/Fracture energy tension", "Bond/Fracture energy shear",
-        "Bond/Compression limits", "Bond/Compression slopes", "Bond/Failure line"})
-    note(key, "Effects/Bond is not elasto damage plastic");
-}
-
-void SceneCheck::phases_notes() {
-  if (scene_.phases.by != PhasesBy::radius) note("Phases/Radius above", "Phases/By is not radius");
-  if (scene_.phases.by != PhasesBy::file) note("Phases/File", "Phases/By is not file");
-  if (scene_.phases.by == PhasesBy::none)
-    for (const char *key : {"Phases/Aggregate modulus factor", "Phases/Aggregate strength factor",
-                            "Phases/Interface modulus factor", "Phases/Interface strength factor"})
-      note(key, "Phases/By = none");
-}
-
-void SceneCheck::strength_notes() {
-  if (scene_.bond.strength_scatter == StrengthScatter::none)
-    note("Bond/Weibull modulus", "Bond/Strength scatter = none");
-  else if (scene_.bond.tensile_strength == 0 && scene_.bond.shear_strength == 0)
-    note("Bond/Strength scatter", "both strengths are infinite");
-}
-
-void SceneCheck::contact_notes() {
-  const Effects &effects = scene_.effects;
-  if (effects.contact != ContactKind::linear)
-    for (const char *key : {"Contact/Stiffness", "Contact/Tangential ratio", "Contact/Damping"})
-      note(key, "Effects/Contact is not linear");
-  if (effects.contact != ContactKind::hertz) note("Contact/Restitution", "Effects/Contact is not hertz");
-  if (effects.contact != ContactKind::hertz && scene_.contact.stiffness.kind != Stiffness::Kind::of_bulk)
-    for (const char *key : {"Material/Young modulus", "Material/Poisson ratio"})
-      note(key, "no contact law takes it");
-  if (effects.tangential == TangentialKind::none) note("Contact/Friction", "Effects/Tangential = none");
-  if (effects.tangential != TangentialKind::coulomb_with_rolling_resistance)
-    note("Contact/Rolling friction", "Effects/Tangential is not coulomb with rolling resistance");
+void SceneCheck::notes_of_declarations() {
+  for (const Entry &entry : parameters_.entries())
+    for (const auto &idle : entry.idle) {
+      const std::string why = idle({scene_, parameters_, app_});
+      if (why.empty()) continue;
+      note(entry.path, why);
+      break;
+    }
 }
 
 void SceneCheck::friction_notes() {
@@ -143,14 +89,14 @@ void SceneCheck::bar_notes() {
   note("Checkpoint/Every", "platen-bar writes no checkpoints");
   if (scene_.bar_test.method == BarMethod::at_rest) {
     note("Bar test/Periods", "Bar test/Method = static");
-    if (scene_.effects.contact != ContactKind::none) note("Effects/Contact", "Bar test/Method = static");
+    if (scene_.effects.contact) note("Effects/Contact", "Bar test/Method = static");
   }
   if (scene_.bar_test.load != BarLoad::bending && scene_.bar_test.load != BarLoad::all)
     note("Bar test/Bent along", "nothing is bent");
 }
 
 void SceneCheck::pair_notes() {
-  if (scene_.effects.bond != BondKind::elasto_damage_plastic) {
+  if (!scene_.bond.remembers()) {
     for (const char *key : {"Pair test/Turns", "Pair test/Pressure", "Pair test/Slip ratio"})
       note(key, "Effects/Bond is not elasto damage plastic");
     return;
@@ -164,16 +110,8 @@ void SceneCheck::pair_notes() {
 }
 
 void SceneCheck::notes() {
-  specimen_notes();
-  bond_notes();
-  phases_notes();
-  strength_notes();
-  contact_notes();
+  notes_of_declarations();
   loading_notes();
-  if (scene_.integration.damping == 0) note("Integration/Damping form", "Integration/Damping = 0");
-  if (scene_.integration.scheme != Scheme::tchamwa_wielgosz)
-    note("Integration/Dissipation", "Integration/Scheme is not tchamwa wielgosz");
-  if (!scene_.output.fields) note("Output/Fields every", "Output/Fields = off");
   bar_notes();
   if (app_ == AppKind::calibrate && !given(scene_.calibrate.triaxial_strength))
     note("Calibrate/Confining pressure", "Calibrate/Triaxial strength is not set");

@@ -23,7 +23,7 @@ void SceneCheck::cross_section() const {
 
 void SceneCheck::spheres_fit() const {
   const SpecimenSection &specimen = scene_.specimen;
-  const bool uniform = specimen.radius_distribution == RadiusDistribution::uniform;
+  const bool uniform = specimen.radius_distribution == RadiusKind::uniform;
   const double largest = specimen.sphere_radius * (1 + (uniform ? 0.5 * specimen.radius_spread : 0));
   const auto check = [&](double extent, const std::string &path) {
     if (2 * largest > extent)
@@ -41,14 +41,14 @@ void SceneCheck::specimen() const {
   const SpecimenSection &specimen = scene_.specimen;
   if (app_ == AppKind::bonds)
     need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
-  if (app_ == AppKind::bonds && scene_.material.density_of == DensityOf::solid)
+  if (app_ == AppKind::bonds && scene_.model.density_of == dem::DensityOf::solid)
     refuse("Material/Density of",
            "needs a packed specimen, of which platen-bonds has none. Allowed: grains.");
-  if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusDistribution::uniform)
+  if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusKind::uniform)
     refuse("Specimen/Radius spread", "needs Specimen/Radius distribution = uniform.");
-  if (specimen.seat && specimen.ends != EndsKind::ground)
+  if (specimen.seat && specimen.ends != dem::EndPreparation::ground)
     refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
-  if (specimen.seat && !scene_.effects.rotation)
+  if (specimen.seat && !scene_.model.rotation)
     refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
   if (!packs()) return;
   cross_section();
@@ -72,7 +72,7 @@ void SceneCheck::specimen() const {
   spheres_fit();
   const bool rim = app_ == AppKind::brazilian;
   const double extent = rim ? 2 * specimen.radius : specimen.height;
-  if (specimen.ends == EndsKind::ground && given(extent) &&
+  if (specimen.ends == dem::EndPreparation::ground && given(extent) &&
       2 * specimen.end_layer * specimen.sphere_radius > extent)
     refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/" +
                                      std::string(rim ? "Radius" : "Height") + " = " +
@@ -80,19 +80,21 @@ void SceneCheck::specimen() const {
 }
 
 void SceneCheck::effects() const {
-  const Effects &effects = scene_.effects;
-  const bool rolling = effects.tangential == TangentialKind::coulomb_with_rolling_resistance;
-  if (rolling && !effects.rotation) refuse("Effects/Tangential", "needs Effects/Rotation = on.");
-  if (rolling && effects.contact == ContactKind::none)
-    refuse("Effects/Tangential", "needs a contact to roll on. Allowed: Effects/Contact = linear, hertz.");
-  if (effects.bond == BondKind::cohesive_beam) {
-    const std::string instead = "beams bend and twist. Allowed: on, or Effects/Bond = parallel bond.";
-    if (!effects.rotation)
-      refuse("Effects/Rotation", "does not go with Effects/Bond = cohesive beam: " + instead);
-    if (!effects.bond_moments)
-      refuse("Effects/Bond moments", "does not go with Effects/Bond = cohesive beam: " + instead);
+  const Bond &bond = scene_.bond;
+  const bool rotation = scene_.model.rotation, touching = scene_.effects.contact.has_value();
+  if (scene_.contact.tangential == dem::TangentialContact::coulomb_with_rolling) {
+    if (!rotation) refuse("Effects/Tangential", "needs Effects/Rotation = on.");
+    if (!touching)
+      refuse("Effects/Tangential", "needs a contact to roll on. Allowed: Effects/Contact = linear, hertz.");
   }
-  if (effects.bond == BondKind::none && effects.contact == ContactKind::none && app_ != AppKind::pack)
+  if (bond.is<dem::CohesiveBeam>()) {
+    const std::string with =
+        "does not go with Effects/Bond = cohesive beam: beams bend and twist. Allowed: "
+        "on, or Effects/Bond = parallel bond.";
+    if (!rotation) refuse("Effects/Rotation", with);
+    if (!std::get<dem::ParallelBond::Parameters>(bond.laws).moments) refuse("Effects/Bond moments", with);
+  }
+  if (!bond.bonded() && !touching && app_ != AppKind::pack)
     refuse("Effects/Contact", "leaves nothing that acts between grains, because Effects/Bond = none too.");
 }
 

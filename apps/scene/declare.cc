@@ -15,9 +15,9 @@ void keep_one(std::vector<Expectation> &of, const std::string &key, Expectation 
 
 } // namespace
 
-void Section::declare(const std::string &key, const std::string &default_text, const std::string &unit,
-                      const std::string &allowed, const std::string &documentation,
-                      std::function<void(const std::string &)> read, bool is_file) {
+Declared Section::declare(const std::string &key, const std::string &default_text, const std::string &unit,
+                          const std::string &allowed, const std::string &documentation,
+                          std::function<void(const std::string &)> read, bool is_file) {
   Entry entry;
   entry.path = name_ + "/" + key;
   entry.default_text = default_text;
@@ -26,90 +26,69 @@ void Section::declare(const std::string &key, const std::string &default_text, c
   entry.documentation = documentation;
   entry.is_file = is_file;
   entry.read = std::move(read);
-  parameters_.declare(std::move(entry));
+  const std::string path = entry.path;
+  if (join_ && parameters_.find(path) != nullptr)
+    parameters_.join(std::move(entry));
+  else
+    parameters_.declare(std::move(entry));
+  return {parameters_, path};
 }
 
-void Section::quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
-                       const std::string &documentation) {
-  declare(key, shortest_text(to), si_unit, range.text(), documentation,
-          [&to, si_unit, range](const std::string &text) { to = read_quantity(text, si_unit, range); });
+Declared Section::quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
+                           const std::string &documentation) {
+  return declare(
+      key, shortest_text(to), si_unit, range.text(), documentation,
+      [&to, si_unit, range](const std::string &text) { to = read_quantity(text, si_unit, range); });
 }
 
-void Section::flag(const std::string &key, bool &to, const std::string &documentation) {
-  declare(key, to ? "on" : "off", "", "on, off", documentation,
-          [&to](const std::string &text) { to = read_flag(text); });
+Declared Section::flag(const std::string &key, bool &to, const std::string &documentation) {
+  return declare(key, to ? "on" : "off", "", "on, off", documentation,
+                 [&to](const std::string &text) { to = read_flag(text); });
 }
 
-void Section::text(const std::string &key, std::string &to, const std::string &documentation) {
-  declare(key, to, "", "", documentation, [&to](const std::string &given) { to = given; });
+Declared Section::text(const std::string &key, std::string &to, const std::string &documentation) {
+  return declare(key, to, "", "", documentation, [&to](const std::string &given) { to = given; });
 }
 
-void Section::file(const std::string &key, std::string &to, const std::string &documentation) {
-  declare(
+Declared Section::file(const std::string &key, std::string &to, const std::string &documentation) {
+  return declare(
       key, to, "", "path of a file", documentation, [&to](const std::string &given) { to = given; }, true);
 }
 
-void Section::interval(const std::string &key, Interval &to, const std::string &documentation) {
-  declare(key, text_of(to), "", "steps (a whole number), or a time with its unit; 0 or more", documentation,
-          [&to](const std::string &text) { to = read_interval(text); });
+Declared Section::interval(const std::string &key, Interval &to, const std::string &documentation) {
+  return declare(key, text_of(to), "", "steps (a whole number), or a time with its unit; 0 or more",
+                 documentation, [&to](const std::string &text) { to = read_interval(text); });
 }
 
-void Section::gap(const std::string &key, Gap &to, const std::string &documentation) {
-  declare(key, text_of(to), "", "\"0.05 R_min\", or a length (m); 0 or more", documentation,
-          [&to](const std::string &text) { to = read_gap(text); });
+Declared Section::gap(const std::string &key, Gap &to, const std::string &documentation) {
+  return declare(key, text_of(to), "", "\"0.05 R_min\", or a length (m); 0 or more", documentation,
+                 [&to](const std::string &text) { to = read_gap(text); });
 }
 
-void Section::stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
-                        const std::string &documentation) {
+Declared Section::stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
+                            const std::string &documentation) {
   const std::string bulk = bulk_allowed ? ", \"0.01 bulk\"" : "";
-  declare(key, text_of(to), "", "a multiple of the bond's, or with unit \"4e5 N/m\"" + bulk + "; > 0",
-          documentation,
-          [&to, bulk_allowed](const std::string &text) { to = read_stiffness(text, bulk_allowed); });
+  return declare(key, text_of(to), "", "a multiple of the bond's, or with unit \"4e5 N/m\"" + bulk + "; > 0",
+                 documentation,
+                 [&to, bulk_allowed](const std::string &text) { to = read_stiffness(text, bulk_allowed); });
 }
 
-void Section::list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
-                   const Range &range, const std::string &documentation) {
-  declare(key, "", si_unit, "numbers with commas between them, each " + range.text(), documentation,
-          [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
+Declared Section::list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
+                       const Range &range, const std::string &documentation) {
+  return declare(key, "", si_unit, "numbers with commas between them, each " + range.text(), documentation,
+                 [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
 }
 
-void Section::gaps(const std::string &key, std::vector<Gap> &to, const std::string &documentation) {
-  declare(key, "", "", "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more",
-          documentation, [&to](const std::string &text) { to = read_gaps(text); });
+Declared Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
+                              const std::string &documentation) {
+  return declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {
+    keep_one(to, key, read_expectation(text, unit));
+  });
 }
 
-void Section::domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation) {
-  declare(key, "", "m", "pairs with commas between them, each \"72 mm x 22.5 mm\"", documentation,
-          [&to](const std::string &text) { to = read_domains(text); });
-}
-
-void Section::study_surfaces(const std::string &key, std::vector<StudySurface> &to,
-                             const std::string &documentation) {
-  declare(key, "", "",
-          "words of Platens/Surface and coefficients of friction (0 ... 5) with commas between them",
-          documentation, [&to](const std::string &text) { to = read_surfaces(text); });
-}
-
-void Section::qualities(const std::string &key, std::vector<Quality> &to, const std::string &documentation) {
-  declare(key, "", "", "words of Scene/Quality with commas between them", documentation,
-          [&to](const std::string &text) { to = read_qualities(text); });
-}
-
-void Section::assignments(const std::string &key, std::vector<std::string> &to,
-                          const std::string &documentation) {
-  declare(key, "", "", "\"Effects/Rotation = off\" with commas between them; no value may hold a comma",
-          documentation, [&to](const std::string &text) { to = read_assignments(text); });
-}
-
-void Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
-                          const std::string &documentation) {
-  declare(key, "", unit, "\"low ... high\"", documentation,
-          [&to, key, unit](const std::string &text) { keep_one(to, key, read_expectation(text, unit)); });
-}
-
-void Section::expected_words(const std::string &key, std::vector<Expectation> &to,
-                             const std::vector<std::string> &words, const std::string &documentation) {
-  declare(
+Declared Section::expected_words(const std::string &key, std::vector<Expectation> &to,
+                                 const std::vector<std::string> &words, const std::string &documentation) {
+  return declare(
       key, "", "", "with commas between them, any of " + joined(words), documentation,
       [&to, key, words](const std::string &text) { keep_one(to, key, read_expected_words(text, words)); });
 }

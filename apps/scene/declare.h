@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/parameters.h"
+#include "apps/scene/declared.h"
 #include "apps/scene/values.h"
 
 namespace platen::apps {
@@ -18,62 +18,74 @@ public:
   Section(Parameters &parameters, std::string name) : parameters_(parameters), name_(std::move(name)) {}
 
   // A number with its dimension; NaN beforehand: there is no default, and "" means not given.
-  void quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
-                const std::string &documentation);
+  Declared quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
+                    const std::string &documentation);
   // A number without dimension ("20 %" is 0.2).
-  void number(const std::string &key, double &to, const Range &range, const std::string &documentation) {
-    quantity(key, to, "1", range, documentation);
+  Declared number(const std::string &key, double &to, const Range &range, const std::string &documentation) {
+    return quantity(key, to, "1", range, documentation);
   }
   template <class Integer>
-  void integer(const std::string &key, Integer &to, double low, double high,
-               const std::string &documentation) {
+  Declared integer(const std::string &key, Integer &to, double low, double high,
+                   const std::string &documentation) {
     const Range range = between(low, high);
-    declare(key, std::to_string(to), "", "whole, " + range.text(), documentation,
-            [&to, range](const std::string &text) { to = static_cast<Integer>(read_integer(text, range)); });
+    return declare(
+        key, std::to_string(to), "", "whole, " + range.text(), documentation,
+        [&to, range](const std::string &text) { to = static_cast<Integer>(read_integer(text, range)); });
   }
-  void flag(const std::string &key, bool &to, const std::string &documentation);
-  void text(const std::string &key, std::string &to, const std::string &documentation);
+  Declared flag(const std::string &key, bool &to, const std::string &documentation);
+  Declared text(const std::string &key, std::string &to, const std::string &documentation);
   // A path; what is stored is the text, resolved later against the folder of the scene.
-  void file(const std::string &key, std::string &to, const std::string &documentation);
-  void interval(const std::string &key, Interval &to, const std::string &documentation);
-  void gap(const std::string &key, Gap &to, const std::string &documentation);
-  void stiffness(const std::string &key, Stiffness &to, bool bulk_allowed, const std::string &documentation);
-  void list(const std::string &key, std::vector<double> &to, const std::string &si_unit, const Range &range,
-            const std::string &documentation);
-  void gaps(const std::string &key, std::vector<Gap> &to, const std::string &documentation);
-  void domains(const std::string &key, std::vector<DomainSize> &to, const std::string &documentation);
-  void study_surfaces(const std::string &key, std::vector<StudySurface> &to,
-                      const std::string &documentation);
-  void qualities(const std::string &key, std::vector<Quality> &to, const std::string &documentation);
-  // "Section/Key = value" of other entries, as texts; whether there are such entries is not looked at.
-  void assignments(const std::string &key, std::vector<std::string> &to, const std::string &documentation);
+  Declared file(const std::string &key, std::string &to, const std::string &documentation);
+  Declared interval(const std::string &key, Interval &to, const std::string &documentation);
+  Declared gap(const std::string &key, Gap &to, const std::string &documentation);
+  Declared stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
+                     const std::string &documentation);
+  Declared list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
+                const Range &range, const std::string &documentation);
+  // What read(text) makes of it; there is no default.
+  template <class Value>
+  Declared value(const std::string &key, Value &to, const std::string &unit, const std::string &allowed,
+                 Value (*read)(const std::string &), const std::string &documentation) {
+    return declare(key, "", unit, allowed, documentation,
+                   [&to, read](const std::string &text) { to = read(text); });
+  }
   // A range for a number of summary.json; what is given is kept in `to`, once for each key.
-  void expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
-                   const std::string &documentation);
+  Declared expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
+                       const std::string &documentation);
   // The same for a word of summary.json: which of `words` it may be.
-  void expected_words(const std::string &key, std::vector<Expectation> &to,
-                      const std::vector<std::string> &words, const std::string &documentation);
+  Declared expected_words(const std::string &key, std::vector<Expectation> &to,
+                          const std::vector<std::string> &words, const std::string &documentation);
   // One word of several.
   template <class Enum>
-  void word(const std::string &key, Enum &to, const std::vector<std::pair<std::string, Enum>> &words,
-            const std::string &documentation) {
+  Declared word(const std::string &key, Enum &to, const Words<Enum> &words,
+                const std::string &documentation) {
     std::vector<std::string> names;
     std::string by_default;
     for (const auto &[name, value] : words) {
       names.push_back(name);
-      if (value == to) by_default = name;
+      if (value == to && by_default.empty()) by_default = name;
     }
-    declare(key, by_default, "", joined(names), documentation,
-            [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
+    return declare(key, by_default, "", joined(names), documentation,
+                   [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
   }
 
+  Declared at(const std::string &key) { // throws std::out_of_range for what is not declared
+    parameters_.declared(name_ + "/" + key);
+    return {parameters_, name_ + "/" + key};
+  }
+  // Whether an entry that is declared already sets a further member from now on; else it is declared once.
+  void join(bool further) { join_ = further; }
+  const std::string &name() const { return name_; }
+  Parameters &parameters() const { return parameters_; }
+
 private:
-  void declare(const std::string &key, const std::string &default_text, const std::string &unit,
-               const std::string &allowed, const std::string &documentation,
-               std::function<void(const std::string &)> read, bool is_file = false);
+  Declared declare(const std::string &key, const std::string &default_text, const std::string &unit,
+                   const std::string &allowed, const std::string &documentation,
+                   std::function<void(const std::string &)> read, bool is_file = false);
 
   Parameters &parameters_;
   std::string name_;
+  bool join_ = false;
 };
 
 // All entries of a scene file, bound to a scene that must stay in place until parameters.release().

@@ -118,6 +118,20 @@ void Parameters::declare(Entry entry) {
   entries_.push_back(std::move(entry));
 }
 
+void Parameters::join(Entry further) {
+  Entry &entry = declared(further.path);
+  if (entry.default_text != further.default_text || limits(entry) != limits(further))
+    throw std::logic_error("declared in two ways: " + entry.path);
+  entry.read = [first = std::move(entry.read), second = std::move(further.read)](const std::string &text) {
+    first(text);
+    second(text);
+  };
+}
+
+Entry &Parameters::declared(const std::string &path) {
+  return entries_.at(position(path));
+}
+
 std::size_t Parameters::position(const std::string &path) const {
   const auto found =
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) { return entry.path == path; });
@@ -262,9 +276,20 @@ void Parameters::refuse(const std::string &path, const std::string &reason) cons
                    (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason);
 }
 
+void Parameters::refuse(const BadParameter &error) const {
+  const std::string member = error.owner + ": " + error.member;
+  for (const Entry &entry : entries_)
+    if (std::find(entry.members.begin(), entry.members.end(), member) != entry.members.end())
+      refuse(entry.path, error.reason);
+  throw error;
+}
+
 void Parameters::release() {
-  for (Entry &entry : entries_)
+  for (Entry &entry : entries_) {
     entry.read = nullptr;
+    entry.idle.clear();
+    entry.needed.clear();
+  }
 }
 
 } // namespace platen::apps

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "apps/scene/errors.h"
+#include "base/describe.h"
 
 namespace platen::apps {
+
+struct Situation;
 
 // Where a value comes from.
 struct Origin {
@@ -28,6 +31,9 @@ struct Entry {
   bool is_file = false;      // the value is a path, relative to the folder of the scene
   // Converts a text and stores the number; throws ValueError. Empty once the scene has been read.
   std::function<void(const std::string &)> read;
+  // Why it has no effect, and why it must be given; "" where neither is so (apps/scene/declared.h).
+  std::vector<std::function<std::string(const Situation &)>> idle, needed;
+  std::vector<std::string> members; // of the library's structs that it sets, "BondLayout: modulus"
 
   std::string text; // as used
   Origin origin;    // of text
@@ -42,6 +48,10 @@ class Parameters {
 public:
   // Declares an entry and reads its default. A path is "Section/Key" or "Section/Subsection/Key".
   void declare(Entry entry);
+  // The same entry for a further member: both are set. Throws std::logic_error where they differ in default,
+  // unit or what is allowed.
+  void join(Entry entry);
+  Entry &declared(const std::string &path); // throws std::out_of_range for an unknown path
 
   // Section names in the order of declaration, "Platens/Top" included.
   const std::vector<std::string> &sections() const { return sections_; }
@@ -66,6 +76,8 @@ public:
   // Throws InputError on behalf of an entry: "case.prm:14: error: Bond/Gap = -1 mm <reason>"; the file stands
   // without a line where the entry was not set.
   [[noreturn]] void refuse(const std::string &path, const std::string &reason) const;
+  // The same for a member of a struct of the library; throws `error` itself where no entry sets it.
+  [[noreturn]] void refuse(const BadParameter &error) const;
 
   // The scene file, for messages about entries that it does not set.
   void set_source(const std::string &path) { source_ = path; }

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "apps/scene/command_line.h"
+#include "apps/scene/parameters.h"
 
 namespace platen::apps {
 namespace {
@@ -35,7 +36,11 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
   if (!line.quiet)
     for (const std::string &note : scene.notes)
       std::cerr << note << '\n';
-  return body(line, scene);
+  try {
+    return body(line, scene);
+  } catch (const BadParameter &error) { // of the library, which knows no file
+    scene.parameters->refuse(error);
+  }
 }
 
 } // namespace

@@ -27,8 +27,9 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   PairTest &pair = scene.pair_test;
-  if (pair.moduli.empty() && !std::isnan(scene.bond.modulus)) pair.moduli = {scene.bond.modulus};
-  if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.stiffness_ratio};
+  const double modulus = scene.model.bond_layout.modulus;
+  if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};
+  if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
   scene.platens.top.mesh_file = resolved_path(parameters.at("Platens/Top/Mesh file"));

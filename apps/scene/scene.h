@@ -11,8 +11,10 @@
 #include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
 #include "apps/scene/scene_apps.h"
+#include "apps/scene/scene_bond.h"
 #include "apps/scene/scene_loading.h"
 #include "apps/scene/scene_specimen.h"
+#include "dem/model.h"
 
 namespace platen::apps {
 
@@ -56,11 +58,11 @@ struct Scene {
   std::string path;             // as given on the command line
   General general;
   SpecimenSection specimen;
-  Material material;
+  dem::ModelSettings model; // of Material, Effects, Bond and Integration; what is optional in it stands below
   Effects effects;
   Bond bond;
   PhasesSection phases;
-  Contact contact;
+  dem::ContactSettings contact; // and of Material
   Platens platens;
   Sleeve sleeve;
   Loading loading;

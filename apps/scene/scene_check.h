@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "apps/scene/parameters.h"
+#include "apps/scene/declared.h"
 #include "apps/scene/scene.h"
 
 namespace platen::apps {
@@ -20,8 +20,8 @@ public:
 
   void specimen() const;
   void effects() const;
+  void needed() const;
   void bond() const;
-  void compression() const;
   void phases() const;
   void contact() const;
   void platens() const;
@@ -62,11 +62,7 @@ private:
   void friction(const std::string &name, const PlatenSide &side) const;
   void weakening(const std::string &name, const PlatenSide &side) const;
   void note(const std::string &path, const std::string &why);
-  void specimen_notes();
-  void bond_notes();
-  void phases_notes();
-  void strength_notes();
-  void contact_notes();
+  void notes_of_declarations();
   void friction_notes();
   void loading_notes();
   void bar_notes();

@@ -109,21 +109,9 @@ struct Loading {
   bool hydrostatic() const { return test == LoadingTest::hydrostatic; }
 };
 
-enum class InstructionSet { best, baseline };
-
-enum class Scheme { velocity_verlet, tchamwa_wielgosz };
-
-enum class DampingForm { component, vector };
-
 struct Integration {
-  Scheme scheme = Scheme::velocity_verlet;
-  double dissipation = 1.1; // phi of tchamwa wielgosz
-  double safety = 0.8;      // time step over its limit
-  double mass_scaling = 1;
-  double damping = 0.5; // local, non-viscous
-  DampingForm damping_form = DampingForm::component;
+  double safety = 0.8;  // time step over its limit
   double time_step = 0; // s; 0: safety times the limit
-  InstructionSet instruction_set = InstructionSet::best;
 };
 
 } // namespace platen::apps

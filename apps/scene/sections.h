@@ -8,19 +8,17 @@
 
 namespace platen::apps {
 
-constexpr double right_angle = 1.5707963267948966; // rad
-
 void declare_general(Parameters &parameters, General &general);
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen);
-void declare_material(Parameters &parameters, Material &material);
-void declare_effects(Parameters &parameters, Effects &effects);
-void declare_bond(Parameters &parameters, Bond &bond);
+void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact);
+void declare_effects(Parameters &parameters, Scene &scene);
+void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model);
 void declare_phases(Parameters &parameters, PhasesSection &phases);
-void declare_contact(Parameters &parameters, Contact &contact);
+void declare_contact(Parameters &parameters, dem::ContactSettings &contact);
 void declare_platens(Parameters &parameters, Platens &platens);
 void declare_sleeve(Parameters &parameters, Sleeve &sleeve);
 void declare_loading(Parameters &parameters, Loading &loading);
-void declare_integration(Parameters &parameters, Integration &integration);
+void declare_integration(Parameters &parameters, Integration &integration, dem::ModelSettings &model);
 void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
 void declare_pair_test(Parameters &parameters, PairTest &pair);

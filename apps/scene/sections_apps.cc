@@ -1,8 +1,20 @@
 // Sections that one app each reads.
+#include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 
 namespace platen::apps {
 namespace {
+
+// What an entry of section Bond may be.
+Range stiffness_ratio() {
+  return range_of<dem::ParallelBond::Parameters>("stiffness_ratio");
+}
+Range radius_multiplier() {
+  return range_of<dem::BondLayout>("radius_multiplier");
+}
+Range friction_angle() {
+  return range_of<dem::ParallelBond::Parameters>("friction_angle");
+}
 
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {
@@ -14,7 +26,7 @@ void declare_accuracy_lists(Section &section, Study &study) {
                "Study of accuracy, in place of Loading/Wave crossings.");
   section.list("Hurry list", study.hurries, "1", between(1, 100),
                "Study of accuracy, in place of Loading/Hurry.");
-  section.list("Mass scaling list", study.mass_scalings, "1", between(1, 1e6),
+  section.list("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
                "Study of accuracy, in place of Integration/Mass scaling.");
   section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),
                "Study of accuracy, in place of Platens/Elements across (Kind = deformable).");
@@ -24,13 +36,14 @@ void declare_accuracy_lists(Section &section, Study &study) {
                "Study of accuracy, in place of Sleeve/Elements around.");
   section.list("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
                "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
-  section.qualities(
-      "Quality list", study.qualities,
-      "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
-  section.assignments(
-      "Effects list", study.changes,
-      "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
-      "it is.");
+  section.value("Quality list", study.qualities, "", "words of Scene/Quality with commas between them",
+                read_qualities,
+                "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
+  section.value("Effects list", study.changes, "",
+                "\"Effects/Rotation = off\" with commas between them; no value may hold a comma",
+                read_assignments,
+                "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
+                "it is.");
 }
 
 } // namespace
@@ -63,7 +76,7 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.number("Slip ratio", pair.slip_ratio, above(0),
                  "Slip over opening of the combined path (elasto damage plastic).");
   section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", between(0, 5),
+  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", stiffness_ratio(),
                "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
@@ -101,22 +114,24 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
                  "Relative difference of the strengths that ends the search.");
   section.list("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", c.stiffness_ratios, "1", between(0, 5),
+  section.list("Stiffness ratio list", c.stiffness_ratios, "1", stiffness_ratio(),
                "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
-  section.list("Radius multiplier list", c.radius_multipliers, "1", above_up_to(0, 10),
+  section.list("Radius multiplier list", c.radius_multipliers, "1", radius_multiplier(),
                "Abacus; empty: Bond/Radius multiplier.");
-  section.list("Poisson ratio list", c.poisson_ratios, "1", between_open(-1, 0.5),
+  section.list("Poisson ratio list", c.poisson_ratios, "1",
+               range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
                "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
   section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
   section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
-  section.number("Smallest radius multiplier", c.multiplier_low, above_up_to(0, 10),
+  section.number("Smallest radius multiplier", c.multiplier_low, radius_multiplier(),
                  "Search for Poisson's ratio (cohesive beam).");
-  section.number("Largest radius multiplier", c.multiplier_high, above_up_to(0, 10),
+  section.number("Largest radius multiplier", c.multiplier_high, radius_multiplier(),
                  "Search for Poisson's ratio (cohesive beam).");
   section.number(
-      "Smallest moment contribution", c.moments_low, between(0, 1),
+      "Smallest moment contribution", c.moments_low,
+      range_of<dem::ParallelBond::Parameters>("moment_contribution"),
       "Search for compressive over tensile strength (parallel bond, cohesive beam); the largest is the "
       "bond's own.");
   section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
@@ -124,11 +139,11 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
                  "Search for compressive over tensile strength.");
   section.quantity(
-      "Smallest friction angle", c.friction_low, "rad", {0, right_angle, true, false},
+      "Smallest friction angle", c.friction_low, "rad", friction_angle(),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
       "a triaxial strength is wanted.");
   section.quantity(
-      "Largest friction angle", c.friction_high, "rad", {0, right_angle, true, false},
+      "Largest friction angle", c.friction_high, "rad", friction_angle(),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
       "degree if a triaxial strength is wanted.");
 }
@@ -164,9 +179,11 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
 void declare_study(Parameters &parameters, Study &study) {
   Section section(parameters, "Study");
   section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
-  section.study_surfaces("Surface list", study.surfaces,
-                         "Study of friction: platens, in place of all that Platens says of friction; "
-                         "custom: what the scene says. A number: constant friction of that coefficient.");
+  section.value("Surface list", study.surfaces, "",
+                "words of Platens/Surface and coefficients of friction (0 ... 5) with commas between them",
+                read_surfaces,
+                "Study of friction: platens, in place of all that Platens says of friction; "
+                "custom: what the scene says. A number: constant friction of that coefficient.");
   section.list("Slenderness list", study.slendernesses, "1", between(0.1, 20),
                "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
   section.list("Confining pressure list", study.pressures, "Pa", at_least(0),
@@ -175,10 +192,13 @@ void declare_study(Parameters &parameters, Study &study) {
       "Sphere radius list", study.sphere_radii, "m", above(0),
       "Studies of size, friction, slenderness and accuracy: mean radii, in place of Specimen/Sphere radius. "
       "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
-  section.domains("Domain list", study.domains,
-                  "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
-  section.gaps("Gap list", study.gaps, "Study of the packing, in place of Bond/Gap.");
-  section.list("Radius multiplier list", study.radius_multipliers, "1", above_up_to(0, 10),
+  section.value("Domain list", study.domains, "m", "pairs with commas between them, each \"72 mm x 22.5 mm\"",
+                read_domains,
+                "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
+  section.value("Gap list", study.gaps, "",
+                "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
+                "Study of the packing, in place of Bond/Gap.");
+  section.list("Radius multiplier list", study.radius_multipliers, "1", radius_multiplier(),
                "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
   section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
                "Study of the packing, in place of Specimen/Radius spread.");

@@ -1,5 +1,7 @@
 // The specimen, its grains, and which effects act between them.
+#include "apps/scene/members.h"
 #include "apps/scene/sections.h"
+#include "dem/laws/normal_contact.h"
 
 namespace platen::apps {
 
@@ -21,83 +23,78 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   section.quantity("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.");
   section.number("Radius spread", specimen.radius_spread, between(0, 1.5),
                  "Kappa, largest minus smallest radius over the mean (Radius distribution = uniform).");
-  section.word<RadiusDistribution>("Radius distribution", specimen.radius_distribution,
-                                   {{"equal", RadiusDistribution::equal},
-                                    {"two sizes", RadiusDistribution::two_sizes},
-                                    {"uniform", RadiusDistribution::uniform}},
-                                   "How radii are drawn; uniform with a spread of 0 is equal spheres.");
-  section.number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
-                 "Two sizes: smaller radius over the larger one.");
-  section.number("Second fraction", specimen.second_fraction, between(0, 1),
-                 "Two sizes: share of the number of spheres that has the smaller radius.");
+  section.word<RadiusKind>(
+      "Radius distribution", specimen.radius_distribution,
+      {{"equal", RadiusKind::equal}, {"two sizes", RadiusKind::two_sizes}, {"uniform", RadiusKind::uniform}}, "How radii are drawn; uniform with a spread of 0 is equal spheres.");
+  section
+      .number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
+              "Smaller radius over the larger one.")
+      .only_if("Specimen/Radius distribution", {"two sizes"});
+  section
+      .number("Second fraction", specimen.second_fraction, between(0, 1),
+              "Share of the number of spheres that has the smaller radius.")
+      .only_if("Specimen/Radius distribution", {"two sizes"});
   section.word<PackingKind>("Packing", specimen.packing,
                             {{"advancing front", PackingKind::advancing_front},
                              {"random close", PackingKind::random_close},
-                             {"file", PackingKind::file}},
-                            "How the spheres are placed; file takes them from File.");
-  section.file("File", specimen.file, "A specimen.csv to load (Packing = file).");
-  section.word<EndsKind>(
-      "Ends", specimen.ends, {{"as packed", EndsKind::as_packed}, {"ground", EndsKind::ground}},
+                             {"file", PackingKind::file}}, "How the spheres are placed; file takes them from File.");
+  section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
+  section.word<dem::EndPreparation>(
+      "Ends", specimen.ends,
+      {{"as packed", dem::EndPreparation::as_packed}, {"ground", dem::EndPreparation::ground}},
       "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
       "seated flush, as if sawn.");
-  section.number("End layer", specimen.end_layer, between(0.05, 10),
-                 "Depth of the ground layer in mean sphere radii; it decides the strength below 1.");
+  section
+      .number("End layer", specimen.end_layer, between(0.05, 10),
+              "Depth of the ground layer in mean sphere radii; it decides the strength below 1.")
+      .unless("Specimen/Ends", {"as packed"});
   section.flag("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
 }
 
-void declare_material(Parameters &parameters, Material &material) {
+void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact) {
   Section section(parameters, "Material");
-  section.quantity("Density", material.density, "kg/m3", above(0), "Density of the grains, or of the solid.");
-  section.word<DensityOf>("Density of", material.density_of,
-                          {{"grains", DensityOf::grains}, {"solid", DensityOf::solid}},
-                          "Solid: grains are heavier, so that the specimen with its voids has that density.");
-  section.quantity("Young modulus", material.young_modulus, "Pa", above(0),
-                   "Young modulus of the grains (hertz contact; bulk stiffness of linear contact).");
-  section.number("Poisson ratio", material.poisson_ratio, between_open(-1, 0.5),
-                 "Poisson ratio of the grains.");
+  Members of(section, model);
+  of("density");
+  of("density_of");
+  Members grains(section, contact);
+  for (const char *member : {"young_modulus", "poisson_ratio"})
+    grains(member).only_if(
+        [](const Scene &s) {
+          return s.effects.contact == dem::NormalContact::hertz ||
+                 s.contact.stiffness.kind == Stiffness::Kind::of_bulk;
+        },
+        "no contact law takes it");
 }
 
-void declare_effects(Parameters &parameters, Effects &effects) {
+void declare_effects(Parameters &parameters, Scene &scene) {
   Section section(parameters, "Effects");
-  section.word<BondKind>("Bond", effects.bond,
-                         {{"none", BondKind::none},
-                          {"parallel bond", BondKind::parallel_bond},
-                          {"cohesive beam", BondKind::cohesive_beam},
-                          {"elasto damage plastic", BondKind::elasto_damage_plastic}},
-                         "What holds the grains together.");
-  section.word<ContactKind>(
-      "Contact", effects.contact,
-      {{"none", ContactKind::none}, {"linear", ContactKind::linear}, {"hertz", ContactKind::hertz}},
-      "Normal force between grains that touch without a bond.");
-  section.word<TangentialKind>(
-      "Tangential", effects.tangential,
-      {{"none", TangentialKind::none},
-       {"coulomb", TangentialKind::coulomb},
-       {"coulomb with rolling resistance", TangentialKind::coulomb_with_rolling_resistance}},
-      "Friction between grains that touch without a bond.");
-  section.flag("Rotation", effects.rotation, "Grains turn; without it bonds and contacts carry no moments.");
-  section.flag("Bond moments", effects.bond_moments,
-               "Bonds resist bending and twisting; without it they carry forces alone (needs Rotation).");
-  section.flag("Gravity", effects.gravity, "9.80665 m/s2 along -z.");
-  section.flag("Energy ledger", effects.energy_ledger,
+  Words<int> laws{{"none", Bond::none}};
+  for (const char *word : dem::BondLaws::words)
+    laws.emplace_back(word, static_cast<int>(laws.size()) - 1);
+  section.word<int>("Bond", scene.bond.law, laws, "What holds the grains together.");
+  Words<std::optional<dem::NormalContact>> contacts{{"none", std::nullopt}};
+  for (const auto &[word, law] : dem::NormalContacts::words())
+    contacts.emplace_back(word, law);
+  section.word("Contact", scene.effects.contact, contacts,
+               "Normal force between grains that touch without a bond.");
+  Members(section, scene.contact)("tangential");
+  section.flag("Rotation", scene.model.rotation,
+               "Grains turn; without it bonds and contacts carry no moments.");
+  LawMembers(section, scene.bond.laws)("bond_moments");
+  section.flag("Gravity", scene.effects.gravity, "9.80665 m/s2 along -z.");
+  section.flag("Energy ledger", scene.model.energy_ledger,
                "Energies and works in history.csv; without it their columns are nan.");
-  section.flag("Crack log", effects.crack_log, "cracks.csv; without it broken bonds are counted alone.");
+  section.flag("Crack log", scene.model.crack_log, "cracks.csv; without it broken bonds are counted alone.");
 }
 
-void declare_contact(Parameters &parameters, Contact &contact) {
+void declare_contact(Parameters &parameters, dem::ContactSettings &contact) {
   Section section(parameters, "Contact");
-  section.number("Friction", contact.friction, between(0, 5), "Coefficient of friction between grains.");
-  section.stiffness(
-      "Stiffness", contact.stiffness, true,
-      "Normal stiffness of linear contact; \"bulk\" is a multiple of what the bulk modulus of the grains "
-      "gives (NormK of LS-DYNA).");
-  section.number("Tangential ratio", contact.tangential_ratio, between(0, 5),
-                 "Tangential over normal stiffness of linear contact.");
-  section.number("Damping", contact.damping, between(0, 1), "Linear contact: fraction of critical damping.");
-  section.number("Restitution", contact.restitution, above_up_to(0, 1),
-                 "Hertz contact: coefficient of restitution.");
-  section.number("Rolling friction", contact.rolling_friction, between(0, 5),
-                 "Largest rolling moment over normal force and effective radius.");
+  Members of(section, contact);
+  of("friction").unless("Effects/Tangential", {"none"});
+  for (const char *member : {"stiffness", "tangential_ratio", "damping"})
+    of(member).only_if("Effects/Contact", {dem::LinearContact::word});
+  of("restitution").only_if("Effects/Contact", {dem::HertzContact::word});
+  of("rolling_friction").only_if("Effects/Tangential", {"coulomb with rolling resistance"});
 }
 
 } // namespace platen::apps

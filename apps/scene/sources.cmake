@@ -4,6 +4,8 @@ set(PLATEN_SCENE_SOURCES
   scene/values.cc
   scene/parameters.cc
   scene/declare.cc
+  scene/declared.cc
+  scene/members.cc
   scene/sections.cc
   scene/sections_apps.cc
   scene/sections_bond.cc
@@ -22,6 +24,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_specimen.cc
   scene/quality.cc
   scene/scene.cc
+  scene/scene_bond.cc
   scene/surfaces.cc
   scene/expect.cc
   scene/command_line.cc

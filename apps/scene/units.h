@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/shortest_text.h"
+
 namespace platen::apps {
 
 // Why a text is no value: a predicate that goes after the text, e.g. `is not a number`.
@@ -32,8 +34,5 @@ double to_si(const std::string &text, const std::string &si_unit);
 
 // The dimension in words, for messages: "a pressure (Pa)".
 std::string name_of_dimension(const std::string &si_unit);
-
-// The shortest decimal text that reads back to the same double; "" for NaN.
-std::string shortest_text(double value);
 
 } // namespace platen::apps

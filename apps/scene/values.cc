@@ -36,16 +36,6 @@ std::vector<Value> read_items(const std::string &text, const Read &read) {
 
 } // namespace
 
-std::string Range::text() const {
-  const bool from = std::isfinite(low), to = std::isfinite(high);
-  if (from && to)
-    return (low_included ? "" : "above ") + shortest_text(low) + " ... " + (high_included ? "" : "below ") +
-           shortest_text(high);
-  if (from) return (low_included ? ">= " : "> ") + shortest_text(low);
-  if (to) return (high_included ? "<= " : "< ") + shortest_text(high);
-  return "";
-}
-
 double read_quantity(const std::string &text, const std::string &si_unit, const Range &range) {
   if (text.empty()) return not_given;
   const double value = to_si(text, si_unit);

@@ -2,49 +2,14 @@
 // Every function throws ValueError for a text that is no such value.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "apps/scene/scene.h"
 #include "apps/scene/units.h"
+#include "base/range.h"
 
 namespace platen::apps {
-
-// The numbers that an entry allows.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_included = true, high_included = true;
-
-  bool holds(double value) const {
-    return (low_included ? value >= low : value > low) && (high_included ? value <= high : value < high);
-  }
-  std::string text() const; // "0 ... 5", "> 0", ">= 0", "above 0 ... 1"; "" for all numbers
-};
-
-inline Range any_number() {
-  return {};
-}
-inline Range above(double low) {
-  Range range;
-  range.low = low, range.low_included = false;
-  return range;
-}
-inline Range at_least(double low) {
-  Range range;
-  range.low = low;
-  return range;
-}
-inline Range between(double low, double high) {
-  return {low, high, true, true};
-}
-inline Range above_up_to(double low, double high) {
-  return {low, high, false, true};
-}
-inline Range between_open(double low, double high) {
-  return {low, high, false, false};
-}
 
 // A number with its unit, inside the range; "" is NaN.
 double read_quantity(const std::string &text, const std::string &si_unit, const Range &range);

@@ -43,13 +43,13 @@ StudyPlan plan_size(const Scene &scene) {
 
 StudyPlan plan_packing(const Scene &scene) {
   const Study &study = scene.study;
-  const bool none = scene.effects.bond == BondKind::none;
+  const bool none = !scene.bond.bonded();
   const Parameters &p = *scene.parameters;
   if (study.gaps.empty() && study.radius_multipliers.empty() && study.radius_spreads.empty())
     p.refuse("Study/Gap list",
              "is not set, nor are Radius multiplier list and Radius spread list: nothing is varied. "
              "Allowed: at least one of them.");
-  if (!study.gaps.empty() && (none || scene.effects.bond == BondKind::elasto_damage_plastic))
+  if (!study.gaps.empty() && (none || scene.bond.bonds_by_range()))
     p.refuse("Study/Gap list", "has no effect: Effects/Bond = " + p.at("Effects/Bond").text +
                                    ". Allowed: parallel bond, cohesive beam.");
   if (!study.radius_multipliers.empty() && none)
@@ -59,8 +59,9 @@ StudyPlan plan_packing(const Scene &scene) {
   StudyPlan plan;
   plan.varied = {"gap_over_radius", "gap_m", "radius_multiplier", "radius_spread"};
   for (const double spread : or_own(study.radius_spreads, scene.specimen.radius_spread))
-    for (const double multiplier : or_own(study.radius_multipliers, scene.bond.radius_multiplier))
-      for (const Gap &gap : or_own(study.gaps, scene.bond.gap)) {
+    for (const double multiplier :
+         or_own(study.radius_multipliers, scene.model.bond_layout.radius_multiplier))
+      for (const Gap &gap : or_own(study.gaps, scene.model.bond_layout.gap)) {
         StudyCase one;
         one.name = "gap_" + in_name(gap.value) + (gap.relative ? "" : "_m") + "_multiplier_" +
                    in_name(multiplier) + "_spread_" + in_name(spread);

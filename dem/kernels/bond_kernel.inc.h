@@ -121,8 +121,7 @@ bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const Bo
       if (c.strength_factor != nullptr) return compute_forces_with<true>(c, block, one, first, last);
     return compute_forces_with<false>(c, block, one, first, last);
   };
-  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return compute(*beam);
-  return compute(std::get<ParallelBond>(law));
+  return of_elastic(law, compute);
 }
 
 // From the particles' columns, for bonds of any block.
@@ -179,8 +178,7 @@ void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &t
       if (c.strength_factor != nullptr) return measure_with<true>(c, one, to, first, last);
     measure_with<false>(c, one, to, first, last);
   };
-  if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return measure_all(*beam);
-  measure_all(std::get<ParallelBond>(law));
+  of_elastic(law, measure_all);
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).

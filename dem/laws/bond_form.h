@@ -14,6 +14,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/describe.h"
+
 namespace platen::dem {
 
 // The kernels need laws inlined into their loops, so that results that a loop does not use cost nothing.
@@ -81,7 +83,7 @@ inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
 
 // q conj(p): from p to q.
 template <class Real>
-inline Rotation<Real> between(const Rotation<Real> &p, const Rotation<Real> &q) {
+inline Rotation<Real> relative_turn(const Rotation<Real> &p, const Rotation<Real> &q) {
   return {q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z, q.x * p.w - q.w * p.x - q.y * p.z + q.z * p.y,
           q.y * p.w - q.w * p.y + q.x * p.z - q.z * p.x, q.z * p.w - q.w * p.z - q.x * p.y + q.y * p.x};
 }
@@ -164,7 +166,7 @@ PLATEN_INLINE BondResponse<Real> stretch_and_shear(const BondGeometry<Real> &g, 
 template <class Real>
 PLATEN_INLINE void bend_and_twist(BondResponse<Real> &r, BondStrain<Real> &strain, const Real &bending,
                                   double more, const BondMotion<Real> &m) {
-  const Rotation<Real> turn = between(m.turn_i, m.turn_j);
+  const Rotation<Real> turn = relative_turn(m.turn_i, m.turn_j);
   const Triple<Real> v{turn.x, turn.y, turn.z};
   const Triple<Real> &d = m.distance;
   const Real along = dot(v, d) * strain.per_square, vn = along * strain.length; // v.n / |d|, v.n
@@ -181,6 +183,44 @@ PLATEN_INLINE void bend_and_twist(BondResponse<Real> &r, BondStrain<Real> &strai
   strain.bend = vs;
   strain.bend_square = vs2;
   strain.twist = vn;
+}
+
+constexpr double right_angle = 1.5707963267948966; // rad
+
+inline double never_if_zero(double strength) {
+  return strength > 0 ? strength : std::numeric_limits<double>::infinity();
+}
+
+// Strengths as the loops compare with them, made once of what a law is given.
+struct BondStrength {
+  double tensile_strength, shear_strength; // Pa, infinite where never reached
+  double friction_coefficient;             // of shear strength in compression, tan(phi_b)
+
+  template <class Parameters>
+  explicit BondStrength(const Parameters &p)
+      : tensile_strength(never_if_zero(p.tensile_strength)),
+        shear_strength(never_if_zero(p.shear_strength)),
+        friction_coefficient(std::tan(p.friction_angle)) {}
+};
+
+// What several laws are given: described once.
+template <class Visitor, class Parameters>
+void describe_strengths(Visitor &&v, Parameters &p) {
+  v("tensile_strength", p.tensile_strength, "Pa", at_least(0), "0: never breaks in tension.");
+  v("shear_strength", p.shear_strength, "Pa", at_least(0), "Cohesion of the bond; 0: never breaks in shear.");
+}
+template <class Visitor, class Parameters>
+void describe_poisson_ratio(Visitor &&v, Parameters &p) {
+  v("poisson_ratio", p.poisson_ratio, "1", between_open(-1, 0.5),
+    "Of the bond: its shear modulus is E / (2 (1 + nu)).");
+}
+template <class Visitor, class Parameters>
+void describe_failure(Visitor &&v, Parameters &p) {
+  describe_strengths(v, p);
+  v("friction_angle", p.friction_angle, "rad", from_to_below(0, right_angle),
+    "Shear strength grows by its tangent times the compression of the bond.");
+  v("moment_contribution", p.moment_contribution, "1", between(0, 1),
+    "Share of bending and twisting moment that counts towards failure.");
 }
 
 // Stresses at the skin, Pa, before the strengths p look at them: sigma = axial + bending, tau = shear +

@@ -1,23 +1,20 @@
 // The laws that a specimen's bonds may follow, all bonds the same. Loops ask once a block which it is.
 #pragma once
 
-#include <variant>
-
 #include "dem/laws/cohesive_beam.h"
 #include "dem/laws/elasto_damage_plastic.h"
+#include "dem/laws/law_list.h"
 #include "dem/laws/parallel_bond.h"
 
 namespace platen::dem {
 
-using BondLaw = std::variant<ParallelBond, CohesiveBeam, ElastoDamagePlastic>;
-using BondParameters =
-    std::variant<ParallelBond::Parameters, CohesiveBeam::Parameters, ElastoDamagePlastic::Parameters>;
+using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic>;
+using BondLaw = BondLaws::Law;
+using BondParameters = BondLaws::Parameters;
 
+// Throws BadParameter.
 inline BondLaw bond_law(const BondParameters &parameters) {
-  if (const auto *beam = std::get_if<CohesiveBeam::Parameters>(&parameters)) return CohesiveBeam{*beam};
-  if (const auto *interface = std::get_if<ElastoDamagePlastic::Parameters>(&parameters))
-    return ElastoDamagePlastic{*interface};
-  return ParallelBond{std::get<ParallelBond::Parameters>(parameters)};
+  return BondLaws::law(parameters);
 }
 
 // With bending and twisting, where spheres turn.
@@ -43,6 +40,20 @@ inline bool over_distance(const BondLaw &law) {
 // strength bit by bit, and what has failed goes on as a contact of its own.
 inline bool has_history(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.has_history; }, law);
+}
+
+// f(law) where the law held is elastic; else f's result as it is made of nothing.
+template <class F>
+auto of_elastic(const BondLaw &law, const F &f) {
+  using Result = decltype(f(std::declval<const ParallelBond &>()));
+  return std::visit(
+      [&](const auto &one) {
+        if constexpr (std::decay_t<decltype(one)>::has_history)
+          return Result();
+        else
+          return f(one);
+      },
+      law);
 }
 
 } // namespace platen::dem

@@ -12,17 +12,29 @@
 namespace platen::dem {
 
 struct CohesiveBeam {
+  static constexpr const char *word = "cohesive beam";
   struct Parameters {
-    double poisson_ratio = 0.3;                                        // of the beam: G = E / (2 (1 + nu))
-    double tensile_strength = std::numeric_limits<double>::infinity(); // Pa
-    double shear_strength = std::numeric_limits<double>::infinity();   // Pa
-    double friction_coefficient = 0; // of shear strength in compression, tan(phi_b)
-    double moment_contribution = 1;  // of bending and twisting to the stress at the skin, 0 ... 1
+    double poisson_ratio = 0.3;     // of the beam: G = E / (2 (1 + nu))
+    double tensile_strength = 0;    // Pa; 0: never breaks in tension
+    double shear_strength = 0;      // Pa; 0: never breaks in shear
+    double friction_angle = 0;      // phi_b, rad
+    double moment_contribution = 1; // of bending and twisting to the stress at the skin, 0 ... 1
+
+    static constexpr const char *name = "CohesiveBeam";
+    template <class Visitor, class Self>
+    static void describe(Visitor &&v, Self &p) {
+      describe_poisson_ratio(v, p);
+      describe_failure(v, p);
+    }
   };
   static constexpr bool needs_rotation = true, centre_to_centre = true, over_distance = true,
-                        has_history = false;
+                        has_history = false, bonds_by_range = false;
 
-  Parameters parameters;
+  Parameters parameters; // as given
+  BondStrength strength; // of them
+
+  CohesiveBeam() : CohesiveBeam(Parameters()) {}
+  CohesiveBeam(const Parameters &p) : parameters(p), strength(p) {}
 
   BondResponse<double> operator()(const BondGeometry<double> &g, const BondMotion<double> &m) const {
     return turning<true>(g, m);
@@ -59,7 +71,7 @@ PLATEN_INLINE void CohesiveBeam::add_failure(BondResponse<Real> &r, const BondGe
   const Real ends = bend * bend * e.bend_square + 36.0 * e.per_square * e.slip_square + both;
   const Real ratio = shear_ratio(g) * kn;
   compare_with_strength(
-      r, p, Real(kn * e.stretch), Real(skin * skin * ends), Real(ratio * ratio * e.slip_square),
+      r, strength, Real(kn * e.stretch), Real(skin * skin * ends), Real(ratio * ratio * e.slip_square),
       Real((0.5 * (1.0 + more_twisting())) * skin * magnitude(Real(bend * e.twist))), g.strength_factor);
 }
 

@@ -14,6 +14,10 @@
 // interface whose tension or shear is used up has failed in both.
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "dem/laws/bond_form.h"
 
 namespace platen::dem {
@@ -55,26 +59,38 @@ struct InterfaceResponse {
 };
 
 struct ElastoDamagePlastic {
-  struct Branch {
-    double limit = 0, slope = 1; // Pa, LCS; YRC = E_0 / E of the branch that begins there
-  };
+  static constexpr const char *word = "elasto damage plastic";
   struct Parameters {
-    double poisson_ratio = 0.2;                                        // k_s = k_n / (2 (1 + nu))
-    double tensile_strength = std::numeric_limits<double>::infinity(); // sigma_ft, Pa
-    double shear_strength = std::numeric_limits<double>::infinity();   // tau_f, Pa
-    double friction_static = 0;                                        // mu_1, of intact interfaces
-    double friction_dynamic = 0;                                       // mu_2, of failed ones
-    double softening_tension = 0.2, softening_shear = 1.0;             // delta, > 0
+    double poisson_ratio = 0.3;                            // k_s = k_n / (2 (1 + nu))
+    double tensile_strength = 0;                           // sigma_ft, Pa; 0: never breaks in tension
+    double shear_strength = 0;                             // tau_f, Pa; 0: never breaks in shear
+    double friction_static = 0;                            // mu_1, of intact interfaces
+    double friction_dynamic = 0;                           // mu_2, of failed ones
+    double softening_tension = 0.2, softening_shear = 1.0; // delta, > 0
     // N/m (J/m^2), area under the softening branch; above 0 it takes delta's place: delta = 2 G_f k /
     // strength^2.
     double fracture_energy_tension = 0, fracture_energy_shear = 0;
-    Branch branches[3] = {}; // limits and slopes ascending; slopes 1: no yield
-    FailureLine line = FailureLine::uncoupled;
+    // Pa, LCS; and YRC = E_0 / E of the branch that begins there. Up to three; none: no yield.
+    std::vector<double> compression_limits, compression_slopes;
+    FailureLine failure_line = FailureLine::uncoupled;
+
+    static constexpr const char *name = "ElastoDamagePlastic";
+    template <class Visitor, class Self>
+    static void describe(Visitor &&v, Self &p);
   };
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
-                        has_history = true;
+                        has_history = true, bonds_by_range = true;
 
-  Parameters parameters;
+  // Throws BadParameter where the branches are no three, or bend up again.
+  ElastoDamagePlastic(const Parameters &p);
+  ElastoDamagePlastic() : ElastoDamagePlastic(Parameters()) {}
+
+  Parameters parameters; // as given
+  struct Branch {
+    double limit = 0, slope = 1; // slope 1: no yield
+  };
+  static constexpr std::size_t most_branches = 3;
+  Branch branches[most_branches] = {}; // where fewer are given, the last goes on
 
   bool bends() const { return false; }
   BondStiffness stiffness(const BondGeometry<double> &g) const;
@@ -99,8 +115,8 @@ struct ElastoDamagePlastic {
   Real envelope(const Real &elastic) const;
 
 private:
-  // What is never reached, as a number whose square is one too.
-  static double finite(double strength) { return std::fmin(strength, 1e100); }
+  // Pa; of what is never reached a number whose square is one too.
+  double tensile_strength_, shear_strength_;
   double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
   // What has broken has no stiffness, and nothing to divide by it.
   template <class Real>
@@ -128,12 +144,62 @@ private:
               const Real &tension) const;
 };
 
+template <class Visitor, class Self>
+void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
+  describe_poisson_ratio(v, p);
+  describe_strengths(v, p);
+  v("friction_static", p.friction_static, "1", between(0, 5),
+    "Shear strength grows by this times the compression, while the bond holds (mu_1).");
+  v("friction_dynamic", p.friction_dynamic, "1", between(0, 5),
+    "Coefficient of friction of a bond that has failed (mu_2).");
+  v("softening_tension", p.softening_tension, "1", between(1e-3, 1000),
+    "Opening from the strength to nothing, over that at the strength (delta_n).");
+  v("softening_shear", p.softening_shear, "1", between(1e-3, 1000), "The same in shear (delta_s).");
+  v("fracture_energy_tension", p.fracture_energy_tension, "J/m2", at_least(0),
+    "Area under the softening branch, for any size of spheres; 0: by the softening in tension.");
+  v("fracture_energy_shear", p.fracture_energy_shear, "J/m2", at_least(0), "The same in shear.");
+  v("compression_limits", p.compression_limits, "Pa", above(0),
+    "Up to three stresses, ascending, where the branches of compression begin (LCS); empty: elastic without "
+    "limit.");
+  v("compression_slopes", p.compression_slopes, "1", at_least(1),
+    "Modulus over that of each branch, not descending (YRC); as many as limits.");
+  v("failure_line", p.failure_line,
+    Words<FailureLine>{{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
+    "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
+}
+
+inline ElastoDamagePlastic::ElastoDamagePlastic(const Parameters &p)
+    : parameters(p),
+      tensile_strength_(std::fmin(never_if_zero(p.tensile_strength), 1e100)),
+      shear_strength_(std::fmin(never_if_zero(p.shear_strength), 1e100)) {
+  const std::vector<double> &limits = p.compression_limits, &slopes = p.compression_slopes;
+  const std::string count = std::to_string(limits.size());
+  const auto refuse = [](const char *member, const std::string &why) {
+    throw BadParameter(Parameters::name, member, "", why);
+  };
+  if (limits.size() > most_branches)
+    refuse("compression_limits", "has " + count + " stresses. Allowed: up to 3.");
+  if (slopes.size() != limits.size())
+    refuse("compression_slopes",
+           "has " + std::to_string(slopes.size()) + " numbers. Allowed: as many as limits, " + count + ".");
+  if (!std::is_sorted(limits.begin(), limits.end()))
+    refuse("compression_limits", "descends. Allowed: ascending stresses.");
+  if (!std::is_sorted(slopes.begin(), slopes.end()))
+    refuse("compression_slopes",
+           "descends: compression would grow stiffer again. Allowed: ascending numbers.");
+  Branch last;
+  for (std::size_t b = 0; b < most_branches; ++b) {
+    if (b < limits.size()) last = {limits[b], slopes[b]};
+    branches[b] = last;
+  }
+}
+
 // The straight branches bend ever further down, so that the lowest of their lines is the envelope.
 template <class Real>
 PLATEN_INLINE Real ElastoDamagePlastic::envelope(const Real &elastic) const {
   Real lowest = elastic;
   for (int b = 0; b < 3; ++b) {
-    const Branch &branch = parameters.branches[b];
+    const Branch &branch = branches[b];
     const Real line = branch.limit + (elastic - begin_of(b)) * (1.0 / branch.slope);
     lowest = lowest - positive_part(Real(lowest - line));
   }
@@ -141,7 +207,7 @@ PLATEN_INLINE Real ElastoDamagePlastic::envelope(const Real &elastic) const {
 }
 
 inline double ElastoDamagePlastic::begin_of(int branch) const {
-  const Branch *b = parameters.branches;
+  const Branch *b = branches;
   double begin = b[0].limit;
   for (int k = 1; k <= branch; ++k)
     begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
@@ -155,8 +221,8 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> 
   const auto of = [&](double given, double energy, double strength, const Real &k) {
     return energy > 0 ? Real((2.0 * energy / (strength * strength)) * k) : Real(given + 0.0 * k);
   };
-  return {of(p.softening_tension, p.fracture_energy_tension, finite(p.tensile_strength), kn),
-          of(p.softening_shear, p.fracture_energy_shear, finite(p.shear_strength), Real(shear_ratio() * kn))};
+  return {of(p.softening_tension, p.fracture_energy_tension, tensile_strength_, kn),
+          of(p.softening_shear, p.fracture_energy_shear, shear_strength_, Real(shear_ratio() * kn))};
 }
 
 // Damage by the stresses that would act without it.
@@ -168,11 +234,11 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
   const Real sliding = ks * root(dot(s.shear, s.shear));
-  const Real cohesion = g.strength_factor * finite(p.shear_strength);
-  const Real tensile = g.strength_factor * finite(p.tensile_strength);
+  const Real cohesion = g.strength_factor * shear_strength_;
+  const Real tensile = g.strength_factor * tensile_strength_;
   const Real strength = cohesion + p.friction_static * closing;
   Real used_n = opening / tensile, used_s = sliding / strength;
-  if (p.line == FailureLine::coupled) { // in tension both count together
+  if (p.failure_line == FailureLine::coupled) { // in tension both count together
     const Real both = used_n + used_s;
     used_n = where_positive(opening, both, used_n);
     used_s = where_positive(opening, both, used_s);
@@ -296,8 +362,9 @@ inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceSt
   r.torque_i = scale(g.lever, moment);
   r.torque_j = scale(1 - g.lever, moment);
   const double sliding = shear_ratio() * g.normal_stiffness * root(dot(s.shear, s.shear));
-  r.tension_ratio = positive_part(from.tension) / (g.strength_factor * parameters.tensile_strength);
-  r.shear_ratio = sliding / (g.strength_factor * parameters.shear_strength +
+  r.tension_ratio =
+      positive_part(from.tension) / (g.strength_factor * never_if_zero(parameters.tensile_strength));
+  r.shear_ratio = sliding / (g.strength_factor * never_if_zero(parameters.shear_strength) +
                              parameters.friction_static * positive_part(-from.tension));
   r.excess = larger(r.tension_ratio, r.shear_ratio) - 1;
   r.energy = from.energy;
@@ -313,10 +380,9 @@ inline double ElastoDamagePlastic::plastic_work(const InterfaceState<double> &s,
                                                 const InterfaceGeometry<double> &g) const {
   double work = 0, from = 0;
   for (int b = 0; b < 3 && from < s.plastic; ++b) {
-    const Branch &branch = parameters.branches[b];
+    const Branch &branch = branches[b];
     if (!(branch.slope > 1)) continue;
-    const double to =
-        b == 2 ? s.plastic : std::fmin(s.plastic, begin_of(b + 1) - parameters.branches[b + 1].limit);
+    const double to = b == 2 ? s.plastic : std::fmin(s.plastic, begin_of(b + 1) - branches[b + 1].limit);
     const auto yield = [&](double q) {
       return (branch.limit * branch.slope + q - begin_of(b)) / (branch.slope - 1);
     };

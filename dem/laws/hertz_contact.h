@@ -4,9 +4,13 @@
 
 #include <cmath>
 
+#include "dem/laws/contact_settings.h"
+
 namespace platen::dem {
 
 struct HertzContact {
+  static constexpr NormalContact kind = NormalContact::hertz;
+  static constexpr const char *word = "hertz";
   static constexpr bool constant_stiffness = false;
   // coefficient = 4/3 E* sqrt(R*), N/m^1.5; overlap in m.
   static double force(double coefficient, double overlap) {
@@ -17,6 +21,9 @@ struct HertzContact {
   }
   static double energy(double coefficient, double overlap) {
     return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);
+  }
+  static double overlap_of_energy(double coefficient, double energy) {
+    return std::pow(2.5 * energy / coefficient, 0.4);
   }
   // Equal materials: 1/E* = 2 (1 - nu^2)/E, 1/R* = 1/R_i + 1/R_j.
   static double coefficient(double young_modulus, double poisson_ratio, double ri, double rj) {
@@ -32,6 +39,15 @@ struct HertzContact {
     const double logarithm = std::log(restitution), pi = 3.14159265358979323846;
     return -std::sqrt(5.0 / 6.0) * logarithm / std::sqrt(logarithm * logarithm + pi * pi);
   }
+
+  static double coefficient(const ContactSettings &s, double ri, double rj, const BondLayout & /*bonds*/) {
+    return coefficient(s.young_modulus, s.poisson_ratio, ri, rj);
+  }
+  static bool follows_bonds(const ContactSettings & /*s*/) { return false; }
+  static double tangential_ratio(const ContactSettings &s) { return tangential_ratio(s.poisson_ratio); }
+  static double dashpot(const ContactSettings &s) { return damping_fraction(s.restitution); }
+  // For the time step: stiffness grows with the overlap; a reserve instead of a law.
+  static double dashpot_reserve(const ContactSettings & /*s*/) { return 0.5; }
 };
 
 } // namespace platen::dem

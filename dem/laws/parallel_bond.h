@@ -8,18 +8,32 @@
 namespace platen::dem {
 
 struct ParallelBond {
+  static constexpr const char *word = "parallel bond";
   struct Parameters {
-    double stiffness_ratio = std::numeric_limits<double>::quiet_NaN(); // k_s / k_n
-    double tensile_strength = std::numeric_limits<double>::infinity(); // Pa
-    double shear_strength = std::numeric_limits<double>::infinity();   // Pa
-    double friction_coefficient = 0;                                   // tan(phi_b)
-    double moment_contribution = 1;                                    // beta, 0 ... 1
-    bool moments = true; // bending and twisting; false: spheres turn, but bonds resist neither
+    double stiffness_ratio = 0.4;   // k_s / k_n
+    double tensile_strength = 0;    // Pa; 0: never breaks in tension
+    double shear_strength = 0;      // Pa; 0: never breaks in shear
+    double friction_angle = 0;      // phi_b, rad
+    double moment_contribution = 1; // beta, 0 ... 1
+    bool moments = true;            // bending and twisting; false: spheres turn, but bonds resist neither
+
+    static constexpr const char *name = "ParallelBond";
+    template <class Visitor, class Self>
+    static void describe(Visitor &&v, Self &p) {
+      v("stiffness_ratio", p.stiffness_ratio, "1", between(0, 5), "Shear over normal stiffness, k_s / k_n.");
+      describe_failure(v, p);
+      v("bond_moments", p.moments,
+        "Bonds resist bending and twisting; without it they carry forces alone (needs rotation).");
+    }
   };
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = false,
-                        has_history = false;
+                        has_history = false, bonds_by_range = false;
 
-  Parameters parameters;
+  Parameters parameters; // as given
+  BondStrength strength; // of them
+
+  ParallelBond() : ParallelBond(Parameters()) {}
+  ParallelBond(const Parameters &p) : parameters(p), strength(p) {}
 
   // With rotation; the parameters say whether with moments.
   BondResponse<double> operator()(const BondGeometry<double> &g, const BondMotion<double> &m) const {
@@ -48,7 +62,8 @@ PLATEN_INLINE void ParallelBond::add_failure(BondResponse<Real> &r, const BondGe
   const Real shear_modulus = p.stiffness_ratio * kn;
   const Real turning = (2.0 * p.moment_contribution) * magnitude(e.half_cosine) * g.radius;
   const Real bending_modulus = turning * kn;
-  compare_with_strength(r, p, Real(kn * e.stretch), Real(bending_modulus * bending_modulus * e.bend_square),
+  compare_with_strength(r, strength, Real(kn * e.stretch),
+                        Real(bending_modulus * bending_modulus * e.bend_square),
                         Real(shear_modulus * shear_modulus * e.slip_square),
                         Real(turning * shear_modulus * magnitude(e.twist)), g.strength_factor);
 }

@@ -12,10 +12,10 @@ int main() {
 
   coupling::PlatenTestSettings settings;
   settings.model.bond_layout.modulus = 36e9;
-  settings.model.bond_layout.gap = 0.05;                                             // of the smaller radius
-  settings.model.bond = dem::ParallelBond::Parameters{0.4, 9.5e6, 26.6e6, 1.0, 0.3}; // tan 45 degrees
+  settings.model.bond_layout.gap.value = 0.05; // of the smaller radius
+  settings.model.bond =
+      dem::ParallelBond::Parameters{0.4, 9.5e6, 26.6e6, 0.7853981633974483, 0.3}; // 45 degrees
   settings.model.contact = dem::ContactSettings{};
-  settings.model.local_damping = 0.5;
   settings.ends = coupling::Ends::ground;
   settings.end_layer = 0.3;
   settings.platens.top = settings.platens.bottom = {0.57, 0.57};

@@ -105,10 +105,11 @@ protected:
   static dem::ModelSettings beams() {
     dem::ModelSettings s;
     s.density = density;
+    s.local_damping = 0;
     s.bond_layout.modulus = young;
     s.bond_layout.radius_multiplier = slender;
     s.bond_layout.radius_rule = dem::RadiusRule::mean;
-    s.bond_layout.gap = 1e-6;
+    s.bond_layout.gap.value = 1e-6;
     dem::CohesiveBeam::Parameters beam;
     beam.poisson_ratio = poisson;
     s.bond = beam;

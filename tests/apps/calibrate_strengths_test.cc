@@ -17,10 +17,10 @@ constexpr double degree = 0.017453292519943295; // rad
 
 Scene scene_of(double compressive, double tensile, double triaxial = not_given) {
   Scene s;
-  s.bond.tensile_strength = 9.5e6;
-  s.bond.shear_strength = 26.6e6;
-  s.bond.friction_angle = 45 * degree;
-  s.bond.moment_contribution = 0.3;
+  s.bond.set("tensile_strength", 9.5e6);
+  s.bond.set("shear_strength", 26.6e6);
+  s.bond.set("friction_angle", 45 * degree);
+  s.bond.set("moment_contribution", 0.3);
   s.calibrate.compressive_strength = compressive;
   s.calibrate.tensile_strength = tensile;
   s.calibrate.triaxial_strength = triaxial;
@@ -145,7 +145,7 @@ TEST(StrengthSearch, a_triaxial_strength_is_met_beside_a_compressive_one_alone) 
 
 TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
   Scene scene = scene_of(5.4 * 4e6, 4e6);
-  scene.bond.friction_angle = 0;
+  scene.bond.set("friction_angle", 0);
   scene.calibrate.moments_low = 0.3; // not to be turned
   scene.calibrate.strengths_high = 1;
   StandIn specimen;
@@ -158,7 +158,7 @@ TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
   EXPECT_TRUE(with.missed.empty());
   EXPECT_GT(with.choice.friction_angle, 5 * degree);
   EXPECT_LE(with.choice.friction_angle, 40 * degree);
-  scene.effects.bond = BondKind::elasto_damage_plastic; // has none
+  scene.bond.law = static_cast<int>(dem::BondLaws::place<dem::ElastoDamagePlastic>()); // has none
   EXPECT_FALSE(strength_knobs(scene).friction);
 }
 

@@ -147,8 +147,8 @@ TEST_F(CalibrateApp, the_search_recovers_the_bonds_of_a_known_specimen) {
   EXPECT_EQ(found["verification"]["poisson_ratio"]["seeds"], 1);
   EXPECT_TRUE(found["missed"].empty());
   const Scene scene = read_scene((folder / "found/found.prm").string(), {}, AppKind::compress);
-  EXPECT_EQ(scene.bond.modulus, found["found"]["bond_modulus_pa"].get<double>());
-  EXPECT_EQ(scene.bond.stiffness_ratio, found["found"]["stiffness_ratio"].get<double>());
+  EXPECT_EQ(scene.model.bond_layout.modulus, found["found"]["bond_modulus_pa"].get<double>());
+  EXPECT_EQ(scene.bond.number("stiffness_ratio"), found["found"]["stiffness_ratio"].get<double>());
 }
 
 TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {

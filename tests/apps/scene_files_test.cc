@@ -108,9 +108,9 @@ TEST_F(SceneFiles, numbers_come_out_in_si) {
   EXPECT_EQ(scene.general.title, "Cylinder, 50 mm");
   EXPECT_DOUBLE_EQ(scene.specimen.radius, 0.025);
   EXPECT_DOUBLE_EQ(scene.specimen.radius_spread, 0.25);
-  EXPECT_EQ(scene.specimen.ends, EndsKind::ground);
-  EXPECT_DOUBLE_EQ(scene.bond.tensile_strength, 8.9e6);
-  EXPECT_DOUBLE_EQ(scene.bond.friction_angle, 0.78539816339744831);
+  EXPECT_EQ(scene.specimen.ends, dem::EndPreparation::ground);
+  EXPECT_DOUBLE_EQ(scene.bond.number("tensile_strength"), 8.9e6);
+  EXPECT_DOUBLE_EQ(scene.bond.number("friction_angle"), 0.78539816339744831);
   EXPECT_DOUBLE_EQ(scene.loading.axial_rate, 0.1);
   EXPECT_EQ(scene.output.every.kind, Interval::Kind::time);
   EXPECT_DOUBLE_EQ(scene.output.every.value, 1e-4);
@@ -187,8 +187,8 @@ TEST_F(SceneFiles, a_scene_overrides_what_it_includes) {
   put("common/base.prm", concrete);
   const Scene scene =
       read("a.prm", "include common/base.prm\nsubsection Bond\n  set Modulus = 50 GPa\nend\n");
-  EXPECT_DOUBLE_EQ(scene.bond.modulus, 50e9);
-  EXPECT_DOUBLE_EQ(scene.bond.tensile_strength, 8.9e6);
+  EXPECT_DOUBLE_EQ(scene.model.bond_layout.modulus, 50e9);
+  EXPECT_DOUBLE_EQ(scene.bond.number("tensile_strength"), 8.9e6);
 }
 
 TEST_F(SceneFiles, the_last_override_holds) {
@@ -266,7 +266,7 @@ TEST_F(SceneFiles, an_expected_word_is_one_of_those_given) {
 TEST_F(SceneFiles, continued_lines_are_joined) {
   const Scene scene =
       read("a.prm", concrete + "subsection Material\n  set Density = 2500 \\\n     kg/m3 # joined\nend\n");
-  EXPECT_DOUBLE_EQ(scene.material.density, 2500);
+  EXPECT_DOUBLE_EQ(scene.model.density, 2500);
 }
 
 } // namespace

@@ -39,9 +39,9 @@ PlatenTestSettings between(ElasticMotion motion, double young) {
 
 PlatenTestSettings crushing(ElasticMotion motion) {
   PlatenTestSettings s = between(motion, steel);
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 1.0, 0.3};
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
   s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = 0.5;
+  s.model.contact->damping = 0;
   s.model.local_damping = 0.3;
   s.seat = true;
   s.loading.rate = 0.5;

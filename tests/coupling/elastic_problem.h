@@ -16,7 +16,7 @@ inline PlatenTestSettings elastic_settings(double end_layer,
                                         const dem::BondParameters &bond = unbreakable_bond()) {
   PlatenTestSettings s;
   s.model.bond_layout.modulus = 36e9; // Pa
-  s.model.bond_layout.gap = 0.05;
+  s.model.bond_layout.gap.value = 0.05;
   s.model.bond = bond;
   s.model.local_damping = 0.5;
   s.ends = Ends::ground;

@@ -90,8 +90,7 @@ struct ThreeAround { // three boundaries around a bonded cylinder at rest
   static dem::ModelSettings settings() {
     dem::ModelSettings s;
     s.bond_layout.modulus = 36e9;
-    s.bond_layout.gap = 0.05;
-    s.bond = dem::ParallelBond::Parameters{0.4, 1e9, 1e9, 1.0, 0.3};
+    s.bond = dem::ParallelBond::Parameters{0.4, 1e9, 1e9, 0.7853981633974483, 0.3};
     return s;
   }
   void begin(int steps = 1000) {

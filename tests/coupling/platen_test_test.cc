@@ -17,10 +17,10 @@ namespace {
 PlatenTestSettings crushing() {
   PlatenTestSettings s;
   s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap = 0.05;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 1.0, 0.3};
+  s.model.bond_layout.gap.value = 0.05;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
   s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = 0.5;
+  s.model.contact->damping = 0;
   s.model.local_damping = 0.3;
   s.model.gravity = {0, 0, -9.81};
   s.ends = Ends::ground;

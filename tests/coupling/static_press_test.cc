@@ -112,10 +112,10 @@ PlatenTestSettings breakable(double rate) {
   dem::ParallelBond::Parameters bond = unbreakable_bond();
   bond.tensile_strength = 10e6;
   bond.shear_strength = 28e6;
-  bond.friction_coefficient = 1;
+  bond.friction_angle = 0.7853981633974483; // 45 degrees
   PlatenTestSettings s = elastic(1e6, bond);
   s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = 0.5;
+  s.model.contact->damping = 0;
   s.loading.rate = rate;
   return s;
 }

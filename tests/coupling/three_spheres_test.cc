@@ -21,7 +21,7 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
   settings.rotation = rotation;
   settings.local_damping = 0.7;
   settings.bond_layout.modulus = modulus;
-  settings.bond_layout.gap = 1e-6;
+  settings.bond_layout.gap.value = 1e-6;
   dem::ParallelBond::Parameters bond;
   bond.stiffness_ratio = stiffness_ratio;
   settings.bond = bond;

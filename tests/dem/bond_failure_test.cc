@@ -22,8 +22,8 @@ std::size_t bonds_at_gap(double gap, double ri, double rj, double allowed, bool 
   Specimen s = spheres({{0, 0, 0}, {ri + rj + gap, 0, 0}});
   s.radius = {ri, rj};
   ModelSettings settings = bonded();
-  settings.bond_layout.gap = allowed;
-  settings.bond_layout.gap_is_relative = relative;
+  settings.bond_layout.gap.value = allowed;
+  settings.bond_layout.gap.relative = relative;
   return Model(s, settings).bonds->size();
 }
 
@@ -41,7 +41,7 @@ TEST(bond_failure, the_gap_decides_who_is_bonded) {
 TEST(bond_failure, the_rule_decides_the_radius) {
   BondLayout layout;
   layout.radius_multiplier = .8;
-  layout.given_radius = 7e-4;
+  layout.radius = 7e-4;
   const auto radius_by = [&](RadiusRule rule) {
     layout.radius_rule = rule;
     return layout.bond_radius(1e-3, 3e-3);
@@ -167,7 +167,7 @@ TEST(bond_failure, compression_alone_breaks_nothing) {
 
 TEST(bond_failure, a_gap_that_was_bonded_pushes_only_once_it_is_closed) {
   ModelSettings settings = breakable();
-  settings.bond_layout.gap = .1;
+  settings.bond_layout.gap.value = .1;
   Model model(spheres({{0, 0, 0}, {2.05 * radius, 0, 0}}), settings);
   ASSERT_EQ(model.intact_bonds(), 1u);
   Particles &p = model.particles;
@@ -192,7 +192,7 @@ TEST(bond_failure, handing_over_to_a_contact_never_makes_energy) {
       for (const double strain : {-1e-6, -1e-4, -2e-3}) {
         ModelSettings settings = breakable();
         settings.contact->normal = normal;
-        settings.contact->stiffness = multiple;
+        settings.contact->stiffness.value = multiple;
         settings.contact->young_modulus = multiple * modulus;
         settings.contact->poisson_ratio = .2;
         Pair pair(settings);

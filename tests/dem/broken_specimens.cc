@@ -15,7 +15,7 @@ const Specimen &packed() {
 // Closer than touching alone, so that a sphere has six bonds and more.
 BondLayout layout() {
   BondLayout l = bonded().bond_layout;
-  l.gap = .05;
+  l.gap.value = .05;
   return l;
 }
 

@@ -28,9 +28,9 @@ constexpr double axial = young * section / length, bending = young * inertia / l
 constexpr double twisting = young / (2 * (1 + poisson)) * 2 * inertia / length;
 
 CohesiveBeam beam() {
-  CohesiveBeam law;
-  law.parameters.poisson_ratio = poisson;
-  return law;
+  CohesiveBeam::Parameters p;
+  p.poisson_ratio = poisson;
+  return p;
 }
 template <class Real>
 BondGeometry<Real> along(const Vector3 &d) {
@@ -214,11 +214,11 @@ TEST(cohesive_beam, force_and_torques_are_the_slope_of_the_energy) {
 }
 
 CohesiveBeam strong(double tensile, double shear, double beta = 1) {
-  CohesiveBeam law = beam();
-  law.parameters.tensile_strength = tensile;
-  law.parameters.shear_strength = shear;
-  law.parameters.moment_contribution = beta;
-  return law;
+  CohesiveBeam::Parameters p = beam().parameters;
+  p.tensile_strength = tensile;
+  p.shear_strength = shear;
+  p.moment_contribution = beta;
+  return p;
 }
 constexpr double tiny = 1e-6; // rotations: closed forms hold to its square
 

@@ -20,7 +20,7 @@ constexpr double pi = 3.14159265358979323846;
 BondLayout layout() {
   BondLayout l;
   l.modulus = 36e9;
-  l.gap = 0.05;
+  l.gap.value = 0.05;
   return l;
 }
 
@@ -31,7 +31,7 @@ struct Body {
   explicit Body(const Specimen &s)
       : specimen(s),
         particles(s, 2400, true),
-        bonds(particles, layout(), ParallelBond::Parameters{0.4, 10e6, 30e6, 1.0, 0.3}) {}
+        bonds(particles, layout(), ParallelBond::Parameters{0.4, 10e6, 30e6, 0.7853981633974483, 0.3}) {}
   EndPlanes planes() const { return {0, specimen.shape.height}; }
   Confinement confinement(ConfinementArea kind = ConfinementArea::voronoi) const {
     return Confinement(particles, &bonds, specimen.shape, planes(), kind);

@@ -20,11 +20,12 @@ constexpr double grain_modulus = 70e9, grain_poisson = .25;
 ModelSettings unbonded(NormalContact normal, TangentialContact tangential, double stiffness) {
   ModelSettings s;
   s.density = 2400;
+  s.local_damping = 0;
   s.contact = ContactSettings{};
   s.contact->normal = normal;
   s.contact->tangential = tangential;
-  s.contact->stiffness_rule = StiffnessRule::absolute;
-  s.contact->stiffness = stiffness;
+  s.contact->stiffness = {Stiffness::Kind::absolute, stiffness};
+  s.contact->friction = s.contact->damping = 0;
   s.contact->young_modulus = grain_modulus;
   s.contact->poisson_ratio = grain_poisson;
   return s;
@@ -142,8 +143,8 @@ TEST(contact, linear_impact_is_half_an_oscillation) {
 // kap = E/(3(1 - 2 nu)); f kap_i R_i kap_j R_j/(kap_i R_i + kap_j R_j).
 TEST(contact, a_fraction_of_the_bulk_stiffness_is_what_it_says) {
   ContactSettings s;
-  s.stiffness_rule = StiffnessRule::bulk_fraction;
-  s.stiffness = .01, s.young_modulus = 17e9, s.poisson_ratio = .15;
+  s.stiffness = {Stiffness::Kind::of_bulk, .01};
+  s.young_modulus = 17e9, s.poisson_ratio = .15;
   EXPECT_NEAR(s.coefficient(1e-3, 1e-3, {}), .01 * 8.0952381e9 * 1e-3 / 2, 1e-2);
 }
 

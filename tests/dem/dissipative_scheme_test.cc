@@ -14,6 +14,7 @@ using namespace examples;
 
 ModelSettings dissipative(double phi) {
   ModelSettings settings = bonded();
+  settings.scheme = Scheme::tchamwa_wielgosz;
   settings.dissipation = phi;
   return settings;
 }
@@ -285,6 +286,7 @@ TEST(dissipative_scheme, slows_what_circles_fast) {
 TEST(dissipative_scheme, closes_the_book_of_a_block_that_cracks) {
   const auto residual = [](double phi, double share) {
     ModelSettings settings = breakable();
+    settings.scheme = Scheme::tchamwa_wielgosz;
     settings.dissipation = phi;
     settings.contact->damping = .2;
     settings.local_damping = .1;

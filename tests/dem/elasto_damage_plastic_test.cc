@@ -21,9 +21,8 @@ ElastoDamagePlastic::Parameters concrete() {
   p.friction_dynamic = 0.25;
   p.softening_tension = 0.2;
   p.softening_shear = 1.0;
-  p.branches[0] = {20e6, 3};
-  p.branches[1] = {45e6, 12};
-  p.branches[2] = {70e6, 22};
+  p.compression_limits = {20e6, 45e6, 70e6};
+  p.compression_slopes = {3, 12, 22};
   return p;
 }
 
@@ -224,10 +223,9 @@ TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled})
     for (const double normal : {5.5e6, -20e6}) { // Pa, up to here, without change of sign
       ElastoDamagePlastic::Parameters p = concrete();
-      p.line = line;
+      p.failure_line = line;
       p.softening_tension = 1;
-      for (auto &branch : p.branches)
-        branch = {0, 1}; // yield books its own closed form
+      p.compression_limits = p.compression_slopes = {}; // yield books its own closed form
       Interface pair(p);
       const double reach = normal / pair.geometry.normal_stiffness, limit = 16e6 / pair.shear_stiffness();
       double work = 0, at = 0, largest = 0;
@@ -269,7 +267,7 @@ TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
 TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled}) {
     ElastoDamagePlastic::Parameters p = concrete();
-    p.line = line;
+    p.failure_line = line;
     p.softening_shear = p.softening_tension;
     Interface pair(p);
     const double un = pair.opening_limit(), us = 16e6 / pair.shear_stiffness();
@@ -302,7 +300,7 @@ TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) 
   double damage[2];
   for (int k = 0; k < 2; ++k) {
     ElastoDamagePlastic::Parameters p = concrete();
-    p.line = k == 0 ? FailureLine::uncoupled : FailureLine::coupled;
+    p.failure_line = k == 0 ? FailureLine::uncoupled : FailureLine::coupled;
     Interface pair(p);
     pair.move({0, 0, -1e-6});
     pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {2e-5, 0, 0}, 0});

@@ -32,8 +32,9 @@ Specimen packed_box(double x, double y, double z, std::uint64_t seed) {
 ModelSettings bonded() {
   ModelSettings s;
   s.density = 2400;
+  s.local_damping = 0;
   s.bond_layout.modulus = modulus;
-  s.bond_layout.gap = 1e-6;
+  s.bond_layout.gap.value = 1e-6;
   ParallelBond::Parameters bond;
   bond.stiffness_ratio = stiffness_ratio;
   s.bond = bond;
@@ -62,14 +63,15 @@ ModelSettings interfaces() {
   law.shear_strength = 16e6;
   law.friction_static = .9;
   law.friction_dynamic = .25;
-  law.branches[0] = {20e6, 3};
-  law.branches[1] = {45e6, 12};
-  law.branches[2] = {70e6, 22};
+  law.poisson_ratio = .2;
+  law.compression_limits = {20e6, 45e6, 70e6};
+  law.compression_slopes = {3, 12, 22};
   s.bond = law;
   s.bond_layout.modulus = 28e9;
-  s.bond_layout.interaction_range = .1;
+  s.bond_layout.by_range = true;
   s.contact = ContactSettings{};
   s.contact->friction = .25;
+  s.contact->damping = 0;
   return s;
 }
 
@@ -78,7 +80,7 @@ ModelSettings breakable() {
   parallel_bond(s).tensile_strength = tensile_strength;
   parallel_bond(s).shear_strength = shear_strength;
   s.contact = ContactSettings{};
-  s.contact->friction = .5;
+  s.contact->damping = 0;
   return s;
 }
 

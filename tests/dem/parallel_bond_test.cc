@@ -36,7 +36,8 @@ Quaternion random_turn(Random &random, double most) {
 }
 
 ParallelBond breakable_bond(double friction = 0, double beta = 1) {
-  return {{stiffness_ratio, tensile_strength, shear_strength, friction, beta}};
+  return ParallelBond::Parameters{stiffness_ratio, tensile_strength, shear_strength, std::atan(friction),
+                                  beta};
 }
 
 // Equal spheres along x.
@@ -208,13 +209,13 @@ TEST(parallel_bond, no_ratio_reaches_one_where_the_excess_is_below_zero) {
   long reached = 0, held = 0, in_doubt = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const RandomBond b = random_bond(random);
-    ParallelBond law = breakable_bond(.7, trial % 3 * .5);
-    const Response at_hand = law(b.geometry, b.motion);
+    ParallelBond::Parameters p = breakable_bond(.7, trial % 3 * .5).parameters;
+    const Response at_hand = ParallelBond(p)(b.geometry, b.motion);
     // Strengths about what this motion asks for, so that both outcomes are seen, the very limit among them.
     const double share = trial % 5 == 0 ? 1 : .5 + random.uniform();
-    if (at_hand.tension_ratio > 0) law.parameters.tensile_strength *= share * at_hand.tension_ratio;
-    law.parameters.shear_strength *= 10 * random.uniform() * at_hand.shear_ratio;
-    const Response r = law(b.geometry, b.motion);
+    if (at_hand.tension_ratio > 0) p.tensile_strength *= share * at_hand.tension_ratio;
+    p.shear_strength *= 10 * random.uniform() * at_hand.shear_ratio;
+    const Response r = ParallelBond(p)(b.geometry, b.motion);
     const double ratio = std::max(r.tension_ratio, r.shear_ratio);
     if (r.excess < 0) {
       EXPECT_LT(ratio, 1);

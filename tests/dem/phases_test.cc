@@ -41,7 +41,7 @@ TEST(phases, are_told_by_radius_or_by_list) {
   Specimen s = row(3, {1, 0, 0});
   s.radius[2] *= 1.2, s.radius[3] *= .9;
   ModelSettings settings = bonded();
-  settings.bond_layout.gap = .3;
+  settings.bond_layout.gap.value = .3;
   settings.phases = Phases{};
   settings.phases->radius_above = 1.1 * radius;
   const Model by_radius(s, settings);
@@ -154,7 +154,7 @@ TEST(phases, of_one_kind_alone_are_one_material) {
   Specimen specimen = packed_box(8, 8, 8);
   ModelSettings one = breakable(), other = breakable();
   one.phases = Phases{};
-  one.phases->radius_above = 0;
+  one.phases->radius_above = 1e-9; // all of them
   one.phases->aggregate = {2, 4};
   other.bond_layout.modulus *= 2;
   parallel_bond(other).tensile_strength *= 4, parallel_bond(other).shear_strength *= 4;

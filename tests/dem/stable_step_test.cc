@@ -100,7 +100,7 @@ TEST(stable_step, of_a_block_of_unequal_spheres_with_dashpots) {
   // Smaller spheres, bonds over the gaps: masses differ eightfold.
   for (std::size_t k = 0; k < specimen.size(); k += 3)
     specimen.radius[k] *= .5;
-  settings.bond_layout.gap = 1.1;
+  settings.bond_layout.gap.value = 1.1;
   const StableStep predicted = Model(specimen, settings).stable_step({}, 0);
   EXPECT_FALSE(runs_away(specimen, settings, .95 * predicted.limit));
   EXPECT_TRUE(runs_away(specimen, settings, 1.8 * predicted.limit));
@@ -136,6 +136,7 @@ TEST(stable_step, names_what_holds_the_particles) {
   EXPECT_EQ(reason(nullptr, {}).rfind("2/omega of bonds, highest mode at particle ", 0), 0u);
   EXPECT_EQ(reason(nullptr, {ground}).rfind("2/omega of bonds and platens, highest", 0), 0u);
   settings.contact = ContactSettings{};
+  settings.contact->friction = settings.contact->damping = 0;
   Model touching(spheres({{0, 0, 0}, {2 * radius, 0, 0}}), settings);
   EXPECT_EQ(touching.stable_step({}, 0).reason.rfind("2/omega of bonds and contacts, highest", 0), 0u);
   EXPECT_EQ(touching.stable_step({ground}, 0).reason.rfind("2/omega of bonds, contacts and platens, ", 0),
@@ -174,8 +175,8 @@ TEST(stable_step, grows_with_the_root_of_scaled_mass) {
 TEST(stable_step, names_the_particle_that_sets_it) {
   Specimen specimen = row(9, {1, 0, 0});
   ModelSettings settings = bonded();
-  settings.bond_layout.gap = 1.6; // of the smaller radius: next neighbours, not those after them
-  specimen.radius[4] *= .4;       // light
+  settings.bond_layout.gap.value = 1.6; // of the smaller radius: next neighbours, not those after them
+  specimen.radius[4] *= .4;             // light
   Model model(specimen, settings);
   EXPECT_EQ(model.stable_step({}, 0).particle_id, 4);
 }

@@ -184,7 +184,7 @@ TEST(strength_scatter, weakens_chains_by_the_root_of_their_length) {
 TEST(strength_scatter, leaves_friction_alone) {
   ModelSettings settings = scattered(4);
   settings.rotation = false;
-  parallel_bond(settings).friction_coefficient = .7;
+  parallel_bond(settings).friction_angle = std::atan(.7);
   Model model(row(1, {1, 0, 0}), settings);
   const double s = (*model.bonds->strength_factor)[0], press = 1e-3 * radius, slide = 2e-3 * radius;
   ASSERT_GT(std::abs(s - 1), .02);

@@ -38,6 +38,7 @@ Outcome cracking_block(int threads, double dissipation, bool scattered) {
   settings.contact->damping = .2;
   settings.local_damping = .1;
   settings.bond_dashpot = .05;
+  settings.scheme = Scheme::tchamwa_wielgosz;
   settings.dissipation = dissipation;
   if (scattered) settings.strength_scatter = StrengthScatter{4, 2};
   Model model(packed_box(30, 30, 30), settings);

@@ -37,12 +37,20 @@ TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both)
   EXPECT_EQ(faults("coupling", apps), 1u);
 }
 
+TEST(Layering, the_common_ground_knows_nobody) {
+  for (const char *path : {"\"dem/table.h\"", "\"fem/surface_mesh.h\"", "\"coupling/problem.h\"",
+                           "\"apps/io/output.h\"", "<deal.II/base/tensor.h>", "<fstream>"})
+    EXPECT_EQ(faults("base", std::string("#include ") + path + "\n"), 1u) << path;
+  EXPECT_EQ(faults("base", "#include \"base/range.h\"\n"), 0u);
+  EXPECT_EQ(faults("dem", "#include \"base/range.h\"\n"), 0u);
+}
+
 TEST(Layering, numerics_may_not_open_a_file) {
   for (const char *statement :
        {"std::ofstream out(name);", "std::ifstream in(name);", "std::fopen(name, \"r\");",
         "FILE *f = fopen(name, m);", "int fd = ::open(name, O_RDONLY);", "int fd = open(name, O_RDONLY);",
         "std::filesystem::remove(name);", "data_out.write_vtu_in_parallel(name, comm);"})
-    for (const char *folder : {"dem", "fem", "coupling"})
+    for (const char *folder : {"base", "dem", "fem", "coupling"})
       EXPECT_EQ(faults(folder, std::string(statement) + "\n"), 1u) << folder << ": " << statement;
 }
 

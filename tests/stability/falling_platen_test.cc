@@ -60,7 +60,7 @@ struct ElasticPlaten {
 template <class Platen>
 void fall(double speed, const std::string &which) {
   dem::ModelSettings settings = bonded();
-  settings.bond_layout.gap = 0.05;
+  settings.bond_layout.gap.value = 0.05;
   dem::Model model(packed_box(edge, edge, edge), settings);
   dem::Particles &p = model.particles;
   Platen platen(speed);

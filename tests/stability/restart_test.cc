@@ -46,21 +46,24 @@ const dem::Specimen &specimen() {
 void choose(PlatenTestSettings &s, Law law) {
   s.model.contact = dem::ContactSettings{};
   s.model.contact->friction = 0.4;
-  if (law == parallel_bond) s.model.bond = dem::ParallelBond::Parameters{0.4, 10e6, 30e6, 1, 0.3};
+  s.model.contact->damping = 0;
+  if (law == parallel_bond)
+    s.model.bond = dem::ParallelBond::Parameters{0.4, 10e6, 30e6, 0.7853981633974483, 0.3};
   if (law == cohesive_beam) {
     s.model.bond_layout.modulus = 30e9;
     s.model.bond_layout.radius_rule = dem::RadiusRule::mean;
     s.model.bond_layout.radius_multiplier = 0.6;
-    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 1, 0.5};
+    s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 0.7853981633974483, 0.5};
   }
   if (law == elasto_damage_plastic) {
     dem::ElastoDamagePlastic::Parameters p;
     p.tensile_strength = 5e6, p.shear_strength = 16e6;
     p.friction_static = 0.9, p.friction_dynamic = 0.25;
-    p.branches[0] = {20e6, 3}, p.branches[1] = {45e6, 12}, p.branches[2] = {70e6, 22};
+    p.poisson_ratio = 0.2;
+    p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
     s.model.bond = p;
     s.model.bond_layout.modulus = 28e9;
-    s.model.bond_layout.interaction_range = 0.1;
+    s.model.bond_layout.by_range = true;
   }
 }
 

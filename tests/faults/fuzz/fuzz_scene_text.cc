@@ -9,16 +9,16 @@ using namespace platen::apps;
 namespace {
 
 // Declared once; a run reads into a copy of the entries.
-struct Declared {
+struct AllEntries {
   Scene scene;
   Parameters parameters;
-  Declared() { declare_scene(parameters, scene); }
+  AllEntries() { declare_scene(parameters, scene); }
 };
 
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-  static const Declared declared;
+  static const AllEntries declared;
   const std::string text(reinterpret_cast<const char *>(data), size);
   Parameters parameters = declared.parameters;
   try {

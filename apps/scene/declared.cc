@@ -1,0 +1,84 @@
+#include "apps/scene/declared.h"
+
+#include <algorithm>
+
+namespace platen::apps {
+namespace {
+
+std::string section_of(const std::string &path) {
+  return path.substr(0, path.rfind('/'));
+}
+
+// "a", "a or b", "a, b or c"
+std::string alternatives(const std::vector<std::string> &words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
+  return text;
+}
+
+std::string joined(const std::vector<std::string> &words) {
+  std::string text;
+  for (const std::string &word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+} // namespace
+
+bool has_word(const Parameters &parameters, const std::string &path, const std::vector<std::string> &words) {
+  return std::find(words.begin(), words.end(), tidy(parameters.at(path).text)) != words.end();
+}
+
+Declared &Declared::only_if(const std::string &path, const std::vector<std::string> &words) {
+  if (section_of(path) == section_of(path_)) told(path.substr(path.rfind('/') + 1) + " = " + joined(words));
+  entry().idle.push_back([path, words](const Situation &s) {
+    return has_word(s.parameters, path, words) ? "" : path + " is not " + alternatives(words);
+  });
+  return *this;
+}
+
+Declared &Declared::unless(const std::string &path, const std::vector<std::string> &words) {
+  entry().idle.push_back([path, words](const Situation &s) {
+    return has_word(s.parameters, path, words) ? path + " = " + tidy(s.parameters.at(path).text) : "";
+  });
+  return *this;
+}
+
+Declared &Declared::only_if(std::function<bool(const Scene &)> holds, const std::string &otherwise) {
+  entry().idle.push_back(
+      [holds = std::move(holds), otherwise](const Situation &s) { return holds(s.scene) ? "" : otherwise; });
+  return *this;
+}
+
+Declared &Declared::needed_if(const std::string &path, const std::vector<std::string> &words) {
+  return needed_if([path, words](const Situation &s) {
+    return has_word(s.parameters, path, words)
+               ? path + " = " + tidy(s.parameters.at(path).text) + " takes it."
+               : "";
+  });
+}
+
+Declared &Declared::needed_if(std::function<std::string(const Situation &)> why) {
+  entry().needed.push_back(std::move(why));
+  return *this;
+}
+
+Declared &Declared::told(const std::string &text) {
+  std::string &sentence = entry().documentation;
+  const auto ends = [&](const std::string &with) {
+    return sentence.size() > with.size() &&
+           sentence.compare(sentence.size() - with.size(), with.size(), with) == 0;
+  };
+  const bool open = ends(").") && !ends(")).");
+  sentence.erase(sentence.size() - (open ? 2 : 1));
+  sentence += (open ? "; " : " (") + text + ").";
+  return *this;
+}
+
+Declared &Declared::member(const std::string &owner, const std::string &name) {
+  entry().members.push_back(owner + ": " + name);
+  return *this;
+}
+
+} // namespace platen::apps

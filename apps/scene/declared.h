@@ -1,0 +1,52 @@
+// What a declared entry depends on: said once, where it is declared. From it follow the notes on entries that
+// have no effect, and the refusals of those that are missing.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/parameters.h"
+
+namespace platen::apps {
+
+struct Scene;
+enum class AppKind;
+
+// What is looked at when a scene has been read.
+struct Situation {
+  const Scene &scene;
+  const Parameters &parameters;
+  AppKind app;
+};
+
+class Declared {
+public:
+  Declared(Parameters &parameters, std::string path) : parameters_(parameters), path_(std::move(path)) {}
+
+  // It has an effect only where another entry has one of these words; within a section the documentation says
+  // so too.
+  Declared &only_if(const std::string &path, const std::vector<std::string> &words);
+  // It has none where another entry has one of these words.
+  Declared &unless(const std::string &path, const std::vector<std::string> &words);
+  Declared &only_if(std::function<bool(const Scene &)> holds, const std::string &otherwise);
+  // It must be given where another entry has one of these words.
+  Declared &needed_if(const std::string &path, const std::vector<std::string> &words);
+  // It must be given where `why`, a sentence, is not "".
+  Declared &needed_if(std::function<std::string(const Situation &)> why);
+  // Ends the documentation with " (text).".
+  Declared &told(const std::string &text);
+  // The member of the library's struct that it sets.
+  Declared &member(const std::string &owner, const std::string &name);
+
+private:
+  Entry &entry() const { return parameters_.declared(path_); }
+
+  Parameters &parameters_;
+  std::string path_;
+};
+
+// Whether an entry has one of these words.
+bool has_word(const Parameters &parameters, const std::string &path, const std::vector<std::string> &words);
+
+} // namespace platen::apps

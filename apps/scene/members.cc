@@ -1,0 +1,45 @@
+#include "apps/scene/members.h"
+
+namespace platen::apps {
+namespace {
+
+template <class Parameters>
+bool holds(const std::vector<std::string> Names::*of, const std::string &member) {
+  Names names;
+  Parameters empty;
+  Parameters::describe(names, empty);
+  return std::find((names.*of).begin(), (names.*of).end(), member) != (names.*of).end();
+}
+
+} // namespace
+
+std::string key_of(const std::string &member) {
+  std::string key = member;
+  std::replace(key.begin(), key.end(), '_', ' ');
+  if (!key.empty() && key[0] >= 'a' && key[0] <= 'z') key[0] = static_cast<char>(key[0] - 'a' + 'A');
+  return key;
+}
+
+Declared LawMembers::operator()(const std::string &member) {
+  const std::string key = key_of(member);
+  section_.join(true);
+  std::apply([&](auto &...of) { (declare_member(section_, of, member, key), ...); }, laws_);
+  section_.join(false);
+  const std::vector<std::string> having = dem::BondLaws::words_where([&](auto *law) {
+    using Of = typename std::remove_pointer_t<decltype(law)>::Parameters;
+    return holds<Of>(&Names::all, member) || holds<Of>(&Names::flags, member);
+  });
+  Declared declared = section_.at(key);
+  if (having.size() == dem::BondLaws::size) return declared.unless("Effects/Bond", {"none"});
+  declared.only_if("Effects/Bond", having);
+  return section_.name() == "Effects" ? declared : declared.told(joined(having)); // said already
+}
+
+void LawMembers::rest() {
+  Names names;
+  std::apply([&](auto &...of) { (std::decay_t<decltype(of)>::describe(names, of), ...); }, laws_);
+  for (const std::string &member : names.all)
+    if (section_.parameters().find(section_.name() + "/" + key_of(member)) == nullptr) (*this)(member);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,109 @@
+// Entries made of the members of structs that describe themselves (base/describe.h): unit, range, words,
+// meaning and default stand there alone.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "apps/scene/declare.h"
+#include "dem/laws/bond_law.h"
+
+namespace platen::apps {
+
+// "stiffness_ratio" is the key "Stiffness ratio".
+std::string key_of(const std::string &member);
+
+// An entry for each kind of member.
+inline Declared declare(Section &section, const std::string &key, double &to, const char *unit,
+                        const Range &range, const char *sentence) {
+  return section.quantity(key, to, unit, range, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, std::vector<double> &to, const char *unit,
+                        const Range &range, const char *sentence) {
+  return section.list(key, to, unit, range, sentence);
+}
+template <class Enum>
+Declared declare(Section &section, const std::string &key, Enum &to, const Words<Enum> &words,
+                 const char *sentence) {
+  return section.word(key, to, words, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, bool &to, const char *sentence) {
+  return section.flag(key, to, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, Gap &to, const char *sentence) {
+  return section.gap(key, to, sentence);
+}
+inline Declared declare(Section &section, const std::string &key, Stiffness &to, const char *sentence) {
+  return section.stiffness(key, to, true, sentence);
+}
+
+// Declares the member of that name, if there is one.
+template <class Described>
+void declare_member(Section &section, Described &of, const std::string &member, const std::string &key) {
+  Described::describe(
+      [&](const char *name, auto &to, const auto &...about) {
+        if (name == member) declare(section, key, to, about...).member(Described::name, member);
+      },
+      of);
+}
+
+template <class Described>
+class Members {
+public:
+  Members(Section &section, Described &of) : section_(section), of_(of) {}
+  // The member of this name; its key is as said, or follows from the name. Throws std::out_of_range where no
+  // member has it.
+  Declared operator()(const std::string &member, const std::string &key = "") {
+    const std::string under = key.empty() ? key_of(member) : key;
+    declare_member(section_, of_, member, under);
+    return section_.at(under);
+  }
+
+private:
+  Section &section_;
+  Described &of_;
+};
+
+// What a number, or each of a list, may be. Throws std::logic_error where no member has that name.
+template <class Described>
+Range range_of(const std::string &member) {
+  const Range *found = nullptr;
+  Range range;
+  const Described of;
+  Described::describe(
+      [&](const char *name, const auto & /*value*/, const auto &...about) {
+        if constexpr (sizeof...(about) == 3) // unit, range, sentence
+          if (name == member) range = std::get<1>(std::tie(about...)), found = &range;
+      },
+      of);
+  if (found == nullptr) throw std::logic_error(std::string(Described::name) + " has no number " + member);
+  return range;
+}
+
+// A list of the names of what is described.
+struct Names {
+  std::vector<std::string> all, flags;
+  template <class Member, class... Rest>
+  void operator()(const char *name, const Member &, const Rest &...) {
+    (std::is_same_v<Member, bool> ? flags : all).emplace_back(name);
+  }
+};
+
+// Entries made of the parameters of all bond laws: one of a name sets it in each law that has it, and has an
+// effect with these alone.
+class LawMembers {
+public:
+  LawMembers(Section &section, dem::BondLaws::AllParameters &laws) : section_(section), laws_(laws) {}
+  Declared operator()(const std::string &member);
+  // All that have not been declared, but for flags: these are effects.
+  void rest();
+
+private:
+  Section &section_;
+  dem::BondLaws::AllParameters &laws_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,56 @@
+#include "apps/scene/scene_bond.h"
+
+#include <stdexcept>
+
+namespace platen::apps {
+namespace {
+
+// use(number) of the member of that name, if it is a number.
+template <class Parameters, class Use>
+void find_number(Parameters &of, const std::string &wanted, const Use &use) {
+  std::decay_t<Parameters>::describe(
+      [&](const char *name, auto &value, const auto &.../*about*/) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+          if (name == wanted) use(value);
+      },
+      of);
+}
+
+} // namespace
+
+std::optional<dem::BondParameters> Bond::parameters() const {
+  if (!bonded()) return std::nullopt;
+  return dem::BondLaws::chosen(laws, static_cast<std::size_t>(law));
+}
+
+bool Bond::remembers() const {
+  return bonded() &&
+         dem::BondLaws::ask(static_cast<std::size_t>(law), [](auto *of) { return of->has_history; });
+}
+
+bool Bond::bonds_by_range() const {
+  return bonded() &&
+         dem::BondLaws::ask(static_cast<std::size_t>(law), [](auto *of) { return of->bonds_by_range; });
+}
+
+bool Bond::has(const std::string &member) const {
+  bool found = false;
+  const auto use = [&](const double &) { found = true; };
+  if (bonded()) std::visit([&](const auto &of) { find_number(of, member, use); }, *parameters());
+  return found;
+}
+
+double Bond::number(const std::string &member) const {
+  std::optional<double> found;
+  const auto use = [&](const double &number) { found = found.value_or(number); };
+  std::apply([&](const auto &...of) { (find_number(of, member, use), ...); }, laws);
+  if (!found) throw std::logic_error("no bond has " + member);
+  return *found;
+}
+
+void Bond::set(const std::string &member, double value) {
+  const auto use = [&](double &number) { number = value; };
+  std::apply([&](auto &...of) { (find_number(of, member, use), ...); }, laws);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,78 @@
+// Structs of parameters that describe themselves, each member once. Such a struct has
+//   static constexpr const char *name = "ParallelBond";
+//   template <class Visitor, class Self>
+//   static void describe(Visitor &&v, Self &p) {
+//     v("stiffness_ratio", p.stiffness_ratio, "1", between(0, 5), "Shear over normal stiffness, k_s / k_n.");
+//   }
+// After the name of a member and the member itself come, of a number or a list of them: unit, range and a
+// sentence; of an enum: its words and a sentence; of a flag, or of a type that describes itself in no other
+// way: a sentence. From it follow what the library refuses, and what a scene may say.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/range.h"
+
+namespace platen {
+
+template <class Enum>
+using Words = std::vector<std::pair<std::string, Enum>>;
+
+// A member of a struct of parameters that cannot be what it is: "ParallelBond: stiffness_ratio = -1 is out of
+// range. Allowed: 0 ... 5." `reason` goes after the value.
+class BadParameter : public std::invalid_argument {
+public:
+  BadParameter(std::string in, std::string of, const std::string &value, const std::string &why)
+      : std::invalid_argument(in + ": " + of + (value.empty() ? " " : " = " + value + " ") + why),
+        owner(std::move(in)),
+        member(std::move(of)),
+        reason(why) {}
+  std::string owner, member, reason;
+};
+
+inline std::string allowed_text(const Range &range, const std::string &unit) {
+  return range.text() + (unit == "1" ? "" : " " + unit);
+}
+
+// A visitor that throws BadParameter for a number out of its range; what is not given (NaN) is let through.
+class RangeCheck {
+public:
+  explicit RangeCheck(std::string owner) : owner_(std::move(owner)) {}
+
+  void operator()(const char *member, double value, const std::string &unit, const Range &range,
+                  const char * /*sentence*/) const {
+    if (std::isnan(value) || range.holds(value)) return;
+    throw BadParameter(owner_, member, shortest_text(value),
+                       "is out of range. Allowed: " + allowed_text(range, unit) + ".");
+  }
+  void operator()(const char *member, const std::vector<double> &values, const std::string &unit,
+                  const Range &range, const char *sentence) const {
+    for (const double value : values)
+      (*this)(member, value, unit, range, sentence);
+  }
+  template <class Enum>
+  void operator()(const char * /*member*/, const Enum & /*value*/, const Words<Enum> & /*words*/,
+                  const char * /*sentence*/) const {}
+  template <class Other>
+  void operator()(const char * /*member*/, const Other & /*value*/, const char * /*sentence*/) const {}
+
+private:
+  std::string owner_;
+};
+
+template <class Described>
+void require_in_range(const Described &parameters) {
+  Described::describe(RangeCheck(Described::name), parameters);
+}
+
+// Throws BadParameter for a member that is not given (NaN).
+template <class Described>
+void require_given(const Described & /*in*/, const char *member, double value) {
+  if (std::isnan(value)) throw BadParameter(Described::name, member, "", "is not set.");
+}
+
+} // namespace platen

@@ -1,0 +1,120 @@
+// Entries are the members of the library's structs: what an entry sets, which laws it is for, and how a
+// refusal of the library is told in words of the scene.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "apps/run/model_setup.h"
+#include "apps/scene/members.h"
+#include "dem/laws/normal_contact.h"
+
+namespace platen::apps {
+namespace {
+
+const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
+
+Scene scene_with(const std::vector<std::string> &overrides) {
+  return read_scene(good, overrides, AppKind::compress);
+}
+
+template <class Parameters>
+std::vector<std::string> members_of() {
+  Names names;
+  Parameters empty;
+  Parameters::describe(names, empty);
+  return names.all;
+}
+
+TEST(SceneBindings, every_number_of_every_bond_law_has_an_entry_that_sets_it_in_all_laws) {
+  const Scene plain = default_scene();
+  dem::BondLaws::for_each([&](auto *law) {
+    using Law = std::remove_pointer_t<decltype(law)>;
+    for (const std::string &member : members_of<typename Law::Parameters>())
+      EXPECT_NE(plain.parameters->find("Bond/" + key_of(member)), nullptr) << Law::word << ": " << member;
+  });
+  const Scene scene = scene_with({"Bond/Tensile strength = 7 MPa", "Bond/Poisson ratio = 0.1"});
+  EXPECT_EQ(std::get<dem::ParallelBond::Parameters>(scene.bond.laws).tensile_strength, 7e6);
+  EXPECT_EQ(std::get<dem::CohesiveBeam::Parameters>(scene.bond.laws).tensile_strength, 7e6);
+  EXPECT_EQ(std::get<dem::ElastoDamagePlastic::Parameters>(scene.bond.laws).tensile_strength, 7e6);
+  EXPECT_EQ(std::get<dem::CohesiveBeam::Parameters>(scene.bond.laws).poisson_ratio, 0.1);
+  EXPECT_EQ(std::get<dem::ElastoDamagePlastic::Parameters>(scene.bond.laws).poisson_ratio, 0.1);
+}
+
+TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
+  const auto note = [](const std::vector<std::string> &overrides) {
+    const std::vector<std::string> notes = scene_with(overrides).notes;
+    return notes.size() == 1 ? notes[0].substr(notes[0].find("has no effect")) : std::to_string(notes.size());
+  };
+  const std::string interface = "Effects/Bond = elasto damage plastic", beam = "Effects/Bond = cohesive beam";
+  EXPECT_EQ(note({"Bond/Softening shear = 2"}), "has no effect: Effects/Bond is not elasto damage plastic.");
+  EXPECT_EQ(note({interface, "Bond/Softening shear = 2"}), "0");
+  EXPECT_EQ(note({"Bond/Poisson ratio = 0.1"}),
+            "has no effect: Effects/Bond is not cohesive beam or elasto damage plastic.");
+  EXPECT_EQ(note({beam, "Bond/Poisson ratio = 0.1"}), "0");
+  EXPECT_EQ(note({beam, "Bond/Stiffness ratio = 0.1"}), "has no effect: Effects/Bond is not parallel bond.");
+  EXPECT_EQ(note({interface, "Bond/Gap = 0.1 R_min"}),
+            "has no effect: Effects/Bond = elasto damage plastic.");
+  EXPECT_EQ(note({interface, "Bond/Fracture energy shear = 2", "Bond/Softening shear = 2"}),
+            "has no effect: Bond/Fracture energy shear takes its place.");
+  EXPECT_EQ(note({"Bond/Radius = 1 mm"}), "has no effect: Bond/Radius rule is not given.");
+  EXPECT_EQ(note({"Contact/Restitution = 0.5"}), "has no effect: Effects/Contact is not hertz.");
+  EXPECT_EQ(note({"Effects/Contact = hertz", "Contact/Restitution = 0.5"}), "0");
+  EXPECT_EQ(note({"Output/Fields = off", "Output/Fields every = 3"}), "has no effect: Output/Fields = off.");
+  EXPECT_EQ(note({"Integration/Damping = 0", "Integration/Damping form = vector"}),
+            "has no effect: Integration/Damping = 0.");
+}
+
+TEST(SceneBindings, a_scene_is_the_settings_of_the_library) {
+  const dem::ModelSettings plain = model_settings(scene_with({})), own;
+  // A model that is told nothing is the one of a scene that says nothing.
+  EXPECT_EQ(plain.local_damping, own.local_damping);
+  EXPECT_EQ(plain.density, own.density);
+  EXPECT_EQ(plain.contact->friction, dem::ContactSettings().friction);
+  EXPECT_EQ(plain.contact->damping, dem::ContactSettings().damping);
+  EXPECT_EQ(plain.bond_layout.gap.value, own.bond_layout.gap.value);
+  const dem::ModelSettings all = model_settings(scene_with(
+      {"Effects/Bond = elasto damage plastic", "Bond/Compression limits = 1 MPa, 2 MPa",
+       "Bond/Compression slopes = 3, 4", "Bond/Failure line = coupled", "Effects/Contact = hertz",
+       "Effects/Tangential = none", "Material/Density of = solid", "Integration/Damping form = vector",
+       "Integration/Scheme = tchamwa wielgosz", "Integration/Dissipation = 1.2",
+       "Integration/Instruction set = baseline", "Bond/Strength scatter = weibull",
+       "Bond/Weibull modulus = 9", "Scene/Seed = 5", "Phases/By = radius", "Phases/Radius above = 1 mm",
+       "Phases/Interface strength factor = 0.5", "Bond/Radius rule = harmonic", "Effects/Gravity = on"}));
+  const auto &law = std::get<dem::ElastoDamagePlastic::Parameters>(*all.bond);
+  EXPECT_EQ(law.compression_limits, (std::vector<double>{1e6, 2e6}));
+  EXPECT_EQ(law.compression_slopes, (std::vector<double>{3, 4}));
+  EXPECT_EQ(law.failure_line, dem::FailureLine::coupled);
+  EXPECT_EQ(all.contact->normal, dem::NormalContact::hertz);
+  EXPECT_EQ(all.contact->tangential, dem::TangentialContact::none);
+  EXPECT_EQ(all.density_of, dem::DensityOf::solid);
+  EXPECT_EQ(all.damping_form, dem::DampingForm::vector);
+  EXPECT_EQ(all.phi(), 1.2);
+  EXPECT_EQ(plain.phi(), 1);
+  EXPECT_EQ(all.instruction_set, dem::InstructionSet::baseline);
+  EXPECT_EQ(all.strength_scatter->weibull_modulus, 9);
+  EXPECT_EQ(all.strength_scatter->seed, 5u);
+  EXPECT_EQ(all.phases->radius_above, 1e-3);
+  EXPECT_EQ(all.phases->interface.strength, 0.5);
+  EXPECT_EQ(all.bond_layout.radius_rule, dem::RadiusRule::harmonic);
+  EXPECT_TRUE(all.bond_layout.by_range);
+  EXPECT_LT(all.gravity.z, 0);
+}
+
+TEST(SceneBindings, a_refusal_of_the_library_is_told_by_file_line_and_key) {
+  const Scene scene = scene_with({"Bond/Modulus = 5 GPa"});
+  const auto told = [&](const BadParameter &error) -> std::string {
+    try {
+      scene.parameters->refuse(error);
+    } catch (const InputError &e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(told({"BondLayout", "modulus", "5e9", "is too soft."}),
+            "command line, --set 1: error: Bond/Modulus = 5 GPa is too soft.");
+  EXPECT_EQ(told({"CohesiveBeam", "tensile_strength", "0", "is none."}).find(good), 0u);
+  EXPECT_THROW(scene.parameters->refuse(BadParameter("Nobody", "modulus", "", "is wrong.")), BadParameter);
+}
+
+} // namespace
+} // namespace platen::apps
