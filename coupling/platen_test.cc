@@ -61,6 +61,8 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   seat_platens(specimen);
   choose_rates();
   add_lateral(mean_bond_stiffness(model));
+  for (const MadeFor<Boundary> &make : settings_.boundaries)
+    add(make(*this));
   begin(make_program());
 }
 
@@ -150,6 +152,9 @@ Sides PlatenTest::sides() const {
 std::unique_ptr<Program> PlatenTest::make_program() const {
   const LoadingSettings &loading = settings_.loading;
   std::vector<std::unique_ptr<Stage>> stages;
+  for (const MadeFor<Stage> &make : settings_.stages)
+    stages.push_back(make(*this));
+  if (!stages.empty()) return std::make_unique<Program>(*this, std::move(stages));
   if (loading.cell) {
     const CellSettings &cell = *loading.cell;
     const double stiffness =

@@ -2,6 +2,7 @@
 // what is measured of it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,10 @@ struct LoadingSettings {
   double unload_to = 0.1;
 };
 
+class PlatenTest;
+template <class Part>
+using MadeFor = std::function<std::unique_ptr<Part>(const PlatenTest &)>;
+
 struct PlatenTestSettings {
   dem::ModelSettings model;
   Ends ends = Ends::as_packed;
@@ -96,6 +101,10 @@ struct PlatenTestSettings {
   PlatenSettings platens;
   LoadingSettings loading;
   TimeStepSettings time_step;
+  // Of one's own: boundaries after those that the members above make, and stages in their place. They are
+  // made when platens and lateral boundaries are there.
+  std::vector<MadeFor<Boundary>> boundaries;
+  std::vector<MadeFor<Stage>> stages;
 };
 
 // What is known of the specimen before it is loaded.

@@ -1,17 +1,26 @@
-# Installs what was built, and configures, builds and runs an example against it as a user would.
-# -DBUILD= of the project, -DEXAMPLE= sources, -DFOLDER= to work in, -DCOMPILER=, -DGENERATOR=
+# Installs what was built, and configures, builds and runs the examples against it as a user would.
+# -DBUILD= of the project, -DEXAMPLES= folder of their sources, -DFOLDER= to work in, -DCOMPILER=, -DGENERATOR=
+function(run_all)
+  foreach(command IN LISTS ARGN)
+    string(REPLACE "|" ";" command "${command}")
+    execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    message("${output}")
+    if(NOT status EQUAL 0)
+      message(FATAL_ERROR "status ${status}: ${command}")
+    endif()
+  endforeach()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
 file(REMOVE_RECURSE ${FOLDER})
-foreach(command IN ITEMS
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${FOLDER}/prefix"
-    "${CMAKE_COMMAND};-S;${EXAMPLE};-B;${FOLDER}/build;-G;${GENERATOR};-DCMAKE_CXX_COMPILER=${COMPILER};-DCMAKE_PREFIX_PATH=${FOLDER}/prefix"
-    "${CMAKE_COMMAND};--build;${FOLDER}/build"
-    "${FOLDER}/build/crush")
-  execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  message("${output}")
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "status ${status}: ${command}")
+run_all("${CMAKE_COMMAND}|--install|${BUILD}|--prefix|${FOLDER}/prefix")
+foreach(example_and_word IN ITEMS "crush|spheres: [1-9]" "extend|all holds")
+  string(REGEX REPLACE "\\|.*" "" example "${example_and_word}")
+  string(REGEX REPLACE "^[^|]*\\|" "" word "${example_and_word}")
+  set(work ${FOLDER}/${example})
+  run_all("${CMAKE_COMMAND}|-S|${EXAMPLES}/${example}|-B|${work}|-G|${GENERATOR}|-DCMAKE_CXX_COMPILER=${COMPILER}|-DCMAKE_PREFIX_PATH=${FOLDER}/prefix"
+    "${CMAKE_COMMAND}|--build|${work}" "${work}/${example}")
+  if(NOT output MATCHES "${word}")
+    message(FATAL_ERROR "${example} did not print \"${word}\"")
   endif()
 endforeach()
-if(NOT output MATCHES "spheres: [1-9]")
-  message(FATAL_ERROR "the example did not print a strength")
-endif()
