@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "dem/contacts.h"
-#include "dem/effects.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/hertz_contact.h"
 #include "dem/laws/linear_contact.h"
@@ -188,17 +187,15 @@ void Contacts::release(std::size_t k, Dissipation &lost) {
   }
 }
 
-// Choices are made one after the other; what a build leaves out is not instantiated.
+// Choices are made one after the other.
 template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
 Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if constexpr (compiled::energy_ledger)
-    if (c.book) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
+  if (c.book) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
   return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, false>>;
 }
 template <class Law, TangentialContact tangential, bool dashpots>
 Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if constexpr (compiled::rotation)
-    if (c.rotation) return choose<Law, tangential, dashpots, true>(c);
+  if (c.rotation) return choose<Law, tangential, dashpots, true>(c);
   if constexpr (tangential == TangentialContact::coulomb_with_rolling)
     throw std::invalid_argument("rolling resistance needs particles that rotate");
   else
@@ -206,24 +203,19 @@ Contacts::Loop Contacts::choose(const LoopChoice &c) {
 }
 template <class Law, TangentialContact tangential>
 Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if constexpr (compiled::contact_dashpots)
-    if (c.dashpots) return choose<Law, tangential, true>(c);
+  if (c.dashpots) return choose<Law, tangential, true>(c);
   return choose<Law, tangential, false>(c);
 }
 template <class Law>
 Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if constexpr (compiled::rolling)
-    if (c.tangential == TangentialContact::coulomb_with_rolling)
-      return choose<Law, TangentialContact::coulomb_with_rolling>(c);
-  if constexpr (compiled::friction)
-    if (c.tangential == TangentialContact::coulomb) return choose<Law, TangentialContact::coulomb>(c);
+  if (c.tangential == TangentialContact::coulomb_with_rolling)
+    return choose<Law, TangentialContact::coulomb_with_rolling>(c);
+  if (c.tangential == TangentialContact::coulomb) return choose<Law, TangentialContact::coulomb>(c);
   return choose<Law, TangentialContact::none>(c);
 }
 
 Contacts::Loop Contacts::loop_for(const LoopChoice &c) {
-  if constexpr (compiled::hertz)
-    if (settings_.normal == NormalContact::hertz) return choose<HertzContact>(c);
-  return choose<LinearContact>(c);
+  return settings_.normal == NormalContact::hertz ? choose<HertzContact>(c) : choose<LinearContact>(c);
 }
 
 } // namespace platen::dem

@@ -1,7 +1,6 @@
 // Body of the motion kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. It is compiled without
 // contraction, and sums are kept by row number modulo `slots`, so that every instruction set gives the same
 // bits.
-#include "dem/effects.h"
 #include "dem/kernels/motion_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -197,39 +196,32 @@ MotionKernel kernel_for(Halves halves) {
     return move_block<rotation, LocalDamping::none, false, book, dissipative, Halves::begin>;
   return move_block<rotation, damping, gravity, book, dissipative, Halves::end_and_begin>;
 }
-// What a build leaves out is not instantiated.
 template <bool rotation, LocalDamping damping, bool gravity, bool book>
 MotionKernel choose(Halves h, bool dissipative) {
-  if constexpr (compiled::dissipative_scheme)
-    if (dissipative) return kernel_for<rotation, damping, gravity, book, true>(h);
+  if (dissipative) return kernel_for<rotation, damping, gravity, book, true>(h);
   return kernel_for<rotation, damping, gravity, book, false>(h);
 }
 template <bool rotation, LocalDamping damping, bool gravity>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::energy_ledger)
-    if (e.book) return choose<rotation, damping, gravity, true>(h, e.dissipative);
+  if (e.book) return choose<rotation, damping, gravity, true>(h, e.dissipative);
   return choose<rotation, damping, gravity, false>(h, e.dissipative);
 }
 template <bool rotation, LocalDamping damping>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::gravity)
-    if (e.gravity) return choose<rotation, damping, true>(h, e);
+  if (e.gravity) return choose<rotation, damping, true>(h, e);
   return choose<rotation, damping, false>(h, e);
 }
 template <bool rotation>
 MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::local_damping) {
-    if (e.local_damping == LocalDamping::component) return choose<rotation, LocalDamping::component>(h, e);
-    if (e.local_damping == LocalDamping::vector) return choose<rotation, LocalDamping::vector>(h, e);
-  }
+  if (e.local_damping == LocalDamping::component) return choose<rotation, LocalDamping::component>(h, e);
+  if (e.local_damping == LocalDamping::vector) return choose<rotation, LocalDamping::vector>(h, e);
   return choose<rotation, LocalDamping::none>(h, e);
 }
 
 } // namespace
 
 MotionKernel PLATEN_KERNEL(Halves halves, const MotionEffects &e) {
-  if constexpr (compiled::rotation)
-    if (e.rotation) return choose<true>(halves, e);
+  if (e.rotation) return choose<true>(halves, e);
   return choose<false>(halves, e);
 }
 
