@@ -243,13 +243,8 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   }
   if (!p.has_rotation()) return std::get<ParallelBond>(law).without_rotation(geometry(k), d);
   const BondMotion<double> motion{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])};
-  return response_to(k, motion);
-}
-
-BondResponse<double> Bonds::response_to(std::size_t k, const BondMotion<double> &motion) const {
   if (const auto *beam = std::get_if<CohesiveBeam>(&law)) return (*beam)(geometry(k), motion);
-  if (const auto *bond = std::get_if<ParallelBond>(&law)) return (*bond)(geometry(k), motion);
-  throw std::invalid_argument("bonds that remember have no answer to a motion alone");
+  return std::get<ParallelBond>(law)(geometry(k), motion);
 }
 
 BondTotals Bonds::interface_totals(const Particles &p) const {
