@@ -207,7 +207,6 @@ StaticSolver::StaticSolver(const Particles &particles, const Bonds &bonds) {
     implementation_ = std::make_unique<Network<3>>(particles, bonds);
 }
 StaticSolver::~StaticSolver() = default;
-StaticSolver::StaticSolver(StaticSolver &&) noexcept = default;
 
 StaticState StaticSolver::solve(const StaticCase &load, const StaticSettings &settings,
                                 const StaticState *start) {

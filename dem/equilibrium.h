@@ -57,7 +57,6 @@ class StaticSolver {
 public:
   StaticSolver(const Particles &particles, const Bonds &bonds);
   ~StaticSolver();
-  StaticSolver(StaticSolver &&) noexcept;
 
   // From `start` on, if it is given: of another case that is near.
   StaticState solve(const StaticCase &load, const StaticSettings &settings = {},
