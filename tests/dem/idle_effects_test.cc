@@ -1,6 +1,7 @@
 // Effects that are on and have nothing to do change no bit of the motion.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <ostream>
@@ -32,26 +33,27 @@ void PrintTo(const Idle &idle, std::ostream *to) {
   *to << idle.name;
 }
 
+struct Crushed {
+  std::unique_ptr<Model> model;
+  std::size_t touches = 0; // sum over steps
+};
+// Driven together until bonds have broken and their grains touch.
+Crushed crushed(const ModelSettings &settings) {
+  Crushed run{std::make_unique<Model>(packed_box(12, 12, 12), settings), 0};
+  Random random(5);
+  Particles &p = run.model->particles;
+  const Vector3 middle{0, 0, 6 * radius};
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.velocity[i] = 500 * (middle - p.position[i]) + .3 * random.direction();
+  for (int s = 0; s < 100; ++s) {
+    step(*run.model, 5e-8);
+    run.touches += run.model->contacts->touching_count();
+  }
+  return run;
+}
+
 class IdleEffects : public testing::TestWithParam<Idle> {
 protected:
-  struct Crushed {
-    std::unique_ptr<Model> model;
-    std::size_t touches = 0; // sum over steps
-  };
-  // Driven together until bonds have broken and their grains touch.
-  static Crushed crushed(const ModelSettings &settings) {
-    Crushed run{std::make_unique<Model>(packed_box(12, 12, 12), settings), 0};
-    Random random(5);
-    Particles &p = run.model->particles;
-    const Vector3 middle{0, 0, 6 * radius};
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p.velocity[i] = 500 * (middle - p.position[i]) + .3 * random.direction();
-    for (int s = 0; s < 100; ++s) {
-      step(*run.model, 5e-8);
-      run.touches += run.model->contacts->touching_count();
-    }
-    return run;
-  }
   static ModelSettings settings() {
     ModelSettings s = breakable();
     s.contact->tangential = TangentialContact::none;
@@ -90,6 +92,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Idle{"crack_log", nothing, [](ModelSettings &s) { s.crack_log = false; }},
                     Idle{"energy_ledger", rub, [](ModelSettings &s) { s.energy_ledger = false; }}),
     [](const auto &idle) { return std::string(idle.param.name); });
+
+TEST(effects_off, a_ledger_that_is_off_sums_nothing) {
+  ModelSettings settings = breakable();
+  settings.contact->damping = .1;
+  settings.local_damping = .2;
+  settings.gravity = {0, 0, -9.81};
+  for (const bool ledger : {true, false}) {
+    settings.energy_ledger = ledger;
+    const Crushed run = crushed(settings);
+    EXPECT_EQ(run.model->contacts->friction_work > 0, ledger);
+    EXPECT_EQ(run.model->contacts->damping_work > 0, ledger);
+    EXPECT_EQ(run.model->works.damping > 0, ledger);
+    EXPECT_EQ(run.model->works.weight != 0, ledger);
+    EXPECT_EQ(std::isnan(run.model->energy().stored()), !ledger);
+    EXPECT_EQ(std::isnan(run.model->energy().lost()), !ledger);
+  }
+}
 
 TEST(effects_off, a_crack_log_that_is_off_holds_nothing) {
   for (const bool log : {true, false}) {
