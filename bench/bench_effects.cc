@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "dem/effects.h"
 #include "dem/model.h"
 #include "dem/parallel.h"
 #include "step_scene.h"
@@ -20,7 +19,6 @@ namespace {
 
 using namespace platen;
 using Clock = std::chrono::steady_clock;
-namespace compiled = dem::compiled;
 
 // A scene: the model alone, without platens, so that nothing but the effect differs.
 struct Scene {
@@ -57,7 +55,6 @@ dem::ModelSettings grains() {
 
 using Change = std::function<void(dem::ModelSettings &)>;
 struct Effect {
-  bool compiled;
   const char *name;
   Change add;
 };
@@ -70,43 +67,41 @@ void rub(dem::ModelSettings &s) {
 }
 
 std::vector<Effect> effects_of_bonds() {
-  return {{compiled::local_damping, "local damping", [](auto &s) { s.local_damping = 0.5; }},
-          {compiled::dissipative_scheme, "dissipative scheme",
+  return {{"local damping", [](auto &s) { s.local_damping = 0.5; }},
+          {"dissipative scheme",
            [](auto &s) {
              s.scheme = dem::Scheme::tchamwa_wielgosz;
              s.dissipation = 1.2;
            }},
-          {compiled::gravity, "gravity",
+          {"gravity",
            [](auto &s) {
              s.gravity = {0, 0, -9.80665};
            }},
-          {compiled::energy_ledger, "energy ledger", [](auto &s) { s.energy_ledger = true; }},
-          {compiled::crack_log, "crack log", [](auto &s) { s.crack_log = true; }},
-          {compiled::bond_dashpots, "bond dashpots", [](auto &s) { s.bond_dashpot = 0.1; }},
-          {compiled::rotation, "rotation", turn},
-          {compiled::rotation && compiled::bond_moments, "rotation, bond moments", [](auto &s) {
+          {"energy ledger", [](auto &s) { s.energy_ledger = true; }},
+          {"crack log", [](auto &s) { s.crack_log = true; }},
+          {"bond dashpots", [](auto &s) { s.bond_dashpot = 0.1; }},
+          {"rotation", turn},
+          {"rotation, bond moments", [](auto &s) {
              turn(s);
              std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
            }}};
 }
 
 std::vector<Effect> effects_of_contacts() {
-  return {
-      {compiled::contact_dashpots, "contact dashpots", [](auto &s) { s.contact->damping = 0.1; }},
-      {compiled::hertz, "hertz for linear", [](auto &s) { s.contact->normal = dem::NormalContact::hertz; }},
-      {compiled::friction, "friction", rub},
-      {compiled::rotation, "rotation", turn},
-      {compiled::rotation && compiled::rolling, "rotation, friction, rolling", [](auto &s) {
-         turn(s);
-         s.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
-       }}};
+  return {{"contact dashpots", [](auto &s) { s.contact->damping = 0.1; }},
+          {"hertz for linear", [](auto &s) { s.contact->normal = dem::NormalContact::hertz; }},
+          {"friction", rub},
+          {"rotation", turn},
+          {"rotation, friction, rolling", [](auto &s) {
+             turn(s);
+             s.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
+           }}};
 }
 
 std::vector<Scene> scenes_of(const dem::ModelSettings &base, const std::vector<Effect> &effects) {
   std::vector<Scene> scenes{{"bare", base}};
   Scene all{"all together", base};
   for (const Effect &e : effects) {
-    if (!e.compiled) continue;
     scenes.push_back({e.name, base});
     e.add(scenes.back().settings);
     e.add(all.settings);

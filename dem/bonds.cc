@@ -251,19 +251,15 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
     const InterfaceGeometry<double> g = interface_geometry(k);
     return interface->bond_response(state_of(k), g, d);
   }
-  if (p.has_rotation())
-    return response_to(k, {d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
   return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {
+    if (p.has_rotation())
+      return elastic(geometry(k),
+                     BondMotion<double>{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
     if constexpr (!std::decay_t<decltype(elastic)>::needs_rotation)
       return elastic.without_rotation(geometry(k), d);
     else
       throw std::logic_error("a bond that needs rotation has none");
   });
-}
-
-BondResponse<double> Bonds::response_to(std::size_t k, const BondMotion<double> &motion) const {
-  if (has_history(law)) throw std::invalid_argument("bonds that remember have no answer to a motion alone");
-  return of_elastic(law, [&](const auto &elastic) { return elastic(geometry(k), motion); });
 }
 
 BondTotals Bonds::interface_totals(const Particles &p) const {

@@ -150,9 +150,6 @@ struct Bonds {
                                     double time);
   bool has_failed(std::size_t row) const; // broken, or of those that remember
   BondResponse<double> response(std::size_t row, const Particles &particles) const;
-  // To any motion, with rotation. Throws std::invalid_argument for bonds that remember: they answer to their
-  // path alone.
-  BondResponse<double> response_to(std::size_t row, const BondMotion<double> &motion) const;
   BondTotals interface_totals(const Particles &particles) const; // of bonds that remember
   double damage(std::size_t row) const;                          // 0 ... 1; of laws without history 0
   BondStiffness stiffness(std::size_t row) const;                // at rest; 0 once broken

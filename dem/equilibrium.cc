@@ -93,11 +93,7 @@ template <int n>
 class Network final : public StaticSolver::Implementation {
 public:
   Network(const Particles &p, const Bonds &b)
-      : p_(p),
-        network_(b),
-        bonds_(statics::assemble<n>(
-            p.size(), b, [&](std::size_t row) { return statics::material_stiffness<n>(p, b, row); })),
-        matrix_(bonds_) {
+      : p_(p), network_(b), bonds_(statics::assemble<n>(p, b)), matrix_(bonds_) {
     diagonal_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i)
       for (std::size_t k = bonds_.begin[i]; k < bonds_.begin[i + 1]; ++k)
@@ -211,7 +207,6 @@ StaticSolver::StaticSolver(const Particles &particles, const Bonds &bonds) {
     implementation_ = std::make_unique<Network<3>>(particles, bonds);
 }
 StaticSolver::~StaticSolver() = default;
-StaticSolver::StaticSolver(StaticSolver &&) noexcept = default;
 
 StaticState StaticSolver::solve(const StaticCase &load, const StaticSettings &settings,
                                 const StaticState *start) {

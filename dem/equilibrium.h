@@ -1,6 +1,6 @@
 // Static equilibrium of a bonded network under loads and moving supports, by the tangent stiffness of its
 // bonds and conjugate gradients with a multigrid: for what needs no inertia. Linear: bonds do not break, and
-// rotations are small (large_rotations.h goes on from there).
+// rotations are small.
 #pragma once
 
 #include <memory>
@@ -57,7 +57,6 @@ class StaticSolver {
 public:
   StaticSolver(const Particles &particles, const Bonds &bonds);
   ~StaticSolver();
-  StaticSolver(StaticSolver &&) noexcept;
 
   // From `start` on, if it is given: of another case that is near.
   StaticState solve(const StaticCase &load, const StaticSettings &settings = {},

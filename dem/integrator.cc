@@ -14,13 +14,7 @@ using kernels::MotionSums;
 namespace {
 
 kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
-  using kernels::LocalDamping;
-  const LocalDamping damping =
-      how.local_damping > 0
-          ? how.damping_form == DampingForm::vector ? LocalDamping::vector : LocalDamping::component
-          : LocalDamping::none;
-  const kernels::MotionEffects effects{how.rotation, damping, norm_squared(how.gravity) > 0,
-                                       how.energy_ledger, how.dissipation > 1};
+  const kernels::MotionEffects effects{how.rotation, how.dissipation > 1};
   switch (how.instruction_set) {
     case InstructionSet::avx512:
       return kernels::motion_kernel_avx512(halves, effects);
@@ -30,6 +24,21 @@ kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
       break;
   }
   return kernels::motion_kernel_baseline(halves, effects);
+}
+
+kernels::MotionStep step_of(const Integrator &how, double finished, double next) {
+  using kernels::LocalDamping;
+  kernels::MotionStep step;
+  step.finished = finished;
+  step.next = next;
+  if (how.local_damping > 0)
+    step.damping = how.damping_form == DampingForm::vector ? LocalDamping::vector : LocalDamping::component;
+  step.local_damping = how.local_damping;
+  step.energy_sums = how.energy_ledger;
+  step.weight_sum = how.energy_ledger && norm_squared(how.gravity) > 0;
+  step.gravity = how.gravity;
+  step.excess = how.dissipation - 1;
+  return step;
 }
 
 kernels::MotionColumns columns_of(Particles &p) {
@@ -64,7 +73,7 @@ Sums pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghos
           double next) {
   const kernels::MotionKernel kernel = kernel_of(how, halves);
   const kernels::MotionColumns columns = columns_of(p);
-  const kernels::MotionStep step{finished, next, how.local_damping, how.gravity, how.dissipation - 1};
+  const kernels::MotionStep step = step_of(how, finished, next);
   return ordered_sum<Sums>(p.size(), [&](std::size_t first, std::size_t last) {
     if (halves != Halves::begin) {
       if (ghosts.bonds != nullptr) return_ghosts(p, *ghosts.bonds, first / block_rows);

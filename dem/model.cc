@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "dem/effects.h"
 #include "dem/packing/specimen.h"
 #include "dem/parallel.h"
 
@@ -16,32 +15,9 @@ namespace {
 // Broken rows are dropped once they are this share of all rows.
 constexpr double compaction_share = 0.02;
 
-void require_compiled(bool wanted, bool compiled, const char *effect) {
-  if (wanted && !compiled)
-    throw std::invalid_argument(std::string(effect) + ": left out of this build (PLATEN_EFFECTS)");
-}
-
-// Refuses what this build leaves out, before a column is made.
-const ModelSettings &checked(const ModelSettings &s) {
-  require_in_range(s);
-  require_compiled(s.rotation, compiled::rotation, "rotation");
-  require_compiled(s.rotation && s.bond && bends(bond_law(*s.bond)), compiled::bond_moments, "bond moments");
-  require_compiled(s.bond_dashpot > 0, compiled::bond_dashpots, "bond dashpots");
-  require_compiled(s.local_damping > 0, compiled::local_damping, "local damping");
-  require_compiled(norm_squared(s.gravity) > 0, compiled::gravity, "gravity");
-  require_compiled(s.energy_ledger, compiled::energy_ledger, "energy ledger");
-  require_compiled(s.crack_log, compiled::crack_log, "crack log");
-  require_compiled(s.phi() > 1, compiled::dissipative_scheme, "dissipative scheme");
-  require_compiled(s.strength_scatter || (s.phases && s.phases->scatters()), compiled::strength_factors,
-                   "strength factors");
-  if (!s.contact) return s;
-  const ContactSettings &c = *s.contact;
-  require_compiled(c.normal == NormalContact::hertz, compiled::hertz, "hertz contact");
-  require_compiled(c.tangential != TangentialContact::none, compiled::friction, "friction");
-  require_compiled(c.tangential == TangentialContact::coulomb_with_rolling, compiled::rolling, "rolling");
-  require_compiled(c.normal == NormalContact::hertz ? c.restitution < 1 : c.damping > 0,
-                   compiled::contact_dashpots, "contact dashpots");
-  return s;
+const ModelSettings &checked(const ModelSettings &settings) {
+  require_in_range(settings);
+  return settings;
 }
 
 ModelSettings completed(const Specimen &specimen, const ModelSettings &settings) {
@@ -150,7 +126,6 @@ void Model::note_breaks(const std::vector<BrokenBond> &broken) {
   for (const BrokenBond &b : broken) {
     works.fracture += b.released;
     (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
-    if constexpr (!compiled::crack_log) continue;
     if (!settings_.crack_log) continue;
     const Vector3 xi = particles.position[b.first], xj = particles.position[b.second];
     const double ri = particles.radius[b.first], lever = ri / (ri + particles.radius[b.second]);

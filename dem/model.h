@@ -89,7 +89,6 @@ struct Crack {
 // looks at, end_and_begin_step does both in one pass, to the same bits.
 class Model {
 public:
-  // Throws std::invalid_argument where the settings ask for an effect that this build leaves out.
   Model(const Specimen &specimen, const ModelSettings &settings);
 
   Particles particles;

@@ -26,7 +26,6 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
   first_pair.assign(1, 0);
   first_ghost.assign(1, 0);
   ends.resize(pairs);
-  most_ghosts = 0;
   ghost_particle.clear();
   std::size_t k = 0;
   for (std::size_t b = 0; b < count; ++b) {
@@ -43,7 +42,6 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
       ends[n] = {row_size * (first[n] - static_cast<int>(first_row)), row_size * static_cast<int>(inside)};
     }
     ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
-    most_ghosts = std::max(most_ghosts, outside.size());
     first_pair.push_back(k);
     first_ghost.push_back(ghost_particle.size());
   }

@@ -28,7 +28,6 @@ struct PairBlocks {
   std::vector<Vector3> ghost_force, ghost_torque; // N, N m; torque only with rotation
   std::vector<std::size_t> first_return;          // of each block, and the end
   std::vector<Return> returns;                    // to the particles of each block, ascending
-  std::size_t most_ghosts = 0;                    // of one block
 
   // From columns of `pairs` rows, sorted by first.
   void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation,

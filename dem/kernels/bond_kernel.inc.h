@@ -1,5 +1,4 @@
 // Body of the bond kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS.
-#include "dem/effects.h"
 #include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/pack.inc.h"
@@ -102,13 +101,10 @@ bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &
 template <bool factors, class Law>
 bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
                          std::size_t last) {
-  if constexpr (compiled::rotation && (compiled::bond_moments || Law::needs_rotation))
-    if (c.orientation != nullptr && law.bends())
-      return compute_forces<Turning::moments, factors>(c, block, law, first, last);
+  if (c.orientation != nullptr && law.bends())
+    return compute_forces<Turning::moments, factors>(c, block, law, first, last);
   if constexpr (!Law::needs_rotation) {
-    if constexpr (compiled::rotation)
-      if (c.orientation != nullptr)
-        return compute_forces<Turning::forces, factors>(c, block, law, first, last);
+    if (c.orientation != nullptr) return compute_forces<Turning::forces, factors>(c, block, law, first, last);
     return compute_forces<Turning::none, factors>(c, block, law, first, last);
   }
   return false;
@@ -117,9 +113,8 @@ bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const 
 bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law, std::size_t first,
                        std::size_t last) {
   const auto compute = [&](const auto &one) {
-    if constexpr (compiled::strength_factors)
-      if (c.strength_factor != nullptr) return compute_forces_with<true>(c, block, one, first, last);
-    return compute_forces_with<false>(c, block, one, first, last);
+    return c.strength_factor != nullptr ? compute_forces_with<true>(c, block, one, first, last)
+                                        : compute_forces_with<false>(c, block, one, first, last);
   };
   return of_elastic(law, compute);
 }
@@ -174,9 +169,8 @@ void measure_with(const BondColumns &c, const Law &law, const BondRowValues &to,
 void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &to, std::size_t first,
                 std::size_t last) {
   const auto measure_all = [&](const auto &one) {
-    if constexpr (compiled::strength_factors)
-      if (c.strength_factor != nullptr) return measure_with<true>(c, one, to, first, last);
-    measure_with<false>(c, one, to, first, last);
+    c.strength_factor != nullptr ? measure_with<true>(c, one, to, first, last)
+                                 : measure_with<false>(c, one, to, first, last);
   };
   of_elastic(law, measure_all);
 }
@@ -240,12 +234,9 @@ double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t
 }
 
 double add_dashpots_of(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
-  if constexpr (compiled::bond_dashpots) {
-    if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, block, first, last);
-    return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, block, first, last)
-                                       : add_dashpots<Turning::forces>(c, block, first, last);
-  }
-  return 0;
+  if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, block, first, last);
+  return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, block, first, last)
+                                     : add_dashpots<Turning::forces>(c, block, first, last);
 }
 
 } // namespace

@@ -1,5 +1,4 @@
 // Body of the interface kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
-#include "dem/effects.h"
 #include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/interface_kernel.h"
 #include "dem/kernels/pack.inc.h"
@@ -141,17 +140,14 @@ bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const 
 template <bool rotation>
 bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
                   double dt, std::size_t first, std::size_t last) {
-  if constexpr (compiled::strength_factors)
-    if (c.bonds.strength_factor != nullptr)
-      return compute_forces<rotation, true>(c, block, law, dt, first, last);
-  return compute_forces<rotation, false>(c, block, law, dt, first, last);
+  return c.bonds.strength_factor != nullptr ? compute_forces<rotation, true>(c, block, law, dt, first, last)
+                                            : compute_forces<rotation, false>(c, block, law, dt, first, last);
 }
 
 bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
                        double dt, std::size_t first, std::size_t last) {
-  if constexpr (compiled::rotation)
-    if (c.bonds.orientation != nullptr) return compute_with<true>(c, block, law, dt, first, last);
-  return compute_with<false>(c, block, law, dt, first, last);
+  return c.bonds.orientation != nullptr ? compute_with<true>(c, block, law, dt, first, last)
+                                        : compute_with<false>(c, block, law, dt, first, last);
 }
 
 } // namespace

@@ -19,12 +19,19 @@ struct MotionColumns {
   Vector3 *excess_velocity, *excess_spin;
 };
 
+enum class LocalDamping { none, component, vector };
+
+// Coefficients of a pass. Those that may be nothing are branches that all rows take alike, not loops of their
+// own (bench/results/effects.md has what they cost).
 struct MotionStep {
   double finished = 0; // s, of the step that the second half kick ends
   double next = 0;     // s, of the step that the first half kick and the drift begin
-  double local_damping = 0;
-  Vector3 gravity;
-  double excess = 0; // phi - 1 of a dissipative scheme
+  LocalDamping damping = LocalDamping::none;
+  double local_damping = 0; // alpha
+  bool energy_sums = true;  // damping_work and kinetic_energy
+  bool weight_sum = false;  // weight_work
+  Vector3 gravity;          // m/s^2
+  double excess = 0;        // phi - 1 of a dissipative scheme
 };
 
 // What a pass does.
@@ -33,24 +40,20 @@ enum class Halves { end, begin, end_and_begin };
 struct MotionSums {
   double damping_work = 0;   // J, lost to local damping and to the scheme in the finished step
   double weight_work = 0;    // J, done by gravity in it
-  double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end, also without a book
+  double unbalanced = 0;     // N, sum of |net force| before damping; only Halves::end, also without energies
   double kinetic_energy = 0; // J, at full-step velocities; only Halves::end
   double speed_squares = 0;  // m^2/s^2, sum at the half step; not finite where a velocity is not
   double fastest_square = 0; // m^2/s^2, the largest of them
 };
 
-// Which effects a pass has; each combination is a loop of its own.
-enum class LocalDamping { none, component, vector };
+// Effects that have columns; each combination is a loop of its own.
 struct MotionEffects {
   bool rotation = false;
-  LocalDamping local_damping = LocalDamping::none;
-  bool gravity = false;
-  bool book = true;         // energy sums
   bool dissipative = false; // drifts by an excess over the half-step velocity
 };
 
-using MotionKernel = MotionSums (*)(const MotionColumns &, const MotionStep &, std::size_t first,
-                                    std::size_t last);
+// By value: what is stored to columns cannot change a step, so that it stays in registers.
+using MotionKernel = MotionSums (*)(MotionColumns, MotionStep, std::size_t first, std::size_t last);
 MotionKernel motion_kernel_baseline(Halves, const MotionEffects &);
 MotionKernel motion_kernel_avx2(Halves, const MotionEffects &);
 MotionKernel motion_kernel_avx512(Halves, const MotionEffects &);

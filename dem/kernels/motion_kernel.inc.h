@@ -1,7 +1,6 @@
 // Body of the motion kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. It is compiled without
 // contraction, and sums are kept by row number modulo `slots`, so that every instruction set gives the same
 // bits.
-#include "dem/effects.h"
 #include "dem/kernels/motion_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -36,7 +35,7 @@ struct Rows<double> {
 };
 
 template <class Real>
-struct Book {
+struct PartialSums {
   Real damping_work{}, weight_work{}, unbalanced{}, kinetic_energy{}, speed_squares{}, fastest_square{};
 };
 
@@ -48,10 +47,19 @@ inline Real damped(const Real &force, const Real &velocity, double alpha) {
 
 // Of the whole load, along the velocity; none where nothing moves.
 template <class Real>
-inline Triple<Real> damped(const Triple<Real> &load, const Triple<Real> &v, double alpha) {
+inline Triple<Real> damped_along(const Triple<Real> &load, const Triple<Real> &v, double alpha) {
   const Real speed = root(dot(v, v)), zero = speed * 0.0;
   const Real share = alpha * root(dot(load, load)) / where_positive(speed, speed, Real(zero + 1.0));
   return load - scale(share, v);
+}
+
+// A load after local damping, in the form of the step.
+template <class Real>
+inline Triple<Real> damped(const Triple<Real> &load, const Triple<Real> &v, const MotionStep &step) {
+  const double alpha = step.local_damping;
+  if (step.damping == LocalDamping::none) return load;
+  if (step.damping == LocalDamping::vector) return damped_along(load, v, alpha);
+  return {damped(load.x, v.x, alpha), damped(load.y, v.y, alpha), damped(load.z, v.z, alpha)};
 }
 
 // Turns by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
@@ -66,35 +74,27 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
 
 // Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `excess`:
 // what the drift had above the half-step velocity, only with a dissipative scheme.
-template <class Real, LocalDamping damping, bool book, bool dissipative, Halves halves>
+template <class Real, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
-                     const MotionStep &step, Book<Real> &sums, const Triple<Real> &excess = {}) {
+                     const MotionStep &step, PartialSums<Real> &sums, const Triple<Real> &excess = {}) {
   const Triple<Real> whole = load;
-  if constexpr (damping == LocalDamping::vector) load = damped(load, v, step.local_damping);
-  if constexpr (damping == LocalDamping::component)
-    load = {damped(load.x, v.x, step.local_damping), damped(load.y, v.y, step.local_damping),
-            damped(load.z, v.z, step.local_damping)};
+  load = damped(load, v, step);
   if constexpr (dissipative) v = v - excess;
   v = v + scale(Real(0.5 * step.finished * mobility), load);
+  if (!step.energy_sums) return;
+  // The work lost in the step, which the leapfrog sees at the full-step velocity.
+  Triple<Real> mean = v;
   if constexpr (dissipative) {
-    if constexpr (book) {
-      // The mean of the loads at both ends of the drift, over the excess of its path.
-      const Real before = (1 / step.excess) * mass * dot(excess, excess);
-      sums.damping_work = sums.damping_work + 0.5 * (before + step.finished * dot(load, excess));
-    }
-    if constexpr (damping != LocalDamping::none && book) {
-      // At the mean of the drifts on either side, which the excess lets differ from the full-step velocity.
-      const Triple<Real> next = scale(Real(step.excess * step.finished * mobility), load);
-      sums.damping_work =
-          sums.damping_work + step.finished * dot(whole - load, v + scale(Real(0.5), excess + next));
-    }
-  } else {
-    // The work lost in the step, which the leapfrog books at the full-step velocity.
-    if constexpr (damping != LocalDamping::none && book)
-      sums.damping_work = sums.damping_work + step.finished * dot(whole - load, v);
+    // The mean of the loads at both ends of the drift, over the excess of its path.
+    const Real before = (1 / step.excess) * mass * dot(excess, excess);
+    sums.damping_work = sums.damping_work + 0.5 * (before + step.finished * dot(load, excess));
+    // At the mean of the drifts on either side, which the excess lets differ from the full-step velocity.
+    const Triple<Real> next = scale(Real(step.excess * step.finished * mobility), load);
+    mean = v + scale(Real(0.5), excess + next);
   }
-  if constexpr (book && halves == Halves::end)
-    sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
+  if (step.damping != LocalDamping::none)
+    sums.damping_work = sums.damping_work + step.finished * dot(whole - load, mean);
+  if constexpr (halves == Halves::end) sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
 }
 
 template <class Real>
@@ -112,9 +112,8 @@ inline Triple<Real> add_excess(Triple<Real> &v, const Triple<Real> &load, const 
   return excess;
 }
 
-template <class Real, bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative,
-          Halves halves>
-inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, Book<Real> &sums) {
+template <class Real, bool rotation, bool dissipative, Halves halves>
+inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, PartialSums<Real> &sums) {
   using R = Rows<Real>;
   Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
   const Real mass = R::scalar(c.mass + i), mobility = 1.0 / mass;
@@ -122,11 +121,10 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   if constexpr (halves != Halves::begin) {
     [[maybe_unused]] const Triple<Real> drift = v;
     if constexpr (dissipative)
-      end_kick<Real, damping, book, true, halves>(v, force, mass, mobility, step, sums,
-                                                  R::vector(c.excess_velocity + i));
+      end_kick<Real, true, halves>(v, force, mass, mobility, step, sums, R::vector(c.excess_velocity + i));
     else
-      end_kick<Real, damping, book, false, halves>(v, force, mass, mobility, step, sums);
-    if constexpr (gravity && book) {
+      end_kick<Real, false, halves>(v, force, mass, mobility, step, sums);
+    if (step.weight_sum) {
       const Triple<Real> g{Real(step.gravity.x), Real(step.gravity.y), Real(step.gravity.z)};
       sums.weight_work = sums.weight_work + step.finished * mass * dot(g, dissipative ? drift : v);
     }
@@ -146,10 +144,10 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
     Triple<Real> w = R::vector(c.angular_velocity + i), torque = R::vector(c.torque + i);
     const Real inertia = R::scalar(c.inertia + i), turn_mobility = 1.0 / inertia;
     if constexpr (halves != Halves::begin && dissipative)
-      end_kick<Real, damping, book, true, halves>(w, torque, inertia, turn_mobility, step, sums,
-                                                  R::vector(c.excess_spin + i));
+      end_kick<Real, true, halves>(w, torque, inertia, turn_mobility, step, sums,
+                                   R::vector(c.excess_spin + i));
     if constexpr (halves != Halves::begin && !dissipative)
-      end_kick<Real, damping, book, false, halves>(w, torque, inertia, turn_mobility, step, sums);
+      end_kick<Real, false, halves>(w, torque, inertia, turn_mobility, step, sums);
     if constexpr (halves == Halves::end) {
       store(c.torque + i, torque);
     } else {
@@ -161,25 +159,25 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   }
 }
 
-template <bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative, Halves halves>
-MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_t first, std::size_t last) {
+template <bool rotation, bool dissipative, Halves halves>
+MotionSums move_block(MotionColumns c, MotionStep step, std::size_t first, std::size_t last) {
   constexpr std::size_t packs = slots / lanes;
-  Book<Pack> wide[packs];
+  PartialSums<Pack> wide[packs];
   std::size_t i = first;
   for (; i + slots <= last; i += slots)
     for (std::size_t p = 0; p < packs; ++p)
-      move<Pack, rotation, damping, gravity, book, dissipative, halves>(c, step, i + p * lanes, wide[p]);
-  Book<double> slot[slots];
+      move<Pack, rotation, dissipative, halves>(c, step, i + p * lanes, wide[p]);
+  PartialSums<double> slot[slots];
   for (std::size_t s = 0; s < slots; ++s) {
-    const Book<Pack> &w = wide[s / lanes];
+    const PartialSums<Pack> &w = wide[s / lanes];
     const std::size_t l = s % lanes;
     slot[s] = {w.damping_work.v[l],   w.weight_work.v[l],   w.unbalanced.v[l],
                w.kinetic_energy.v[l], w.speed_squares.v[l], w.fastest_square.v[l]};
   }
   for (std::size_t s = 0; i < last; ++i, ++s)
-    move<double, rotation, damping, gravity, book, dissipative, halves>(c, step, i, slot[s]);
+    move<double, rotation, dissipative, halves>(c, step, i, slot[s]);
   MotionSums sums;
-  for (const Book<double> &b : slot) {
+  for (const PartialSums<double> &b : slot) {
     sums.damping_work += b.damping_work;
     sums.weight_work += b.weight_work;
     sums.unbalanced += b.unbalanced;
@@ -190,47 +188,18 @@ MotionSums move_block(const MotionColumns &c, const MotionStep &step, std::size_
   return sums;
 }
 
-template <bool rotation, LocalDamping damping, bool gravity, bool book, bool dissipative>
+template <bool rotation, bool dissipative>
 MotionKernel kernel_for(Halves halves) {
-  if (halves == Halves::end) return move_block<rotation, damping, gravity, book, dissipative, Halves::end>;
-  if (halves == Halves::begin)
-    return move_block<rotation, LocalDamping::none, false, book, dissipative, Halves::begin>;
-  return move_block<rotation, damping, gravity, book, dissipative, Halves::end_and_begin>;
-}
-// What a build leaves out is not instantiated.
-template <bool rotation, LocalDamping damping, bool gravity, bool book>
-MotionKernel choose(Halves h, bool dissipative) {
-  if constexpr (compiled::dissipative_scheme)
-    if (dissipative) return kernel_for<rotation, damping, gravity, book, true>(h);
-  return kernel_for<rotation, damping, gravity, book, false>(h);
-}
-template <bool rotation, LocalDamping damping, bool gravity>
-MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::energy_ledger)
-    if (e.book) return choose<rotation, damping, gravity, true>(h, e.dissipative);
-  return choose<rotation, damping, gravity, false>(h, e.dissipative);
-}
-template <bool rotation, LocalDamping damping>
-MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::gravity)
-    if (e.gravity) return choose<rotation, damping, true>(h, e);
-  return choose<rotation, damping, false>(h, e);
-}
-template <bool rotation>
-MotionKernel choose(Halves h, const MotionEffects &e) {
-  if constexpr (compiled::local_damping) {
-    if (e.local_damping == LocalDamping::component) return choose<rotation, LocalDamping::component>(h, e);
-    if (e.local_damping == LocalDamping::vector) return choose<rotation, LocalDamping::vector>(h, e);
-  }
-  return choose<rotation, LocalDamping::none>(h, e);
+  if (halves == Halves::end) return move_block<rotation, dissipative, Halves::end>;
+  if (halves == Halves::begin) return move_block<rotation, dissipative, Halves::begin>;
+  return move_block<rotation, dissipative, Halves::end_and_begin>;
 }
 
 } // namespace
 
 MotionKernel PLATEN_KERNEL(Halves halves, const MotionEffects &e) {
-  if constexpr (compiled::rotation)
-    if (e.rotation) return choose<true>(halves, e);
-  return choose<false>(halves, e);
+  if (e.rotation) return e.dissipative ? kernel_for<true, true>(halves) : kernel_for<true, false>(halves);
+  return e.dissipative ? kernel_for<false, true>(halves) : kernel_for<false, false>(halves);
 }
 
 } // namespace platen::dem::kernels

@@ -87,22 +87,6 @@ double barrel(const std::vector<double> &opening) {
   return std::isgreater(middle, 0.0) ? 0.5 * (opening.front() + opening.back()) / middle : not_a_number;
 }
 
-DamageGrid damage_grid(const Particles &p, const Bonds &b, const Shape &shape, int rings, int layers) {
-  DamageGrid grid{rings, layers, {}, {}};
-  grid.initial.assign(static_cast<std::size_t>(rings) * static_cast<std::size_t>(layers), 0);
-  grid.broken = grid.initial;
-  for (std::size_t k = 0; k < b.initial_count(); ++k) {
-    const Vector3 m = reference_midpoint(p, b, k);
-    const int ring =
-        std::clamp(static_cast<int>(rings * from_axis(m, shape) / half_width(shape)), 0, rings - 1);
-    const int layer = std::clamp(static_cast<int>(layers * m.z / shape.height), 0, layers - 1);
-    const std::size_t cell = static_cast<std::size_t>(layer * rings + ring);
-    ++grid.initial[cell];
-    grid.broken[cell] += is_broken(b.state[k]);
-  }
-  return grid;
-}
-
 BondCounts bond_counts(const Particles &p, const Bonds &b) {
   BondCounts counts;
   counts.intact.assign(p.size(), 0);

@@ -29,14 +29,6 @@ double end_spread(const std::vector<double> &opening);
 // Mean of the two end slices over the mean of the two middle ones.
 double barrel(const std::vector<double> &opening);
 
-// Counts on a grid of rings (equal steps of r) and layers (equal steps of z) by reference midpoint.
-struct DamageGrid {
-  int rings = 0, layers = 0;
-  std::vector<int> initial, broken; // [layer * rings + ring]
-};
-DamageGrid damage_grid(const Particles &particles, const Bonds &bonds, const Shape &shape, int rings,
-                       int layers);
-
 // Initial and broken bonds of each particle.
 struct BondCounts {
   std::vector<int> intact, broken;

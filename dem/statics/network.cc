@@ -33,10 +33,14 @@ Eigen::Map<Eigen::Matrix<double, n, n>> block_at(double *to) {
   return Eigen::Map<Eigen::Matrix<double, n, n>>(to);
 }
 
-} // namespace
+// Of one bond, between the unknowns of its two particles; n x n by columns. K_ji is the transpose of K_ij.
+template <int n>
+struct BondBlocks {
+  double ii[n * n], ij[n * n], jj[n * n];
+};
 
 template <int n>
-BondBlocks<n> material_stiffness(const Particles &p, const Bonds &b, std::size_t row) {
+BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row) {
   BondBlocks<n> blocks{};
   const BondStiffness s = b.stiffness(row);
   if (s.axial == 0) return blocks;
@@ -61,6 +65,58 @@ BondBlocks<n> material_stiffness(const Particles &p, const Bonds &b, std::size_t
   return blocks;
 }
 
+} // namespace
+
+template <int n>
+BlockRows<n, double> assemble(const Particles &p, const Bonds &bonds) {
+  const std::size_t particles = p.size();
+  // Of each particle: its bonds as second particle, itself, its bonds as first; in the order of bonds.
+  BlockRows<n, double> a;
+  std::vector<std::size_t> as_second(particles, 0), as_first(particles, 0);
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    ++as_first[static_cast<std::size_t>(bonds.first[k])];
+    ++as_second[static_cast<std::size_t>(bonds.second[k])];
+  }
+  a.begin.reserve(particles + 1);
+  for (std::size_t i = 0; i < particles; ++i)
+    a.begin.push_back(a.begin.back() + as_second[i] + 1 + as_first[i]);
+  a.column.resize(a.begin.back());
+  std::vector<int> bond(a.begin.back(), -1); // of each block; -1: the diagonal
+  std::vector<std::size_t> below(particles), above(particles);
+  for (std::size_t i = 0; i < particles; ++i) {
+    below[i] = a.begin[i];
+    above[i] = a.begin[i] + as_second[i];
+    a.column[above[i]++] = static_cast<int>(i);
+  }
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(bonds.first[k]),
+                      j = static_cast<std::size_t>(bonds.second[k]);
+    bond[above[i]] = bond[below[j]] = static_cast<int>(k);
+    a.column[above[i]++] = static_cast<int>(j);
+    a.column[below[j]++] = static_cast<int>(i);
+  }
+  // A bond is worked out for both of its rows, so that no row waits for another.
+  a.block.assign(a.begin.back() * n * n, 0.0);
+  for_each(
+      particles,
+      [&](std::size_t row) {
+        double *diagonal = a.at(a.begin[row] + as_second[row]);
+        for (std::size_t k = a.begin[row]; k < a.begin[row + 1]; ++k) {
+          if (bond[k] < 0) continue;
+          const BondBlocks<n> b = blocks_of<n>(p, bonds, static_cast<std::size_t>(bond[k]));
+          const bool first = static_cast<std::size_t>(bonds.first[static_cast<std::size_t>(bond[k])]) == row;
+          double *to = a.at(k);
+          for (int c = 0; c < n; ++c)
+            for (int r = 0; r < n; ++r) {
+              to[n * c + r] = first ? b.ij[n * c + r] : b.ij[n * r + c];
+              diagonal[n * c + r] += first ? b.ii[n * c + r] : b.jj[n * c + r];
+            }
+        }
+      },
+      rows_per_part);
+  return a;
+}
+
 template <int n>
 void add_support(const Particles &p, const GroundSpring &s, double *block) {
   const double radius = p.radius[static_cast<std::size_t>(s.particle)];
@@ -83,8 +139,8 @@ void add_support_load(const Particles &p, const GroundSpring &s, const Vector3 &
       (moves(radius, s.arm).transpose() * force * eigen(moved)).template head<n>();
 }
 
-template BondBlocks<3> material_stiffness<3>(const Particles &, const Bonds &, std::size_t);
-template BondBlocks<6> material_stiffness<6>(const Particles &, const Bonds &, std::size_t);
+template BlockRows<3, double> assemble<3>(const Particles &, const Bonds &);
+template BlockRows<6, double> assemble<6>(const Particles &, const Bonds &);
 template void add_support<3>(const Particles &, const GroundSpring &, double *);
 template void add_support<6>(const Particles &, const GroundSpring &, double *);
 template void add_support_load<3>(const Particles &, const GroundSpring &, const Vector3 &, double *);

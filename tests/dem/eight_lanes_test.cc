@@ -159,7 +159,10 @@ TEST_P(EightLanes, measure_the_same) {
 }
 
 TEST_P(EightLanes, move_to_the_same_bits) {
-  const kernels::MotionStep step{1e-7, 2e-7, .4, {1, 2, -9.81}, .3};
+  kernels::MotionStep step;
+  step.finished = 1e-7, step.next = 2e-7;
+  step.local_damping = .4, step.excess = .3;
+  step.weight_sum = true, step.gravity = {1, 2, -9.81};
   const auto moved = [&](kernels::MotionKernel kernel, bool dissipative) {
     Model copy(specimen(), settings());
     if (dissipative) copy.particles.add_excess();
@@ -193,7 +196,8 @@ TEST_P(EightLanes, move_to_the_same_bits) {
   const auto halves = kernels::Halves::end_and_begin;
   for (const auto damping : {kernels::LocalDamping::component, kernels::LocalDamping::vector})
     for (const bool dissipative : {false, true}) {
-      const kernels::MotionEffects effects{rotation(), damping, true, true, dissipative};
+      step.damping = damping;
+      const kernels::MotionEffects effects{rotation(), dissipative};
       EXPECT_EQ(moved(kernels::motion_kernel_baseline(halves, effects), dissipative),
                 moved(kernels::motion_kernel_of_eight_lanes(halves, effects), dissipative));
     }

@@ -1,8 +1,11 @@
 // The passes over particles: the same bits for every instruction set, and for two passes or one.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <ostream>
+#include <set>
 
 #include "dem/integrator.h"
 #include "dem/kernels/motion_kernel.h"
@@ -19,7 +22,7 @@ struct Effects {
   bool rotation;
   double local_damping;
   Vector3 gravity;
-  bool book;
+  bool ledger;
   double dissipation = 1;
   DampingForm form = DampingForm::component;
 };
@@ -32,7 +35,7 @@ class Passes : public testing::TestWithParam<Effects> {
 protected:
   Integrator how(InstructionSet set) const {
     const Effects &e = GetParam();
-    return {e.rotation, e.local_damping, e.gravity, e.book, set, e.dissipation, e.form};
+    return {e.rotation, e.local_damping, e.gravity, e.ledger, set, e.dissipation, e.form};
   }
   // A cloud in motion under random loads; 1029 rows leave a block of five.
   void set_in_motion(Particles &p) const {
@@ -79,10 +82,10 @@ TEST_P(Passes, do_not_depend_on_the_instruction_set) {
   const Motion motion = how(InstructionSet::baseline).begin(expected, 1e-7);
   const KickSums sums = how(InstructionSet::baseline).end(expected, {}, 1e-7);
   EXPECT_GT(motion.fastest, 0);
-  EXPECT_EQ(sums.kinetic_energy > 0, GetParam().book);
+  EXPECT_EQ(sums.kinetic_energy > 0, GetParam().ledger);
   EXPECT_EQ(sums.damping_work > 0,
-            GetParam().book && (GetParam().local_damping > 0 || GetParam().dissipation > 1));
-  EXPECT_EQ(sums.weight_work != 0, GetParam().book && norm(GetParam().gravity) > 0);
+            GetParam().ledger && (GetParam().local_damping > 0 || GetParam().dissipation > 1));
+  EXPECT_EQ(sums.weight_work != 0, GetParam().ledger && norm(GetParam().gravity) > 0);
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (set > best_instruction_set()) continue;
     Particles p(cloud(), 2400, GetParam().rotation);
@@ -113,20 +116,50 @@ TEST_P(Passes, may_be_one_or_two) {
   expect_same_bits(one, two, "in one pass");
 }
 
+// The sum of squared speeds tells, in any row of a pack or behind the last one.
+TEST_P(Passes, tell_a_velocity_that_is_not_finite) {
+  for (const double wrong :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (const std::size_t row : {0u, 5u, 700u, 1028u}) {
+      Particles p(cloud(), 2400, GetParam().rotation);
+      prepare(p);
+      KickSums sums;
+      EXPECT_TRUE(
+          std::isfinite(how(best_instruction_set()).end_and_begin(p, {}, 1e-7, 1e-7, sums).speed_squares));
+      p.force[row].y = wrong;
+      EXPECT_FALSE(
+          std::isfinite(how(best_instruction_set()).end_and_begin(p, {}, 1e-7, 1e-7, sums).speed_squares))
+          << "force " << wrong << " in row " << row;
+    }
+}
+
+// What has no columns is a coefficient, not a loop.
+TEST(motion_kernel, has_twelve_loops) {
+  for (const auto &kernel :
+       {kernels::motion_kernel_baseline, kernels::motion_kernel_avx2, kernels::motion_kernel_avx512}) {
+    std::set<kernels::MotionKernel> loops;
+    for (const auto halves : {kernels::Halves::end, kernels::Halves::begin, kernels::Halves::end_and_begin})
+      for (const bool rotation : {false, true})
+        for (const bool dissipative : {false, true})
+          loops.insert(kernel(halves, {rotation, dissipative}));
+    EXPECT_EQ(loops.size(), 12u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     motion_kernel, Passes,
     testing::Values(Effects{"all", true, .5, {1, -2, -9.81}, true},
                     Effects{"without_rotation", false, .5, {1, -2, -9.81}, true},
                     Effects{"without_damping", true, 0, {0, 0, -9.81}, true},
                     Effects{"without_gravity", true, .5, {}, true},
-                    Effects{"without_book", true, .5, {0, 0, -9.81}, false},
+                    Effects{"without_ledger", true, .5, {0, 0, -9.81}, false},
                     Effects{"translation_alone", false, 0, {}, false},
                     Effects{"all_and_dissipation", true, .5, {1, -2, -9.81}, true, 1.3},
                     Effects{"along_the_velocity", true, .5, {1, -2, -9.81}, true, 1, DampingForm::vector},
                     Effects{
                         "along_the_velocity_and_dissipation", true, .5, {}, true, 1.3, DampingForm::vector},
                     Effects{"dissipation_alone", true, 0, {}, true, 1.3},
-                    Effects{"dissipation_unbooked", false, 0, {}, false, 1.3}),
+                    Effects{"dissipation_without_ledger", false, 0, {}, false, 1.3}),
     [](const auto &effects) { return std::string(effects.param.name); });
 
 } // namespace
