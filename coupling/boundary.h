@@ -78,7 +78,7 @@ public:
   virtual void add_springs(const dem::Particles &, std::vector<dem::GroundSpring> &) {}
   virtual double dashpots() const { return 0; }
   virtual StepLimit limit(const dem::Particles &) const { return {}; }
-  virtual StepLimit limit_now() const { return {}; }
+  virtual double known_limit() const { return std::numeric_limits<double>::infinity(); } // s
   // Contacts listed, and closed, whose growth is a reason to look at the step again.
   virtual std::size_t near() const { return 0; }
   virtual std::size_t closed() const { return 0; }

@@ -42,9 +42,9 @@ void Experiment::stop_unseen(const std::string &reason) const {
   std::string text = "step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + reason +
                      "; the fastest is particle " + std::to_string(p.id[static_cast<std::size_t>(fastest)]);
   for (const auto &boundary : boundaries_)
-    if (const StepLimit own = boundary->limit_now(); time_step_ > own.seconds)
+    if (time_step_ > boundary->known_limit())
       text += "; the time step of " + text_of(time_step_) + " s is above the stability limit of " +
-              text_of(own.seconds) + " s (" + own.reason + ")";
+              text_of(boundary->known_limit()) + " s (" + boundary->limit(model.particles).reason + ")";
   throw NumericsStopped(text);
 }
 

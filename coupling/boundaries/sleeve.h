@@ -55,8 +55,8 @@ public:
   void finish(const Step &step) override;
   bool follows_others() const override { return true; }
   bool can_be_carried() const override { return false; }
-  StepLimit limit(const dem::Particles &) const override { return limit_now(); }
-  StepLimit limit_now() const override { return {limit_, reason_of_limit}; }
+  StepLimit limit(const dem::Particles &) const override { return {limit_, reason_of_limit}; }
+  double known_limit() const override { return limit_; }
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
