@@ -38,6 +38,7 @@ ModelSettings bare_grains() {
   ModelSettings s = bare_bonds();
   s.bond.reset();
   s.contact = ContactSettings{};
+  s.contact->damping = 0;
   s.contact->tangential = TangentialContact::none;
   s.contact->friction = .5;
   s.contact->rolling_friction = .1;
@@ -112,13 +113,13 @@ std::vector<Effect> effects() {
       {"dissipative_scheme",
        bare_bonds,
        nothing,
-       [](ModelSettings &s) { s.dissipation = 1.2; },
+       [](ModelSettings &s) { s.scheme = Scheme::tchamwa_wielgosz, s.dissipation = 1.2; },
        {"particles excess_velocity"},
        60},
       {"dissipative_scheme_of_turning_spheres",
        bare_bonds,
        turn,
-       [](ModelSettings &s) { s.dissipation = 1.2; },
+       [](ModelSettings &s) { s.scheme = Scheme::tchamwa_wielgosz, s.dissipation = 1.2; },
        {"particles excess_velocity", "particles excess_spin"},
        130},
       {"friction",
@@ -225,7 +226,7 @@ long instructions_of_loops(const ModelSettings &settings) {
   const ThreadLimit one(1);
   const auto model = in_motion(settings, 2);
   const Integrator how{settings.rotation,      settings.local_damping,   settings.gravity,
-                       settings.energy_ledger, settings.instruction_set, settings.dissipation};
+                       settings.energy_ledger, settings.instruction_set, settings.phi()};
   std::vector<BondBreak> breaks;
   KickSums sums;
   return instructions_of([&] {

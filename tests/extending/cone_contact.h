@@ -1,0 +1,33 @@
+// Example of a normal contact law: a blunt cone on a flat (Sneddon 1965), N = (2 / pi) E* tan(alpha) d^2,
+// with tan(alpha) = 1 and equal materials.
+#pragma once
+
+#include <cmath>
+
+#include "dem/laws/contact_settings.h"
+
+namespace platen::dem {
+
+struct ConeContact {
+  static constexpr NormalContact kind = NormalContact::cone;
+  static constexpr const char *word = "cone";
+  static constexpr bool constant_stiffness = false;
+  static double force(double coefficient, double overlap) { return coefficient * overlap * overlap; }
+  static double stiffness(double coefficient, double overlap) { return 2 * coefficient * overlap; }
+  static double energy(double coefficient, double overlap) {
+    return coefficient * overlap * overlap * overlap / 3;
+  }
+  static double overlap_of_energy(double coefficient, double energy) {
+    return std::cbrt(3 * energy / coefficient);
+  }
+  static double coefficient(const ContactSettings &s, double, double, const BondLayout &) {
+    const double pi = 3.14159265358979323846;
+    return 2 / pi * s.young_modulus / (2 * (1 - s.poisson_ratio * s.poisson_ratio));
+  }
+  static bool follows_bonds(const ContactSettings &) { return false; }
+  static double tangential_ratio(const ContactSettings &s) { return s.tangential_ratio; }
+  static double dashpot(const ContactSettings &) { return 0; }
+  static double dashpot_reserve(const ContactSettings &) { return 0.5; }
+};
+
+} // namespace platen::dem
