@@ -10,7 +10,7 @@ constexpr long steps_between_skins = 400;
 
 SkinPressure::SkinPressure(const dem::Particles &particles, const dem::Bonds *bonds, const dem::Shape &shape,
                            const EndPlatens &ends, dem::ConfinementArea area)
-    : Boundary("skin pressure"),
+    : Boundary("skin_pressure"),
       bonds_(bonds),
       ends_(ends),
       skin_(particles, bonds, shape, ends.planes(), area) {}
