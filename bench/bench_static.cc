@@ -31,7 +31,8 @@ void compare_with_ml(coupling::PlatenTest &problem) {
   const dem::Bonds &bonds = *problem.model.bonds;
   dem::StaticCase load;
   for (const bool top : {false, true})
-    for (const dem::GroundSpring &s : (top ? problem.top() : problem.bottom()).whole_springs(problem.model.particles))
+    for (const dem::GroundSpring &s :
+         (top ? problem.top() : problem.bottom()).whole_springs(problem.model.particles))
       load.supports.push_back({s, {0, 0, top ? -1e-6 : 1e-6}});
   dem::StaticState ours;
   const double seconds = seconds_of([&] { ours = dem::solve_static(p, bonds, load); });
@@ -89,8 +90,8 @@ void compare_with_steps(const dem::Specimen &specimen, coupling::PlatenTestSetti
               percent_off(still.platen_modulus(), made.platens),
               percent_off(still.poisson_ratio(), made.poisson_ratio), seconds / still_seconds);
   std::printf("  contacts of the platens: %zu + %zu, static %zu + %zu; touching grains %zu; cracks %ld\n",
-              problem.bottom().layer().closed, problem.top().layer().closed, still.closed_bottom, still.closed_top,
-              problem.model.contacts->touching_count(),
+              problem.bottom().layer().closed, problem.top().layer().closed, still.closed_bottom,
+              still.closed_top, problem.model.contacts->touching_count(),
               problem.model.broken_tension + problem.model.broken_shear);
   std::printf("  kinetic over internal energy %.1e, unbalanced over bond force %.1e\n",
               energy.kinetic / (energy.bonds + energy.contacts), problem.unbalanced_ratio());

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/table.h"
 #include "dem/instruction_set.h"
 #include "dem/laws/bond_law.h"
 #include "dem/loop.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
-#include "base/table.h"
 
 namespace platen::dem {
 

@@ -65,8 +65,9 @@ public:
       names.push_back(name);
       if (value == to && by_default.empty()) by_default = name;
     }
-    return declare(key, by_default, "", joined(names), documentation,
-                   [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
+    return declare(
+        key, by_default, "", joined(names), documentation,
+        [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
   }
 
   Declared at(const std::string &key) { // throws std::out_of_range for what is not declared

@@ -52,7 +52,8 @@ void declare_phases(Parameters &parameters, PhasesSection &phases) {
   Section section(parameters, "Phases");
   Members of(section, phases.phases);
   section.word<PhasesBy>("By", phases.by,
-                         {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}}, "What tells the spheres of the aggregate from those of the matrix.");
+                         {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
+                         "What tells the spheres of the aggregate from those of the matrix.");
   of("radius_above").only_if("Phases/By", {"radius"}).needed_if("Phases/By", {"radius"});
   section.file("File", phases.file, "Ids of the spheres that are aggregate, one a line.")
       .only_if("Phases/By", {"file"});

@@ -25,7 +25,8 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                  "Kappa, largest minus smallest radius over the mean (Radius distribution = uniform).");
   section.word<RadiusKind>(
       "Radius distribution", specimen.radius_distribution,
-      {{"equal", RadiusKind::equal}, {"two sizes", RadiusKind::two_sizes}, {"uniform", RadiusKind::uniform}}, "How radii are drawn; uniform with a spread of 0 is equal spheres.");
+      {{"equal", RadiusKind::equal}, {"two sizes", RadiusKind::two_sizes}, {"uniform", RadiusKind::uniform}},
+      "How radii are drawn; uniform with a spread of 0 is equal spheres.");
   section
       .number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
               "Smaller radius over the larger one.")
@@ -37,7 +38,8 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   section.word<PackingKind>("Packing", specimen.packing,
                             {{"advancing front", PackingKind::advancing_front},
                              {"random close", PackingKind::random_close},
-                             {"file", PackingKind::file}}, "How the spheres are placed; file takes them from File.");
+                             {"file", PackingKind::file}},
+                            "How the spheres are placed; file takes them from File.");
   section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
   section.word<dem::EndPreparation>(
       "Ends", specimen.ends,

@@ -24,7 +24,7 @@ protected:
   }
   double bonds_ = 100;
   coupling::PlatenTest problem_{dem::advancing_front(dem::box(6e-3, 6e-3, 8e-3), dem::equal_radii(1e-3), 3),
-                             coupling::elastic_settings(0.5)};
+                                coupling::elastic_settings(0.5)};
   Results results_{false};
 };
 

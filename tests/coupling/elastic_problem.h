@@ -13,7 +13,7 @@ inline dem::ParallelBond::Parameters unbreakable_bond() {
 
 // Ground ends of `end_layer` mean radii between platens without friction that close at 0.02 m/s.
 inline PlatenTestSettings elastic_settings(double end_layer,
-                                        const dem::BondParameters &bond = unbreakable_bond()) {
+                                           const dem::BondParameters &bond = unbreakable_bond()) {
   PlatenTestSettings s;
   s.model.bond_layout.modulus = 36e9; // Pa
   s.model.bond_layout.gap.value = 0.05;
