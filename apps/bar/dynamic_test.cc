@@ -122,8 +122,8 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   dashpots.bonds = scene.model.bond_dashpot;
   const dem::StableStep limit =
       dem::stable_step(model.particles, model.bonds.get(), model.contacts.get(), {}, dashpots);
-  const double wanted = scene.integration.time_step;
-  const double step = scene.integration.safety * limit.limit;
+  const double wanted = scene.time_step.fixed_step;
+  const double step = scene.time_step.safety * limit.limit;
   if (wanted == 0) return {step, step / 3, limit.reason};
   if (wanted > limit.limit) {
     const std::string reason =

@@ -120,14 +120,14 @@ BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
 // Set at the start; made smaller where a contact that has closed is stiffer than what was there.
 void BondRig::check_time_step() {
   const dem::StableStep stable = model_.stable_step({}, 0);
-  const double wanted = scene_.integration.time_step, safe = scene_.integration.safety * stable.limit;
+  const double wanted = scene_.time_step.fixed_step, safe = scene_.time_step.safety * stable.limit;
   if (dt_ == 0 && wanted > stable.limit)
     scene_.parameters->refuse("Integration/Time step", fmt::format("is above the limit of {:.4g} s: {}.",
                                                                    stable.limit, stable.reason));
   if (dt_ == 0) {
     dt_ = wanted > 0 ? wanted : safe;
-    reason_ = wanted > 0 ? "as the scene sets it"
-                         : fmt::format("{} x {}", scene_.integration.safety, stable.reason);
+    reason_ =
+        wanted > 0 ? "as the scene sets it" : fmt::format("{} x {}", scene_.time_step.safety, stable.reason);
   }
   if (dt_ > stable.limit) dt_ = safe;
 }

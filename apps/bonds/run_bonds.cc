@@ -43,11 +43,6 @@ double way_of(const Scene &scene, const RigReading &row) {
   return turns(scene) ? row.rotation : row.displacement;
 }
 
-void refuse(const Scene &scene, const std::string &path, const std::string &reason) {
-  if (scene.parameters) scene.parameters->refuse(path, reason);
-  throw InputError(path + " " + reason);
-}
-
 // What this test cannot do, or what its closed forms know nothing of.
 void check(const Scene &scene) {
   const PairTest &test = scene.pair_test;

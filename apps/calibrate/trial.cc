@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/run/member_names.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/parameters.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
 
@@ -35,19 +35,11 @@ Scene chosen(const Scene &scene, const BondChoice &choice) {
   return s;
 }
 
-coupling::PlatenTest problem_of(const Scene &scene, const dem::Specimen &specimen) {
-  try {
-    return coupling::PlatenTest(specimen, problem_settings(scene));
-  } catch (const coupling::BadSetup &e) {
-    refuse(scene, e);
-  }
-}
-
 double tension_rate(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   if (!std::isnan(c.tension_rate)) return c.tension_rate;
   const double ratio = c.tensile_strength / c.compressive_strength;
-  return scene.loading.axial_rate * (std::isnan(ratio) ? 0.1 : ratio);
+  return scene.loading.rate * (std::isnan(ratio) ? 0.1 : ratio);
 }
 
 struct Look {
@@ -132,13 +124,13 @@ BondChoice choice_of(const Scene &scene) {
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
   TrialResult result;
   try {
-    coupling::PlatenTest problem = problem_of(chosen(scene, choice), specimen);
+    coupling::PlatenTest problem(specimen, problem_settings(chosen(scene, choice)));
     const coupling::StaticPress p = coupling::press_statically(problem, scene.calibrate.strain);
     result.young_modulus = p.youngs_modulus();
     result.platen_modulus = p.platen_modulus();
     result.poisson_ratio = p.poisson_ratio();
   } catch (const coupling::NumericsStopped &e) {
-    result.status = with_entries(e.what());
+    result.status = scene.parameters->with_entries(e.what());
   }
   return result;
 }
@@ -148,22 +140,22 @@ TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, co
   Scene s = chosen(scene, choice);
   if (kind == TrialKind::tension) {
     s.loading.test = LoadingTest::tension;
-    s.platens.attachment = Attachment::glued;
-    s.loading.axial_rate = tension_rate(scene);
+    s.platens.glued = true;
+    s.loading.rate = tension_rate(scene);
     s.loading.target_strain *= tension_strain;
   } else {
     s.loading.test = LoadingTest::compression;
   }
   if (kind == TrialKind::triaxial) {
     s.loading.confinement = ConfinementKind::particles;
-    s.loading.confining_pressure = scene.calibrate.confining_pressure;
+    s.loading.cell->pressure = scene.calibrate.confining_pressure;
   }
   TrialResult result;
   try {
-    coupling::PlatenTest problem = problem_of(s, specimen);
+    coupling::PlatenTest problem(specimen, problem_settings(s));
     load_to_peak(problem, kind, s.loading.target_strain, result);
   } catch (const coupling::NumericsStopped &e) {
-    result.status = with_entries(e.what());
+    result.status = scene.parameters->with_entries(e.what());
   }
   return result;
 }

@@ -9,7 +9,6 @@ set(PLATEN_RUN_SOURCES
   run/failure_summary.cc
   run/fields.cc
   run/history.cc
-  run/member_names.cc
   run/model_setup.cc
   run/pack.cc
   run/problem_setup.cc

@@ -26,28 +26,27 @@ struct NumberKnob {
 };
 
 bool deformable(const Scene &s) {
-  return s.platens.kind == PlatenKind::deformable;
+  return s.platens.deformable;
 }
 
 std::string needs_limit(const Scene &s) {
-  return s.integration.time_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
-                                     : "";
+  return s.time_step.fixed_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
+                                    : "";
 }
 
 std::string needs_motion(const Scene &s) {
-  return s.platens.top_control == PlatenControl::stress ? "needs platens that are driven by motion." : "";
+  return s.loading.servo ? "needs platens that are driven by motion." : "";
 }
 
 std::string needs_no_rate(const Scene &s) {
-  return std::isnan(s.loading.axial_rate) ? "" : "has no effect: Loading/Axial rate is set.";
+  return std::isnan(s.loading.rate) ? "" : "has no effect: Loading/Axial rate is set.";
 }
 
 // Heavier specimens carry slower waves, for which the platens would wait.
 std::string needs_rate(const Scene &s) {
-  return std::isnan(s.loading.axial_rate)
-             ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
-               "an Axial rate."
-             : "";
+  return std::isnan(s.loading.rate) ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
+                                      "an Axial rate."
+                                    : "";
 }
 
 std::string needs_packing(const Scene &s) {
@@ -58,13 +57,13 @@ std::string needs_packing(const Scene &s) {
 
 std::string needs_plates(const Scene &s) {
   if (!deformable(s)) return "needs Platens/Kind = deformable.";
-  return s.platens.top.mesh_file.empty() || s.platens.bottom.mesh_file.empty()
+  return s.platens.top_face.mesh_file.empty() || s.platens.bottom_face.mesh_file.empty()
              ? ""
              : "has no effect: both platens have a Mesh file.";
 }
 
 std::string needs_solves(const Scene &s) {
-  return deformable(s) && s.platens.motion == PlatenMotion::quasi_static
+  return deformable(s) && s.platens.elastic->motion == fem::ElasticMotion::quasi_static
              ? ""
              : "needs Platens/Kind = deformable and Motion = quasi-static.";
 }
@@ -75,14 +74,14 @@ std::string needs_sleeve(const Scene &s) {
 
 const NumberKnob number_knobs[] = {
     {"safety", "Integration/Safety", "Study/Safety list", "", "safety", Finer::smaller, &Study::safeties,
-     [](const Scene &s) { return s.integration.safety; }, needs_limit},
+     [](const Scene &s) { return s.time_step.safety; }, needs_limit},
     {"axial rate", "Loading/Axial rate", "Study/Axial rate list", "m/s", "axial_rate_m_s", Finer::smaller,
-     &Study::axial_rates, [](const Scene &s) { return s.loading.axial_rate; }, needs_motion},
+     &Study::axial_rates, [](const Scene &s) { return s.loading.rate; }, needs_motion},
     {"wave crossings", "Loading/Wave crossings", "Study/Wave crossings list", "", "wave_crossings",
-     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_crossings; },
+     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_transits; },
      needs_no_rate},
     {"hurry", "Loading/Hurry", "Study/Hurry list", "", "hurry", Finer::smaller, &Study::hurries,
-     [](const Scene &s) { return s.loading.hurry; }, needs_motion},
+     [](const Scene &s) { return s.loading.rate_multiplier; }, needs_motion},
     {"mass scaling", "Integration/Mass scaling", "Study/Mass scaling list", "", "mass_scaling",
      Finer::smaller, &Study::mass_scalings, [](const Scene &s) { return s.model.mass_scaling; }, needs_rate},
     {"sphere radius", "Specimen/Sphere radius", "Study/Sphere radius list", "m", "sphere_radius_m",
@@ -93,13 +92,14 @@ const NumberKnob number_knobs[] = {
      needs_plates},
     {"steps per solve", "Platens/Steps per solve", "Study/Steps per solve list", "", "steps_per_solve",
      Finer::smaller, &Study::steps_per_solve,
-     [](const Scene &s) { return static_cast<double>(s.platens.steps_per_solve); }, needs_solves},
+     [](const Scene &s) { return static_cast<double>(s.platens.elastic->steps_per_solve); }, needs_solves},
     {"sleeve mesh", "Sleeve/Elements around", "Study/Sleeve mesh list", "", "sleeve_elements_around",
      Finer::larger, &Study::sleeve_elements,
-     [](const Scene &s) { return static_cast<double>(s.sleeve.elements_around); }, needs_sleeve},
+     [](const Scene &s) { return static_cast<double>(s.loading.cell->sleeve->elements_around); },
+     needs_sleeve},
     {"sleeve mass scaling", "Sleeve/Mass scaling", "Study/Sleeve mass scaling list", "",
      "sleeve_mass_scaling", Finer::smaller, &Study::sleeve_mass_scalings,
-     [](const Scene &s) { return s.sleeve.mass_scaling; }, needs_sleeve}};
+     [](const Scene &s) { return s.loading.cell->sleeve->mass_scaling; }, needs_sleeve}};
 
 // Letters and digits in lower case, one underscore for each run of anything else.
 std::string as_name(const std::string &words) {

@@ -81,7 +81,7 @@ StudyPlan plan_rate(const Scene &scene) {
   if (scene.study.axial_rates.empty())
     scene.parameters->refuse("Study/Axial rate list",
                              "is not set: nothing is varied. Allowed: speeds with commas between them.");
-  if (scene.loading.hydrostatic() || scene.platens.top_control == PlatenControl::stress)
+  if (scene.loading.hydrostatic() || scene.loading.servo)
     scene.parameters->refuse("Study/Axial rate list", "needs platens that are driven by motion.");
   StudyPlan plan;
   plan.varied = {"axial_rate_m_s"};

@@ -101,7 +101,7 @@ void set_height(const Scene &scene, double slenderness, StudyCase &one) {
   one.name += (one.name.empty() ? "slenderness_" : "_slenderness_") + in_name(slenderness);
   one.overrides.push_back(set("Specimen/Height", height, "m"));
   // Where it would grow with the specimen, the platen stays as thick as the scene's.
-  if (scene.platens.kind == PlatenKind::deformable && !scene.parameters->at("Platens/Thickness").changed())
+  if (scene.platens.deformable && !scene.parameters->at("Platens/Thickness").changed())
     one.overrides.push_back(set("Platens/Thickness", scene.platens.thickness, "m"));
 }
 
@@ -169,7 +169,7 @@ void label_platens(StudyCase &of, const Scene &led_to) {
   const Platens &p = led_to.platens;
   const bool alike = p.top.friction_static == p.bottom.friction_static &&
                      p.top.friction_dynamic == p.bottom.friction_dynamic,
-             slides = alike && p.attachment == Attachment::contact, known = p.surface != SurfaceKind::custom;
+             slides = alike && !p.glued, known = p.surface != SurfaceKind::custom;
   of.surface = known    ? surface(p.surface).word
                : slides ? "friction " + in_name(p.top.friction_static)
                         : surface(p.surface).word;
@@ -178,7 +178,7 @@ void label_platens(StudyCase &of, const Scene &led_to) {
                slenderness(led_to.specimen),
                led_to.specimen.height,
                led_to.specimen.sphere_radius,
-               led_to.loading.cell() ? led_to.loading.confining_pressure : 0.0};
+               led_to.loading.confined() ? led_to.loading.cell->pressure : 0.0};
 }
 
 } // namespace platen::apps

@@ -86,8 +86,8 @@ TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entri
             (std::vector<std::string>{"base", "wave_crossings_240", "quality_fast", "quality_reference"}));
   const Scene fast =
       read_scene(test_scene("study.prm"), overrides_of(plan.cases[2], 3, open), AppKind::compress);
-  EXPECT_EQ(fast.integration.safety, 0.95);
-  EXPECT_EQ(fast.loading.wave_crossings, 30);
+  EXPECT_EQ(fast.time_step.safety, 0.95);
+  EXPECT_EQ(fast.loading.wave_transits, 30);
 }
 
 TEST(AccuracyPlan, what_cannot_be_compared_is_refused) {

@@ -23,11 +23,10 @@ const dem::Specimen &cylinder() {
 SleeveSettings butyl(bool bonded) {
   SleeveSettings s;
   s.thickness = 2e-3;
-  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
+  s.poisson_ratio = 0.4995;
+  s.mass_scaling = 1;
   s.bonded_rims = bonded;
   s.mass_damping = 1000;
-  s.contact.friction_static = s.contact.friction_dynamic = 0.5;
-  s.contact.damping = 0.2;
   return s;
 }
 

@@ -21,11 +21,12 @@ constexpr double pi = 3.14159265358979323846;
 SleeveSettings butyl() {
   SleeveSettings s;
   s.thickness = 1e-3;
-  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.49)};
+  s.poisson_ratio = 0.49;
+  s.mass_scaling = 1;
   s.elements_around = 12; // two spheres wide: faces bridge the gaps between spheres
   s.elements_along = 8;
   s.contact.particle_stiffness = 1e6;
-  s.contact.damping = 0.2;
+  s.contact.friction_static = 0;
   s.contact.skin = 3e-4;
   s.mass_damping = 2e3;
   return s;
