@@ -11,7 +11,7 @@
 #include "apps/bonds/interface_results.h"
 #include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
-#include "apps/io/id_list.h"
+#include "apps/io/specimen_csv.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
