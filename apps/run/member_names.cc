@@ -42,10 +42,13 @@ std::string with_entries(const std::string &message) {
   return text;
 }
 
+void refuse(const Scene &scene, const std::string &path, const std::string &reason) {
+  if (scene.parameters) scene.parameters->refuse(path, reason);
+  throw InputError(path + " " + reason);
+}
+
 void refuse(const Scene &scene, const coupling::BadSetup &error) {
-  const std::string entry = entry_of_member(error.member()), reason = with_entries(error.reason());
-  if (scene.parameters) scene.parameters->refuse(entry, reason);
-  throw InputError(entry + " " + reason);
+  refuse(scene, entry_of_member(error.member()), with_entries(error.reason()));
 }
 
 } // namespace platen::apps
