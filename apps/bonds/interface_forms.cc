@@ -16,14 +16,6 @@ double share(const SofteningByHand &of, double farthest) {
 
 } // namespace
 
-double SofteningByHand::end() const {
-  return limit() * (1 + softening);
-}
-
-double SofteningByHand::fracture_energy() const {
-  return 0.5 * strength * (end() - limit());
-}
-
 SofteningByHand InterfaceSection::tension() const {
   const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
   SofteningByHand s{dem::never_if_zero(p.tensile_strength), normal_stiffness(), p.softening_tension};
@@ -84,10 +76,6 @@ double InterfaceByHand::tension_damage() const {
 double InterfaceByHand::shear_damage() const {
   if (combined_) return std::clamp((used().shear - 1) / section_.shear(0).softening, 0.0, 1.0);
   return share(section_.shear(pressure()), farthest_);
-}
-
-double InterfaceByHand::damage() const {
-  return std::max(tension_damage(), shear_damage());
 }
 
 // Shares of stress that cohesion holds at the present opening and slip, and what friction adds.
