@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/scene/parameters.h"
+#include "apps/run/member_names.h"
 #include "apps/scene/units.h"
 #include "dem/measure/spectrum.h"
 #include "dem/parallel.h"
@@ -26,21 +26,21 @@ constexpr double station = 2;
 // three passages, and on the way, where the reflected wave follows after one.
 constexpr double smoothing_at_end = 1.2, smoothing_on_the_way = 0.8;
 
-double mean_along_z(const Column<Vector3> &column, const std::vector<int> &rows) {
+double mean_along_z(const Column<Vector3> &column, const std::vector<std::size_t> &rows) {
   double sum = 0;
-  for (const int row : rows)
-    sum += column[static_cast<std::size_t>(row)].z;
+  for (const std::size_t row : rows)
+    sum += column[row].z;
   return sum / static_cast<double>(rows.size());
 }
 
 struct Station {
-  std::vector<int> rows;
+  std::vector<std::size_t> rows;
   double z = 0; // m, mean of the centres
   Station(const Particles &p, const BarGeometry &bar, double at) {
     const double reach = station * bar.mean_radius;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (bar.in_piece[i] && std::abs(p.reference_position[i].z - at) <= reach) {
-        rows.push_back(static_cast<int>(i));
+        rows.push_back(i);
         z += p.reference_position[i].z;
       }
     z /= static_cast<double>(rows.size());
@@ -103,9 +103,9 @@ public:
 };
 
 void clamp(Particles &p, const BarEnd &end) {
-  for (const int row : end.rows) {
-    p.mass[static_cast<std::size_t>(row)] *= clamp_mass;
-    if (p.has_rotation()) (*p.inertia)[static_cast<std::size_t>(row)] *= clamp_mass;
+  for (const std::size_t row : end.rows) {
+    p.mass[row] *= clamp_mass;
+    if (p.has_rotation()) (*p.inertia)[row] *= clamp_mass;
   }
 }
 
@@ -125,12 +125,9 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   const double wanted = scene.integration.time_step;
   const double step = scene.integration.safety * limit.limit;
   if (wanted == 0) return {step, step / 3, limit.reason};
-  if (wanted > limit.limit) {
-    const std::string reason =
-        "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
-    if (scene.parameters) scene.parameters->refuse("Integration/Time step", reason);
-    throw InputError("Integration/Time step " + reason);
-  }
+  if (wanted > limit.limit)
+    refuse(scene, "Integration/Time step",
+           "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.");
   return {wanted, wanted, "as the scene sets it"};
 }
 
@@ -162,8 +159,8 @@ Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem
 Impact strike(Model &model, const BarGeometry &bar, double velocity, double speed, const Clocking &clocking,
               const TakeSample &take) {
   Particles &p = model.particles;
-  for (const int row : bar.high.rows)
-    p.velocity[static_cast<std::size_t>(row)] = {0, 0, -velocity};
+  for (const std::size_t row : bar.high.rows)
+    p.velocity[row] = {0, 0, -velocity};
   Run run(model, bar);
   std::vector<double> quarter{0}, half{0}, away{0};
   Impact result;
