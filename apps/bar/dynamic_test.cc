@@ -61,22 +61,28 @@ public:
     model.end_step(0);
     initial_ = kinetic_energy(model.particles) + energy_shares(model.particles, *model.bonds).total();
   }
-  void step(double dt) {
-    model_.begin_step(dt);
-    model_.compute_forces(dt);
-    model_.end_step(dt);
-  }
   EndMotion end() const { return motion_of(model_.particles, bar_.high); }
-  // Of the samples that were given away.
-  double energy_residual() const { return residual_; }
-  bool give(const TakeSample &take) {
-    const BarSample s = sample();
-    if (initial_ > 0)
-      residual_ = std::max(residual_, std::abs(s.kinetic + s.energy.total() - initial_) / initial_);
-    return take(s);
+  // Calls after_step(whether a sample is due) at the start and after each step, and gives the samples away.
+  template <class AfterStep>
+  void go(const Clocking &clocking, const TakeSample &take, const AfterStep &after_step, Motion &result) {
+    for (;; ++result.steps) {
+      const bool due = result.steps % clocking.every == 0;
+      after_step(due);
+      if (due) result.stopped = !give(take, result);
+      if (result.stopped || result.steps == clocking.steps) return;
+      model_.begin_step(clocking.step);
+      model_.compute_forces(clocking.step);
+      model_.end_step(clocking.step);
+    }
   }
 
 private:
+  bool give(const TakeSample &take, Motion &result) const {
+    const BarSample s = sample();
+    const double change = std::abs(s.kinetic + s.energy.total() - initial_);
+    if (initial_ > 0) result.energy_residual = std::max(result.energy_residual, change / initial_);
+    return take(s);
+  }
   BarSample sample() const {
     const Particles &p = model_.particles;
     BarSample s;
@@ -96,7 +102,7 @@ private:
 
   Model &model_;
   const BarGeometry &bar_;
-  double initial_ = 0, residual_ = 0;
+  double initial_ = 0;
 
 public:
   const Station quarter, half;
@@ -141,18 +147,13 @@ Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem
   clamp(p, bar.low);
   Run run(model, bar);
   Oscillation result;
-  std::vector<double> swing{along(run.end(), load, bar.along_x)};
-  result.stopped = !run.give(take);
-  while (result.steps < clocking.steps && !result.stopped) {
-    run.step(clocking.step);
-    ++result.steps;
-    if (result.steps % clocking.every != 0) continue;
-    swing.push_back(along(run.end(), load, bar.along_x));
-    result.stopped = !run.give(take);
-  }
-  result.frequency = dem::main_frequency(swing, clocking.step * static_cast<double>(clocking.every),
+  std::vector<double> oscillation;
+  const auto keep = [&](bool due) {
+    if (due) oscillation.push_back(along(run.end(), load, bar.along_x));
+  };
+  run.go(clocking, take, keep, result);
+  result.frequency = dem::main_frequency(oscillation, clocking.step * static_cast<double>(clocking.every),
                                          0.5 * expected, 2 * expected);
-  result.energy_residual = run.energy_residual();
   return result;
 }
 
@@ -164,25 +165,22 @@ Impact strike(Model &model, const BarGeometry &bar, double velocity, double spee
   Run run(model, bar);
   std::vector<double> quarter{0}, half{0}, away{0};
   Impact result;
-  result.stopped = !run.give(take);
-  while (result.steps < clocking.steps && !result.stopped) {
-    run.step(clocking.step);
-    ++result.steps;
+  const auto keep = [&](bool) {
+    if (result.steps == 0) return; // at rest
     quarter.push_back(run.quarter.velocity(p));
     half.push_back(run.half.velocity(p));
     away.push_back(mean_along_z(p.velocity, bar.low.rows));
-    if (result.steps % clocking.every == 0) result.stopped = !run.give(take);
-  }
+  };
+  run.go(clocking, take, keep, result);
   const double passage = bar.length() / speed;
-  const auto time = [&](const std::vector<double> &velocities, double smoothing, double way) {
-    return dem::passing_time(velocities, clocking.step, smoothing * passage, way / speed);
+  const auto time = [&](const std::vector<double> &velocities, double smoothing, double distance) {
+    return dem::passing_time(velocities, clocking.step, smoothing * passage, distance / speed);
   };
   result.quarter_time = time(quarter, smoothing_on_the_way, bar.top - run.quarter.z);
   result.half_time = time(half, smoothing_on_the_way, bar.top - run.half.z);
   result.far_time = time(away, smoothing_at_end, bar.length());
   result.speed_quarter_to_half = (run.quarter.z - run.half.z) / (result.half_time - result.quarter_time);
   result.speed_end_to_end = bar.length() / result.far_time;
-  result.energy_residual = run.energy_residual();
   return result;
 }
 

@@ -42,11 +42,13 @@ struct Clocking {
   long every = 1;  // steps from one sample to the next
 };
 
-struct Oscillation {
-  double frequency = 0;       // 1/s
+struct Motion {
   double energy_residual = 0; // largest change of kinetic and stored energy, over what was there at first
   long steps = 0;             // made
   bool stopped = false;
+};
+struct Oscillation : Motion {
+  double frequency = 0; // 1/s
 };
 // Swings freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
 // heavy that it stays. Its main frequency is looked for between half and twice `expected` (1/s). Leaves the
@@ -54,13 +56,10 @@ struct Oscillation {
 Oscillation let_go(dem::Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
                    double expected, const Clocking &clocking, const TakeSample &take);
 
-struct Impact {
+struct Impact : Motion {
   double quarter_time = 0, half_time = 0, far_time = 0; // s, of passage; NaN where there was none
   double speed_quarter_to_half = 0;                     // m/s
   double speed_end_to_end = 0;                          // m/s
-  double energy_residual = 0;
-  long steps = 0;
-  bool stopped = false;
 };
 // How long the bar has to be followed to tell its speed, in passages of the wave.
 constexpr double followed_passages = 2.4;

@@ -58,7 +58,7 @@ private:
   long steps_of(BarLoad load) const;
   long steps_of_impact() const;
   bool take(const BarSample &sample, BarLoad load);
-  void finish(const dem::Model &model);
+  void finish(const dem::Model &model, const Motion &motion);
 
   const Scene &scene_;
   AppOutput &output_;
@@ -134,7 +134,9 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
   return signal_ == 0;
 }
 
-void BarRun::finish(const dem::Model &model) {
+void BarRun::finish(const dem::Model &model, const Motion &motion) {
+  results_.steps += motion.steps;
+  results_.energy_residual = std::max(results_.energy_residual, motion.energy_residual);
   results_.broken_tension += model.broken_tension;
   results_.broken_shear += model.broken_shear;
   for (std::size_t k = 0; k < results_.stage_seconds.size(); ++k)
@@ -157,9 +159,7 @@ void BarRun::test_loads() {
       clocking.every = steps_between_samples(scene_, clocking.step, 1 / (samples_per_period * expected));
       result.swing = let_go(swinging, results_.bar, load, result.at_rest.state, expected, clocking,
                             [&](const BarSample &s) { return take(s, load); });
-      results_.steps += result.swing->steps;
-      results_.energy_residual = std::max(results_.energy_residual, result.swing->energy_residual);
-      finish(swinging);
+      finish(swinging, *result.swing);
     }
     result.at_rest.state.displacement.clear();
     result.at_rest.state.turn.clear();
@@ -177,9 +177,7 @@ void BarRun::test_impact() {
       scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
   results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,
                            [&](const BarSample &s) { return take(s, BarLoad::impact); });
-  results_.steps += results_.impact->steps;
-  results_.energy_residual = std::max(results_.energy_residual, results_.impact->energy_residual);
-  finish(struck);
+  finish(struck, *results_.impact);
 }
 
 int BarRun::carry_out() {
