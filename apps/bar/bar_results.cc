@@ -78,10 +78,10 @@ Json static_part(const BarResults &r, const LoadResult &l) {
 }
 
 void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
-  if (!l.swing || l.swing->stopped) return;
-  const Rod nominal = r.swinging_rod(false), effective = r.swinging_rod(true);
-  const double f = l.swing->frequency;
-  s["energy_residual_relative"] = l.swing->energy_residual;
+  if (!l.oscillation || l.oscillation->stopped) return;
+  const Rod nominal = r.oscillating_rod(false), effective = r.oscillating_rod(true);
+  const double f = l.oscillation->frequency;
+  s["energy_residual_relative"] = l.oscillation->energy_residual;
   s["frequency_hz"] = f;
   s["period_s"] = 1 / f;
   s["frequency_by_hand_hz"] = frequency_of(nominal, l.load);
@@ -95,10 +95,10 @@ void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
 }
 
 Json impact_part(const BarResults &r) {
-  const double by_hand = r.swinging_rod(false).wave_speed();
+  const double by_hand = r.oscillating_rod(false).wave_speed();
   Json s;
   s["energy_residual_relative"] = r.impact->energy_residual;
-  s["time_step_s"] = r.time.blow_step;
+  s["time_step_s"] = r.time.impact_step;
   s["struck_velocity_m_s"] = r.struck_velocity;
   s["arrival_quarter_s"] = r.impact->quarter_time;
   s["arrival_half_s"] = r.impact->half_time;
@@ -133,10 +133,10 @@ Rod BarResults::rod(bool effective) const {
   return rod;
 }
 
-Rod BarResults::swinging_rod(bool effective) const {
-  Rod swinging = rod(effective);
-  swinging.length = bar.top - bar.low.z;
-  return swinging;
+Rod BarResults::oscillating_rod(bool effective) const {
+  Rod oscillating = rod(effective);
+  oscillating.length = bar.top - bar.low.z;
+  return oscillating;
 }
 
 std::vector<std::string> bar_columns() {

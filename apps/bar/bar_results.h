@@ -17,9 +17,9 @@ namespace platen::apps {
 // One load: tension, bending or torsion.
 struct LoadResult {
   BarLoad load = BarLoad::tension;
-  StaticTest at_rest; // always solved, for the bar is let go from there
+  StaticTest at_rest; // always solved, for the bar is released from there
   bool keeps_static = false;
-  std::optional<Oscillation> swing;
+  std::optional<Oscillation> oscillation;
 };
 
 struct BarResults {
@@ -38,7 +38,7 @@ struct BarResults {
 
   // With the measured axial rigidity and Poisson ratio, on the bounding section or the effective one.
   Rod rod(bool effective) const;
-  Rod swinging_rod(bool effective) const; // from the middle of the clamped spheres to the end plane
+  Rod oscillating_rod(bool effective) const; // from the middle of the clamped spheres to the end plane
 };
 
 // The common columns, of which a bar without platens fills some, and its own.

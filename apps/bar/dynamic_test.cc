@@ -137,8 +137,8 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   return {wanted, wanted, "as the scene sets it"};
 }
 
-Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
-                   double expected, const Clocking &clocking, const TakeSample &take) {
+Oscillation release(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
+                    double expected, const Clocking &clocking, const TakeSample &take) {
   Particles &p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.position[i] = p.reference_position[i] + from.displacement[i];

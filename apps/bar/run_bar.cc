@@ -94,13 +94,13 @@ void BarRun::measure() {
 }
 
 long BarRun::steps_of(BarLoad load) const {
-  return static_cast<long>(std::ceil(scene_.bar_test.periods /
-                                     (frequency_of(results_.swinging_rod(true), load) * results_.time.step)));
+  return static_cast<long>(std::ceil(
+      scene_.bar_test.periods / (frequency_of(results_.oscillating_rod(true), load) * results_.time.step)));
 }
 
 long BarRun::steps_of_impact() const {
   return static_cast<long>(std::ceil(followed_passages * results_.bar.length() /
-                                     (results_.rod(false).wave_speed() * results_.time.blow_step)));
+                                     (results_.rod(false).wave_speed() * results_.time.impact_step)));
 }
 
 std::string BarRun::description() const {
@@ -153,13 +153,13 @@ void BarRun::test_loads() {
     result.at_rest =
         load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
     if (dynamic()) {
-      dem::Model swinging(specimen_, settings_);
-      const double expected = frequency_of(results_.swinging_rod(true), load);
+      dem::Model oscillating(specimen_, settings_);
+      const double expected = frequency_of(results_.oscillating_rod(true), load);
       Clocking clocking{results_.time.step, steps_of(load), 1};
       clocking.every = steps_between_samples(scene_, clocking.step, 1 / (samples_per_period * expected));
-      result.swing = let_go(swinging, results_.bar, load, result.at_rest.state, expected, clocking,
-                            [&](const BarSample &s) { return take(s, load); });
-      finish(swinging, *result.swing);
+      result.oscillation = release(oscillating, results_.bar, load, result.at_rest.state, expected, clocking,
+                                   [&](const BarSample &s) { return take(s, load); });
+      finish(oscillating, *result.oscillation);
     }
     result.at_rest.state.displacement.clear();
     result.at_rest.state.turn.clear();
@@ -172,7 +172,7 @@ void BarRun::test_impact() {
   dem::Model struck(specimen_, settings_);
   const double speed = results_.rod(false).wave_speed();
   results_.struck_velocity = scene_.bar_test.strain * speed;
-  Clocking clocking{results_.time.blow_step, steps_of_impact(), 1};
+  Clocking clocking{results_.time.impact_step, steps_of_impact(), 1};
   clocking.every = steps_between_samples(
       scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
   results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,

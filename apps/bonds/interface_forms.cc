@@ -118,9 +118,9 @@ void InterfaceByHand::update() {
 std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
   const double opened = to.opening - at_.opening, slipped = to.slip - at_.slip;
   std::vector<double> shares;
-  const auto at = [&](double place, double from, double way) {
-    if (way == 0 || !std::isfinite(place)) return;
-    const double k = (place - from) / way;
+  const auto at = [&](double place, double from, double distance) {
+    if (distance == 0 || !std::isfinite(place)) return;
+    const double k = (place - from) / distance;
     if (k > 0 && k < 1) shares.push_back(k);
   };
   const auto opening = [&](double place) { at(place, at_.opening, opened); };

@@ -36,7 +36,7 @@ struct InterfaceSection {
   double closing_at(double stress) const;       // m, inverse of the same
 };
 
-// One bond on its way. Places are absolute; ways between them are straight and are to end at the kinks.
+// One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
 struct InterfacePlace {
   double opening = 0, slip = 0; // m
 };
@@ -50,7 +50,7 @@ public:
   // slip only under compression that stays.
   explicit InterfaceByHand(const InterfaceSection &section, bool combined = false, double slip_ratio = 0);
 
-  // Where on the way from here the lines bend, as shares of the way above 0 and below 1, ascending; on both
+  // Where on the path from here the lines bend, as shares of it above 0 and below 1, ascending; on both
   // sides of a failure.
   std::vector<double> kinks(const InterfacePlace &to) const;
   void go(const InterfacePlace &to);

@@ -7,7 +7,7 @@
 namespace platen::apps {
 namespace {
 
-// A load that is put on at once swings beyond itself, to twice its step where nothing damps it: a step takes
+// A load that is put on at once overshoots, to twice its step where nothing damps it: a step takes
 // up less than half of the strength that is left, but not less than the accuracy of the breaking load.
 constexpr double share_of_reserve = .4, finest_step = 2e-4;
 constexpr double first_step = 1e-3; // of the largest load, until a bond's utilisation tells how far it may go
