@@ -179,7 +179,7 @@ int main(int argc, char **argv) {
   CLI11_PARSE(app, argc, argv);
 
   const dem::ThreadLimit limit(threads);
-  std::printf("%s, %d threads, %s kernels\n", bench::machine().c_str(), threads,
+  std::printf("%s, %d threads, %s kernels\n", apps::this_machine().processor.c_str(), threads,
               dem::name(dem::best_instruction_set()));
   const dem::Specimen specimen = bench::close_packed(particles);
   compare("bonded", specimen, scenes_of(bonded(), effects_of_bonds()), count, repeats);

@@ -138,7 +138,7 @@ int main(int argc, char **argv) {
     if (!explicitly_too) step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
   }
   const double seconds = bench::spread(still).median;
-  std::printf("%s, %d threads\n", bench::machine().c_str(), threads);
+  std::printf("%s, %d threads\n", apps::this_machine().processor.c_str(), threads);
   std::printf("%zu particles, %zu bonds: E %.4g GPa (gauge), %.4g GPa (platens), nu %.4f\n",
               problem.model.particles.size(), problem.model.bonds->size(), 1e-9 * p.youngs_modulus(),
               1e-9 * p.platen_modulus(), p.poisson_ratio());

@@ -43,7 +43,8 @@ void print_memory(const coupling::PlatenTest &problem, double before) {
   std::printf(
       "memory: %.0f bytes per particle in columns and search, bonds included; process %.0f MB, %.0f "
       "MB before the scene\n",
-      static_cast<double>(problem.bytes()) / particles, 1e-6 * bench::peak_memory(), 1e-6 * before);
+      static_cast<double>(problem.bytes()) / particles, 1e-6 * static_cast<double>(apps::peak_memory_bytes()),
+      1e-6 * before);
 }
 
 // The step and the idealised loop on one number of threads.
@@ -165,7 +166,7 @@ int main(int argc, char **argv) {
   const dem::Specimen specimen = specimen_for(o);
   coupling::PlatenTestSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
-  const double before = bench::peak_memory();
+  const double before = static_cast<double>(apps::peak_memory_bytes());
   const auto start = Clock::now();
   coupling::PlatenTest problem(specimen, chosen);
   std::printf("set up in %.3g s\n", seconds_since(start));

@@ -1,11 +1,13 @@
 #include "apps/calibrate/trials.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <fstream>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 #include <thread>
 
@@ -20,40 +22,25 @@
 namespace platen::apps {
 namespace {
 
-const std::vector<std::string> columns{"test",
-                                       "seed",
-                                       "bond_modulus_pa",
-                                       "stiffness_ratio",
-                                       "radius_multiplier",
-                                       "bond_poisson",
-                                       "tensile_pa",
-                                       "shear_pa",
-                                       "moment_contribution",
-                                       "friction_angle_rad",
-                                       "status",
-                                       "youngs_modulus_gauge_pa",
-                                       "youngs_modulus_platen_pa",
-                                       "poisson_ratio",
-                                       "strength_pa",
-                                       "strain_at_peak"};
+constexpr const char *columns =
+    "test,seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,tensile_pa,shear_pa,"
+    "moment_contribution,friction_angle_rad,status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
+    "poisson_ratio,strength_pa,strain_at_peak";
 
 // What decides the result; elastic trials do not ask for strengths.
-std::string key_of(const Trial &t) {
+std::array<double, 8> numbers_of(const Trial &t) {
   const BondChoice &c = t.choice;
-  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
-  for (const double number : {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio})
-    key += "," + shortest_text(number);
-  if (t.kind == TrialKind::elastic) return key + ",0,0,0,0";
-  return key + "," + shortest_text(c.tensile_strength) + "," + shortest_text(c.shear_strength) + "," +
-         shortest_text(c.moment_contribution) + "," + shortest_text(c.friction_angle);
+  if (t.kind == TrialKind::elastic)
+    return {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio, 0, 0, 0, 0};
+  return {c.modulus,          c.stiffness_ratio, c.radius_multiplier,   c.poisson_ratio,
+          c.tensile_strength, c.shear_strength,  c.moment_contribution, c.friction_angle};
 }
 
-std::vector<std::string> cells_of(const std::string &line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');)
-    cells.push_back(cell);
-  return cells;
+std::string key_of(const Trial &t) {
+  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
+  for (const double number : numbers_of(t))
+    key += "," + shortest_text(number);
+  return key;
 }
 
 // Without what would break a row in two.
@@ -90,12 +77,25 @@ void share_out(std::size_t count, int threads, const Work &work) {
 
 } // namespace
 
+std::vector<unsigned long> training_seeds(const Scene &scene) {
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.seeds));
+  std::iota(seeds.begin(), seeds.end(), scene.general.seed);
+  return seeds;
+}
+
+std::vector<unsigned long> unseen_seeds(const Scene &scene) {
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.verification_seeds));
+  std::iota(seeds.begin(), seeds.end(),
+            scene.general.seed + static_cast<unsigned long>(scene.calibrate.seeds));
+  return seeds;
+}
+
 Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log)
     : scene_(scene), paths_(paths), threads_(threads), log_(log) {
   if (resume)
     read();
   else
-    table_.emplace(paths_.folder / "trials.csv", columns);
+    table_.emplace(paths_.folder / "trials.csv", cells_of(columns));
 }
 
 void Trials::read() {
@@ -110,31 +110,31 @@ void Trials::read() {
   std::istringstream lines(text.substr(0, end + 1));
   std::string line;
   std::getline(lines, line);
-  if (cells_of(line) != columns)
+  if (line != columns)
     throw InputError(path.string() + ":1: error: has other columns than this version writes");
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
     for (std::size_t k = 11; k < cells.size(); ++k)
       if (const auto value = number_of(cells[k])) values.push_back(*value);
-    if (cells.size() != columns.size() || values.size() != 5)
+    if (cells.size() != cells_of(columns).size() || values.size() != 5)
       throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
     std::string key = cells[0] + "," + cells[1];
     for (std::size_t k = 2; k < 10; ++k)
       key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
     known_[key] = {cells[10], values[0], values[1], values[2], values[3], values[4]};
   }
-  table_.emplace(path, columns, end + 1);
+  table_.emplace(path, cells_of(columns), end + 1);
 }
 
 void Trials::keep(const Trial &t, const TrialResult &r) {
-  const BondChoice &c = t.choice;
-  const bool elastic = t.kind == TrialKind::elastic;
   const std::string status = one_cell(r.status);
-  table_->row({word(t.kind), t.seed, c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
-               elastic ? 0.0 : c.tensile_strength, elastic ? 0.0 : c.shear_strength,
-               elastic ? 0.0 : c.moment_contribution, elastic ? 0.0 : c.friction_angle, status,
-               r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  std::vector<CsvCell> cells{word(t.kind), t.seed};
+  for (const double number : numbers_of(t))
+    cells.emplace_back(number);
+  cells.insert(cells.end(),
+               {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  table_->row(cells);
   known_[key_of(t)] = r;
   ++made_;
 }

@@ -20,6 +20,10 @@ struct Trial {
   BondChoice choice;
 };
 
+// Packings that a calibration is made on, and those that it is judged by.
+std::vector<unsigned long> training_seeds(const Scene &scene);
+std::vector<unsigned long> unseen_seeds(const Scene &scene);
+
 class Trials {
 public:
   // `resume`: trials.csv of the folder is read, rows that are whole count. Throws InputError where it is not

@@ -95,7 +95,7 @@ std::filesystem::path write_fields(const Run &run) {
   const dem::RegularGrid grid = grid_through(run, before_test);
   const OutputPaths paths(run.folder);
   create_folder(run.folder / "frames");
-  PvdSeries series(paths.series("fields"));
+  PvdSeries series(run.folder / "fields.pvd");
   int count = 0;
   for (const Frame &frame : run.specimen.frames) {
     const std::string name =

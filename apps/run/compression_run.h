@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/io/csv_writer.h"
-#include "apps/io/folder_lock.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/progress.h"
 #include "apps/io/run_log.h"

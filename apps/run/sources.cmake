@@ -1,4 +1,5 @@
 set(PLATEN_RUN_SOURCES
+  run/app_output.cc
   run/at_peak.cc
   run/compression.cc
   run/compression_files.cc

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/id_list.h"
 #include "apps/io/machine.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/scene/parameters.h"

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "apps/io/file.h"
-#include "apps/io/folder_lock.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"

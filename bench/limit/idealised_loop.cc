@@ -7,7 +7,7 @@
 
 #include "limit/bond_forces.h"
 #include "limit/crew.h"
-#include "limit/kernels.h"
+#include "limit/parts.h"
 
 namespace platen::bench {
 

@@ -1,14 +1,35 @@
+#include "apps/io/checkpoint.h"
+
+#include <xxhash.h>
+
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-
-#include "apps/io/checkpoint.h"
-#include "apps/io/checkpoint_format.h"
+#include <new>
+#include <stdexcept>
 
 namespace platen::apps {
+
+// XXH64 of a stream of bytes.
+class CheckpointHash {
+public:
+  CheckpointHash() : state_(XXH64_createState(), XXH64_freeState) {
+    if (!state_) throw std::bad_alloc();
+    XXH64_reset(state_.get(), 0);
+  }
+  void update(const void *bytes, std::size_t count) {
+    if (count > 0) XXH64_update(state_.get(), bytes, count);
+  }
+  std::uint64_t value() const { return XXH64_digest(state_.get()); }
+
+private:
+  std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state_;
+};
+
 namespace {
 
-constexpr std::size_t chunk_bytes = 1 << 20;
+constexpr std::size_t buffer_bytes = 1 << 20; // blocks above it are written without a copy
+constexpr std::size_t chunk_bytes = 1 << 20;  // of a block that is verified
 
 // What the header of a block says of its rows, where that can be.
 std::optional<StoredBlock> stored_block(const CheckpointBlockHeader &header) {
@@ -30,6 +51,67 @@ std::optional<StoredBlock> stored_block(const CheckpointBlockHeader &header) {
 }
 
 } // namespace
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path &path)
+    : file_(path), hash_(std::make_unique<CheckpointHash>()) {
+  CheckpointHeader header{};
+  std::memcpy(header.magic, checkpoint_magic, sizeof header.magic);
+  header.version = checkpoint_version;
+  header.byte_order = checkpoint_byte_order;
+  put(&header, sizeof header);
+}
+
+CheckpointWriter::~CheckpointWriter() = default;
+
+void CheckpointWriter::add(const std::string &name, const BlockType &type, const void *data,
+                           std::size_t rows) {
+  if (std::find(names_.begin(), names_.end(), name) != names_.end())
+    throw std::logic_error("checkpoint block \"" + name + "\" is written twice");
+  names_.push_back(name);
+  const std::size_t bytes = rows * type.bytes_per_row();
+  CheckpointBlockHeader header{};
+  header.name_bytes = static_cast<std::uint32_t>(name.size());
+  header.unit_bytes = static_cast<std::uint32_t>(type.unit.size());
+  header.kind = static_cast<std::uint32_t>(type.kind);
+  header.number_bytes = type.bytes;
+  header.numbers = type.numbers;
+  header.bytes = bytes;
+  header.checksum = bytes > 0 ? XXH64(data, bytes, 0) : XXH64("", 0, 0);
+  put(&header, sizeof header);
+  put(name.data(), name.size());
+  put(type.unit.data(), type.unit.size());
+  put(data, bytes);
+}
+
+void CheckpointWriter::finish() {
+  CheckpointTrailer trailer{};
+  std::memcpy(trailer.magic, checkpoint_end, sizeof trailer.magic);
+  trailer.blocks = names_.size();
+  trailer.file_bytes = length_ + sizeof trailer;
+  hash_->update(&trailer, sizeof trailer - sizeof trailer.checksum);
+  trailer.checksum = hash_->value();
+  put(&trailer, sizeof trailer);
+  flush();
+  file_.sync();
+  file_.close();
+}
+
+void CheckpointWriter::put(const void *bytes, std::size_t count) {
+  if (count == 0) return;
+  hash_->update(bytes, count);
+  length_ += count;
+  if (buffer_.size() + count > buffer_bytes) flush();
+  const char *first = static_cast<const char *>(bytes);
+  if (count > buffer_bytes)
+    file_.write(bytes, count);
+  else
+    buffer_.insert(buffer_.end(), first, first + count);
+}
+
+void CheckpointWriter::flush() {
+  file_.write(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
 
 // The file, and a checksum over what was read in order.
 struct CheckpointReader::Source {
