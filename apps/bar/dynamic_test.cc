@@ -6,8 +6,8 @@
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
+#include "base/parallel.h"
 #include "dem/measure/spectrum.h"
-#include "dem/parallel.h"
 #include "dem/stable_step.h"
 
 namespace platen::apps {

@@ -23,7 +23,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -208,7 +208,7 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   };
   BarCosts costs;
-  costs.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
+  costs.threads = command_.threads > 0 ? command_.threads : hardware_threads();
   costs.setup_seconds = seconds();
   catch_stop_signals();
   std::unique_ptr<FolderLock> lock;
@@ -249,7 +249,7 @@ int run_bar(const CommandLine &command, const Scene &scene) {
   std::vector<std::filesystem::path> inputs{command.scene};
   if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
   if (!command.dry_run) check_output_folder(command.output, use, inputs);
-  const dem::ThreadLimit limit(command.threads);
+  const ThreadLimit limit(command.threads);
   BarRun run(command, scene);
   run.measure();
   if (command.dry_run) {

@@ -19,8 +19,8 @@
 #include "apps/run/expectations.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
+#include "base/parallel.h"
 #include "dem/laws/normal_contact.h"
-#include "dem/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -352,10 +352,10 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
   }
   check_output_folder(paths.folder, use, {command.scene});
   const auto start = std::chrono::steady_clock::now();
-  const dem::ThreadLimit limit(command.threads);
+  const ThreadLimit limit(command.threads);
   RunLog log(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal));
   Costs costs;
-  costs.threads = command.threads > 0 ? command.threads : dem::hardware_threads();
+  costs.threads = command.threads > 0 ? command.threads : hardware_threads();
   open_output_folder(paths.folder, use, {command.scene});
   log.open(paths.log(), false, {version_text(), command.text, costs.threads});
   log.info("{}", description(scene));

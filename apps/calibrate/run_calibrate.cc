@@ -20,7 +20,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 #include "fem/threads.h"
 
 namespace platen::apps {
@@ -64,7 +64,7 @@ public:
   int run();
 
 private:
-  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
   std::string description() const;
   void open();
   void tell_bounds(Trials &trials, Json &s);
@@ -78,7 +78,7 @@ private:
   OutputPaths paths_;
   std::unique_ptr<FolderLock> lock_;
   RunLog log_;
-  dem::ThreadLimit limit_;
+  ThreadLimit limit_;
 };
 
 std::string Calibration::description() const {

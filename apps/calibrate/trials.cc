@@ -15,7 +15,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/units.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -193,7 +193,7 @@ std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
   std::size_t written = 0;
   {
     // One thread is worth most to a whole trial; a single one may have them all.
-    const dem::ThreadLimit limit(open.size() > 1 ? 1 : threads_);
+    const ThreadLimit limit(open.size() > 1 ? 1 : threads_);
     share_out(open.size(), threads_, [&](std::size_t k) {
       if (stop_requested() != 0) return;
       TrialResult result = run(open[k]);

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/model.h"
-#include "dem/parallel.h"
 #include "fem/threads.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
@@ -198,12 +198,12 @@ TEST(sleeve, an_interval_that_would_invert_an_element_is_cut) {
 TEST(sleeve, threads_change_no_bit) {
   Cell one, two;
   {
-    const dem::ThreadLimit limit(1);
+    const ThreadLimit limit(1);
     fem::limit_threads(1);
     one.run(5e-5);
   }
   {
-    const dem::ThreadLimit limit(2);
+    const ThreadLimit limit(2);
     fem::limit_threads(2);
     two.run(5e-5);
   }

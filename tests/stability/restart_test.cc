@@ -11,8 +11,8 @@
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/run/run_state.h"
+#include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/parallel.h"
 #include "fem/threads.h"
 #include "tests/apps/io_folder.h"
 #include "tests/coupling/elastic_problem.h"
@@ -107,7 +107,7 @@ public:
   Threads &operator=(const Threads &) = delete;
 
 private:
-  dem::ThreadLimit loops_;
+  ThreadLimit loops_;
 };
 
 long broken(const PlatenTest &p) {
