@@ -21,7 +21,6 @@
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
 #include "base/parallel.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -57,9 +56,7 @@ public:
         scene_(scene),
         paths_(command.output),
         log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
-        limit_(command.threads) {
-    fem::limit_threads(command.threads);
-  }
+        limit_(command.threads) {}
 
   int run();
 

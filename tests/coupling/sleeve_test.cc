@@ -8,7 +8,6 @@
 
 #include "base/parallel.h"
 #include "dem/model.h"
-#include "fem/threads.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/same_state.h"
@@ -199,12 +198,10 @@ TEST(sleeve, threads_change_no_bit) {
   Cell one, two;
   {
     const ThreadLimit limit(1);
-    fem::limit_threads(1);
     one.run(5e-5);
   }
   {
     const ThreadLimit limit(2);
-    fem::limit_threads(2);
     two.run(5e-5);
   }
   EXPECT_TRUE(same_state(one.sleeve, two.sleeve));
