@@ -1,6 +1,7 @@
 #include "base/thread_pool.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace platen {
 
@@ -9,6 +10,10 @@ namespace {
 // Some hundred microseconds: longer than what a step does between two loops, short beside what is done
 // between steps.
 constexpr int checks_before_sleep = 4000;
+// Parts of other loops last for minutes: their caller wakes up this often once it has given its core away as
+// many times as no step needs.
+constexpr int yields_before_sleep = 4000;
+constexpr std::chrono::microseconds long_wait{100};
 
 thread_local bool inside_part = false;
 
@@ -91,8 +96,10 @@ void ThreadPool::close_call() {
   for (int checks = 0; joined_.load() != 0; ++checks)
     if (checks < checks_)
       pause();
-    else
+    else if (checks < checks_ + yields_before_sleep)
       std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(long_wait);
 }
 
 void ThreadPool::serve(std::size_t thread) {

@@ -208,7 +208,7 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   };
   BarCosts costs;
-  costs.threads = command_.threads > 0 ? command_.threads : hardware_threads();
+  costs.threads = loop_threads();
   costs.setup_seconds = seconds();
   catch_stop_signals();
   std::unique_ptr<FolderLock> lock;

@@ -355,7 +355,7 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
   const ThreadLimit limit(command.threads);
   RunLog log(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal));
   Costs costs;
-  costs.threads = command.threads > 0 ? command.threads : hardware_threads();
+  costs.threads = loop_threads();
   open_output_folder(paths.folder, use, {command.scene});
   log.open(paths.log(), false, {version_text(), command.text, costs.threads});
   log.info("{}", description(scene));

@@ -61,7 +61,6 @@ public:
   int run();
 
 private:
-  int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
   std::string description() const;
   void open();
   void tell_bounds(Trials &trials, Json &s);
@@ -108,7 +107,7 @@ void Calibration::open() {
                 log_);
     write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
   }
-  log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
+  log_.open(paths_.log(), command_.resume, {version_text(), command_.text, loop_threads()});
 }
 
 Json Calibration::head() const {
@@ -119,7 +118,7 @@ Json Calibration::head() const {
   s["version"] = version_line();
   s["effects"] = effects_on(scene_);
   s["mode"] = word(scene_.calibrate.mode);
-  s["threads"] = threads();
+  s["threads"] = loop_threads();
   return s;
 }
 
@@ -243,7 +242,7 @@ int Calibration::run() {
   log_.info("{}", description());
   Json s = head();
   try {
-    Trials trials(scene_, paths_, command_.resume, threads(), log_);
+    Trials trials(scene_, paths_, command_.resume, log_);
     tell_bounds(trials, s);
     if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene_, paths_, trials, log_);
     if (mode == CalibrateMode::search) {

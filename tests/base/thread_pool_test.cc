@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -88,6 +89,28 @@ TEST(thread_pool, wakes_after_a_sleep) {
     });
     ASSERT_EQ(here, 2 * loop);
   }
+}
+
+// A trial of minutes on one thread must not keep another from a core that it only waits on.
+TEST(thread_pool, a_caller_sleeps_while_others_work_on) {
+  const auto processor_seconds = [] {
+    timespec used{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  };
+  ThreadPool pool;
+  std::atomic<bool> begun{false};
+  const auto caller = std::this_thread::get_id();
+  const double before = processor_seconds();
+  run(pool, 2, 2, [&](std::size_t) {
+    if (std::this_thread::get_id() != caller) {
+      begun = true;
+      return std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
+    while (!begun)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  EXPECT_LT(processor_seconds() - before, 0.25);
 }
 
 TEST(thread_pool, a_loop_inside_a_loop_runs_on_its_caller) {
