@@ -7,9 +7,9 @@
 #include <string>
 
 #include "apps/io/specimen_csv.h"
+#include "base/parallel.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
-#include "dem/parallel.h"
 #include "dem/statics/network.h"
 #include "static_ml.h"
 #include "step_scene.h"
@@ -121,7 +121,7 @@ int main(int argc, char **argv) {
   app.add_flag("--ml", ml, "compare a solve with Trilinos ML");
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(threads);
+  const ThreadLimit limit(threads);
   const dem::Specimen specimen =
       read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen;
   coupling::PlatenTestSettings settings = bench::elastic_press(law);

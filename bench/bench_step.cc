@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/io/specimen_csv.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 #include "step_scene.h"
 
 namespace {
@@ -69,7 +69,7 @@ Series series_on(int threads, const Options &o, const coupling::PlatenTest &prob
 
 // Who comes after another needs a moment until its threads have found their processors.
 void repeat(Series &s, const Options &o, coupling::PlatenTest &problem) {
-  const dem::ThreadLimit limit(s.threads);
+  const ThreadLimit limit(s.threads);
   const int settling = o.steps / 10 + 1;
   const double bonds = static_cast<double>(problem.model.bonds->size());
   bench::run(problem, settling);
@@ -162,7 +162,7 @@ int main(int argc, char **argv) {
   app.add_flag("--alone", o.alone, "without the idealised loop");
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(o.threads);
+  const ThreadLimit limit(o.threads);
   const dem::Specimen specimen = specimen_for(o);
   coupling::PlatenTestSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;

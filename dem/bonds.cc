@@ -5,10 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "dem/cell_grid.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/packing/specimen.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::dem {
 namespace {

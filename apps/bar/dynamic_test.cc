@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "apps/scene/units.h"
+#include "base/parallel.h"
 #include "dem/measure/spectrum.h"
-#include "dem/parallel.h"
 #include "dem/stable_step.h"
 
 namespace platen::apps {

@@ -13,7 +13,6 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -159,7 +158,6 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     return status_done;
   }
   AppOutput output(command, scene);
-  fem::limit_threads(command.threads);
   catch_stop_signals();
   output.open();
   output.log.info("{}", description(scene));
@@ -168,7 +166,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   s["mode"] = word(mode);
   s["threads"] = output.threads();
   try {
-    Trials trials(scene, output.paths, command.resume, output.threads(), output.log);
+    Trials trials(scene, output.paths, command.resume, output.log);
     tell_bounds(scene, trials, output.log, s);
     if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene, output.paths, trials, output.log);
     if (mode == CalibrateMode::search) {

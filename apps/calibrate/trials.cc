@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <condition_variable>
-#include <exception>
 #include <fstream>
 #include <mutex>
 #include <numeric>
 #include <sstream>
-#include <thread>
 
 #include "apps/io/numbers.h"
 #include "apps/io/specimen_csv.h"
@@ -17,7 +14,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/units.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -50,29 +47,22 @@ std::string one_cell(std::string text) {
   return text;
 }
 
-// work(k) for k of [0, count), on so many threads; what a piece throws is thrown here once all are done.
+// work(k) for k of [0, count), begun in this order, a thread for each: one thread is worth most to a whole
+// trial. A single one may have them all for its loops. After one that throws no other begins.
 template <class Work>
-void share_out(std::size_t count, int threads, const Work &work) {
+void in_order(std::size_t count, const Work &work) {
   std::atomic<std::size_t> next{0};
-  std::exception_ptr thrown;
-  std::mutex mutex;
-  const auto serve = [&] {
-    for (std::size_t k = next++; k < count; k = next++)
-      try {
-        work(k);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!thrown) thrown = std::current_exception();
-        next = count;
-      }
+  const auto part = [&](std::size_t) {
+    const std::size_t k = next++;
+    if (k >= count) return;
+    try {
+      work(k);
+    } catch (...) {
+      next = count;
+      throw;
+    }
   };
-  std::vector<std::thread> others;
-  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
-    others.emplace_back(serve);
-  serve();
-  for (std::thread &other : others)
-    other.join();
-  if (thrown) std::rethrow_exception(thrown);
+  run_loops(loop_of(count, part));
 }
 
 } // namespace
@@ -90,8 +80,8 @@ std::vector<unsigned long> unseen_seeds(const Scene &scene) {
   return seeds;
 }
 
-Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log)
-    : scene_(scene), paths_(paths), threads_(threads), log_(log) {
+Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log)
+    : scene_(scene), paths_(paths), log_(log) {
   if (resume)
     read();
   else
@@ -153,7 +143,7 @@ void Trials::pack(const std::vector<unsigned long> &seeds) {
   const auto file_of = [&](unsigned long seed) {
     return paths_.folder / ("packing_" + std::to_string(seed) + ".csv");
   };
-  share_out(missing.size(), threads_, [&](std::size_t k) {
+  in_order(missing.size(), [&](std::size_t k) {
     std::error_code ignored;
     if (std::filesystem::exists(file_of(missing[k]), ignored)) {
       made[k] = read_specimen_csv(file_of(missing[k])).specimen;
@@ -191,18 +181,14 @@ std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
   std::vector<std::optional<TrialResult>> results(open.size());
   std::mutex mutex;
   std::size_t written = 0;
-  {
-    // One thread is worth most to a whole trial; a single one may have them all.
-    const dem::ThreadLimit limit(open.size() > 1 ? 1 : threads_);
-    share_out(open.size(), threads_, [&](std::size_t k) {
-      if (stop_requested() != 0) return;
-      TrialResult result = run(open[k]);
-      const std::lock_guard<std::mutex> lock(mutex);
-      results[k] = std::move(result);
-      for (; written < open.size() && results[written]; ++written)
-        keep(open[written], *results[written]);
-    });
-  }
+  in_order(open.size(), [&](std::size_t k) {
+    if (stop_requested() != 0) return;
+    TrialResult result = run(open[k]);
+    const std::lock_guard<std::mutex> lock(mutex);
+    results[k] = std::move(result);
+    for (; written < open.size() && results[written]; ++written)
+      keep(open[written], *results[written]);
+  });
   if (stop_requested() != 0) throw Stopped{stop_requested()};
   std::vector<TrialResult> all;
   for (const Trial &t : trials) {

@@ -13,7 +13,7 @@
 #include "apps/io/summary.h"
 #include "apps/scene/command_line.h"
 #include "dem/model.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 
@@ -32,7 +32,7 @@ public:
   // Writes summary.json, says `report`, and checks what the scene expects; returns the exit status.
   int finish(const Json &summary, const std::string &report);
 
-  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  int threads() const { return loop_threads(); }
   double seconds() const; // since the start
   std::string scene_text(const Scene &scene) const;
 
@@ -47,7 +47,7 @@ private:
   std::vector<std::filesystem::path> inputs_;
   FolderUse use_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  dem::ThreadLimit limit_;
+  ThreadLimit limit_;
   std::unique_ptr<FolderLock> lock_;
 };
 

@@ -15,7 +15,7 @@ namespace platen::apps {
 
 RunCosts CompressionRun::costs() const {
   RunCosts c;
-  c.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
+  c.threads = loop_threads();
   c.wall_seconds = earlier_seconds_ + seconds_since(start_);
   c.setup_seconds = setup_seconds_;
   c.steps_here = test_->steps() - first_step_;

@@ -16,8 +16,8 @@
 #include "apps/run/summary_of_run.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/scene.h"
+#include "base/parallel.h"
 #include "coupling/platen_test.h"
-#include "dem/parallel.h"
 
 namespace platen::apps {
 
@@ -70,7 +70,7 @@ private:
   OutputPaths paths_;
   std::unique_ptr<FolderLock> lock_;
   RunLog log_;
-  dem::ThreadLimit threads_;
+  ThreadLimit threads_;
   std::unique_ptr<coupling::PlatenTest> test_;
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there

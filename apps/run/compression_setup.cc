@@ -17,7 +17,6 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 #include "coupling/static_press.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -88,7 +87,6 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
-  fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
   std::vector<std::filesystem::path> inputs{command.scene};

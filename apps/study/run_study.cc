@@ -25,7 +25,7 @@
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/tables.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -71,7 +71,7 @@ public:
   int run();
 
 private:
-  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
   std::string description() const;
   int tell_costs() const;
   void open();

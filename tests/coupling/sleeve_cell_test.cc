@@ -4,11 +4,10 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/same_state.h"
 
@@ -159,8 +158,7 @@ TEST(sleeve_cell, its_rims_stay_with_the_platens) {
 
 TEST(sleeve_cell, threads_change_no_bit) {
   const auto state = [](int threads) {
-    const dem::ThreadLimit limit(threads);
-    fem::limit_threads(threads);
+    const ThreadLimit limit(threads);
     PlatenTest problem(cylinder(), in_cell(5e6, true));
     problem.advance(300);
     return state_of(problem);

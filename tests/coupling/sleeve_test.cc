@@ -6,9 +6,8 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/model.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/same_state.h"
@@ -199,13 +198,11 @@ TEST(sleeve, an_interval_that_would_invert_an_element_is_cut) {
 TEST(sleeve, threads_change_no_bit) {
   Cell one, two;
   {
-    const dem::ThreadLimit limit(1);
-    fem::limit_threads(1);
+    const ThreadLimit limit(1);
     one.run(5e-5);
   }
   {
-    const dem::ThreadLimit limit(2);
-    fem::limit_threads(2);
+    const ThreadLimit limit(2);
     two.run(5e-5);
   }
   EXPECT_TRUE(same_state(one.sleeve, two.sleeve));

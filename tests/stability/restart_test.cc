@@ -11,9 +11,8 @@
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/run/run_state.h"
+#include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 #include "tests/apps/io_folder.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/measured.h"
@@ -101,17 +100,6 @@ PlatenTestSettings settings_of(Law law, Held held) {
   return s;
 }
 
-class Threads {
-public:
-  explicit Threads(int count) : loops_(count) { fem::limit_threads(count); }
-  ~Threads() { fem::limit_threads(0); }
-  Threads(const Threads &) = delete;
-  Threads &operator=(const Threads &) = delete;
-
-private:
-  dem::ThreadLimit loops_;
-};
-
 long broken(const PlatenTest &p) {
   return p.model.broken_tension + p.model.broken_shear;
 }
@@ -179,7 +167,7 @@ protected:
     const long at = life.at[moment];
     std::string expected, stopped;
     {
-      const Threads threads(first);
+      const ThreadLimit threads(first);
       PlatenTest whole(specimen(), settings);
       advance_to(whole, at);
       expect_moment(whole, life, moment);
@@ -190,7 +178,7 @@ protected:
     }
     int count = 0;
     for (const int next : then) {
-      const Threads threads(next);
+      const ThreadLimit threads(next);
       const std::filesystem::path file = folder_ / "stopped.platen";
       testing::put(file, stopped);
       PlatenTest resumed(specimen(), settings);

@@ -1,14 +1,14 @@
 // Loops over rows on several threads, and sums whose order does not depend on the number of threads. How
-// threads share a loop out is told in crew.h alone.
+// threads share a loop out is told in thread_pool.h alone.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-#include "dem/loop.h"
+#include "base/loop.h"
 
-namespace platen::dem {
+namespace platen {
 
 // Rows of one block. Blocks are cut by row number alone, never by thread, so that sums over blocks repeat
 // bitwise.
@@ -21,8 +21,8 @@ inline std::size_t number_of_blocks(std::size_t rows, std::size_t per_block = bl
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// Every part of both loops, shared out to the threads that loops use (crew.h says how).
-void run_loops(const Loop &one, const Loop &other = {});
+// Every part of both loops, shared out to the threads that loops use (thread_pool.h says how).
+void run_loops(const Loop &first, const Loop &second = {});
 
 // body(first, last, block) for every block of `per_block` rows of [0, rows), and another loop at the same
 // time.
@@ -57,10 +57,11 @@ void at_once(std::size_t pieces, const Piece &piece) {
 
 // Sum of body(first, last) over blocks, added in the order of the blocks. T needs T{} = 0 and +=.
 template <class T, class Body>
-T ordered_sum(std::size_t rows, const Body &body) {
-  std::vector<T> partial(number_of_blocks(rows));
-  for_each_block(rows,
-                 [&](std::size_t first, std::size_t last, std::size_t b) { partial[b] = body(first, last); });
+T ordered_sum(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
+  std::vector<T> partial(number_of_blocks(rows, per_block));
+  for_each_block(
+      rows, [&](std::size_t first, std::size_t last, std::size_t b) { partial[b] = body(first, last); },
+      per_block);
   T sum{};
   for (const T &p : partial)
     sum += p;
@@ -81,4 +82,4 @@ private:
 
 int hardware_threads();
 
-} // namespace platen::dem
+} // namespace platen

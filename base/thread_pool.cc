@@ -1,16 +1,21 @@
-#include "dem/crew.h"
+#include "base/thread_pool.h"
 
 #include <algorithm>
+#include <chrono>
 
-namespace platen::dem {
+namespace platen {
 
 namespace {
 
 // Some hundred microseconds: longer than what a step does between two loops, short beside what is done
 // between steps.
-constexpr int looks_before_sleep = 4000;
+constexpr int checks_before_sleep = 4000;
+// Parts of other loops last for minutes: their caller wakes up this often once it has given its core away as
+// many times as no step needs.
+constexpr int yields_before_sleep = 4000;
+constexpr std::chrono::microseconds long_wait{100};
 
-thread_local bool at_work = false;
+thread_local bool inside_part = false;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -22,49 +27,49 @@ void pause() {
 
 } // namespace
 
-Crew::~Crew() {
+ThreadPool::~ThreadPool() {
   resize(1);
 }
 
-void Crew::run(const Loop &one, const Loop &other, int threads) {
-  if (one.parts + other.parts < 2 || threads < 2 || at_work || !in_use_.try_lock()) {
-    for (const Loop *loop : {&one, &other})
+void ThreadPool::run(const Loop &first, const Loop &second, int threads) {
+  if (first.parts + second.parts < 2 || threads < 2 || inside_part || !in_use_.try_lock()) {
+    for (const Loop *loop : {&first, &second})
       for (std::size_t part = 0; part < loop->parts; ++part)
         loop->call(loop->body, part);
     return;
   }
   const std::lock_guard<std::mutex> until_done(in_use_, std::adopt_lock);
   if (shares_.size() != static_cast<std::size_t>(threads)) resize(threads);
-  loops_ = {one, other};
-  hand_out();
+  loops_ = {first, second};
+  divide_parts();
   thrown_ = nullptr;
-  begin_call();
-  at_work = true;
-  take_parts(0);
-  at_work = false;
-  end_call();
+  open_call();
+  inside_part = true;
+  do_parts(0);
+  inside_part = false;
+  close_call();
   if (thrown_) std::rethrow_exception(thrown_);
 }
 
-// With more threads than cores, to look is to keep others from their work.
-void Crew::resize(int threads) {
+// With more threads than cores, to check is to keep others from their work.
+void ThreadPool::resize(int threads) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    leave_ = true;
+    stopping_ = true;
   }
   called_.notify_all();
   for (std::thread &thread : threads_)
     thread.join();
   threads_.clear();
-  leave_ = false;
+  stopping_ = false;
   const std::size_t size = static_cast<std::size_t>(threads);
-  looks_ = size <= std::thread::hardware_concurrency() ? looks_before_sleep : 0;
+  checks_ = size <= std::thread::hardware_concurrency() ? checks_before_sleep : 0;
   shares_ = std::vector<Shares>(size);
   for (std::size_t k = 1; k < size; ++k)
     threads_.emplace_back([this, k] { serve(k); });
 }
 
-void Crew::hand_out() {
+void ThreadPool::divide_parts() {
   const std::size_t size = shares_.size();
   for (std::size_t loop = 0; loop < loops_.size(); ++loop)
     for (std::size_t k = 0; k < size; ++k) {
@@ -76,32 +81,34 @@ void Crew::hand_out() {
 
 // Either a thread that goes to sleep sees the call, or the caller sees that it sleeps: both write before they
 // read, in the one order of all such accesses.
-void Crew::begin_call() {
+void ThreadPool::open_call() {
   if (++calls_ == 0) ++calls_;
-  open_.store(calls_);
-  if (sleepers_.load() == 0) return;
+  open_call_.store(calls_);
+  if (sleeping_.load() == 0) return;
   { const std::lock_guard<std::mutex> lock(mutex_); }
   called_.notify_all();
 }
 
-// A thread counts itself in before it looks whether the call is still open, so that none is at work, or will
+// A thread counts itself in before it checks whether the call is still open, so that none is at work, or will
 // be, once it is closed and all have counted themselves out.
-void Crew::end_call() {
-  open_.store(0);
-  for (int looks = 0; joined_.load() != 0; ++looks)
-    if (looks < looks_)
+void ThreadPool::close_call() {
+  open_call_.store(0);
+  for (int checks = 0; joined_.load() != 0; ++checks)
+    if (checks < checks_)
       pause();
-    else
+    else if (checks < checks_ + yields_before_sleep)
       std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(long_wait);
 }
 
-void Crew::serve(std::size_t thread) {
-  at_work = true;
-  for (unsigned done = 0; await_call(done);) {
+void ThreadPool::serve(std::size_t thread) {
+  inside_part = true;
+  for (unsigned done = 0; wait_for_call(done);) {
     joined_.fetch_add(1);
-    const unsigned call = open_.load();
+    const unsigned call = open_call_.load();
     if (call != 0) {
-      take_parts(thread);
+      do_parts(thread);
       done = call;
     }
     joined_.fetch_sub(1);
@@ -109,36 +116,36 @@ void Crew::serve(std::size_t thread) {
 }
 
 // Until a call is open that was not served yet; false: no more will come.
-bool Crew::await_call(unsigned done) {
-  const auto news = [&] {
-    const unsigned call = open_.load();
-    return leave_.load() || (call != 0 && call != done);
+bool ThreadPool::wait_for_call(unsigned done) {
+  const auto called = [&] {
+    const unsigned call = open_call_.load();
+    return stopping_.load() || (call != 0 && call != done);
   };
-  for (int looks = 0; looks < looks_ && !news(); ++looks)
+  for (int checks = 0; checks < checks_ && !called(); ++checks)
     pause();
-  if (!news()) {
+  if (!called()) {
     std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    called_.wait(lock, news);
-    --sleepers_;
+    ++sleeping_;
+    called_.wait(lock, called);
+    --sleeping_;
   }
-  return !leave_.load();
+  return !stopping_.load();
 }
 
-void Crew::take_parts(std::size_t thread) {
-  empty(shares_[thread][0], 0);
-  empty(shares_[thread][1], 1);
+void ThreadPool::do_parts(std::size_t thread) {
+  do_share(shares_[thread][0], 0);
+  do_share(shares_[thread][1], 1);
   for (const int loop : {1, 0})
     for (std::size_t k = 1; k < shares_.size(); ++k)
-      empty(shares_[(thread + k) % shares_.size()][static_cast<std::size_t>(loop)], loop);
+      do_share(shares_[(thread + k) % shares_.size()][static_cast<std::size_t>(loop)], loop);
 }
 
-void Crew::empty(Share &share, int loop) {
+void ThreadPool::do_share(Share &share, int loop) {
   for (std::size_t part = share.next++; part < share.end; part = share.next++)
     do_part(loop, part);
 }
 
-void Crew::do_part(int loop, std::size_t part) {
+void ThreadPool::do_part(int loop, std::size_t part) {
   const Loop &work = loops_[static_cast<std::size_t>(loop)];
   try {
     work.call(work.body, part);
@@ -149,4 +156,4 @@ void Crew::do_part(int loop, std::size_t part) {
   }
 }
 
-} // namespace platen::dem
+} // namespace platen

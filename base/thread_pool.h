@@ -1,5 +1,5 @@
 // Persistent threads that share out the parts of a loop: a step is some loops of some hundred microseconds
-// one after the other, so that a thread that waits for the next loop looks for it rather than sleep.
+// one after the other, so that a thread that waits for the next loop checks for it rather than sleep.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "dem/loop.h"
+#include "base/loop.h"
 
-namespace platen::dem {
+namespace platen {
 
-class Crew {
+class ThreadPool {
 public:
-  Crew() = default;
-  ~Crew();
-  Crew(const Crew &) = delete;
-  Crew &operator=(const Crew &) = delete;
+  ThreadPool() = default;
+  ~ThreadPool();
+  ThreadPool(const ThreadPool &) = delete;
+  ThreadPool &operator=(const ThreadPool &) = delete;
 
   // Every part of both loops once, on up to `threads` threads, the caller's among them; returns when all are
   // done. Each thread starts with runs of neighbouring parts, first of one loop and then of the other, the
@@ -30,7 +30,7 @@ public:
   // worth to be the second. No thread is waited for that has not begun. A call inside a part, or beside one
   // that another thread has made, runs on its caller alone. What a part throws reaches the caller once no
   // thread is at work; of several, what the lowest part of the first loop threw, or else of the second.
-  void run(const Loop &one, const Loop &other, int threads);
+  void run(const Loop &first, const Loop &second, int threads);
 
 private:
   // Parts of a loop that a thread starts with; [next, end) are left.
@@ -41,18 +41,18 @@ private:
   using Shares = std::array<Share, 2>; // of each loop
 
   void resize(int threads);
-  void hand_out();
-  void begin_call();
-  void end_call();
+  void divide_parts();
+  void open_call();
+  void close_call();
   void serve(std::size_t thread);
-  bool await_call(unsigned done);
-  void take_parts(std::size_t thread);
-  void empty(Share &share, int loop);
+  bool wait_for_call(unsigned done);
+  void do_parts(std::size_t thread);
+  void do_share(Share &share, int loop);
   void do_part(int loop, std::size_t part);
 
   std::vector<std::thread> threads_; // all but the caller's
   std::vector<Shares> shares_;       // one for each thread, the caller's first
-  int looks_ = 0;                    // at the next call, before a thread sleeps
+  int checks_ = 0;                   // for the next call, before a thread sleeps
   std::array<Loop, 2> loops_;        // of the open call
   unsigned calls_ = 0;
 
@@ -62,10 +62,10 @@ private:
   std::exception_ptr thrown_;
   std::pair<int, std::size_t> thrown_by_; // loop and part
 
-  alignas(64) std::atomic<unsigned> open_{0}; // number of the call that may be joined; 0: none
-  std::atomic<bool> leave_{false};
-  std::atomic<int> sleepers_{0};
+  alignas(64) std::atomic<unsigned> open_call_{0}; // number of the call that may be joined; 0: none
+  std::atomic<bool> stopping_{false};
+  std::atomic<int> sleeping_{0};           // threads
   alignas(64) std::atomic<int> joined_{0}; // threads that may be at work for the caller
 };
 
-} // namespace platen::dem
+} // namespace platen

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace platen::dem {
+namespace platen {
 
 // Parts that may be done in any order and at once.
 struct Loop {
@@ -18,4 +18,4 @@ Loop loop_of(std::size_t parts, const Part &part) {
   return {parts, [](const void *body, std::size_t p) { (*static_cast<const Part *>(body))(p); }, &part};
 }
 
-} // namespace platen::dem
+} // namespace platen

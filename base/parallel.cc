@@ -1,10 +1,10 @@
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 #include <thread>
 
-#include "dem/crew.h"
+#include "base/thread_pool.h"
 
-namespace platen::dem {
+namespace platen {
 
 namespace {
 
@@ -13,8 +13,8 @@ int &threads_of_loops() {
   return threads;
 }
 
-Crew &crew() {
-  static Crew threads;
+ThreadPool &pool() {
+  static ThreadPool threads;
   return threads;
 }
 
@@ -24,8 +24,8 @@ int loop_threads() {
   return threads_of_loops();
 }
 
-void run_loops(const Loop &one, const Loop &other) {
-  crew().run(one, other, loop_threads());
+void run_loops(const Loop &first, const Loop &second) {
+  pool().run(first, second, loop_threads());
 }
 
 ThreadLimit::ThreadLimit(int threads) : before_(loop_threads()) {
@@ -41,4 +41,4 @@ int hardware_threads() {
   return n == 0 ? 1 : static_cast<int>(n);
 }
 
-} // namespace platen::dem
+} // namespace platen
