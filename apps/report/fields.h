@@ -1,9 +1,11 @@
-// Stress, strain and damage through specimen and platens in one frame, on one grid.
+// Stress, strain and damage through specimen and platens on one grid: in one frame, as files for ParaView of
+// all frames, and as a picture.
 #pragma once
 
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
 
+#include <filesystem>
 #include <vector>
 
 #include "apps/report/run_folder.h"
@@ -37,5 +39,17 @@ vtkSmartPointer<vtkImageData> image_of(const dem::RegularGrid &grid);
 
 // m; what lengths of averages and grids go by.
 double mean_radius(const Spheres &spheres);
+
+// Writes fields.pvd and frames/fields_*.vti into the run's folder: on one grid through platens and specimen,
+// nodes a mean radius apart, `stress` (Pa, tension positive; in deformable platens too), `strain`,
+// `displacement` (m), `damage`, `solid_share`, and `body` (0 nothing, 1 specimen, 2 platen) to choose by.
+// Numbers that a node has not are NaN. The run must tell stress. Returns fields.pvd. Throws
+// InputError, OutputError.
+std::filesystem::path write_fields(const Run &run);
+
+// Vertical stress and largest shear in the plane y = 0, from platen through specimen to platen, in the frame
+// nearest to the peak; platens that are rigid in grey. The run must tell stress. Needs an X server
+// (display.h); throws OutputError where the file cannot be written.
+void draw_stress_flow(const Run &run, const Spheres &before_test, const std::filesystem::path &png);
 
 } // namespace platen::apps::report

@@ -1,26 +1,22 @@
 // How the stress flows from the platens through the specimen: sections along the axis.
-#include <vtkAxis.h>
+#include <fmt/format.h>
 #include <vtkChartXY.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDoubleArray.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
-#include <vtkPlotHistogram2D.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "apps/report/chart.h"
-#include "apps/report/field_frame.h"
-#include "apps/report/pictures.h"
+#include "apps/report/fields.h"
 #include "apps/report/specimen_view.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double mm_per_m = 1e3, pa_per_mpa = 1e6;
 constexpr double reach = 5, fineness = 0.25; // of averages, of nodes; mean radii
 
 // The plane beside y = 0, which may lie between the bristles of a brush, through the specimen and the near
@@ -123,14 +119,9 @@ void draw_stress_flow(const Run &run, const Spheres &before_test, const std::fil
     const std::vector<double> ticks = ticks_of(maps[k].values);
     const PlotArea area{static_cast<double>(k * panel + left), foot, static_cast<double>(plot_width),
                         plot_height};
-    const auto chart = frame_chart(area);
-    vtkNew<vtkPlotHistogram2D> plot;
-    plot->SetInputData(coloured_image(frame, maps[k], ticks.front(), ticks.back()));
-    plot->SetTransferFunction(ramp_over_grey(ticks.front(), ticks.back()));
-    chart->AddPlot(plot);
-    set_axis(chart->GetAxis(vtkAxis::BOTTOM), {-mm_width / 2, mm_width / 2}, 4);
-    set_axis(chart->GetAxis(vtkAxis::LEFT), {mm_low, mm_low + mm_height}, 8);
-    charts.push_back(chart);
+    charts.push_back(image_chart(area, coloured_image(frame, maps[k], ticks.front(), ticks.back()),
+                                 ramp_over_grey(ticks.front(), ticks.back()), {-mm_width / 2, mm_width / 2},
+                                 {mm_low, mm_low + mm_height}));
     add_axis_titles(canvas, area, "x (mm)", "z (mm)");
   }
   add_chart_scene(canvas, charts); // a layer over the whole canvas: bars come after it
@@ -138,12 +129,10 @@ void draw_stress_flow(const Run &run, const Spheres &before_test, const std::fil
   for (int k = 0; k < 2; ++k)
     add_colour_bar(canvas, {Ramp::displacement, ticks_of(maps[k].values), maps[k].title},
                    (k * panel + left + plot_width + 20) / width, (k + 1) * panel / width);
-  char words[160];
-  std::snprintf(words, sizeof words,
-                "Section y = %.2g mm near the peak (frame at %.3g of its time), averages over %.0f mm",
-                frame.grid.origin.y * mm_per_m, frame.time / run.moments.peak_time,
-                2 * reach * radius * mm_per_m);
-  canvas.add_head(run.title, words);
+  canvas.add_head(run.title, fmt::format("Section y = {:.2g} mm near the peak (frame at {:.3g} of its time), "
+                                         "averages over {:.0f} mm",
+                                         frame.grid.origin.y * mm_per_m, frame.time / run.moments.peak_time,
+                                         2 * reach * radius * mm_per_m));
   canvas.save(png);
 }
 

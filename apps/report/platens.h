@@ -1,10 +1,11 @@
 // What the spheres at a platen do to it: pressure and shear over the radius, and where they stick or slide.
+// Pictures need an X server (display.h) and throw OutputError where the file cannot be written.
 #pragma once
 
-#include <array>
+#include <filesystem>
 #include <vector>
 
-#include "apps/report/frames.h"
+#include "apps/report/run_folder.h"
 
 namespace platen::apps::report {
 
@@ -13,7 +14,6 @@ struct PlatenContacts {
   std::vector<double> x, y;         // m
   std::vector<double> normal_force; // N, pressing
   std::vector<double> inward_shear; // N, on the specimen, towards the axis
-  std::vector<double> shear;        // N, size
   std::vector<bool> sliding;
   std::size_t size() const { return x.size(); }
   double sliding_share() const; // of the contacts; NaN without any
@@ -31,5 +31,11 @@ struct RingProfile {
   std::vector<double> pressure, inward_shear; // Pa
 };
 RingProfile profile_of(const PlatenContacts &contacts, double radius, int rings);
+
+// Pressure on both platens and shear on the ends of the specimen against the distance from the axis, in the
+// frame nearest to the peak. Round specimens; the run must have contacts.
+void draw_platen_profiles(const Run &run, const Extent &extent, const std::filesystem::path &png);
+// Every sphere at a platen in the same frame, seen along the axis: whether it sticks or slides.
+void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesystem::path &png);
 
 } // namespace platen::apps::report

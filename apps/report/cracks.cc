@@ -1,29 +1,32 @@
-#include "apps/report/crack_density.h"
+#include "apps/report/cracks.h"
 
 #include <vtkCell.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-std::size_t cell_of(const DensityMap &map, const Place &place) {
-  const double r = (map.is_plane ? std::abs(place.x) : std::hypot(place.x, place.y)) / map.radius,
-               z = (place.z - map.bottom) / (map.top - map.bottom);
+std::size_t cell_of(const DensityMap &map, const Position &place) {
+  const double r = (map.is_plane ? std::abs(place[0]) : std::hypot(place[0], place[1])) / map.radius,
+               z = (place[2] - map.bottom) / (map.top - map.bottom);
   const int column = std::clamp(static_cast<int>(r * map.columns), 0, map.columns - 1);
   const int row = std::clamp(static_cast<int>(std::floor(z * map.rows)), 0, map.rows - 1);
   return static_cast<std::size_t>(row * map.columns + column);
 }
 
-std::vector<double> counts(const DensityMap &map, const std::vector<Place> &places) {
+Position midpoint(const Position &a, const Position &b) {
+  return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+}
+
+std::vector<double> counts(const DensityMap &map, const std::vector<Position> &places) {
   std::vector<double> count(map.values.size(), 0.0);
-  for (const Place &place : places)
+  for (const Position &place : places)
     ++count[cell_of(map, place)];
   return count;
 }
@@ -48,35 +51,30 @@ std::vector<Crack> cracks_until(const CsvTable &table, double time, const Sphere
       throw InputError(table.file.string() + ":" + std::to_string(k + 2) + ": mode \"" + mode +
                        "\" is neither tension nor shear");
     if (times[k] > time) continue;
-    Crack crack{{x[k], y[k], z[k]}, nx[k], ny[k], nz[k], area[k], mode == "tension", times[k]};
+    Crack crack{{x[k], y[k], z[k]}, {nx[k], ny[k], nz[k]}, area[k], mode == "tension", times[k]};
     const auto first = row_of.find(std::llround(a[k])), second = row_of.find(std::llround(b[k]));
-    if (first != row_of.end() && second != row_of.end()) {
-      const std::size_t i = first->second, j = second->second;
-      crack.place = {0.5 * (before_test.x0[i] + before_test.x0[j]),
-                     0.5 * (before_test.y0[i] + before_test.y0[j]),
-                     0.5 * (before_test.z0[i] + before_test.z0[j])};
-    }
+    if (first != row_of.end() && second != row_of.end())
+      crack.place = midpoint(before_test.initial[first->second], before_test.initial[second->second]);
     cracks.push_back(crack);
   }
   return cracks;
 }
 
-std::vector<Place> bond_midpoints(const Frame &frame) {
+std::vector<Position> bond_midpoints(const Frame &frame) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
-  std::vector<Place> places;
+  std::vector<Position> places;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     if (grid->GetCellType(c) != VTK_LINE) continue;
-    double first[3], second[3];
-    vtkCell *line = grid->GetCell(c);
-    line->GetPoints()->GetPoint(0, first);
-    line->GetPoints()->GetPoint(1, second);
-    places.push_back(
-        {0.5 * (first[0] + second[0]), 0.5 * (first[1] + second[1]), 0.5 * (first[2] + second[2])});
+    Position first, second;
+    vtkPoints *ends = grid->GetCell(c)->GetPoints();
+    ends->GetPoint(0, first.data());
+    ends->GetPoint(1, second.data());
+    places.push_back(midpoint(first, second));
   }
   return places;
 }
 
-DensityMap crack_density(const std::vector<Crack> &cracks, const std::vector<Place> &bonds,
+DensityMap crack_density(const std::vector<Crack> &cracks, const std::vector<Position> &bonds,
                          const Extent &extent) {
   DensityMap map;
   // A box reaches to its corners; its map goes to the half width only, corners are counted in the outermost
@@ -85,13 +83,12 @@ DensityMap crack_density(const std::vector<Crack> &cracks, const std::vector<Pla
   map.is_plane = extent.is_plane();
   map.bottom = extent.bottom;
   map.top = extent.top;
-  map.columns = 8;
-  if (map.is_plane) map.columns = 12;
+  map.columns = map.is_plane ? 12 : 8;
   map.rows = std::clamp(static_cast<int>(std::lround(map.columns * extent.height() / map.radius)), 4, 64);
   map.values.assign(static_cast<std::size_t>(map.columns * map.rows), 0.0);
   map.is_share = !bonds.empty();
 
-  std::vector<Place> places;
+  std::vector<Position> places;
   for (const Crack &crack : cracks)
     places.push_back(crack.place);
   const std::vector<double> broken = counts(map, places), initial = counts(map, bonds);

@@ -1,54 +1,46 @@
-#include "apps/report/study_results.h"
+#include "apps/report/platen_study.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <ostream>
+#include <set>
+#include <stdexcept>
 
+#include "apps/report/chart.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-constexpr double pa_per_mpa = 1e6;
 constexpr const char *effects[] = {"gain over free ends", "strength over that at slenderness 2",
                                    "cube over prism"};
 
-double number(const Json &value) {
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
 Spread over_seeds(const Json &statistics, double unit) {
-  const double mean = number(statistics.at("mean")) / unit,
-               deviation = number(statistics.at("deviation")) / unit,
+  const double mean = number_or_nan(statistics.at("mean")) / unit,
+               deviation = number_or_nan(statistics.at("deviation")) / unit,
                half = std::isnan(deviation) ? 0 : deviation;
   return {mean, mean - half, mean + half};
 }
 
-std::string words(const char *format, double a, double b = 0, double c = 0) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
-std::string words(const Spread &s, const char *one, const char *scattered) {
+std::string words(const Spread &s, int digits) {
   if (std::isnan(s.mean)) return "-";
-  return s.high > s.low ? words(scattered, s.mean, s.high - s.mean) : words(one, s.mean);
+  return s.high > s.low ? fmt::format("{:.{}f} +- {:.{}f}", s.mean, digits, s.high - s.mean, digits)
+                        : fmt::format("{:.{}f}", s.mean, digits);
 }
 
 StudiedCase case_of(const Json &from) {
   StudiedCase one;
   one.name = from.at("name");
   one.surface = from.at("surface");
-  one.friction = number(from.at("friction_static"));
-  one.slenderness = number(from.at("slenderness"));
-  one.sphere_radius = number(from.at("sphere_radius_m"));
-  one.pressure = number(from.at("confining_pressure_pa"));
+  one.friction = number_or_nan(from.at("friction_static"));
+  one.slenderness = number_or_nan(from.at("slenderness"));
+  one.sphere_radius = number_or_nan(from.at("sphere_radius_m"));
+  one.pressure = number_or_nan(from.at("confining_pressure_pa"));
   one.strength = over_seeds(from.at("strength_pa"), pa_per_mpa);
   one.without_peak = from.at("without_peak");
   one.runs = from.at("strength_pa").at("runs");
@@ -58,9 +50,9 @@ StudiedCase case_of(const Json &from) {
 
 std::string laboratory_words(const Json &from) {
   if (from.is_null()) return "-";
-  const double low = number(from.at("low")), high = number(from.at("high"));
-  return low < high ? words("%.2f (%.2f to %.2f)", number(from.at("mean")), low, high)
-                    : words("%.2f", number(from.at("mean")));
+  const double mean = number_or_nan(from.at("mean")), low = number_or_nan(from.at("low")),
+               high = number_or_nan(from.at("high"));
+  return fmt::format("{:.2f}", mean) + (low < high ? fmt::format(" ({:.2f} to {:.2f})", low, high) : "");
 }
 
 // Whose figures stand in the table, a line each.
@@ -80,7 +72,6 @@ std::vector<std::string> sources_in(const Json &comparisons) {
 StudyResults results_of(const Json &study, const std::string &title) {
   StudyResults results;
   results.title = title;
-  results.kind = study.at("kind");
   for (const Json &one : study.at("cases"))
     results.cases.push_back(case_of(one));
   const auto place = [&](const std::string &name) {
@@ -93,24 +84,30 @@ StudyResults results_of(const Json &study, const std::string &title) {
     results.ratios.push_back({one.at("effect"), place(one.at("case")), place(one.at("over")),
                               over_seeds(one, 1), laboratory_words(one.at("laboratory"))});
   for (const Json &one : study.at("laboratory"))
-    results.laboratory.push_back({one.at("effect"),
-                                  one.at("source"),
-                                  one.at("platens") == "free ends",
-                                  number(one.at("slenderness")),
-                                  {number(one.at("mean")), number(one.at("low")), number(one.at("high"))}});
+    results.laboratory.push_back(
+        {one.at("effect"),
+         one.at("source"),
+         one.at("platens") == "free ends",
+         number_or_nan(one.at("slenderness")),
+         {number_or_nan(one.at("mean")), number_or_nan(one.at("low")), number_or_nan(one.at("high"))}});
   for (const StudiedCase &one : results.cases)
     if (one.without_peak > 0)
       results.remarks.push_back(
-          one.surface + words(", height/width %.3g: ", one.slenderness) +
-          words("%.0f of %.0f runs bore ever more up to the target strain: no strength is drawn",
-                one.without_peak, one.runs));
+          fmt::format("{}, height/width {:.3g}: {} of {} runs bore ever more up to the target strain: no "
+                      "strength is drawn",
+                      one.surface, one.slenderness, one.without_peak, one.runs));
   for (const std::string &line : sources_in(study.at("comparisons")))
     results.remarks.push_back(line);
-  const int failed = study.at("failed_runs"), runs = study.at("runs");
-  if (failed > 0)
-    results.remarks.push_back(std::to_string(failed) + " of " + std::to_string(runs) +
-                              " runs failed and count in no mean");
+  add_failed_runs(study, results.remarks);
   return results;
+}
+
+// Cases that differ in platens and slenderness alone, by sphere radius and pressure.
+std::map<std::pair<double, double>, std::vector<std::size_t>> groups_of(const StudyResults &study) {
+  std::map<std::pair<double, double>, std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < study.cases.size(); ++k)
+    groups[{study.cases[k].sphere_radius, study.cases[k].pressure}].push_back(k);
+  return groups;
 }
 
 } // namespace
@@ -142,6 +139,15 @@ Json finished_study(const fs::path &folder) {
     throw InputError(file.string() + ": the study has not ended; go on with it by platen-study " +
                      study.value("kind", "") + " --resume");
   return study;
+}
+
+void add_failed_runs(const Json &study, std::vector<std::string> &remarks) {
+  if (const int failed = study.at("failed_runs"), runs = study.at("runs"); failed > 0)
+    remarks.push_back(fmt::format("{} of {} runs failed and count in no mean", failed, runs));
+}
+
+double number_or_nan(const Json &value) {
+  return value.is_number() ? value.get<double>() : std::nan("");
 }
 
 StudyResults read_study(const fs::path &folder) {
@@ -177,19 +183,54 @@ TableOfFigures table_of_study(const StudyResults &study) {
     table.header.insert(table.header.end(), {effect, "laboratory"});
   for (std::size_t k = 0; k < study.cases.size(); ++k) {
     const StudiedCase &one = study.cases[k];
-    std::vector<std::string> row{one.surface, words("%.3g", one.slenderness)};
-    if (radii) row.push_back(words("%.3g", 1e3 * one.sphere_radius));
-    if (pressures) row.push_back(words("%.3g", one.pressure / pa_per_mpa));
+    std::vector<std::string> row{one.surface, fmt::format("{:.3g}", one.slenderness)};
+    if (radii) row.push_back(fmt::format("{:.3g}", 1e3 * one.sphere_radius));
+    if (pressures) row.push_back(fmt::format("{:.3g}", one.pressure / pa_per_mpa));
     row.push_back(std::to_string(one.runs));
-    row.push_back((one.without_peak > 0 ? "> " : "") + words(one.strength, "%.1f", "%.1f +- %.1f"));
+    row.push_back((one.without_peak > 0 ? "> " : "") + words(one.strength, 1));
     for (const char *effect : effects) {
       const StudiedRatio *ratio = study.ratio_of(k, effect);
-      row.push_back(ratio == nullptr ? "-" : words(ratio->ratio, "%.3f", "%.3f +- %.3f"));
+      row.push_back(ratio == nullptr ? "-" : words(ratio->ratio, 3));
       row.push_back(ratio == nullptr ? "-" : ratio->laboratory);
     }
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+void write_study_report(const StudyResults &study, const fs::path &folder, std::ostream &out) {
+  Album album(folder);
+  album.begin("");
+  const auto groups = groups_of(study);
+  for (const auto &[group, cases] : groups) {
+    std::set<double> frictions, slendernesses;
+    for (const std::size_t k : cases) {
+      if (study.cases[k].plain) frictions.insert(study.cases[k].friction);
+      slendernesses.insert(study.cases[k].slenderness);
+    }
+    const std::string number = album.size() == 0 ? "" : fmt::format("_{}", album.size()),
+                      which = groups.size() == 1
+                                  ? ""
+                                  : fmt::format(" Spheres of {:.3g} mm, cell pressure {:.3g} MPa.",
+                                                1e3 * group.first, 1e-6 * group.second);
+    if (frictions.size() > 1)
+      album.add("strength_friction" + number + ".png",
+                "Strength against the friction of the platens, and its gain over free ends; bars: "
+                "standard deviation over the seeds, range of the laboratory." +
+                    which,
+                [&, &of = cases](const fs::path &png) { draw_friction(study, of, png); });
+    if (slendernesses.size() > 1)
+      album.add("strength_slenderness" + number + ".png",
+                "Strength against height over width, and its ratio to that at 2; bars: standard "
+                "deviation over the seeds, range of the laboratory." +
+                    which,
+                [&, &of = cases](const fs::path &png) { draw_slenderness(study, of, png); });
+  }
+  std::vector<std::string> remarks = study.remarks;
+  if (album.size() == 0) remarks.push_back("one friction and one slenderness: there is no curve to draw");
+  for (const std::string &remark : remarks)
+    out << remark << '\n';
+  album.finish(study.title, table_of_study(study), remarks, out);
 }
 
 } // namespace platen::apps::report
