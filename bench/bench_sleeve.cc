@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/pi.h"
 #include "fem/hyperelastic_solid.h"
 #include "fem/threads.h"
 
@@ -28,7 +29,7 @@ constexpr double step_share = 0.9; // of the stable step: it rings from there
 std::vector<Point> blown_up(const HyperelasticSolid &solid) {
   std::vector<Point> displacement;
   for (const Point &x : solid.mesh().nodes) {
-    const double more = 2 * wider * radius * radius * std::sin(M_PI * x[2] / height);
+    const double more = 2 * wider * radius * radius * std::sin(pi * x[2] / height);
     const double share = std::sqrt(1 + more / (x[0] * x[0] + x[1] * x[1])) - 1;
     displacement.push_back({share * x[0], share * x[1], 0});
   }

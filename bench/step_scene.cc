@@ -5,12 +5,13 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/pi.h"
 #include "dem/packing/growth.h"
 
 namespace platen::bench {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, radius = 1e-3;
+constexpr double radius = 1e-3;
 // What growth between walls reaches.
 constexpr double fraction = 0.615;
 constexpr int largest_cylinder = 50000, block_of = 20000;

@@ -5,13 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
+
 namespace platen::coupling {
 
 using dem::Vector3;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "coupling/contact_layer.h"
 #include "coupling/transfer.h"
 #include "dem/laws/rotating_plane.h"
@@ -17,7 +18,6 @@ using dem::Vector3;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 constexpr double idle_margin = 1e-9;  // of a gap, for round-off

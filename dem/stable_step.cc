@@ -13,7 +13,6 @@
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int most_iterations = 300;
 constexpr double tolerance = 0.01; // of omega^2: the step comes out at most 0.5 % too small
 

@@ -1,4 +1,5 @@
 #include "fem/grids.h"
+#include "base/pi.h"
 #include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -18,8 +19,6 @@
 
 namespace platen::fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("platen grid: " + what);

@@ -5,12 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
 #include "fem/grids.h"
 
 namespace platen::fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void require(bool holds, const std::string &what) {
   if (!holds) throw std::invalid_argument("tube grid: " + what);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::apps {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double first_root = 1.875104068711961; // of cos x cosh x = -1
 
 // The frequency equation of Timoshenko's beam, clamped and free (Huang 1961, J. Appl. Mech. 28:579), below

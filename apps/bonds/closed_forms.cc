@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
+
 namespace platen::apps {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const double root3 = std::sqrt(3.0);
 
 } // namespace

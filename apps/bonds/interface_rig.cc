@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/bonds/bond_rig.h"
+#include "base/pi.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {
@@ -19,8 +20,7 @@ dem::ModelSettings led_settings(const Scene &scene, double modulus) {
 
 InterfaceSection section_of(const dem::Bonds &bonds, double modulus) {
   const double radius = bonds.bond_radius[0];
-  return {std::get<dem::ElastoDamagePlastic>(bonds.law), bonds.rest_length[0],
-          3.14159265358979323846 * radius * radius, modulus};
+  return {std::get<dem::ElastoDamagePlastic>(bonds.law), bonds.rest_length[0], pi * radius * radius, modulus};
 }
 
 } // namespace

@@ -20,6 +20,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
+#include "base/pi.h"
 #include "dem/parallel.h"
 #include "fem/threads.h"
 
@@ -202,8 +203,7 @@ void Calibration::tell_found(const Found &f, Json &s) {
       "{:.5g} "
       "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}, friction angle {:.4g} degree\n{}",
       1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / std::acos(-1.0),
-      table_of(scene_, f));
+      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi, table_of(scene_, f));
   for (const std::string &line : f.missed)
     log_.warning("{}", line);
 }

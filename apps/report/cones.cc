@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/pi.h"
+
 namespace platen::apps::report {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 
 bool read_vector(const nlohmann::json &from, const char *key, std::array<double, 3> &to) {
   const auto found = from.find(key);

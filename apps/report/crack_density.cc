@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::size_t cell_of(const DensityMap &map, const Place &place) {
   const double r = (map.is_plane ? std::abs(place.x) : std::hypot(place.x, place.y)) / map.radius,

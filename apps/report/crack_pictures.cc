@@ -18,11 +18,11 @@
 #include "apps/report/heat_map.h"
 #include "apps/report/pictures.h"
 #include "apps/report/specimen_view.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int panel_width = 820, picture_height = 1240, bar_width = 260; // pixels
 
 struct Disc {

@@ -10,11 +10,11 @@
 #include <unordered_map>
 
 #include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Solid share from which a node is in the specimen. Dense packings have 0.55 to 0.64 within, half of it at a
 // flat surface, and less where the ends were packed against a wall.

@@ -4,11 +4,12 @@
 #include "apps/report/cones.h"
 #include "apps/report/pictures.h"
 #include "apps/report/specimen_view.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 constexpr int coloured = 7, smallest = 30; // pieces; spheres
 
 std::vector<double> colours_of_pieces(const Spheres &spheres) {

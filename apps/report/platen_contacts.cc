@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // Contacts at the rim of a platen may press aslant; those of a sleeve press sideways.
 constexpr double upright = 0.7;
 

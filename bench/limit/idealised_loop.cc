@@ -1,4 +1,5 @@
 #include "limit/idealised_loop.h"
+#include "base/pi.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +14,6 @@ namespace platen::bench {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double share_of_safe_step = 0.2;
 constexpr double first_speed = 1e-3; // m/s, per axis: strains of about 1e-6
 

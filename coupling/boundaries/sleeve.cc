@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
 #include "coupling/errors.h"
 #include "coupling/text_of.h"
 
@@ -17,7 +18,6 @@ using fem::operator*;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // The elements' own limit costs as much as twenty of their steps and changes with their shape alone.
 constexpr int intervals_between_limits = 100;
 // Intervals of so many steps make a sleeve cheap. Springs grow with the pressure; so does then the mass that

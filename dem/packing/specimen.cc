@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
@@ -129,8 +130,7 @@ Specimen laid_along_x(const Specimen &standing) {
 }
 
 double lateral_perimeter(const Shape &shape) {
-  return shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
-                                           : 2 * (shape.width_x + shape.width_y);
+  return shape.kind == ShapeKind::cylinder ? 2 * pi * shape.radius : 2 * (shape.width_x + shape.width_y);
 }
 
 double surface_area(const Shape &shape) {
@@ -200,7 +200,7 @@ double volume_of_spheres(const Specimen &specimen) {
   double sum = 0;
   for (const double r : specimen.radius)
     sum += r * r * r;
-  return 4.0 / 3.0 * 3.14159265358979323846 * sum;
+  return 4.0 / 3.0 * pi * sum;
 }
 
 std::vector<std::string> check_specimen(const Specimen &specimen, double wall_tolerance,

@@ -6,12 +6,14 @@
 
 #include "sphere_scene.h"
 
+#include "base/pi.h"
+
 namespace platen::coupling {
 namespace {
 
 // Steps as a share of the period of a sphere on its contact spring.
 double step_of(const SphereScene &scene, double share) {
-  return share * 2 * 3.14159265358979323846 * std::sqrt(scene.particles.mass[0] / stiffness);
+  return share * 2 * pi * std::sqrt(scene.particles.mass[0] / stiffness);
 }
 
 // Free flight, contact, free flight. Returns the relative loss of kinetic energy not found in the works.
@@ -60,7 +62,7 @@ TEST(contact_energy, restitution_is_that_of_a_spring_and_a_dashpot_that_cannot_p
     contact.damping = xi;
     double measured = 0;
     bounce_error({0, 0, -1}, {}, contact, 0.0002, &measured);
-    const double root = std::sqrt(1 - xi * xi), pi = 3.14159265358979323846;
+    const double root = std::sqrt(1 - xi * xi);
     const double phase = pi - std::atan2(2 * xi * root, 1 - 2 * xi * xi);
     EXPECT_NEAR(measured, std::exp(-xi / root * phase), 2e-3) << xi;
   }

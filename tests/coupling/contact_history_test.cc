@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "base/pi.h"
 #include "dem/parallel.h"
 #include "sphere_scene.h"
 #include "tests/measured.h"
@@ -100,7 +101,7 @@ TEST(contact_history, a_common_rotation_turns_the_spring_and_stretches_nothing) 
     const Vector3 start = scene.layer.contacts()[0].shear;
     const fem::Point c = scene.body.centre();
     const Vector3 centre = {c[0], c[1], c[2]}, axis = Vector3{1, 2, 2} / 3.0;
-    const double pi = 3.14159265358979323846, rate = 2 * pi;
+    const double rate = 2 * pi;
     const int steps = 2000 << level;
     const double dt = 1.0 / steps;
     const Vector3 w = rate * axis, arm = scene.particles.position[0] - centre;
@@ -222,7 +223,6 @@ TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
   const double normal = 50; // N
   scene.particles.position[0].z -= normal / stiffness;
   scene.compute_forces(0);
-  const double pi = 3.14159265358979323846;
   const double k = 2 * 40e9 * pi * 1e-9 / 8, h = 1e-5, limit = 0.5 * normal * sphere_radius;
   // Rolls about its contact point: no slip there, so the torque is the seat's alone.
   const double arm = scene.particles.position[0].z, rate = limit / k / (50 * h);

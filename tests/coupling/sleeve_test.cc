@@ -1,6 +1,7 @@
 // A sleeve around a bonded cylinder: what the cell presses on it arrives at the particles, and no energy is
 // lost on the way.
 #include "coupling/boundaries/sleeve.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,6 @@
 
 namespace platen::coupling {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 SleeveSettings butyl() {
   SleeveSettings s;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "base/state.h"
 #include "tests/fem/elastic_plate.h"
 

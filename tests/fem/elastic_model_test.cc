@@ -1,4 +1,5 @@
 #include "fem/elastic_model.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 namespace platen::fem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr Material steel{7850, 210e9, 0.3};
 constexpr Material rubber{1200, 10e6, 0.45};
 

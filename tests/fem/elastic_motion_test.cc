@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "tests/fem/elastic_plate.h"
 
 namespace platen::fem {

@@ -8,7 +8,6 @@
 
 namespace platen::fem {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr Material steel{7850, 210e9, 0.3};
 constexpr Material pad{1200, 50e6, 0.3};
 

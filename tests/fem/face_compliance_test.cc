@@ -1,5 +1,6 @@
 // Dents of a mesh under single forces: against a half space, and what they may not depend on.
 #include "fem/face_compliance.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -62,8 +63,7 @@ TEST(face_compliance, is_the_dent_of_a_half_space) {
       const auto dent = [&](std::size_t v) { return before[v][2] - s.surface().vertices[v][2]; };
       double block_share = 0;
       for (const Point &way : {Point{4, 0, 0}, Point{-4, 0, 0}, Point{0, 4, 0}, Point{0, -4, 0}})
-        block_share +=
-            0.25 * (dent(vertex((at + way[0]) * h, way[1] * h)) - 1 / (std::acos(-1.0) * scale * 4));
+        block_share += 0.25 * (dent(vertex((at + way[0]) * h, way[1] * h)) - 1 / (pi * scale * 4));
       const double expected = dent(loaded) - block_share;
       EXPECT_NEAR(own_compliance(s, c, at * h, 0), expected, 0.04 * expected) << degree << ' ' << at;
       EXPECT_GT(expected * scale, 0.8); // far from nothing

@@ -1,4 +1,5 @@
 #include "fem/grids.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace platen::fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<std::pair<const char *, Grid>> plates() {
   return {{"box", make_grid(BoxPlate{{-1, -2, 0.5}, {3, 1, 0.75}, {4, 3, 2}})},

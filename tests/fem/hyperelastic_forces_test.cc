@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "tests/fem/rubber_sleeve.h"
 
 namespace platen::fem {
@@ -10,7 +11,7 @@ namespace {
 
 TEST(hyperelastic_solid, mass_is_density_times_volume) {
   const HyperelasticSolid solid = sleeve();
-  const double volume = 8 * std::sin(M_PI / 8) * (0.055 * 0.055 - 0.05 * 0.05) * 0.06;
+  const double volume = 8 * std::sin(pi / 8) * (0.055 * 0.055 - 0.05 * 0.05) * 0.06;
   EXPECT_NEAR(solid.volume(), volume, 1e-13 * volume);
   double sum = 0;
   for (const double m : solid.nodal_mass())
@@ -128,7 +129,7 @@ TEST(hyperelastic_solid, pressure_does_the_work_p_dv) {
 // On the inner face alone, ends in their planes: the same with the volume inside the tube.
 TEST(hyperelastic_solid, pressure_inside_a_tube_does_the_work_of_its_lumen) {
   HyperelasticSolid solid = sleeve();
-  const double share = 8 * std::sin(M_PI / 8);
+  const double share = 8 * std::sin(pi / 8);
   EXPECT_NEAR(solid.enclosed_volume(inner_tag), share * 0.05 * 0.05 * 0.06, 1e-17);
   EXPECT_NEAR(solid.enclosed_volume(mantle_tag), share * 0.055 * 0.055 * 0.06, 1e-17);
   solid.set_pressure(inner_tag, 1e5);

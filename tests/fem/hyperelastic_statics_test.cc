@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "base/pi.h"
 #include "tests/fem/newton.h"
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/measured.h"
@@ -149,7 +150,7 @@ TEST(hyperelastic_statics, volume_at_each_point_would_lock_where_the_mean_does_n
   double exact = 0; // work of the closed form's pressure per height, over a from 1 to 1.25
   for (int i = 0; i < 1000; ++i) {
     const double at = 1 + 0.25 * (i + 0.5) / 1000;
-    exact += closed_form(at) * 2 * M_PI * at * 0.25 / 1000;
+    exact += closed_form(at) * 2 * pi * at * 0.25 / 1000;
   }
   PlaneTube tube(0.3, 32, 2, law);
   HyperelasticSolid &solid = tube.solid;

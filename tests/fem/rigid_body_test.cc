@@ -1,4 +1,5 @@
 #include "fem/rigid_body.h"
+#include "base/pi.h"
 #include "tests/same_state.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +69,7 @@ TEST(rigid_body, rigid_rotation_keeps_the_shape) {
 TEST(rigid_body, whole_turns_bring_every_vertex_back) {
   RigidBody body = box();
   const std::vector<Point> start = body.surface().vertices;
-  const double pi = 3.14159265358979323846, rate = 2 * pi * 10;
+  const double rate = 2 * pi * 10;
   body.set_velocity({}, {rate / 3, 2 * rate / 3, 2 * rate / 3});
   for (int step = 0; step < 10000; ++step)
     body.drift(1e-4);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "fem/elastic_solid.h"
 #include "tests/coupling/sphere_scene.h"
 #include "tests/measured.h"
@@ -52,7 +53,7 @@ void stick_and_slip(int cycles) {
   SphereScene scene(plate(0.01, 4), {{0.001, 0.0007, 0.999 * sphere_radius}}, frictional(mu, mu), false);
   dem::Particles &p = scene.particles;
   const double overlap = 0.001 * sphere_radius, held = mu * overlap / 0.8; // m, along the face
-  constexpr double dt = 1e-6, pi = 3.14159265358979323846;
+  constexpr double dt = 1e-6;
   double beyond = 0, off_plane = 0;
   long slips = 0, sticks = 0;
   bool slid = false;
