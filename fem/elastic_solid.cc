@@ -7,22 +7,20 @@
 #include <string>
 #include <utility>
 
+#include "base/require.h"
+
 namespace platen::fem {
 namespace {
 
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("elastic solid: " + what);
-}
-
 void check(const Grip &grip, const ElasticOptions &options) {
   const bool is_static = options.motion == ElasticMotion::quasi_static;
-  require(!(grip.turns && grip.tag == no_grip), "there is no grip to turn");
-  require(!(is_static && grip.tag == no_grip), "a quasi-static body needs a grip");
+  require(!(grip.turns && grip.tag == no_grip), "elastic solid: there is no grip to turn");
+  require(!(is_static && grip.tag == no_grip), "elastic solid: a quasi-static body needs a grip");
   require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
-          "damping must not be negative");
+          "elastic solid: damping must not be negative");
   require(!is_static ||
               (options.mass_damping == 0 && options.stiffness_damping == 0 && options.fastest_damping == 0),
-          "a quasi-static body has no inertia to damp");
+          "elastic solid: a quasi-static body has no inertia to damp");
 }
 
 std::array<double, 9> inverse(const std::array<double, 9> &a) {
@@ -72,7 +70,7 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
 
 void ElasticSolid::hold(const Grip &grip) {
   grip_nodes_ = nodes_on(model_, grip.tag);
-  require(!grip_nodes_.empty(), "no face has the grip's tag " + std::to_string(grip.tag));
+  require(!grip_nodes_.empty(), "elastic solid: no face has the grip's tag " + std::to_string(grip.tag));
   for (const int i : grip_nodes_)
     held_[static_cast<std::size_t>(i)] = {1, 1, 1};
 }

@@ -1,5 +1,6 @@
 #include "fem/grids.h"
 #include "base/pi.h"
+#include "base/require.h"
 #include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -19,10 +20,6 @@
 
 namespace platen::fem {
 namespace {
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("platen grid: " + what);
-}
 
 // Square core of n x n cells, surrounded by `rings` rings of 4 n cells that blend from the square to the
 // circle.
@@ -97,10 +94,10 @@ void tag_ends(dealii::Triangulation<3> &grid, double z_low, double thickness) {
 } // namespace
 
 Grid make_grid(const CylinderPlate &plate) {
-  require(plate.radius > 0, "radius must be positive");
-  require(plate.thickness > 0, "thickness must be positive");
-  require(plate.elements_across >= 3, "a round plate needs at least 3 elements across");
-  require(plate.elements_thick >= 1, "at least one element through the thickness");
+  require(plate.radius > 0, "platen grid: radius must be positive");
+  require(plate.thickness > 0, "platen grid: thickness must be positive");
+  require(plate.elements_across >= 3, "platen grid: a round plate needs at least 3 elements across");
+  require(plate.elements_thick >= 1, "platen grid: at least one element through the thickness");
   dealii::Triangulation<2> disc;
   DiscMesh(plate.radius, plate.elements_across).create(disc);
   auto grid = std::make_shared<dealii::Triangulation<3>>();
@@ -119,8 +116,9 @@ Grid make_grid(const CylinderPlate &plate) {
 
 Grid make_grid(const BoxPlate &plate) {
   for (std::size_t k = 0; k < 3; ++k) {
-    require(plate.high[k] > plate.low[k], "the high corner of a box must lie above its low corner");
-    require(plate.elements[k] >= 1, "at least one element along each side of a box");
+    require(plate.high[k] > plate.low[k],
+            "platen grid: the high corner of a box must lie above its low corner");
+    require(plate.elements[k] >= 1, "platen grid: at least one element along each side of a box");
   }
   const auto count = [&](std::size_t k) { return static_cast<unsigned int>(plate.elements[k]); };
   auto grid = std::make_shared<dealii::Triangulation<3>>();
@@ -163,10 +161,10 @@ unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
 } // namespace
 
 Grid make_grid(const std::vector<BoxPlate> &boxes) {
-  require(!boxes.empty(), "there are no boxes");
+  require(!boxes.empty(), "platen grid: there are no boxes");
   for (std::size_t k = 0; k < boxes.size(); ++k)
     for (std::size_t other = 0; other < k; ++other)
-      require(!touch(boxes[k], boxes[other]), "two boxes of one grid touch");
+      require(!touch(boxes[k], boxes[other]), "platen grid: two boxes of one grid touch");
   std::vector<Grid> parts;
   std::vector<const dealii::Triangulation<3> *> all;
   for (const BoxPlate &box : boxes) {
@@ -189,14 +187,14 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
 namespace {
 
 void check(const std::vector<Layer> &layers, double whole) {
-  require(!layers.empty(), "there are no layers");
+  require(!layers.empty(), "platen grid: there are no layers");
   double sum = 0;
   for (const Layer &layer : layers) {
-    require(layer.thickness > 0, "the thickness of a layer must be positive");
-    require(layer.elements >= 1, "at least one element through a layer");
+    require(layer.thickness > 0, "platen grid: the thickness of a layer must be positive");
+    require(layer.elements >= 1, "platen grid: at least one element through a layer");
     sum += layer.thickness;
   }
-  require(std::abs(sum - whole) <= 1e-9 * whole, "the layers are " + std::to_string(sum) +
+  require(std::abs(sum - whole) <= 1e-9 * whole, "platen grid: the layers are " + std::to_string(sum) +
                                                      " m thick together, the plate " + std::to_string(whole) +
                                                      " m");
 }

@@ -5,16 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "base/require.h"
 #include "fem/loop.h"
 
 namespace platen::fem {
 namespace {
 
 constexpr std::size_t cell_grain = 64, node_grain = 512; // per part of a loop: some tens of microseconds
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("solid: " + what);
-}
 
 bool is_finite(const std::vector<Point> &values) {
   return std::all_of(values.begin(), values.end(), [](const Point &p) {
@@ -26,10 +23,10 @@ bool is_finite(const std::vector<Point> &values) {
 
 HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
     : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
-  require(material.density > 0 && std::isfinite(material.density), "density must be positive");
+  require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");
   material_.law = NeoHookean::from_moduli(material.law.shear_modulus, material.law.bulk_modulus);
   for (const int tag : contact_tags)
-    require(!mesh_.nodes_of(tag).empty(), "no face has the contact tag " + std::to_string(tag));
+    require(!mesh_.nodes_of(tag).empty(), "solid: no face has the contact tag " + std::to_string(tag));
   PartSurface part = part_surface(mesh_, contact_tags);
   set_surface(std::move(part.surface));
   surface_node_ = std::move(part.node);
@@ -81,10 +78,10 @@ int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool
   unsigned char bits = 0;
   for (std::size_t k = 0; k < 3; ++k)
     if (components[k]) bits = static_cast<unsigned char>(bits | (1u << k));
-  require(!nodes.empty() && bits != 0, "a lead needs nodes and components");
+  require(!nodes.empty() && bits != 0, "solid: a lead needs nodes and components");
   for (const int n : nodes) {
-    require(n >= 0 && index(n) < led_.size(), "there is no node " + std::to_string(n) + " to lead");
-    require((led_[index(n)] & bits) == 0, "node " + std::to_string(n) + " is led already");
+    require(n >= 0 && index(n) < led_.size(), "solid: there is no node " + std::to_string(n) + " to lead");
+    require((led_[index(n)] & bits) == 0, "solid: node " + std::to_string(n) + " is led already");
   }
   for (const int n : nodes)
     led_[index(n)] = static_cast<unsigned char>(led_[index(n)] | bits);
@@ -93,7 +90,7 @@ int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool
 }
 
 const HyperelasticSolid::Lead &HyperelasticSolid::lead_of(int lead) const {
-  require(lead >= 0 && index(lead) < leads_.size(), "there is no lead " + std::to_string(lead));
+  require(lead >= 0 && index(lead) < leads_.size(), "solid: there is no lead " + std::to_string(lead));
   return leads_[index(lead)];
 }
 
@@ -116,22 +113,22 @@ Point HyperelasticSolid::lead_force(int lead) const {
 }
 
 void HyperelasticSolid::set_pressure(int tag, double pressure) {
-  require(std::isfinite(pressure), "pressure must be finite");
+  require(std::isfinite(pressure), "solid: pressure must be finite");
   bool found = false;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     if (mesh_.faces[f].tag == tag) face_pressure_[f] = pressure, found = true;
-  require(found, "no face has the tag " + std::to_string(tag) + " to press on");
+  require(found, "solid: no face has the tag " + std::to_string(tag) + " to press on");
 }
 
 double HyperelasticSolid::pressure(int tag) const {
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     if (mesh_.faces[f].tag == tag) return face_pressure_[f];
-  require(false, "no face has the tag " + std::to_string(tag));
+  require(false, "solid: no face has the tag " + std::to_string(tag));
   return 0;
 }
 
 void HyperelasticSolid::set_damping(double rate) {
-  require(rate >= 0 && std::isfinite(rate), "damping must not be negative");
+  require(rate >= 0 && std::isfinite(rate), "solid: damping must not be negative");
   damping_ = rate;
 }
 
@@ -228,7 +225,7 @@ double HyperelasticSolid::internal_energy() const {
 }
 
 void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement) {
-  require(displacement.size() == displacement_.size(), "one displacement per node is needed");
+  require(displacement.size() == displacement_.size(), "solid: one displacement per node is needed");
   check(displacement);
   displacement_ = displacement;
   place_surface();
@@ -237,7 +234,7 @@ void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement)
 
 void HyperelasticSolid::set_velocity(const std::vector<Point> &velocity) {
   require(velocity.size() == velocity_.size() && is_finite(velocity),
-          "one finite velocity per node is needed");
+          "solid: one finite velocity per node is needed");
   velocity_ = velocity;
   place_surface();
 }

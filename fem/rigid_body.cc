@@ -7,19 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "base/require.h"
 #include "fem/rotation.h"
 
 namespace platen::fem {
-namespace {
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("body: " + what);
-}
-
-} // namespace
-
 RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
-  require(grid_ != nullptr, "no grid");
+  require(grid_ != nullptr, "body: no grid");
   check(material, "body");
   GridSurface extracted = extract_surface(grid_);
   set_surface(std::move(extracted.surface));

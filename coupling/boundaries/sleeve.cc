@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/pi.h"
+#include "base/require.h"
 #include "coupling/errors.h"
 #include "coupling/text_of.h"
 
@@ -26,10 +27,6 @@ constexpr double steps_of_cheap_interval = 8;
 constexpr double bound_over_mean =
     2.5; // of a row of the contacts' stiffness: one for the nearest, half for three
 
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("sleeve: " + what);
-}
-
 // Faces of this many mean radii meet four spheres or so; with fewer the rubber is driven into the gaps
 // between them.
 constexpr double radii_of_face = 5;
@@ -45,11 +42,11 @@ int elements_around(const dem::Particles &particles, const dem::Shape &shape, co
 }
 
 fem::Grid tube_around(const dem::Shape &shape, double low, double high, const SleeveSettings &s) {
-  require(shape.kind == dem::ShapeKind::cylinder, "only a cylinder has one");
-  require(s.thickness > 0, "thickness must be positive");
-  require(s.elements_around >= fewest_around, "at least 8 elements around");
-  require(s.elements_along >= 0, "elements along must not be negative");
-  require(high > low, "its ends must lie apart");
+  require(shape.kind == dem::ShapeKind::cylinder, "sleeve: only a cylinder has one");
+  require(s.thickness > 0, "sleeve: thickness must be positive");
+  require(s.elements_around >= fewest_around, "sleeve: at least 8 elements around");
+  require(s.elements_along >= 0, "sleeve: elements along must not be negative");
+  require(high > low, "sleeve: its ends must lie apart");
   fem::Tube tube;
   tube.inner_radius = shape.radius / std::cos(pi / s.elements_around);
   tube.thickness = s.thickness;
@@ -78,9 +75,10 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double 
       shape_(shape),
       low_(low),
       high_(high) {
-  require(settings.safety > 0 && settings.safety <= 1, "safety must lie in (0, 1]");
-  require(settings.most_steps >= 1, "an interval has at least one step");
-  require(settings.mass_scaling == 0 || settings.mass_scaling >= 1, "mass scaling must be 0, or at least 1");
+  require(settings.safety > 0 && settings.safety <= 1, "sleeve: safety must lie in (0, 1]");
+  require(settings.most_steps >= 1, "sleeve: an interval has at least one step");
+  require(settings.mass_scaling == 0 || settings.mass_scaling >= 1,
+          "sleeve: mass scaling must be 0, or at least 1");
   build(particles);
 }
 
