@@ -26,9 +26,9 @@ constexpr double wider = pressure * radius / wall / young;
 constexpr double step_share = 0.9; // of the stable step: it rings from there
 
 // r^2 grows by the same amount all through the wall, which keeps its volume.
-std::vector<Point> blown_up(const HyperelasticSolid &solid) {
-  std::vector<Point> displacement;
-  for (const Point &x : solid.mesh().nodes) {
+std::vector<Vector3> blown_up(const HyperelasticSolid &solid) {
+  std::vector<Vector3> displacement;
+  for (const Vector3 &x : solid.mesh().nodes) {
     const double more = 2 * wider * radius * radius * std::sin(pi * x[2] / height);
     const double share = std::sqrt(1 + more / (x[0] * x[0] + x[1] * x[1])) - 1;
     displacement.push_back({share * x[0], share * x[1], 0});

@@ -15,14 +15,14 @@ namespace platen::bench {
 namespace {
 
 // Row-wise of each unknown: three translations, then rotations about the axes through the origin.
-std::vector<double> rigid_motions(const std::vector<dem::Vector3> &place, const std::vector<double> &length) {
+std::vector<double> rigid_motions(const std::vector<Vector3> &place, const std::vector<double> &length) {
   const std::size_t n = 6 * place.size();
   std::vector<double> modes(6 * n, 0.0);
   for (std::size_t i = 0; i < place.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       modes[k * n + 6 * i + k] = 1;
-      const dem::Vector3 axis{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-      const dem::Vector3 u = cross(axis, place[i]);
+      const Vector3 axis{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+      const Vector3 u = cross(axis, place[i]);
       double *m = &modes[(3 + k) * n + 6 * i];
       m[0] = u.x, m[1] = u.y, m[2] = u.z;
       m[3 + k] = length[i];
@@ -36,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<dem::Vector3> &place,
+MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<Vector3> &place,
                        const std::vector<double> &length, const std::vector<double> &right,
                        double tolerance) {
   // Trilinos is built for MPI and does not go without.

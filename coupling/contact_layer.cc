@@ -10,8 +10,6 @@
 
 namespace platen::coupling {
 
-using dem::Vector3;
-
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();

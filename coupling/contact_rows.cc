@@ -11,10 +11,6 @@
 namespace platen::coupling {
 
 using dem::CoulombFriction;
-using dem::cross;
-using dem::dot;
-using dem::norm_squared;
-using dem::Vector3;
 
 namespace {
 
@@ -193,7 +189,8 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   const bool touched = norm_squared((*normal_)[row]) > 0;
   CoulombFriction::State state{(*spring_)[row], (*sliding_)[row], (*slip_)[row]};
   if (touched)
-    state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const Vector3 stretch = -dt * motion.slide;
   const double k_t = parameters_.tangential_ratio * motion.k_n;
   // Glue has no limit, and any force presses it.
@@ -223,7 +220,8 @@ void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double
   }
   CoulombFriction::State state{(*seat_spring_)[row], (*seat_sliding_)[row]};
   if (norm_squared((*normal_)[row]) > 0)
-    state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const CoulombFriction::Result m =
       CoulombFriction{{limit, limit}}(state, -dt * motion.rocking, pressing, stiffness);
   result.seat = state;

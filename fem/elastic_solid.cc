@@ -24,8 +24,8 @@ void check(const Grip &grip, const ElasticOptions &options) {
 }
 
 std::array<double, 9> inverse(const std::array<double, 9> &a) {
-  const Point x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
-  const Point yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
+  const Vector3 x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
+  const Vector3 yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
   const double s = 1 / dot(x, yz);
   return {s * yz[0], s * zx[0], s * xy[0], s * yz[1], s * zx[1], s * xy[1], s * yz[2], s * zx[2], s * xy[2]};
 }
@@ -50,11 +50,11 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
   pivot_ = grip.turns ? grip.seat : (1 / mass_) * pivot_;
   held_.assign(n, {0, 0, 0});
   if (grip.tag != no_grip) hold(grip);
-  moved_.assign(n, Point{}), rate_.assign(n, Point{});
+  moved_.assign(n, Vector3{}), rate_.assign(n, Vector3{});
   if (is_static())
-    start_.assign(n, Point{}), target_.assign(n, Point{});
+    start_.assign(n, Vector3{}), target_.assign(n, Vector3{});
   else
-    strained_.assign(n, Point{}), force_.assign(n, Point{});
+    strained_.assign(n, Vector3{}), force_.assign(n, Vector3{});
   if (grip.turns) weigh_rotor();
   stable_step_ = std::numeric_limits<double>::infinity();
   if (is_static()) return;
@@ -77,7 +77,7 @@ void ElasticSolid::hold(const Grip &grip) {
 
 void ElasticSolid::weigh_rotor() {
   const auto add = [&](std::size_t i) {
-    const Point r = model_.nodes[i] - pivot_;
+    const Vector3 r = model_.nodes[i] - pivot_;
     rotor_arm_ = rotor_arm_ + model_.mass[i] * r;
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b)

@@ -250,12 +250,12 @@ Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers) {
   return grid;
 }
 
-Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place) {
+Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> &place) {
   auto moved = std::make_shared<dealii::Triangulation<3>>();
   moved->copy_triangulation(*grid);
   dealii::GridTools::transform(
       [&](const dealii::Point<3> &p) {
-        const Point q = place({p[0], p[1], p[2]});
+        const Vector3 q = place({p[0], p[1], p[2]});
         return dealii::Point<3>(q[0], q[1], q[2]);
       },
       *moved);
@@ -307,7 +307,7 @@ GridSurface extract_surface(const Grid &grid) {
   for (const auto &ring : corners)
     result.surface.faces.push_back(
         {surface_vertex[ring[0]], surface_vertex[ring[1]], surface_vertex[ring[2]], surface_vertex[ring[3]]});
-  result.surface.velocities.assign(result.surface.vertices.size(), Point{});
+  result.surface.velocities.assign(result.surface.vertices.size(), Vector3{});
   return result;
 }
 
@@ -326,17 +326,17 @@ VolumeMoments volume_moments(const Grid &grid) {
       values.reinit(cell);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const dealii::Point<3> &p = values.quadrature_point(q);
-        add(Point{p[0], p[1], p[2]}, values.JxW(q));
+        add(Vector3{p[0], p[1], p[2]}, values.JxW(q));
       }
     }
   };
-  integrate([&](const Point &p, double weight) {
+  integrate([&](const Vector3 &p, double weight) {
     m.volume += weight;
     m.centroid = m.centroid + weight * p;
   });
   m.centroid = (1.0 / m.volume) * m.centroid;
-  integrate([&](const Point &p, double weight) {
-    const Point r = p - m.centroid;
+  integrate([&](const Vector3 &p, double weight) {
+    const Vector3 r = p - m.centroid;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
         m.second[3 * i + j] += weight * r[i] * r[j];

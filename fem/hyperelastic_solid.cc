@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t cell_grain = 64, node_grain = 512; // per part of a loop: some tens of microseconds
 
-bool is_finite(const std::vector<Point> &values) {
-  return std::all_of(values.begin(), values.end(), [](const Point &p) {
+bool is_finite(const std::vector<Vector3> &values) {
+  return std::all_of(values.begin(), values.end(), [](const Vector3 &p) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   });
 }
@@ -43,8 +43,8 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
     mass_.push_back(material_.density * share);
     volume_ += share;
   }
-  for (std::vector<Point> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
-    column->assign(nodes, Point{});
+  for (std::vector<Vector3> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
+    column->assign(nodes, Vector3{});
   led_.assign(nodes, 0);
   face_pressure_.assign(mesh_.faces.size(), 0.0);
   acting_ = face_pressure_;
@@ -54,7 +54,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
 
 double HyperelasticSolid::largest_move(double dt) const {
   double squared = 0;
-  for (const Point &v : velocity_)
+  for (const Vector3 &v : velocity_)
     squared = std::max(squared, dot(v, v));
   return std::abs(dt) * std::sqrt(squared);
 }
@@ -94,18 +94,18 @@ const HyperelasticSolid::Lead &HyperelasticSolid::lead_of(int lead) const {
   return leads_[index(lead)];
 }
 
-void HyperelasticSolid::set_lead_velocity(int lead, const Point &velocity, const Point &spin,
-                                          const Point &about) {
+void HyperelasticSolid::set_lead_velocity(int lead, const Vector3 &velocity, const Vector3 &spin,
+                                          const Vector3 &about) {
   lead_of(lead);
   Lead &own = leads_[index(lead)];
   own.velocity = velocity, own.spin = spin, own.about = about;
 }
 
-Point HyperelasticSolid::lead_force(int lead) const {
+Vector3 HyperelasticSolid::lead_force(int lead) const {
   const Lead &own = lead_of(lead);
-  Point sum{};
+  Vector3 sum{};
   for (const int n : own.nodes) {
-    const Point free = out_of_balance(index(n));
+    const Vector3 free = out_of_balance(index(n));
     for (std::size_t k = 0; k < 3; ++k)
       if (own.components[k]) sum[k] -= free[k];
   }
@@ -141,7 +141,7 @@ void HyperelasticSolid::half_kick(double dt) {
   // What the new velocity of a lead adds to the energy of motion is the lead's work as well.
   for (const Lead &own : leads_)
     for (const int n : own.nodes) {
-      const Point given = own.velocity + cross(own.spin, node_place(n) - own.about);
+      const Vector3 given = own.velocity + cross(own.spin, node_place(n) - own.about);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!own.components[k]) continue;
         double &v = velocity_[index(n)][k];
@@ -152,7 +152,7 @@ void HyperelasticSolid::half_kick(double dt) {
   const Works works = part_sum<Works>(velocity_.size(), node_grain, [&](std::size_t first, std::size_t last) {
     Works sum;
     for (std::size_t n = first; n < last; ++n) {
-      const Point force = out_of_balance(n);
+      const Vector3 force = out_of_balance(n);
       for (std::size_t k = 0; k < 3; ++k) {
         double &v = velocity_[n][k];
         if (is_led(n, k)) {
@@ -173,7 +173,7 @@ void HyperelasticSolid::half_kick(double dt) {
 }
 
 bool HyperelasticSolid::can_drift(double dt) const {
-  std::vector<Point> there(displacement_);
+  std::vector<Vector3> there(displacement_);
   for (std::size_t n = 0; n < there.size(); ++n)
     there[n] = there[n] + dt * velocity_[n];
   return first_inverted(there).cell < 0;
@@ -200,7 +200,7 @@ void HyperelasticSolid::update_forces() {
   });
   for_each_part(internal_.size(), node_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) {
-      Point sum{};
+      Vector3 sum{};
       for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
         sum = sum + cell_force_[mesh_.corner[k] / 8].force[mesh_.corner[k] % 8];
       internal_[n] = sum;
@@ -224,7 +224,7 @@ double HyperelasticSolid::internal_energy() const {
   return energy;
 }
 
-void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement) {
+void HyperelasticSolid::set_displacement(const std::vector<Vector3> &displacement) {
   require(displacement.size() == displacement_.size(), "solid: one displacement per node is needed");
   check(displacement);
   displacement_ = displacement;
@@ -232,7 +232,7 @@ void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement)
   update_forces();
 }
 
-void HyperelasticSolid::set_velocity(const std::vector<Point> &velocity) {
+void HyperelasticSolid::set_velocity(const std::vector<Vector3> &velocity) {
   require(velocity.size() == velocity_.size() && is_finite(velocity),
           "solid: one finite velocity per node is needed");
   velocity_ = velocity;

@@ -16,7 +16,7 @@ Tensor deformation_gradient(const Corners &gradient, const Corners &displacement
   return f;
 }
 
-Point times(const Tensor &f, const Point &v) {
+Vector3 times(const Tensor &f, const Vector3 &v) {
   return {f[0] * v[0] + f[1] * v[1] + f[2] * v[2], f[3] * v[0] + f[4] * v[1] + f[5] * v[2],
           f[6] * v[0] + f[7] * v[1] + f[8] * v[2]};
 }

@@ -132,7 +132,7 @@ PartSurface part_surface(const SolidMesh &mesh, const std::vector<int> &tags) {
     part.surface.faces.push_back(ring);
     part.surface.face_tags.push_back(face->tag);
   }
-  part.surface.velocities.assign(part.node.size(), Point{});
+  part.surface.velocities.assign(part.node.size(), Vector3{});
   return part;
 }
 

@@ -3,8 +3,8 @@
 namespace platen::apps {
 namespace {
 
-dem::Vector3 across(bool along_x) {
-  return along_x ? dem::Vector3{1, 0, 0} : dem::Vector3{0, 1, 0};
+Vector3 across(bool along_x) {
+  return along_x ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
 }
 
 } // namespace

@@ -22,8 +22,6 @@ constexpr int steps_of_a_move = 40;     // in which a prescribed displacement is
 constexpr double bonded_gap = 1e-9;     // of the radius: spheres touch, whatever Bond/Gap allows beyond that
 constexpr double base_clearance = 1e-6; // of the radius, between base spheres without a bond
 
-using dem::Vector3;
-
 bool is_pyramid(const Scene &scene) {
   return scene.pair_test.particles == 3;
 }
@@ -157,7 +155,7 @@ double BondRig::driven_place() const {
   const dem::Particles &p = model_.particles;
   const std::size_t i = row_[0];
   if (driven_ < 3) return (p.position[i] - p.reference_position[i])[static_cast<int>(driven_)];
-  const dem::Quaternion q = (*p.orientation)[i];
+  const Quaternion q = (*p.orientation)[i];
   return 2 * std::atan2(vector_part(q)[static_cast<int>(driven_) - 3], q.w);
 }
 

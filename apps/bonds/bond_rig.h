@@ -53,7 +53,7 @@ private:
   // Coordinate of a sphere: 0, 1, 2 displacement along x, y, z; 3, 4, 5 rotation about them.
   using Coordinates = std::array<bool, 6>;
   struct Load {
-    dem::Vector3 force, torque;
+    Vector3 force, torque;
   };
 
   void hold_coordinates();

@@ -38,11 +38,11 @@ void InterfaceRig::go(const InterfacePlace &to) {
   const double distance = section_.length + to.opening;
   p.velocity[upper_] = {0, 0, (distance - here) / step};
   if (p.has_rotation())
-    for (dem::Vector3 &spin : *p.angular_velocity)
+    for (Vector3 &spin : *p.angular_velocity)
       spin = {0, -(to.slip - at_.slip) / (distance * step), 0};
   model_.begin_step(step);
   model_.compute_forces(step);
-  const dem::Vector3 held = p.force[upper_];
+  const Vector3 held = p.force[upper_];
   const InterfaceLoad before = now_;
   now_ = {0 - held.z, 0 - held.x};
   work_ += 0.5 * ((before.normal + now_.normal) * (to.opening - at_.opening) +

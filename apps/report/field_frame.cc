@@ -28,7 +28,7 @@ vtkDataArray &field(vtkUnstructuredGrid &grid, const char *name, int components,
   return *array;
 }
 
-dem::Vector3 vector_at(vtkDataArray &array, vtkIdType k) {
+Vector3 vector_at(vtkDataArray &array, vtkIdType k) {
   return {array.GetComponent(k, 0), array.GetComponent(k, 1), array.GetComponent(k, 2)};
 }
 
@@ -43,8 +43,8 @@ void add_contacts(dem::SphereColumns &spheres, const std::unordered_map<long lon
     if (found == row_of_id.end()) continue; // of a frame of another time
     const std::size_t i = found->second;
     const double *p = grid->GetPoint(k), r = spheres.radius[i];
-    const dem::Vector3 arm = dem::Vector3{p[0], p[1], p[2]} - spheres.position[i],
-                       force = size.GetComponent(k, 0) * vector_at(normal, k) + vector_at(shear, k);
+    const Vector3 arm = Vector3{p[0], p[1], p[2]} - spheres.position[i],
+                  force = size.GetComponent(k, 0) * vector_at(normal, k) + vector_at(shear, k);
     const double volume = 4.0 / 3 * pi * r * r * r / packing_fraction;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
@@ -105,7 +105,7 @@ dem::SphereColumns stressed_spheres(const Run &run, double time) {
   for (std::size_t k = 0; k < spheres.size(); ++k) {
     columns.position.push_back({spheres.x[k], spheres.y[k], spheres.z[k]});
     columns.displacement.push_back(columns.position[k] -
-                                   dem::Vector3{spheres.x0[k], spheres.y0[k], spheres.z0[k]});
+                                   Vector3{spheres.x0[k], spheres.y0[k], spheres.z0[k]});
     columns.damage.push_back(spheres.damage(k));
     std::array<double, 9> s;
     for (int c = 0; c < 9; ++c)

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degree = pi / 180;
 
-Json json_of(const dem::Vector3 &v) {
+Json json_of(const Vector3 &v) {
   return Json::array({v.x, v.y, v.z});
 }
 

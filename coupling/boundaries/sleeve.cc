@@ -12,11 +12,6 @@
 
 namespace platen::coupling {
 
-// fem::Point is an array: its operators are not found by its type.
-using fem::operator+;
-using fem::operator-;
-using fem::operator*;
-
 namespace {
 
 // The elements' own limit costs as much as twenty of their steps and changes with their shape alone.
@@ -171,8 +166,7 @@ double Sleeve::find_limit() {
   std::vector<double> stiffness(surface.vertices.size(), 0.0);
   for (const ActiveContact &c : contact_->contacts()) {
     const std::array<int, 4> &face = surface.faces[static_cast<std::size_t>(c.face)];
-    const fem::Point at = {c.point.x, c.point.y, c.point.z};
-    const auto far = [&](int v) { return fem::norm(surface.vertices[static_cast<std::size_t>(v)] - at); };
+    const auto far = [&](int v) { return norm(surface.vertices[static_cast<std::size_t>(v)] - c.point); };
     const int nearest =
         *std::min_element(face.begin(), face.end(), [&](int a, int b) { return far(a) < far(b); });
     for (const int v : face)
@@ -208,8 +202,8 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
 
 // Platens have made the first step of the interval already.
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
-  const auto follow = [&](int number, std::size_t node, const fem::Point &velocity, const fem::Point &place) {
-    const fem::Point &rim = solid_->displacement()[node];
+  const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
+    const Vector3 &rim = solid_->displacement()[node];
     solid_->set_lead_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
   };
   follow(bottom_lead_, bottom_rim_, rims.bottom, rims.bottom_place);

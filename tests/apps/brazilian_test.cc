@@ -85,7 +85,7 @@ TEST(brazilian, the_centre_of_an_elastic_disc_has_the_stress_of_the_closed_form)
   const auto stress = dem::particle_stress(p, problem.model.bonds.get(), nullptr, 1.0);
   double across = 0, along = 0, through = 0, volume = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const dem::Vector3 &x = p.position[i];
+    const Vector3 &x = p.position[i];
     if (std::hypot(x.x, x.z - radius) > 0.35 * radius) continue;
     const double v = 4.0 / 3.0 * pi * std::pow(p.radius[i], 3);
     across += v * stress[i][0], through += v * stress[i][4], along += v * stress[i][8];

@@ -132,9 +132,9 @@ TEST(contact_energy, a_moving_plate_puts_in_what_the_book_shows) {
   Vector3 last = scene.load();
   for (int n = 0; n < 100000; ++n) {
     scene.body.set_velocity({0.02 * std::sin(2e-4 * n), 0.01, 0.03 * std::cos(3e-4 * n)});
-    const fem::Point u = scene.body.velocity();
+    const Vector3 u = scene.body.velocity();
     scene.step(dt);
-    const double in = -dt * dot(0.5 * (last + scene.load()), Vector3{u[0], u[1], u[2]});
+    const double in = -dt * dot(0.5 * (last + scene.load()), u);
     work += in;
     size += std::abs(in);
     last = scene.load();

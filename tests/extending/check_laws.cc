@@ -43,7 +43,7 @@ void check_bond(dem::InstructionSet set, bool rotation) {
   spring.axial_share = 0.5;
   settings.bond = spring;
   dem::Model model(pair(2 * radius), settings);
-  model.particles.position[1] += dem::Vector3{1e-6, 0, 1e-6};
+  model.particles.position[1] += Vector3{1e-6, 0, 1e-6};
   model.compute_forces(1e-9);
   model.end_step(1e-9);
   const double length = std::hypot(1e-6, 2 * radius + 1e-6);

@@ -5,11 +5,10 @@
 
 #include "apps/io/checkpoint.h"
 #include "apps/io/checkpoint_format.h"
-#include "dem/vector3.h"
+#include "base/vector3.h"
 #include "memory_file.h"
 
 using namespace platen::apps;
-namespace dem = platen::dem;
 
 namespace {
 
@@ -51,7 +50,7 @@ struct Spheres {
   std::vector<double> numbers;
   std::string reason;
   Spheres() {
-    table.add<dem::Vector3>("position", "m");
+    table.add<platen::Vector3>("position", "m");
     table.add<double>("radius", "m");
     table.add<int>("id", "1");
   }
