@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/pi.h"
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "dem/packing/soft_spheres.h"
 
 namespace platen::dem {

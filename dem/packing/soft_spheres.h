@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/random.h"
 #include "base/vector3.h"
-#include "dem/packing/random.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {

@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "dem/parallel.h"
 #include "tests/dem/dual.h"
 #include "tests/dem/examples.h"

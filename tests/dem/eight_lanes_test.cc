@@ -5,9 +5,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/random.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/motion_kernel.h"
-#include "dem/packing/random.h"
 #include "dem/parallel.h"
 #include "tests/dem/examples.h"
 

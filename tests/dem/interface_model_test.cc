@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "dem/parallel.h"
 #include "tests/dem/examples.h"
 

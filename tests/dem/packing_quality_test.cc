@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/pi.h"
+#include "base/random.h"
 #include "dem/packing/direction_cells.h"
 #include "dem/packing/quality.h"
-#include "dem/packing/random.h"
 #include "dem/packing/sphere_clipping.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <vector>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "dem/parallel.h"
 #include "tests/dem/examples.h"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/random.h"
 #include "base/state.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/packing/random.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/measured.h"
@@ -88,7 +88,7 @@ struct Outcome {
 };
 
 Outcome run(PlatenTest &problem, long steps) {
-  dem::Random random(1);
+  Random random(1);
   for (Vector3 &v : problem.model.particles.velocity)
     v = 1e-6 * random.direction();
   Outcome o;
