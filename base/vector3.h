@@ -2,6 +2,7 @@
 // because the force kernels are compiled for several instruction sets (bench/results/vectors.md).
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/block_type.h"
@@ -62,6 +63,14 @@ inline double norm_squared(const Vector3 &a) {
 }
 inline double norm(const Vector3 &a) {
   return std::sqrt(dot(a, a));
+}
+
+// Row by row.
+using Matrix3 = std::array<double, 9>;
+
+inline Vector3 operator*(const Matrix3 &a, const Vector3 &v) {
+  return {a[0] * v.x + a[1] * v.y + a[2] * v.z, a[3] * v.x + a[4] * v.y + a[5] * v.z,
+          a[6] * v.x + a[7] * v.y + a[8] * v.z};
 }
 
 // Unit quaternion w + x i + y j + z k; turns reference axes into current ones: v = rotate(q, v_reference).

@@ -2,12 +2,12 @@
 // up and to solve, by size.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <vector>
 
+#include "base/clock.h"
 #include "fem/elastic_model.h"
 #include "fem/static_solver.h"
 #include "fem/threads.h"
@@ -15,11 +15,6 @@
 namespace {
 
 using namespace platen;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Cost {
   double setup, solve;

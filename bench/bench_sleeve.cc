@@ -2,23 +2,19 @@
 // held, blown up a little; one line per mesh: cells, unknowns, time of a step per cell, stable step.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/pi.h"
 #include "fem/hyperelastic_solid.h"
 #include "fem/threads.h"
 
 namespace {
 
+using namespace platen;
 using namespace platen::fem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Wider by this at mid-height, about where the pressure inside rests: membrane stress over Young's modulus.
 constexpr double pressure = 5e3, radius = 0.075, wall = 0.003, height = 0.3, young = 3e6; // Pa, m

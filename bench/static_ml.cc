@@ -9,7 +9,7 @@
 #include <ml_MultiLevelPreconditioner.h>
 #include <Teuchos_ParameterList.hpp>
 
-#include <chrono>
+#include "base/clock.h"
 
 namespace platen::bench {
 namespace {
@@ -30,10 +30,6 @@ std::vector<double> rigid_motions(const std::vector<Vector3> &place, const std::
   return modes;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
 MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<Vector3> &place,
@@ -46,7 +42,7 @@ MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::v
   };
   static const Mpi mpi;
   MlSolution s;
-  auto start = std::chrono::steady_clock::now();
+  auto start = Clock::now();
   Epetra_MpiComm one(MPI_COMM_SELF);
   const Epetra_Map map(static_cast<int>(right.size()), 0, one);
   std::vector<int> counts(right.size());
@@ -83,7 +79,7 @@ MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::v
   ML_Epetra::MultiLevelPreconditioner multigrid(matrix, list);
   s.setup_seconds = seconds_since(start);
 
-  start = std::chrono::steady_clock::now();
+  start = Clock::now();
   s.x.assign(right.size(), 0.0);
   Epetra_Vector x(View, map, s.x.data()), b(Copy, map, const_cast<double *>(right.data()));
   Epetra_LinearProblem problem(&matrix, &x, &b);

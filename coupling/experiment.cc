@@ -5,7 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "coupling/text_of.h"
+#include "base/shortest_text.h"
 #include "dem/not_finite.h"
 #include "dem/parallel.h"
 

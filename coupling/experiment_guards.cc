@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/shortest_text.h"
 #include "coupling/experiment.h"
-#include "coupling/text_of.h"
 #include "dem/not_finite.h"
 
 namespace platen::coupling {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/pi.h"
+#include "base/shortest_text.h"
 #include "coupling/boundaries/strips.h"
-#include "coupling/text_of.h"
 #include "fem/grids.h"
 #include "fem/platen_mesh.h"
 #include "fem/rigid_body.h"

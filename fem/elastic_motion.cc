@@ -19,11 +19,6 @@ constexpr double share_of_kicks = 0.3;
 // with three steps damping takes energy from that swing which nobody brought.
 constexpr double steps_between_kicks = 1.8;
 
-Vector3 product(const std::array<double, 9> &a, const Vector3 &v) {
-  return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[3] * v[0] + a[4] * v[1] + a[5] * v[2],
-          a[6] * v[0] + a[7] * v[1] + a[8] * v[2]};
-}
-
 } // namespace
 
 Vector3 ElasticSolid::carried(std::size_t node) const {
@@ -43,7 +38,7 @@ void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_
   if (turns_freely()) {
     // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
     const Vector3 asked = angular_velocity - angular_velocity_;
-    spin_ = spin_ + to_space(product(rotor_, to_frame(asked)));
+    spin_ = spin_ + to_space(rotor_ * to_frame(asked));
     if (!is_static()) spin_ = spin_ - cross(to_space(rotor_arm_), velocity - velocity_);
     find_angular_velocity();
   } else {
@@ -56,7 +51,7 @@ void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_
 }
 
 void ElasticSolid::find_angular_velocity() {
-  angular_velocity_ = to_space(product(rotor_inverse_, to_frame(spin_)));
+  angular_velocity_ = to_space(rotor_inverse_ * to_frame(spin_));
 }
 
 double ElasticSolid::held_kinetic_energy() const {

@@ -23,7 +23,7 @@ void check(const Grip &grip, const ElasticOptions &options) {
           "elastic solid: a quasi-static body has no inertia to damp");
 }
 
-std::array<double, 9> inverse(const std::array<double, 9> &a) {
+Matrix3 inverse(const Matrix3 &a) {
   const Vector3 x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
   const Vector3 yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
   const double s = 1 / dot(x, yz);

@@ -160,9 +160,9 @@ private:
   std::vector<int> node_of_, grip_nodes_;
   Held held_; // all components of a node, or none
   double mass_ = 0, stable_step_ = 0;
-  Vector3 pivot_{};               // m, centre of mass or seat at the start
-  std::array<double, 9> rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
-  std::array<double, 9> rotor_inverse_{};
+  Vector3 pivot_{}; // m, centre of mass or seat at the start
+  Matrix3 rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
+  Matrix3 rotor_inverse_{};
   Vector3 rotor_arm_{}; // kg m, first moment of the same, frame's axes
 
   Vector3 displacement_{}, velocity_{}, angular_velocity_{}, spin_{}; // spin_: angular momentum of the rotor

@@ -88,9 +88,9 @@ GridSurface extract_surface(const Grid &grid);
 
 // Integrals over the volume of a grid, exact for its trilinear cells.
 struct VolumeMoments {
-  double volume = 0;              // m^3
-  Vector3 centroid{};             // m
-  std::array<double, 9> second{}; // m^5, integral of r_i r_j about the centroid, row by row
+  double volume = 0;  // m^3
+  Vector3 centroid{}; // m
+  Matrix3 second{};   // m^5, integral of r_i r_j about the centroid, row by row
 };
 VolumeMoments volume_moments(const Grid &grid);
 

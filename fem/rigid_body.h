@@ -58,7 +58,7 @@ private:
   std::vector<int> grid_vertex_;            // of each surface vertex
   double volume_ = 0;
   Vector3 reference_centre_{};
-  std::array<double, 9> inertia_{}; // kg m^2 about the centre, reference axes
+  Matrix3 inertia_{}; // kg m^2 about the centre, reference axes
 
   Vector3 displacement_{}, velocity_{}, angular_velocity_{};
   Quaternion rotation_;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -20,14 +19,13 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
+#include "base/clock.h"
 #include "base/pi.h"
 #include "dem/parallel.h"
 #include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 std::string text_of(const Scene &scene, const std::filesystem::path &folder) {
   std::ostringstream text;
@@ -261,7 +259,7 @@ int Calibration::run() {
               command_.output);
     return exit_status_of_signal(stopped.signal);
   }
-  s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
+  s["wall_seconds"] = seconds_since(start_);
   s["peak_memory_bytes"] = peak_memory_bytes();
   write_summary(paths_.summary(), s);
   log_.info("results are in {}", paths_.folder.string());

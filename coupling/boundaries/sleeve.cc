@@ -7,8 +7,8 @@
 
 #include "base/pi.h"
 #include "base/require.h"
+#include "base/shortest_text.h"
 #include "coupling/errors.h"
-#include "coupling/text_of.h"
 
 namespace platen::coupling {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "base/pi.h"
+#include "base/shortest_text.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
@@ -22,12 +22,6 @@ bool finite(const Vector3 &v) {
 void require_positive(double value, const char *what) {
   if (!(value > 0) || !std::isfinite(value))
     throw std::invalid_argument(std::string("the ") + what + " of a specimen must be positive and finite");
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 std::string sphere(std::size_t i) {
@@ -58,7 +52,7 @@ void check_numbers(const Specimen &s, ProblemList &problems) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (!finite(s.centre[i])) problems.add(sphere(i) + " has a centre that is not finite");
     if (!std::isfinite(s.radius[i]) || !(s.radius[i] > 0))
-      problems.add(sphere(i) + " has radius " + number(s.radius[i]) + " m; it must be positive and finite");
+      problems.add(sphere(i) + " has radius " + text_of(s.radius[i]) + " m; it must be positive and finite");
   }
 }
 
@@ -80,8 +74,8 @@ void check_walls(const Specimen &s, double tolerance, ProblemList &problems) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double outside = s.radius[i] - wall_clearance(s.shape, s.centre[i]);
     if (outside > tolerance)
-      problems.add(sphere(i) + " reaches " + number(outside) + " m out of the shape (allowed " +
-                   number(tolerance) + " m)");
+      problems.add(sphere(i) + " reaches " + text_of(outside) + " m out of the shape (allowed " +
+                   text_of(tolerance) + " m)");
   }
 }
 
