@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace platen {
@@ -19,6 +20,13 @@ inline std::string shortest_text(double value) {
   const std::size_t sign = shortest[exponent + 1] == '-' ? 1 : 0;
   const std::size_t digits = shortest.find_first_not_of("+-0", exponent + 1);
   return shortest.substr(0, exponent + 1) + std::string(sign, '-') + shortest.substr(digits);
+}
+
+// With six digits, as messages show it.
+inline std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
 }
 
 } // namespace platen

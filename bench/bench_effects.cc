@@ -3,7 +3,6 @@
 // Bonded: the specimen of bench_step, pressed; grains: the same spheres without bonds, overlapping a little.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "dem/model.h"
 #include "step_scene.h"
@@ -18,7 +18,6 @@
 namespace {
 
 using namespace platen;
-using Clock = std::chrono::steady_clock;
 
 // A scene: the model alone, without platens, so that nothing but the effect differs.
 struct Scene {
@@ -147,7 +146,7 @@ void compare(const char *title, const dem::Specimen &specimen, const std::vector
     for (std::size_t k = 0; k < models.size(); ++k) {
       const auto start = Clock::now();
       steps(*models[k], dt, count);
-      ns[k].push_back(per * std::chrono::duration<double>(Clock::now() - start).count());
+      ns[k].push_back(per * seconds_since(start));
       added[k].push_back(ns[k].back() - ns[0].back());
     }
   std::printf("\n%s: %zu particles, %zu bonds, %zu contacts\n", title, models[0]->particles.size(),

@@ -2,12 +2,12 @@
 // up and to solve, by size.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "fem/elastic_model.h"
 #include "fem/static_solver.h"
@@ -15,17 +15,11 @@
 namespace {
 
 using namespace platen;
-using fem::operator-;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Cost {
   double setup, solve;
   int iterations;
-  std::vector<fem::Point> x;
+  std::vector<Vector3> x;
 };
 
 // Loads that change a little from solve to solve, as those of contacts do; each starts from the last answer.
@@ -34,10 +28,10 @@ Cost measure(const fem::ElasticModel &model, const fem::Held &held, fem::LinearS
   auto start = Clock::now();
   const fem::StaticSolver solver(model.stiffness, model.nodes, held, kind);
   cost.setup = seconds_since(start);
-  cost.x.assign(model.nodes.size(), fem::Point{});
+  cost.x.assign(model.nodes.size(), Vector3{});
   for (int k = 0; k < solves; ++k) {
-    const auto load = fem::body_load(model, [&](const fem::Point &p) {
-      return fem::Point{0, 1e5, 1e6 * (1 + 0.1 * std::sin(300 * p[0] + 0.1 * k) * std::cos(200 * p[1]))};
+    const auto load = fem::body_load(model, [&](const Vector3 &p) {
+      return Vector3{0, 1e5, 1e6 * (1 + 0.1 * std::sin(300 * p[0] + 0.1 * k) * std::cos(200 * p[1]))};
     });
     start = Clock::now();
     solver.solve(model.stiffness, load, cost.x);
@@ -69,14 +63,14 @@ int main(int argc, char **argv) {
       fem::Held held(model.nodes.size(), {0, 0, 0});
       for (const int i : fem::nodes_on(model, fem::high_end_tag))
         held[static_cast<std::size_t>(i)] = {1, 1, 1};
-      std::vector<fem::Point> first;
+      std::vector<Vector3> first;
       for (const fem::LinearSolver kind : {fem::LinearSolver::multigrid, fem::LinearSolver::direct}) {
         if (kind == fem::LinearSolver::direct && n > largest_direct) continue;
         const Cost cost = measure(model, held, kind, solves);
         double difference = 0, size = 0;
         for (std::size_t i = 0; i < first.size(); ++i) {
-          difference = std::max(difference, fem::norm(first[i] - cost.x[i]));
-          size = std::max(size, fem::norm(first[i]));
+          difference = std::max(difference, norm(first[i] - cost.x[i]));
+          size = std::max(size, norm(first[i]));
         }
         std::printf("%d %d %zu %s %.4f %.5f %d %.1e\n", n, degree, model.nodes.size(),
                     kind == fem::LinearSolver::direct ? "direct" : "multigrid", cost.setup, cost.solve,

@@ -2,22 +2,19 @@
 // held, blown up a little; one line per mesh: cells, unknowns, time of a step per cell, stable step.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "fem/hyperelastic_solid.h"
 
 namespace {
 
+using namespace platen;
 using namespace platen::fem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Wider by this at mid-height, about where the pressure inside rests: membrane stress over Young's modulus.
 constexpr double pressure = 5e3, radius = 0.075, wall = 0.003, height = 0.3, young = 3e6; // Pa, m
@@ -25,10 +22,10 @@ constexpr double wider = pressure * radius / wall / young;
 constexpr double step_share = 0.9; // of the stable step: it rings from there
 
 // r^2 grows by the same amount all through the wall, which keeps its volume.
-std::vector<Point> blown_up(const HyperelasticSolid &solid) {
-  std::vector<Point> displacement;
-  for (const Point &x : solid.mesh().nodes) {
-    const double more = 2 * wider * radius * radius * std::sin(M_PI * x[2] / height);
+std::vector<Vector3> blown_up(const HyperelasticSolid &solid) {
+  std::vector<Vector3> displacement;
+  for (const Vector3 &x : solid.mesh().nodes) {
+    const double more = 2 * wider * radius * radius * std::sin(pi * x[2] / height);
     const double share = std::sqrt(1 + more / (x[0] * x[0] + x[1] * x[1])) - 1;
     displacement.push_back({share * x[0], share * x[1], 0});
   }

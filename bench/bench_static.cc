@@ -2,11 +2,11 @@
 // take, or beside explicit steps that are made.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <string>
 
 #include "apps/io/specimen_csv.h"
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
@@ -20,9 +20,9 @@ using namespace platen;
 
 template <class Work>
 double seconds_of(const Work &work) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_since(start);
 }
 
 // One solve with every sphere near the platens held, by our multigrid and by ML.

@@ -3,24 +3,19 @@
 #include <CLI/CLI.hpp>
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/io/specimen_csv.h"
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "step_scene.h"
 
 namespace {
 
 using namespace platen;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Options {
   int particles = 22500, threads = 1, steps = 500, repeats = 5;

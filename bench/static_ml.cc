@@ -9,20 +9,20 @@
 #include <ml_MultiLevelPreconditioner.h>
 #include <Teuchos_ParameterList.hpp>
 
-#include <chrono>
+#include "base/clock.h"
 
 namespace platen::bench {
 namespace {
 
 // Row-wise of each unknown: three translations, then rotations about the axes through the origin.
-std::vector<double> rigid_motions(const std::vector<dem::Vector3> &place, const std::vector<double> &length) {
+std::vector<double> rigid_motions(const std::vector<Vector3> &place, const std::vector<double> &length) {
   const std::size_t n = 6 * place.size();
   std::vector<double> modes(6 * n, 0.0);
   for (std::size_t i = 0; i < place.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       modes[k * n + 6 * i + k] = 1;
-      const dem::Vector3 axis{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-      const dem::Vector3 u = cross(axis, place[i]);
+      const Vector3 axis{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+      const Vector3 u = cross(axis, place[i]);
       double *m = &modes[(3 + k) * n + 6 * i];
       m[0] = u.x, m[1] = u.y, m[2] = u.z;
       m[3 + k] = length[i];
@@ -30,13 +30,9 @@ std::vector<double> rigid_motions(const std::vector<dem::Vector3> &place, const 
   return modes;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
-MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<dem::Vector3> &place,
+MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::vector<Vector3> &place,
                        const std::vector<double> &length, const std::vector<double> &right,
                        double tolerance) {
   // Trilinos is built for MPI and does not go without.
@@ -46,7 +42,7 @@ MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::v
   };
   static const Mpi mpi;
   MlSolution s;
-  auto start = std::chrono::steady_clock::now();
+  auto start = Clock::now();
   Epetra_MpiComm one(MPI_COMM_SELF);
   const Epetra_Map map(static_cast<int>(right.size()), 0, one);
   std::vector<int> counts(right.size());
@@ -83,7 +79,7 @@ MlSolution solve_by_ml(const dem::statics::BlockRows<6, double> &a, const std::v
   ML_Epetra::MultiLevelPreconditioner multigrid(matrix, list);
   s.setup_seconds = seconds_since(start);
 
-  start = std::chrono::steady_clock::now();
+  start = Clock::now();
   s.x.assign(right.size(), 0.0);
   Epetra_Vector x(View, map, s.x.data()), b(Copy, map, const_cast<double *>(right.data()));
   Epetra_LinearProblem problem(&matrix, &x, &b);

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "dem/packing/growth.h"
 
 namespace platen::bench {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, radius = 1e-3;
+constexpr double radius = 1e-3;
 // What growth between walls reaches.
 constexpr double fraction = 0.615;
 constexpr int largest_cylinder = 50000, block_of = 20000;
@@ -32,7 +33,7 @@ dem::Specimen stacked(int particles) {
       for (int x = 0; x < across; ++x)
         for (std::size_t k = 0; k < block.size(); ++k) {
           all.centre.push_back(block.centre[k] +
-                               edge * dem::Vector3{x - 0.5 * (across - 1), y - 0.5 * (across - 1), 1.0 * z});
+                               edge * Vector3{x - 0.5 * (across - 1), y - 0.5 * (across - 1), 1.0 * z});
           all.radius.push_back(block.radius[k]);
         }
   return all;
@@ -84,7 +85,7 @@ coupling::PlatenTestSettings elastic_press(Law law) {
 
 Network network_of(const dem::Model &model) {
   Network network;
-  for (const dem::Vector3 &x : model.particles.position)
+  for (const Vector3 &x : model.particles.position)
     network.position.push_back({x.x, x.y, x.z});
   network.first.assign(model.bonds->first.begin(), model.bonds->first.end());
   network.second.assign(model.bonds->second.begin(), model.bonds->second.end());

@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/vector3.h"
 #include "coupling/contact_layer.h"
 #include "coupling/program/servo.h"
 #include "dem/energy.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
-#include "fem/point.h"
 
 namespace platen::coupling {
 
 // What the machine asks of a boundary in a step.
 struct Command {
-  fem::Point velocity{}; // m/s, of what the machine moves
-  double pressure = 0;   // Pa
+  Vector3 velocity{};  // m/s, of what the machine moves
+  double pressure = 0; // Pa
 };
 
 // The step that is being made; the particles have drifted.
@@ -86,9 +86,9 @@ public:
   virtual void fit(const dem::Particles &, double /*time_step*/) {}
 
   virtual void add_energy(dem::EnergyLedger &) const {}
-  virtual fem::Point force() const { return {}; } // N, of the particles on it
-  virtual double pressure() const { return 0; }   // Pa, mean, on the specimen
-  virtual double speed() const { return 0; }      // m/s, at which the machine moves it
+  virtual Vector3 force() const { return {}; }  // N, of the particles on it
+  virtual double pressure() const { return 0; } // Pa, mean, on the specimen
+  virtual double speed() const { return 0; }    // m/s, at which the machine moves it
   virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
   virtual std::size_t bytes() const { return 0; } // of rows and search lists
 

@@ -5,8 +5,6 @@
 
 namespace platen::coupling {
 
-using dem::Vector3;
-
 void Box::include(const Vector3 &p) {
   for (int k = 0; k < 3; ++k) {
     low[k] = std::min(low[k], p[k]);

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::coupling {
 
 struct Box {
-  dem::Vector3 low, high; // m
+  Vector3 low, high; // m
 
-  void include(const dem::Vector3 &p);
+  void include(const Vector3 &p);
   void include(const Box &b);
-  double distance_squared(const dem::Vector3 &p) const; // m^2, zero inside
+  double distance_squared(const Vector3 &p) const; // m^2, zero inside
 };
 
 class BoxTree {
@@ -25,7 +25,7 @@ public:
   // visit(index) for every box, nearest halves first, that is not farther from the point than `limit` (m^2)
   // allows when its turn comes; visit may lower the limit that it was given by reference.
   template <class Visit>
-  void near(const dem::Vector3 &point, double &limit_squared, const Visit &visit) const {
+  void near(const Vector3 &point, double &limit_squared, const Visit &visit) const {
     if (!nodes_.empty()) descend(0, point, limit_squared, visit);
   }
 
@@ -37,7 +37,7 @@ private:
   };
   int build(const std::vector<Box> &boxes, std::vector<int> &items, std::size_t first, std::size_t last);
   template <class Visit>
-  void descend(int index, const dem::Vector3 &point, double &limit_squared, const Visit &visit) const {
+  void descend(int index, const Vector3 &point, double &limit_squared, const Visit &visit) const {
     const Node &node = nodes_[static_cast<std::size_t>(index)];
     if (node.box.distance_squared(point) > limit_squared) return;
     if (node.item >= 0) return visit(node.item);

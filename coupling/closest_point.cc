@@ -6,12 +6,6 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
-
 namespace {
 
 // A twist e = x0 - x1 + x2 - x3 below this share of the diagonals is round-off of a parallelogram.

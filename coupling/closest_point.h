@@ -5,17 +5,17 @@
 
 #include <array>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::coupling {
 
 enum class Feature { face, edge, vertex };
 
-using Quad = std::array<dem::Vector3, 4>; // corners, counter-clockwise seen from outside
+using Quad = std::array<Vector3, 4>; // corners, counter-clockwise seen from outside
 
 // x(u, v) = sum w_i x_i with w = ((1-u)(1-v), u(1-v), uv, (1-u)v), 0 <= u, v <= 1.
 struct ClosestPoint {
-  dem::Vector3 point;              // m, from the query point; sum w_i x_i to round-off
+  Vector3 point;                   // m, from the query point; sum w_i x_i to round-off
   std::array<double, 4> weights{}; // w_0 + w_1 + w_2 + w_3 = 1 exactly, added in this order
   double u = 0, v = 0;
   double distance_squared = 0; // m^2
@@ -31,7 +31,7 @@ ClosestPoint closest_point(const Quad &corners);
 
 // Distance (m) from the mean plane of a quad, with the unit normal of that plane, within which all corners
 // have to lie for the query point to have a single foot on it; negative where the quad is not convex.
-double single_foot_within(const Quad &corners, const dem::Vector3 &normal);
+double single_foot_within(const Quad &corners, const Vector3 &normal);
 
 // Orders candidates: the smallest comes first. Near an edge, the foot on one face and the edge point of its
 // neighbour are equally far to round-off, although their directions may differ by the root of it (1e-8); so a
@@ -42,10 +42,10 @@ double preference(const ClosestPoint &point); // m^2
 std::array<double, 4> bilinear_weights(double u, double v);
 
 // Unit outward normal at (u, v); zero where the quad has no area.
-dem::Vector3 bilinear_normal(const Quad &corners, double u, double v);
+Vector3 bilinear_normal(const Quad &corners, double u, double v);
 
 // Derivatives of sum w_i f_i with respect to u and v.
-dem::Vector3 derivative_u(const Quad &values, double v);
-dem::Vector3 derivative_v(const Quad &values, double u);
+Vector3 derivative_u(const Quad &values, double v);
+Vector3 derivative_v(const Quad &values, double u);
 
 } // namespace platen::coupling

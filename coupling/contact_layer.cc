@@ -5,13 +5,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace platen::coupling {
+#include "base/pi.h"
+#include "base/require.h"
 
-using dem::Vector3;
+namespace platen::coupling {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
@@ -23,24 +23,23 @@ constexpr double most_dent = most_answer / (1 + most_answer); // k c up to which
 // One minus the cosine of a normal that counts as upright.
 constexpr double aslant = 1e-9;
 
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("surface contact: " + what);
-}
-
 void check(const SurfaceContact &p, bool rotation) {
-  require(p.particle_stiffness > 0, "particle stiffness must be positive");
-  require(p.tangential_ratio > 0, "tangential stiffness ratio must be positive");
-  require(p.friction_static >= 0, "static friction must not be negative");
-  require(p.dynamic() >= 0, "dynamic friction must not be negative");
+  require(p.particle_stiffness > 0, "surface contact: particle stiffness must be positive");
+  require(p.tangential_ratio > 0, "surface contact: tangential stiffness ratio must be positive");
+  require(p.friction_static >= 0, "surface contact: static friction must not be negative");
+  require(p.dynamic() >= 0, "surface contact: dynamic friction must not be negative");
   using By = dem::Weakening::By;
   require(p.weakening.by == By::nothing || p.dynamic() <= p.friction_static,
-          "friction that weakens must not grow");
-  require(p.weakening.by != By::slip || p.weakening.slip_length > 0, "slip length must be positive");
-  require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0, "slip velocity must be positive");
-  require(p.damping >= 0 && p.damping < infinite, "damping must not be negative");
-  require(p.seat_modulus >= 0 && p.seat_modulus < infinite, "seat modulus must not be negative");
-  require(p.seat_modulus == 0 || rotation, "seats need particles that rotate");
-  require(p.skin > 0, "skin must be positive");
+          "surface contact: friction that weakens must not grow");
+  require(p.weakening.by != By::slip || p.weakening.slip_length > 0,
+          "surface contact: slip length must be positive");
+  require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0,
+          "surface contact: slip velocity must be positive");
+  require(p.damping >= 0 && p.damping < infinite, "surface contact: damping must not be negative");
+  require(p.seat_modulus >= 0 && p.seat_modulus < infinite,
+          "surface contact: seat modulus must not be negative");
+  require(p.seat_modulus == 0 || rotation, "surface contact: seats need particles that rotate");
+  require(p.skin > 0, "surface contact: skin must be positive");
 }
 
 // N/m, of the spring that makes up the stiffness with a dent (m/N) in series.
@@ -64,7 +63,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   check(parameters, particles.has_rotation());
   require(
       parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
-      "a compliance of faces needs one entry per face");
+      "surface contact: a compliance of faces needs one entry per face");
   // Inverted twice, as in series with a rigid body: an eighth of all numbers come back with another last bit,
   // and results are held to be the same bits as before.
   stiffness_ = 1 / (1 / parameters.particle_stiffness);
@@ -101,7 +100,7 @@ std::size_t ContactLayer::add_row(int particle) {
 ContactLayer::~ContactLayer() = default;
 
 void ContactLayer::seat(int particle, double offset) {
-  require(std::isfinite(offset), "a seat's offset must be finite");
+  require(std::isfinite(offset), "surface contact: a seat's offset must be finite");
   const std::size_t row = add_row(particle);
   seated_[row] = 1;
   offset_[row] = offset;

@@ -56,10 +56,10 @@ struct SurfaceContact : dem::SurfaceFriction {
 struct ActiveContact {
   int particle = 0;        // row
   int face = 0;            // of the surface
-  dem::Vector3 point;      // m, on the surface
-  dem::Vector3 normal;     // unit, from body to particle
+  Vector3 point;           // m, on the surface
+  Vector3 normal;          // unit, from body to particle
   double normal_force = 0; // N, positive when pressed; with `glued` also negative
-  dem::Vector3 shear;      // N, tangential force on the particle
+  Vector3 shear;           // N, tangential force on the particle
   bool sliding = false;
   double slip = 0; // m, path slid since the contact closed
 };
@@ -142,8 +142,8 @@ private:
     SurfacePoint at;
     double normal_force = 0; // N, >= 0 unless tied
     double dashpot = 0;      // N, part of the normal force
-    dem::Vector3 shear;      // N
-    dem::Vector3 moment;     // N m, of the seat
+    Vector3 shear;           // N
+    Vector3 moment;          // N m, of the seat
     dem::CoulombFriction::State spring, seat;
     double idle_until = 0;                                   // m, of travelled_
     double slip = 0;                                         // m
@@ -154,13 +154,13 @@ private:
     int particle = -1; // -1: no contact
     int face = -1;
     std::array<double, 4> weights{};
-    dem::Vector3 force, torque;                              // N, N m about the centre
+    Vector3 force, torque;                                   // N, N m about the centre
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
   };
   // What else is told of it when somebody asks.
   struct RowContact {
-    dem::Vector3 point, normal, shear, moment; // m, 1, N, N m
-    double normal_force = 0, slip = 0;         // N, m
+    Vector3 point, normal, shear, moment; // m, 1, N, N m
+    double normal_force = 0, slip = 0;    // N, m
     bool sliding = false;
   };
   void set_rows(const std::vector<int> &particles);
@@ -178,7 +178,7 @@ private:
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
-  void keep_result(std::size_t k, const RowForce &row, const dem::Vector3 &centre);
+  void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
@@ -191,11 +191,11 @@ private:
   Column<int> &seated_ = table_.add<int>("seated", "1");
   Column<double> &offset_ = table_.add<double>("offset", "m");
   Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
-  Column<dem::Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
-  Column<dem::Vector3> *spring_ = nullptr;      // N; with friction or glue
-  Column<int> *sliding_ = nullptr;              // the same
-  Column<double> *slip_ = nullptr;              // m, the same
-  Column<dem::Vector3> *seat_spring_ = nullptr; // N m; with seats
+  Column<Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
+  Column<Vector3> *spring_ = nullptr;      // N; with friction or glue
+  Column<int> *sliding_ = nullptr;         // the same
+  Column<double> *slip_ = nullptr;         // m, the same
+  Column<Vector3> *seat_spring_ = nullptr; // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 
   double travelled_ = 0;             // m, sum of the distances told to moved()

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "coupling/contact_layer.h"
 #include "coupling/transfer.h"
 #include "dem/laws/rotating_plane.h"
@@ -10,14 +11,9 @@
 namespace platen::coupling {
 
 using dem::CoulombFriction;
-using dem::cross;
-using dem::dot;
-using dem::norm_squared;
-using dem::Vector3;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 constexpr double idle_margin = 1e-9;  // of a gap, for round-off
@@ -193,7 +189,8 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   const bool touched = norm_squared((*normal_)[row]) > 0;
   CoulombFriction::State state{(*spring_)[row], (*sliding_)[row], (*slip_)[row]};
   if (touched)
-    state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const Vector3 stretch = -dt * motion.slide;
   const double k_t = parameters_.tangential_ratio * motion.k_n;
   // Glue has no limit, and any force presses it.
@@ -223,7 +220,8 @@ void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double
   }
   CoulombFriction::State state{(*seat_spring_)[row], (*seat_sliding_)[row]};
   if (norm_squared((*normal_)[row]) > 0)
-    state.spring = spin_in_plane(carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const CoulombFriction::Result m =
       CoulombFriction{{limit, limit}}(state, -dt * motion.rocking, pressing, stiffness);
   result.seat = state;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "coupling/text_of.h"
+#include "base/shortest_text.h"
 #include "dem/not_finite.h"
 
 namespace platen::coupling {
@@ -154,8 +154,8 @@ void Experiment::finish_boundaries(const Step &step) {
 
 // One step so long that no speed in it counts: what dashpots take of it is their fraction of critical times a
 // period over this, and forces at its end, which balance, do nothing.
-void Experiment::carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
-                       const std::vector<fem::Point> &of_boundaries) {
+void Experiment::carry(const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn,
+                       const std::vector<Vector3> &of_boundaries) {
   if (steps_ > 0) throw std::logic_error("an experiment is carried to its start before its first step");
   for (const auto &boundary : boundaries_)
     if (!boundary->can_be_carried())
@@ -167,7 +167,7 @@ void Experiment::carry(const std::vector<dem::Vector3> &displacement, const std:
     if (p.has_rotation() && !turn.empty()) (*p.angular_velocity)[i] = turn[i] / pseudo_step;
   }
   for (std::size_t b = 0; b < boundaries_.size(); ++b)
-    commands_[b].velocity = fem::operator*(1 / pseudo_step, of_boundaries.at(b));
+    commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
   const double chosen = time_step_, damped = model.works.damping;
   time_step_ = pseudo_step;
   model.begin_step(pseudo_step);
@@ -180,8 +180,8 @@ void Experiment::carry(const std::vector<dem::Vector3> &displacement, const std:
                                                "Allowed: less, before the first crack.");
   model.works.damping = damped; // of the kick alone, which is taken back
   model.time = 0;
-  std::fill(p.velocity.begin(), p.velocity.end(), dem::Vector3{});
-  if (p.has_rotation()) std::fill(p.angular_velocity->begin(), p.angular_velocity->end(), dem::Vector3{});
+  std::fill(p.velocity.begin(), p.velocity.end(), Vector3{});
+  if (p.has_rotation()) std::fill(p.angular_velocity->begin(), p.angular_velocity->end(), Vector3{});
   for (const auto &boundary : boundaries_)
     boundary->rest();
 }

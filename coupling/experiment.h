@@ -57,8 +57,8 @@ public:
   // without inertia has it. Bonds, contacts, friction springs and the energy balance are then as after a very
   // slow loading; the clock stands at zero. Throws BadSetup where a bond breaks on the way, and
   // std::logic_error after the first step or where a boundary has inertia.
-  void carry(const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn,
-             const std::vector<fem::Point> &of_boundaries);
+  void carry(const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn,
+             const std::vector<Vector3> &of_boundaries);
   // Throws NumericsStopped where a particle's motion is not finite: to be asked before a state is kept.
   void require_finite() const;
 

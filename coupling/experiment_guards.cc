@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/shortest_text.h"
 #include "coupling/experiment.h"
-#include "coupling/text_of.h"
 #include "dem/not_finite.h"
 
 namespace platen::coupling {
@@ -36,7 +36,7 @@ void Experiment::stop_not_finite() const {
 
 // A contact layer refuses a motion that could carry a particle through a face unseen.
 void Experiment::stop_unseen(const std::string &reason) const {
-  const auto slower = [](const dem::Vector3 &a, const dem::Vector3 &b) { return norm(a) < norm(b); };
+  const auto slower = [](const Vector3 &a, const Vector3 &b) { return norm(a) < norm(b); };
   const dem::Particles &p = model.particles;
   const auto fastest = std::max_element(p.velocity.begin(), p.velocity.end(), slower) - p.velocity.begin();
   std::string text = "step " + std::to_string(steps_) + ", time " + text_of(time()) + " s: " + reason +

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shortest_text.h"
 #include "coupling/experiment.h"
-#include "coupling/text_of.h"
 
 namespace platen::coupling {
 namespace {

@@ -7,12 +7,6 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
-
 namespace {
 
 // Farther from a plane than this share of the face is not flat.

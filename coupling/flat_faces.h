@@ -18,8 +18,7 @@ public:
   // Foot of a centre, given relative to the face's first corner (m), where the face is flat and convex and
   // the foot lies inside it, off its rim by 1e-9 of its size; false elsewhere, which says nothing. Unit
   // normal out of the body; distance of the centre along it (m), negative inside the body.
-  bool foot(int face, const dem::Vector3 &centre, ClosestPoint &local, dem::Vector3 &normal,
-            double &distance) const;
+  bool foot(int face, const Vector3 &centre, ClosestPoint &local, Vector3 &normal, double &distance) const;
 
   // Faces with the same number make up one flat piece of the surface: outside the face that holds its foot,
   // no face of the piece is nearer to a centre.
@@ -29,8 +28,8 @@ private:
   // The bilinear map x = q0 + u e + v (f + u t), inverted in the plane: v solves
   // square v^2 + (r.linear + constant) v + r.free = 0 for r = x - q0, and u follows.
   struct Face {
-    dem::Vector3 normal, e, f, t;
-    dem::Vector3 linear, free;
+    Vector3 normal, e, f, t;
+    Vector3 linear, free;
     double square = 0, constant = 0;
     bool flat = false;
   };

@@ -5,12 +5,6 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
-
 namespace {
 
 // Share of the rim, in u and v, that is left to the general search, which knows edges.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "coupling/platens_of_test.h"
 #include "coupling/program/axial_loading.h"
 #include "coupling/program/consolidation.h"
@@ -12,7 +13,6 @@
 namespace platen::coupling {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
 // hard specimen.
 constexpr double servo_gain = 5;

@@ -87,7 +87,7 @@ public:
   double axial_stress() const override { return 0.5 * (stress_top() + stress_bottom()); }
   double lateral_pressure() const override { return confining_pressure(); }
   double broken_bonds() const override;
-  fem::Point force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
+  Vector3 force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
   ServoLoad servo_load(std::size_t boundary) const override {
     return boundaries()[boundary]->servo_load(model.particles);
   }

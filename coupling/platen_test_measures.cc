@@ -2,12 +2,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "coupling/platen_test.h"
 
 namespace platen::coupling {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, none = std::numeric_limits<double>::quiet_NaN();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 

@@ -6,8 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
+#include "base/shortest_text.h"
 #include "coupling/boundaries/strips.h"
-#include "coupling/text_of.h"
 #include "fem/grids.h"
 #include "fem/platen_mesh.h"
 #include "fem/rigid_body.h"
@@ -23,8 +24,6 @@ double platen_plane(const dem::Specimen &s, bool above, Ends ends) {
 }
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
   const PlatenSettings &p = settings.platens;

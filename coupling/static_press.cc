@@ -7,10 +7,6 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::Vector3;
-
 namespace {
 
 constexpr int most_solves = 40; // the set of contacts settles within ten, or swings
@@ -135,7 +131,7 @@ StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticS
 StaticPress start_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings) {
   StaticPress p = press_statically(test, strain, settings);
   const double rise = 0.5 * strain * test.shape().height; // m, of each platen towards the other
-  std::vector<fem::Point> of_boundaries(test.boundaries().size(), fem::Point{});
+  std::vector<Vector3> of_boundaries(test.boundaries().size(), Vector3{});
   of_boundaries[0] = {0, 0, rise}; // bottom
   of_boundaries[1] = {0, 0, -rise};
   test.carry(p.displacement, p.turn, of_boundaries);

@@ -17,7 +17,7 @@ struct StaticPress {
   double poisson_ratio() const { return lateral_strain / strain_gauge; }
   std::size_t closed_top = 0, closed_bottom = 0; // spheres that the platens press
   int solves = 0, iterations = 0;                // of the active set, of all conjugate gradients
-  std::vector<dem::Vector3> displacement, turn;  // m, rad; of every particle; no turns without rotation
+  std::vector<Vector3> displacement, turn;       // m, rad; of every particle; no turns without rotation
 };
 
 // Closes the platens by `strain` (positive) of the height against the intact network in its present state,

@@ -7,11 +7,6 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
 using fem::SurfaceMesh;
 
 namespace {

@@ -8,10 +8,6 @@
 
 namespace platen::coupling {
 
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
 using fem::SurfaceMesh;
 
 namespace {
@@ -33,9 +29,8 @@ double box_distance_squared(const Quad &q) {
 
 } // namespace
 
-Vector3 vertex_at(const SurfaceMesh &surface, int v) {
-  const fem::Point &p = surface.vertices[static_cast<std::size_t>(v)];
-  return {p[0], p[1], p[2]};
+const Vector3 &vertex_at(const SurfaceMesh &surface, int v) {
+  return surface.vertices[static_cast<std::size_t>(v)];
 }
 
 Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {

@@ -19,16 +19,16 @@ namespace platen::coupling {
 struct SurfacePoint {
   int face = -1;
   ClosestPoint local;  // point relative to the centre; weights of the face's corners
-  dem::Vector3 normal; // unit, out of the body; from the surface to the centre where the centre is outside
+  Vector3 normal;      // unit, out of the body; from the surface to the centre where the centre is outside
   double distance = 0; // m, of the centre; negative inside the body
   // m, of the face by u and v; where a surface only shifts nobody asks, and they are zero.
-  dem::Vector3 along_u, along_v;
+  Vector3 along_u, along_v;
 };
 
-dem::Vector3 vertex_at(const fem::SurfaceMesh &surface, int vertex); // m
+const Vector3 &vertex_at(const fem::SurfaceMesh &surface, int vertex); // m
 
 // Corners of a face relative to a point.
-Quad face_corners(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &origin);
+Quad face_corners(const fem::SurfaceMesh &surface, int face, const Vector3 &origin);
 
 class SurfaceSearch {
 public:
@@ -49,7 +49,7 @@ public:
 
   // Lists all particles whose centre is within reach[row] + skin of the surface, and those in `always`
   // (ascending rows) at any distance. Visits every particle once.
-  void rebuild(const fem::SurfaceMesh &surface, const Column<dem::Vector3> &position,
+  void rebuild(const fem::SurfaceMesh &surface, const Column<Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
 
   // Looks at the faces near particles as they are now, so that until moved() is called again closest() need
@@ -63,10 +63,10 @@ public:
   // Closest point over the whole surface for entry k of the list, with the centre where it is now. Exact
   // while the list is not stale, and the same whenever the list was made. Ties go to the lowest face. May be
   // called from several threads.
-  SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const dem::Vector3 &centre) const;
+  SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
 
   // The same by looking at every face: the oracle of the tests, and right for a single question.
-  SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const dem::Vector3 &centre) const;
+  SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const Vector3 &centre) const;
 
   std::size_t bytes() const {
     return particles_.capacity() * sizeof(int) + first_near_.capacity() * sizeof(std::size_t) +
@@ -79,22 +79,19 @@ private:
     int face = 0;
   };
   std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
-  void collect(const fem::SurfaceMesh &surface, const dem::Vector3 &centre, double limit);
-  SurfacePoint closest_listed(const fem::SurfaceMesh &surface, std::size_t k,
-                              const dem::Vector3 &centre) const;
+  void collect(const fem::SurfaceMesh &surface, const Vector3 &centre, double limit);
+  SurfacePoint closest_listed(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
   // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
-  bool nearest_on(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
-                  const MovingFace *moving, SurfacePoint &nearest) const;
-  bool foot(const fem::SurfaceMesh &surface, int face, const dem::Vector3 &centre,
-            SurfacePoint &result) const;
-  bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const dem::Vector3 &centre,
+  bool nearest_on(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, const MovingFace *moving,
+                  SurfacePoint &nearest) const;
+  bool foot(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, SurfacePoint &result) const;
+  bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
                        SurfacePoint &result) const;
   SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
-                           const dem::Vector3 &centre) const;
-  dem::Vector3 edge_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
-                           const dem::Vector3 &centre) const;
-  dem::Vector3 vertex_normal(const fem::SurfaceMesh &surface, int face, int corner,
-                             const dem::Vector3 &centre) const;
+                           const Vector3 &centre) const;
+  Vector3 edge_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
+                      const Vector3 &centre) const;
+  Vector3 vertex_normal(const fem::SurfaceMesh &surface, int face, int corner, const Vector3 &centre) const;
 
   double skin_;
   double travelled_ = std::numeric_limits<double>::infinity();

@@ -5,29 +5,17 @@
 
 namespace platen::coupling {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
-
 namespace {
-
-Vector3 vector(const fem::Point &p) {
-  return {p[0], p[1], p[2]};
-}
 
 Quad corner_velocities(const fem::SurfaceMesh &surface, int face) {
   const std::array<int, 4> &v = surface.faces[static_cast<std::size_t>(face)];
-  const auto at = [&](std::size_t k) { return vector(surface.velocities[static_cast<std::size_t>(v[k])]); };
+  const auto at = [&](std::size_t k) { return surface.velocities[static_cast<std::size_t>(v[k])]; };
   return {at(0), at(1), at(2), at(3)};
 }
 
 // Corners about their mean.
 Quad arms(const fem::SurfaceMesh &surface, int face) {
-  const fem::Point &p =
-      surface.vertices[static_cast<std::size_t>(surface.faces[static_cast<std::size_t>(face)][0])];
-  Quad q = face_corners(surface, face, vector(p));
+  Quad q = face_corners(surface, face, vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]));
   const Vector3 mean = 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
   for (Vector3 &corner : q)
     corner -= mean;
@@ -55,7 +43,7 @@ Vector3 turn_by_arms(const Quad &r, const Vector3 &b) {
 } // namespace
 
 SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint &point) {
-  if (surface.only_shifted) return {vector(surface.velocities[0])};
+  if (surface.only_shifted) return {surface.velocities[0]};
   // Written so that equal velocities give that velocity without rounding.
   const Quad v = corner_velocities(surface, point.face);
   const Vector3 by_u = derivative_u(v, point.local.v), by_v = derivative_v(v, point.local.u);
@@ -81,20 +69,16 @@ Vector3 face_rotation(const fem::SurfaceMesh &surface, int face) {
 void apply_force(fem::LoadedSurface &body, int face, const std::array<double, 4> &weights,
                  const Vector3 &force) {
   const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(face)];
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 share = weights[k] * force;
-    body.add_surface_force(corners[k], {share.x, share.y, share.z});
-  }
+  for (std::size_t k = 0; k < 4; ++k)
+    body.add_surface_force(corners[k], weights[k] * force);
 }
 
 void apply_moment(fem::LoadedSurface &body, int face, const Vector3 &moment) {
   const Quad r = arms(body.surface(), face);
   const Vector3 turn = turn_by_arms(r, moment);
   const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(face)];
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 f = cross(turn, r[k]);
-    body.add_surface_force(corners[k], {f.x, f.y, f.z});
-  }
+  for (std::size_t k = 0; k < 4; ++k)
+    body.add_surface_force(corners[k], cross(turn, r[k]));
 }
 
 } // namespace platen::coupling

@@ -13,20 +13,20 @@ namespace platen::coupling {
 
 // How the surface moves at a closest point.
 struct SurfaceMotion {
-  dem::Vector3 velocity; // m/s, sum w_i v_i
-  double spin = 0;       // rad/s about the normal, of the face's plane
+  Vector3 velocity; // m/s, sum w_i v_i
+  double spin = 0;  // rad/s about the normal, of the face's plane
 };
 SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint &point);
 
 // Rotation of a face as that of its four corners in the least-squares sense (rad/s, global axes): exact where
 // they move rigidly; zero for corners on a line.
-dem::Vector3 face_rotation(const fem::SurfaceMesh &surface, int face);
+Vector3 face_rotation(const fem::SurfaceMesh &surface, int face);
 
 // Puts a force (N), acting on the body at a point of the face, on the corners by the point's weights.
 void apply_force(fem::LoadedSurface &body, int face, const std::array<double, 4> &weights,
-                 const dem::Vector3 &force);
+                 const Vector3 &force);
 
 // Puts a moment (N m) on the corners as forces without a sum: the transpose of face_rotation.
-void apply_moment(fem::LoadedSurface &body, int face, const dem::Vector3 &moment);
+void apply_moment(fem::LoadedSurface &body, int face, const Vector3 &moment);
 
 } // namespace platen::coupling

@@ -6,14 +6,13 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "dem/cell_grid.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Triple<double> triple(const Vector3 &a) {
   return {a.x, a.y, a.z};

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "dem/measure/fragments.h"
 
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double share_of_body = 0.05;   // of the spheres: smaller pieces are left alone
 constexpr double move_of_areas = 0.05;   // mean radii
 constexpr double depth_of_spheres = 1.0; // mean radii, between a lateral sphere's surface and the wall

@@ -4,12 +4,11 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/pi.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Spreads the low 21 bits of v so that two zero bits stand between each.
 std::uint64_t spread_bits(std::uint64_t v) {

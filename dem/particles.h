@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/table.h"
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

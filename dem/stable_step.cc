@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int most_iterations = 300;
 constexpr double tolerance = 0.01; // of omega^2: the step comes out at most 0.5 % too small
 
@@ -194,12 +194,7 @@ Mode Operator::apply(const Mode &x) {
 // The same start on every machine; every mode has a share in it.
 Mode start_mode(std::size_t n, bool turning) {
   std::uint64_t state = 0x9e3779b97f4a7c15ULL;
-  const auto next = [&state] {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-52 - 1.0;
-  };
+  const auto next = [&state] { return static_cast<double>(split_mix(state) >> 11) * 0x1.0p-52 - 1.0; };
   Mode x(n, turning);
   for (std::size_t i = 0; i < n; ++i) {
     for (int k = 0; k < 3; ++k)

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/random.h"
 #include "dem/bonds.h"
-#include "dem/packing/random.h"
 
 namespace platen::dem {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fem/point.h"
+#include "base/vector3.h"
 
 namespace platen::fem {
 
@@ -18,10 +18,10 @@ struct BlockRows {
   double *block(std::size_t row, int col);
   // y = A x. Each row is summed in the order of its blocks by one thread: bitwise the same for any number of
   // threads. x and y must not be the same vector.
-  void multiply(const std::vector<Point> &x, std::vector<Point> &y) const;
+  void multiply(const std::vector<Vector3> &x, std::vector<Vector3> &y) const;
 };
 
 // Sums over nodes, in their order.
-double dot(const std::vector<Point> &a, const std::vector<Point> &b);
+double dot(const std::vector<Vector3> &a, const std::vector<Vector3> &b);
 
 } // namespace platen::fem

@@ -38,9 +38,9 @@ public:
   virtual double mass() const = 0; // kg
 
   // How the machine leads the body, without turning it: its grip, or all of it where it is rigid.
-  virtual void set_velocity(const Point &velocity) = 0; // m/s
-  virtual const Point &velocity() const = 0;            // m/s, of the centre of the frame that is led
-  virtual const Point &displacement() const = 0;        // m, of the same
+  virtual void set_velocity(const Vector3 &velocity) = 0; // m/s
+  virtual const Vector3 &velocity() const = 0;            // m/s, of the centre of the frame that is led
+  virtual const Vector3 &displacement() const = 0;        // m, of the same
 
   virtual void kick(double dt) = 0;  // impulse of the loads over dt (s)
   virtual void drift(double dt) = 0; // moves everything over dt (s); loads stay as they are

@@ -46,7 +46,7 @@ void for_boundary_faces(const ElasticModel &model, const Visit &visit) {
     }
 }
 
-Point point(const dealii::Point<3> &p) {
+Vector3 point(const dealii::Point<3> &p) {
   return {p[0], p[1], p[2]};
 }
 
@@ -68,14 +68,14 @@ void at_gauss_points(const ElasticModel &model, const Visit &visit) {
 
 // Displacement gradients of a cell at quadrature points, as stress.
 void stresses(const ElasticModel &model, const dealii::FEValues<3> &values, std::size_t cell,
-              const std::vector<Point> &displacement, std::vector<Stress> &result) {
+              const std::vector<Vector3> &displacement, std::vector<Stress> &result) {
   const std::size_t n = nodes_per_cell(model);
   const Lame c = lame(model.materials[static_cast<std::size_t>(model.cell_material[cell])]);
   result.assign(values.n_quadrature_points, Stress{});
   for (const unsigned int q : values.quadrature_point_indices()) {
     std::array<std::array<double, 3>, 3> g{};
     for (std::size_t a = 0; a < n; ++a) {
-      const Point &u = displacement[static_cast<std::size_t>(model.cell_nodes[n * cell + a])];
+      const Vector3 &u = displacement[static_cast<std::size_t>(model.cell_nodes[n * cell + a])];
       const auto &slope = values.shape_grad(static_cast<unsigned int>(a), q);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
@@ -119,7 +119,7 @@ NodeSurface node_surface(const ElasticModel &model) {
   for (auto &ring : result.surface.faces)
     for (int &corner : ring)
       corner = vertex[static_cast<std::size_t>(corner)];
-  result.surface.velocities.assign(result.node.size(), Point{});
+  result.surface.velocities.assign(result.node.size(), Vector3{});
   return result;
 }
 
@@ -134,21 +134,22 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag) {
   return nodes;
 }
 
-std::vector<Point> body_load(const ElasticModel &model, const std::function<Point(const Point &)> &density) {
-  std::vector<Point> load(model.nodes.size(), Point{});
+std::vector<Vector3> body_load(const ElasticModel &model,
+                               const std::function<Vector3(const Vector3 &)> &density) {
+  std::vector<Vector3> load(model.nodes.size(), Vector3{});
   at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
-    const Point force = values.JxW(q) * density(point(values.quadrature_point(q)));
+    const Vector3 force = values.JxW(q) * density(point(values.quadrature_point(q)));
     for (const unsigned int a : values.dof_indices()) {
-      Point &sum = load[static_cast<std::size_t>(nodes[a])];
+      Vector3 &sum = load[static_cast<std::size_t>(nodes[a])];
       sum = sum + values.shape_value(a, q) * force;
     }
   });
   return load;
 }
 
-std::vector<Point> face_load(const ElasticModel &model, int tag,
-                             const std::function<Point(const Point &, const Point &)> &traction) {
-  std::vector<Point> load(model.nodes.size(), Point{});
+std::vector<Vector3> face_load(const ElasticModel &model, int tag,
+                               const std::function<Vector3(const Vector3 &, const Vector3 &)> &traction) {
+  std::vector<Vector3> load(model.nodes.size(), Vector3{});
   const std::size_t n = nodes_per_cell(model);
   const dealii::QGauss<2> gauss(static_cast<unsigned int>(model.degree) + 2);
   const NoCellReuse same_for_any_threads;
@@ -162,10 +163,10 @@ std::vector<Point> face_load(const ElasticModel &model, int tag,
       values.reinit(cell, f);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const auto &normal = values.normal_vector(q);
-        const Point force =
+        const Vector3 force =
             values.JxW(q) * traction(point(values.quadrature_point(q)), {normal[0], normal[1], normal[2]});
         for (std::size_t a = 0; a < n; ++a) {
-          Point &sum = load[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
+          Vector3 &sum = load[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
           sum = sum + values.shape_value(static_cast<unsigned int>(a), q) * force;
         }
       }
@@ -173,11 +174,11 @@ std::vector<Point> face_load(const ElasticModel &model, int tag,
   return load;
 }
 
-double integral(const ElasticModel &model, const std::vector<Point> &field,
-                const std::function<double(const Point &, const Point &)> &f) {
+double integral(const ElasticModel &model, const std::vector<Vector3> &field,
+                const std::function<double(const Vector3 &, const Vector3 &)> &f) {
   double sum = 0;
   at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
-    Point here{};
+    Vector3 here{};
     for (const unsigned int a : values.dof_indices())
       here = here + values.shape_value(a, q) * field[static_cast<std::size_t>(nodes[a])];
     sum += values.JxW(q) * f(point(values.quadrature_point(q)), here);
@@ -190,7 +191,7 @@ double von_mises(const Stress &s) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
+std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement) {
   std::vector<Stress> result(model.cell_material.size()), local;
   const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
@@ -212,7 +213,7 @@ std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Poi
   return result;
 }
 
-std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Point> &displacement) {
+std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement) {
   const std::size_t n = nodes_per_cell(model);
   const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));

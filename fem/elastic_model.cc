@@ -16,14 +16,11 @@
 #include <string>
 #include <utility>
 
+#include "base/require.h"
 #include "fem/threads.h"
 
 namespace platen::fem {
 namespace {
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("elastic solid: " + what);
-}
 
 template <class Cell>
 std::string name_of(const Cell &cell) {
@@ -44,8 +41,8 @@ void number_nodes(ElasticModel &model, const dealii::FE_Q<3> &element) {
   std::vector<dealii::types::global_dof_index> ids(element.n_dofs_per_cell());
   for (const auto &cell : numbers->active_cell_iterators()) {
     require(cell->material_id() < model.materials.size(),
-            name_of(cell) + " is of material " + std::to_string(cell->material_id()) + ", but there are " +
-                std::to_string(model.materials.size()));
+            "elastic solid: " + name_of(cell) + " is of material " + std::to_string(cell->material_id()) +
+                ", but there are " + std::to_string(model.materials.size()));
     model.cell_material.push_back(static_cast<int>(cell->material_id()));
     cell->get_dof_indices(ids);
     for (const auto id : ids)
@@ -127,13 +124,14 @@ void lump(const dealii::FEValues<3> &values, int degree, std::vector<double> &sh
 } // namespace
 
 ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> materials) {
-  require(grid != nullptr, "no grid");
-  require(degree == 1 || degree == 2, "degree " + std::to_string(degree) + " is neither 1 nor 2");
-  require(!materials.empty(), "no material");
+  require(grid != nullptr, "elastic solid: no grid");
+  require(degree == 1 || degree == 2,
+          "elastic solid: degree " + std::to_string(degree) + " is neither 1 nor 2");
+  require(!materials.empty(), "elastic solid: no material");
   for (std::size_t m = 0; m < materials.size(); ++m)
     check(materials[m], "elastic solid: material " + std::to_string(m));
   const std::string inverted = inverted_cell(grid);
-  require(inverted.empty(), inverted + " is inverted or warped through itself");
+  require(inverted.empty(), "elastic solid: " + inverted + " is inverted or warped through itself");
   ElasticModel model;
   model.grid = std::move(grid);
   model.degree = degree;
@@ -159,7 +157,7 @@ ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> mat
     lump(masses, degree, share);
     double cell_volume = 0;
     for (std::size_t a = 0; a < n; ++a) {
-      require(share[a] > 0, name_of(cell) + " is warped through itself");
+      require(share[a] > 0, "elastic solid: " + name_of(cell) + " is warped through itself");
       cell_volume += share[a];
       share[a] *= material.density;
       model.mass[static_cast<std::size_t>(model.cell_nodes[n * number + a])] += share[a];

@@ -25,7 +25,7 @@ struct ElasticModel {
   std::vector<Material> materials; // by material id of the cells
   // Numbers the nodes: one per node, of dealii::FE_Q(degree).
   std::shared_ptr<const dealii::DoFHandler<3, 3>> numbers;
-  std::vector<Point> nodes;       // m
+  std::vector<Vector3> nodes;     // m
   std::vector<int> cell_nodes;    // (degree + 1)^3 per cell, in deal.II's order
   std::vector<int> cell_material; // one per cell
   BlockRows stiffness;            // N/m, exactly symmetric
@@ -52,16 +52,17 @@ NodeSurface node_surface(const ElasticModel &model);
 std::vector<int> nodes_on(const ElasticModel &model, int tag);
 
 // Nodal loads (N) that do the work of a force per volume (N/m^3, of the reference place).
-std::vector<Point> body_load(const ElasticModel &model, const std::function<Point(const Point &)> &density);
+std::vector<Vector3> body_load(const ElasticModel &model,
+                               const std::function<Vector3(const Vector3 &)> &density);
 
 // Nodal loads (N) that do the work of a traction (Pa) at a place with an outward normal, on the faces of a
 // tag.
-std::vector<Point> face_load(const ElasticModel &model, int tag,
-                             const std::function<Point(const Point &, const Point &)> &traction);
+std::vector<Vector3> face_load(const ElasticModel &model, int tag,
+                               const std::function<Vector3(const Vector3 &, const Vector3 &)> &traction);
 
 // Integral over the reference volume of f(place, value of a field given at the nodes).
-double integral(const ElasticModel &model, const std::vector<Point> &field,
-                const std::function<double(const Point &, const Point &)> &f);
+double integral(const ElasticModel &model, const std::vector<Vector3> &field,
+                const std::function<double(const Vector3 &, const Vector3 &)> &f);
 
 // Stress xx, yy, zz, yz, zx, xy (Pa), tension positive.
 using Stress = std::array<double, 6>;
@@ -69,8 +70,8 @@ double von_mises(const Stress &stress); // Pa
 
 // Of a displacement given at the nodes (m). Taken where it is most accurate, at the Gauss points of the order
 // below (Barlow 1976), and carried from there to the cell's middle or nodes.
-std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Point> &displacement);
+std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
 // One per entry of cell_nodes: the mean over all cells of the same material that share the node.
-std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Point> &displacement);
+std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
 
 } // namespace platen::fem

@@ -19,31 +19,26 @@ constexpr double share_of_kicks = 0.3;
 // with three steps damping takes energy from that swing which nobody brought.
 constexpr double steps_between_kicks = 1.8;
 
-Point product(const std::array<double, 9> &a, const Point &v) {
-  return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[3] * v[0] + a[4] * v[1] + a[5] * v[2],
-          a[6] * v[0] + a[7] * v[1] + a[8] * v[2]};
-}
-
 } // namespace
 
-Point ElasticSolid::carried(std::size_t node) const {
+Vector3 ElasticSolid::carried(std::size_t node) const {
   if (!turned_) return displacement_; // plain: what is flat stays flat to the last bit
-  const Point r = model_.nodes[node] - pivot_;
-  return displacement_ + (rotated(rotation_, r) - r);
+  const Vector3 r = model_.nodes[node] - pivot_;
+  return displacement_ + (rotate(rotation_, r) - r);
 }
 
-void ElasticSolid::set_velocity(const Point &velocity) {
-  set_velocity(velocity, turns_freely() ? angular_velocity_ : Point{});
+void ElasticSolid::set_velocity(const Vector3 &velocity) {
+  set_velocity(velocity, turns_freely() ? angular_velocity_ : Vector3{});
 }
 
-void ElasticSolid::set_velocity(const Point &velocity, const Point &angular_velocity) {
+void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   if (grip_nodes_.empty()) throw std::logic_error("elastic solid: a body without grip is not led");
   const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
   if (turns_freely()) {
     // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
-    const Point asked = angular_velocity - angular_velocity_;
-    spin_ = spin_ + to_space(product(rotor_, to_frame(asked)));
+    const Vector3 asked = angular_velocity - angular_velocity_;
+    spin_ = spin_ + to_space(rotor_ * to_frame(asked));
     if (!is_static()) spin_ = spin_ - cross(to_space(rotor_arm_), velocity - velocity_);
     find_angular_velocity();
   } else {
@@ -56,7 +51,7 @@ void ElasticSolid::set_velocity(const Point &velocity, const Point &angular_velo
 }
 
 void ElasticSolid::find_angular_velocity() {
-  angular_velocity_ = to_space(product(rotor_inverse_, to_frame(spin_)));
+  angular_velocity_ = to_space(rotor_inverse_ * to_frame(spin_));
 }
 
 double ElasticSolid::held_kinetic_energy() const {
@@ -71,14 +66,14 @@ double ElasticSolid::held_kinetic_energy() const {
 // A free rotor turns by its angular velocity half-way, since its inertia turns with it.
 void ElasticSolid::move_frame(double dt) {
   displacement_ = displacement_ + dt * velocity_;
-  if (angular_velocity_ == Point{}) return;
+  if (angular_velocity_ == Vector3{}) return;
   const Quaternion before = rotation_;
   if (turns_freely()) {
-    rotation_ = normalised(fem::product(exponential(0.5 * dt * angular_velocity_), before));
+    rotation_ = normalised(normalised(rotation_quaternion(0.5 * dt * angular_velocity_)) * before);
     turned_ = true;
     find_angular_velocity();
   }
-  rotation_ = normalised(fem::product(exponential(dt * angular_velocity_), before));
+  rotation_ = normalised(normalised(rotation_quaternion(dt * angular_velocity_)) * before);
   turned_ = !is_identity(rotation_);
   if (turns_freely()) find_angular_velocity();
 }
@@ -96,7 +91,7 @@ void ElasticSolid::place_surface() {
   for (std::size_t v = 0; v < node_of_.size(); ++v) {
     const auto node = static_cast<std::size_t>(node_of_[v]);
     if (is_static()) {
-      const Point way = target_[node] - start_[node];
+      const Vector3 way = target_[node] - start_[node];
       moved_[node] = carried(node) + to_space(start_[node] + s * way);
       rate_[node] = carried_velocity(arm(node));
       if (on_the_way_) rate_[node] = rate_[node] + to_space((1 / duration_) * way);
@@ -107,7 +102,7 @@ void ElasticSolid::place_surface() {
 }
 
 // What the body hands to its grip over dt: the machine takes it, or the free seat turns.
-void ElasticSolid::give_to_grip(double dt, const Point &force, const Point &moment) {
+void ElasticSolid::give_to_grip(double dt, const Vector3 &force, const Vector3 &moment) {
   grip_work_ -= dt * dot(force, velocity_);
   if (!turns_freely()) {
     grip_work_ -= dt * dot(moment, angular_velocity_);
@@ -118,26 +113,26 @@ void ElasticSolid::give_to_grip(double dt, const Point &force, const Point &mome
 }
 
 void ElasticSolid::kick(double dt) {
-  Point force{}, moment{}; // handed on to the grip
-  double relative = 0;     // power in the frame, quasi-static
+  Vector3 force{}, moment{}; // handed on to the grip
+  double relative = 0;       // power in the frame, quasi-static
   kicked_.clear();
   for (const int v : loaded_) {
     const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
-    const Point load = contact_load(v), r = arm(node);
+    const Vector3 load = contact_load(v), r = arm(node);
     if (is_static()) {
       force = force + load, moment = moment + cross(r, load);
       relative += dot(load, rate_[node] - carried_velocity(r));
       continue;
     }
-    const Point free = free_part(node, load), kept = load - free;
-    const Point gain = (dt / model_.mass[node]) * free;
+    const Vector3 free = free_part(node, load), kept = load - free;
+    const Vector3 gain = (dt / model_.mass[node]) * free;
     load_work_ += dt * dot(free, rate_[node] + 0.5 * gain);
     rate_[node] = rate_[node] + gain;
     surface_.velocities[static_cast<std::size_t>(v)] = rate_[node];
     kicked_.push_back({node, gain, {}});
     force = force + kept, moment = moment + cross(r, kept);
   }
-  const Point before = angular_velocity_;
+  const Vector3 before = angular_velocity_;
   give_to_grip(dt, force, moment);
   load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
   dissipated_ += dt * relative;
@@ -176,7 +171,7 @@ void ElasticSolid::drift(double dt) {
 }
 
 void ElasticSolid::drift(double dt, int steps) {
-  const std::vector<Point> before = surface_.vertices;
+  const std::vector<Vector3> before = surface_.vertices;
   if (is_static())
     drift_evenly(dt);
   else
@@ -185,7 +180,7 @@ void ElasticSolid::drift(double dt, int steps) {
   place_surface();
   last_move_ = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    const Point way = surface_.vertices[v] - before[v];
+    const Vector3 way = surface_.vertices[v] - before[v];
     last_move_ = std::max(last_move_, norm(way));
     if (!is_static() && dt != 0) surface_.velocities[v] = (1 / dt) * way;
   }
@@ -207,16 +202,16 @@ void ElasticSolid::find_internal_forces() {
   for (std::size_t i = 0; i < moved_.size(); ++i)
     strained_[i] = turned_ ? to_frame(arm(i)) - (model_.nodes[i] - pivot_) : moved_[i] - displacement_;
   model_.stiffness.multiply(strained_, force_);
-  for (Point &f : force_)
+  for (Vector3 &f : force_)
     f = -1.0 * to_space(f);
 }
 
 // The grip answers the forces on free nodes, force and moment: with those on held nodes, the moment of small
 // strain would miss the part of the second order and angular momentum would leak.
 void ElasticSolid::internal_kick(double dt) {
-  Point force{}, moment{};
+  Vector3 force{}, moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    const Point free = free_part(i, force_[i]);
+    const Vector3 free = free_part(i, force_[i]);
     rate_[i] = rate_[i] + (dt / model_.mass[i]) * free;
     force = force - free, moment = moment - cross(arm(i), free);
   }
@@ -234,17 +229,17 @@ void ElasticSolid::damp(double dt) {
     rate_[k.node] = rate_[k.node] - k.gain;
     k.before = rate_[k.node];
   }
-  std::vector<Point> relative(rate_.size()), impulse(rate_.size(), Point{});
+  std::vector<Vector3> relative(rate_.size()), impulse(rate_.size(), Vector3{});
   for (std::size_t i = 0; i < rate_.size(); ++i)
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
   if (beta > 0) model_.stiffness.multiply(relative, impulse);
-  Point force{}, moment{};
+  Vector3 force{}, moment{};
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double mass = model_.mass[i];
-    const Point w = to_space(relative[i]);
-    const Point push =
+    const Vector3 w = to_space(relative[i]);
+    const Vector3 push =
         free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * (1 - std::exp(-alpha * dt))) * w);
-    const Point gain = (1 / mass) * push;
+    const Vector3 gain = (1 / mass) * push;
     rate_[i] = rate_[i] + gain;
     dissipated_ -= dot(push, w + 0.5 * gain);
     force = force - push, moment = moment - cross(arm(i), push);
@@ -259,15 +254,15 @@ void ElasticSolid::damp(double dt) {
   if (turns_freely()) place_held();
 }
 
-Point ElasticSolid::momentum() const {
-  Point sum{};
+Vector3 ElasticSolid::momentum() const {
+  Vector3 sum{};
   for (std::size_t i = 0; i < rate_.size(); ++i)
     sum = sum + model_.mass[i] * rate_[i];
   return sum;
 }
 
-Point ElasticSolid::angular_momentum() const {
-  Point sum{};
+Vector3 ElasticSolid::angular_momentum() const {
+  Vector3 sum{};
   for (std::size_t i = 0; i < rate_.size(); ++i)
     sum = sum + model_.mass[i] * cross(arm(i), rate_[i]);
   return sum;

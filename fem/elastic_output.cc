@@ -43,9 +43,9 @@ constexpr std::array<std::size_t, 9> voigt = {0, 5, 4, 5, 1, 3, 4, 3, 2};
 void ElasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
   if (!slip.empty() && slip.size() != load_.size())
     throw std::invalid_argument("elastic solid: slip must have one value per surface vertex");
-  const std::vector<Point> u = deformation();
+  const std::vector<Vector3> u = deformation();
   const std::vector<Stress> stress = nodal_stress(model_, u);
-  std::vector<Point> displacement(u.size()), shear(u.size(), Point{});
+  std::vector<Vector3> displacement(u.size()), shear(u.size(), Vector3{});
   std::vector<double> pressure(u.size(), 0.0), slipped(u.size(), 0.0);
   for (std::size_t i = 0; i < u.size(); ++i)
     displacement[i] = carried(i) + to_space(u[i]);

@@ -7,27 +7,25 @@
 #include <string>
 #include <utility>
 
+#include "base/require.h"
+
 namespace platen::fem {
 namespace {
 
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("elastic solid: " + what);
-}
-
 void check(const Grip &grip, const ElasticOptions &options) {
   const bool is_static = options.motion == ElasticMotion::quasi_static;
-  require(!(grip.turns && grip.tag == no_grip), "there is no grip to turn");
-  require(!(is_static && grip.tag == no_grip), "a quasi-static body needs a grip");
+  require(!(grip.turns && grip.tag == no_grip), "elastic solid: there is no grip to turn");
+  require(!(is_static && grip.tag == no_grip), "elastic solid: a quasi-static body needs a grip");
   require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
-          "damping must not be negative");
+          "elastic solid: damping must not be negative");
   require(!is_static ||
               (options.mass_damping == 0 && options.stiffness_damping == 0 && options.fastest_damping == 0),
-          "a quasi-static body has no inertia to damp");
+          "elastic solid: a quasi-static body has no inertia to damp");
 }
 
-std::array<double, 9> inverse(const std::array<double, 9> &a) {
-  const Point x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
-  const Point yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
+Matrix3 inverse(const Matrix3 &a) {
+  const Vector3 x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
+  const Vector3 yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
   const double s = 1 / dot(x, yz);
   return {s * yz[0], s * zx[0], s * xy[0], s * yz[1], s * zx[1], s * xy[1], s * yz[2], s * zx[2], s * xy[2]};
 }
@@ -52,11 +50,11 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
   pivot_ = grip.turns ? grip.seat : (1 / mass_) * pivot_;
   held_.assign(n, {0, 0, 0});
   if (grip.tag != no_grip) hold(grip);
-  moved_.assign(n, Point{}), rate_.assign(n, Point{});
+  moved_.assign(n, Vector3{}), rate_.assign(n, Vector3{});
   if (is_static())
-    start_.assign(n, Point{}), target_.assign(n, Point{});
+    start_.assign(n, Vector3{}), target_.assign(n, Vector3{});
   else
-    strained_.assign(n, Point{}), force_.assign(n, Point{});
+    strained_.assign(n, Vector3{}), force_.assign(n, Vector3{});
   if (grip.turns) weigh_rotor();
   stable_step_ = std::numeric_limits<double>::infinity();
   if (is_static()) return;
@@ -72,14 +70,14 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
 
 void ElasticSolid::hold(const Grip &grip) {
   grip_nodes_ = nodes_on(model_, grip.tag);
-  require(!grip_nodes_.empty(), "no face has the grip's tag " + std::to_string(grip.tag));
+  require(!grip_nodes_.empty(), "elastic solid: no face has the grip's tag " + std::to_string(grip.tag));
   for (const int i : grip_nodes_)
     held_[static_cast<std::size_t>(i)] = {1, 1, 1};
 }
 
 void ElasticSolid::weigh_rotor() {
   const auto add = [&](std::size_t i) {
-    const Point r = model_.nodes[i] - pivot_;
+    const Vector3 r = model_.nodes[i] - pivot_;
     rotor_arm_ = rotor_arm_ + model_.mass[i] * r;
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b)

@@ -17,10 +17,10 @@
 #include <iosfwd>
 #include <vector>
 
+#include "base/vector3.h"
 #include "fem/body.h"
 #include "fem/elastic_model.h"
 #include "fem/largest_frequency.h"
-#include "fem/rotation.h"
 #include "fem/static_solver.h"
 
 namespace platen::fem {
@@ -33,7 +33,7 @@ struct Grip {
   // Free to turn about the seat, which the machine leads: the frame turns as a rigid rotor under the moment
   // on the grip (explicit) or of all loads (quasi-static).
   bool turns = false;
-  Point seat{}; // m, centre of the spherical seat at the start
+  Vector3 seat{}; // m, centre of the spherical seat at the start
 };
 
 enum class ElasticMotion { explicit_steps, quasi_static };
@@ -62,12 +62,12 @@ public:
 
   // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
   // freely: then angular velocities are its own, and the other form keeps them).
-  void set_velocity(const Point &velocity) override;                       // m/s
-  void set_velocity(const Point &velocity, const Point &angular_velocity); // m/s; rad/s, global axes
-  const Point &velocity() const override { return velocity_; }             // m/s, of centre or seat
-  const Point &angular_velocity() const { return angular_velocity_; }      // rad/s
-  const Point &displacement() const override { return displacement_; }     // m, of centre or seat
-  Point centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
+  void set_velocity(const Vector3 &velocity) override;                         // m/s
+  void set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity); // m/s; rad/s, global axes
+  const Vector3 &velocity() const override { return velocity_; }               // m/s, of centre or seat
+  const Vector3 &angular_velocity() const { return angular_velocity_; }        // rad/s
+  const Vector3 &displacement() const override { return displacement_; }       // m, of centre or seat
+  Vector3 centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
   const Quaternion &rotation() const { return rotation_; }
 
   void kick(double dt) override; // impulse of the loads over dt (s)
@@ -84,7 +84,7 @@ public:
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
   // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
   // std::logic_error for an explicit body.
-  void aim(const std::vector<Point> &vertex_loads, double duration);
+  void aim(const std::vector<Vector3> &vertex_loads, double duration);
   // Springs by which the loads answer to the way of each vertex (N/m, at least half of what they are): solved
   // for with a duration, the body then takes as much of them into account as if they stood on ground where
   // it was on the mean under the loads. Loads that are not followed so swing up from solve to solve where the
@@ -94,20 +94,20 @@ public:
 
   // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
   // the loads.
-  Point grip_force() const;
-  Point grip_moment() const;
+  Vector3 grip_force() const;
+  Vector3 grip_moment() const;
 
   double kinetic_energy() const;                           // J
   double internal_energy() const { return book().strain; } // J
   BodyBook book() const override;
-  Point momentum() const;         // kg m/s, grip nodes included; explicit
-  Point angular_momentum() const; // kg m^2/s about centre or seat; explicit
+  Vector3 momentum() const;         // kg m/s, grip nodes included; explicit
+  Vector3 angular_momentum() const; // kg m^2/s about centre or seat; explicit
 
   // Displacement of each node in the frame's axes (m): what is strained.
-  std::vector<Point> deformation() const;
+  std::vector<Vector3> deformation() const;
   // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; held nodes are
   // ignored. The book starts anew.
-  void set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate);
+  void set_deformation(const std::vector<Vector3> &displacement, const std::vector<Vector3> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
   // To be taken between steps.
@@ -126,15 +126,15 @@ private:
   void follow_state();
 
   // Frame.
-  Point to_frame(const Point &v) const { return turned_ ? rotated(inverse(rotation_), v) : v; }
-  Point to_space(const Point &v) const { return turned_ ? rotated(rotation_, v) : v; }
-  Point carried(std::size_t node) const; // m, displacement of a node that moves with the frame
-  Point arm(std::size_t node) const { return model_.nodes[node] + moved_[node] - centre(); }
-  Point carried_velocity(const Point &arm_of_node) const {
+  Vector3 to_frame(const Vector3 &v) const { return turned_ ? rotate(conjugate(rotation_), v) : v; }
+  Vector3 to_space(const Vector3 &v) const { return turned_ ? rotate(rotation_, v) : v; }
+  Vector3 carried(std::size_t node) const; // m, displacement of a node that moves with the frame
+  Vector3 arm(std::size_t node) const { return model_.nodes[node] + moved_[node] - centre(); }
+  Vector3 carried_velocity(const Vector3 &arm_of_node) const {
     return velocity_ + cross(angular_velocity_, arm_of_node);
   }
   bool is_held(std::size_t node) const { return held_[node][0] != 0; }
-  Point free_part(std::size_t node, const Point &v) const { return is_held(node) ? Point{} : v; }
+  Vector3 free_part(std::size_t node, const Vector3 &v) const { return is_held(node) ? Vector3{} : v; }
   void move_frame(double dt);
   void find_angular_velocity();
   void place_held();
@@ -146,7 +146,7 @@ private:
   void find_internal_forces();
   void internal_kick(double dt);
   void damp(double dt);
-  void give_to_grip(double dt, const Point &force, const Point &moment);
+  void give_to_grip(double dt, const Vector3 &force, const Vector3 &moment);
 
   // Quasi-static.
   double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the way to the target
@@ -160,25 +160,25 @@ private:
   std::vector<int> node_of_, grip_nodes_;
   Held held_; // all components of a node, or none
   double mass_ = 0, stable_step_ = 0;
-  Point pivot_{};                 // m, centre of mass or seat at the start
-  std::array<double, 9> rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
-  std::array<double, 9> rotor_inverse_{};
-  Point rotor_arm_{}; // kg m, first moment of the same, frame's axes
+  Vector3 pivot_{}; // m, centre of mass or seat at the start
+  Matrix3 rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
+  Matrix3 rotor_inverse_{};
+  Vector3 rotor_arm_{}; // kg m, first moment of the same, frame's axes
 
-  Point displacement_{}, velocity_{}, angular_velocity_{}, spin_{}; // spin_: angular momentum of the rotor
-  Quaternion rotation_{1, 0, 0, 0};
+  Vector3 displacement_{}, velocity_{}, angular_velocity_{}, spin_{}; // spin_: angular momentum of the rotor
+  Quaternion rotation_;
   bool turned_ = false;
-  std::vector<Point> moved_, rate_;     // m, m/s per node, global axes; explicit
-  std::vector<Point> strained_, force_; // m and N per node: u, and internal forces in global axes
-  std::vector<Point> start_, target_;   // m per node, frame's axes; quasi-static
-  double elapsed_ = 0, duration_ = 0;   // s since the start of the way, and of it
-  bool on_the_way_ = false;             // whether the last drift deformed the body
-  std::array<double, 3> path_{};        // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
+  std::vector<Vector3> moved_, rate_;     // m, m/s per node, global axes; explicit
+  std::vector<Vector3> strained_, force_; // m and N per node: u, and internal forces in global axes
+  std::vector<Vector3> start_, target_;   // m per node, frame's axes; quasi-static
+  double elapsed_ = 0, duration_ = 0;     // s since the start of the way, and of it
+  bool on_the_way_ = false;               // whether the last drift deformed the body
+  std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
   double last_step_ = 0, last_move_ = 0;
   double load_work_ = 0, grip_work_ = 0, dissipated_ = 0;
   struct Kicked {
     std::size_t node;
-    Point gain, before; // m/s
+    Vector3 gain, before; // m/s
   };
   std::vector<Kicked> kicked_;       // by the loads since the last drift
   std::vector<StaticSolver> solver_; // none until the first aim()

@@ -7,20 +7,21 @@
 
 namespace platen::fem {
 
-std::vector<Point> ElasticSolid::deformation() const {
+std::vector<Vector3> ElasticSolid::deformation() const {
   if (!is_static()) return strained_;
-  std::vector<Point> u(start_.size());
+  std::vector<Vector3> u(start_.size());
   for (std::size_t i = 0; i < u.size(); ++i)
     u[i] = start_[i] + share() * (target_[i] - start_[i]);
   return u;
 }
 
-void ElasticSolid::set_deformation(const std::vector<Point> &displacement, const std::vector<Point> &rate) {
+void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
+                                   const std::vector<Vector3> &rate) {
   const std::size_t n = model_.nodes.size();
   if (displacement.size() != n || (!is_static() && rate.size() != n))
     throw std::invalid_argument("elastic solid: a deformation has one vector per node");
   for (std::size_t i = 0; i < n; ++i) {
-    const Point u = free_part(i, displacement[i]), w = is_static() ? Point{} : free_part(i, rate[i]);
+    const Vector3 u = free_part(i, displacement[i]), w = is_static() ? Vector3{} : free_part(i, rate[i]);
     if (is_static()) {
       start_[i] = target_[i] = u;
     } else {
@@ -47,15 +48,15 @@ BodyBook ElasticSolid::book() const {
     return book;
   }
   double shift = 0;
-  Point moment{};
+  Vector3 moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
     book.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
-    const Point free = free_part(i, force_[i]);
+    const Vector3 free = free_part(i, force_[i]);
     shift += dot(free, free) / model_.mass[i];
     if (turns_freely()) moment = moment - cross(arm(i), free);
   }
   if (turns_freely()) {
-    const Point m = to_frame(moment);
+    const Vector3 m = to_frame(moment);
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b)
         shift += m[a] * rotor_inverse_[3 * a + b] * m[b];
@@ -72,9 +73,9 @@ double ElasticSolid::kinetic_energy() const {
   return 0.5 * twice;
 }
 
-Point ElasticSolid::grip_force() const {
+Vector3 ElasticSolid::grip_force() const {
   if (is_static()) return total_force();
-  Point sum{};
+  Vector3 sum{};
   for (std::size_t i = 0; i < force_.size(); ++i)
     sum = sum - free_part(i, force_[i]);
   for (const int v : loaded_) {
@@ -84,9 +85,9 @@ Point ElasticSolid::grip_force() const {
   return sum;
 }
 
-Point ElasticSolid::grip_moment() const {
+Vector3 ElasticSolid::grip_moment() const {
   if (is_static()) return moment(centre());
-  Point sum{};
+  Vector3 sum{};
   for (std::size_t i = 0; i < force_.size(); ++i)
     sum = sum - cross(arm(i), free_part(i, force_[i]));
   for (const int v : loaded_) {
@@ -101,7 +102,7 @@ double ElasticSolid::path_strain() const {
 }
 
 void ElasticSolid::measure_path() {
-  std::vector<Point> way(start_.size()), product;
+  std::vector<Vector3> way(start_.size()), product;
   for (std::size_t i = 0; i < way.size(); ++i)
     way[i] = target_[i] - start_[i];
   model_.stiffness.multiply(start_, product);
@@ -115,7 +116,7 @@ std::vector<FaceCompliance> ElasticSolid::face_compliance() const {
   return fem::face_compliance(model_, node_surface(model_), held_);
 }
 
-void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) {
+void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration) {
   if (!is_static()) throw std::logic_error("elastic solid: only a quasi-static body is solved for");
   if (vertex_loads.size() != node_of_.size())
     throw std::invalid_argument("elastic solid: one load per surface vertex, please");
@@ -123,7 +124,7 @@ void ElasticSolid::aim(const std::vector<Point> &vertex_loads, double duration) 
   std::vector<StaticSolver> &solver = follows ? supported_solver_ : solver_;
   const BlockRows &stiffness = follows ? supported_ : model_.stiffness;
   if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, held_, options_.solver);
-  std::vector<Point> load(model_.nodes.size(), Point{});
+  std::vector<Vector3> load(model_.nodes.size(), Vector3{});
   for (std::size_t v = 0; v < node_of_.size(); ++v)
     load[static_cast<std::size_t>(node_of_[v])] = to_frame(vertex_loads[v]);
   if (follows)

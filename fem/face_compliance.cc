@@ -15,14 +15,14 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-std::vector<Point> vertex_normals(const NodeSurface &s) {
-  std::vector<Point> normal(s.node.size(), Point{});
+std::vector<Vector3> vertex_normals(const NodeSurface &s) {
+  std::vector<Vector3> normal(s.node.size(), Vector3{});
   for (std::size_t f = 0; f < s.surface.faces.size(); ++f) {
-    const Point area = face_area_vector(s.surface, f);
+    const Vector3 area = face_area_vector(s.surface, f);
     for (const int v : s.surface.faces[f])
       normal[index(v)] = normal[index(v)] + area;
   }
-  for (Point &n : normal)
+  for (Vector3 &n : normal)
     if (norm(n) > 0) n = (1 / norm(n)) * n;
   return normal;
 }
@@ -69,7 +69,7 @@ public:
   bool holds(std::size_t node) const { return held_[node][0] || held_[node][1] || held_[node][2]; }
 
   // Pushes a node by a unit force.
-  void push(int node, const Point &direction) {
+  void push(int node, const Vector3 &direction) {
     for (const int other : nodes_)
       place_[index(other)] = -1;
     nodes_.clear();
@@ -93,11 +93,11 @@ public:
   }
 
   // m/N: how far another node goes along a direction.
-  double moves(int node, const Point &direction, const Point &pushed) const {
+  double moves(int node, const Vector3 &direction, const Vector3 &pushed) const {
     const int k = place_[index(node)];
     if (k < 0 || answer_.empty()) return 0;
     const double *u = &answer_[3 * index(k)];
-    return dot(Point{u[0], u[1], u[2]}, direction) + beyond_ * dot(direction, pushed);
+    return dot(Vector3{u[0], u[1], u[2]}, direction) + beyond_ * dot(direction, pushed);
   }
 
 private:
@@ -142,7 +142,7 @@ private:
 
 std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const NodeSurface &surface,
                                             const Held &held) {
-  const std::vector<Point> normal = vertex_normals(surface);
+  const std::vector<Vector3> normal = vertex_normals(surface);
   const auto &faces = surface.surface.faces;
   std::vector<std::vector<std::size_t>> faces_of(surface.node.size());
   for (std::size_t f = 0; f < faces.size(); ++f)

@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<double, 4> s_of = {-1, 1, 1, -1}, t_of = {-1, -1, 1, 1};
 
 struct Bilinear {
-  Point a{}, b{}, c{};
+  Vector3 a{}, b{}, c{};
   explicit Bilinear(const FaceCorners &x)
       : a(0.25 * ((x[1] + x[2]) - (x[0] + x[3]))),
         b(0.25 * ((x[2] + x[3]) - (x[0] + x[1]))),
@@ -20,8 +20,8 @@ struct Bilinear {
 
 FaceCorners corner_areas(const FaceCorners &place) {
   const Bilinear face(place);
-  const Point middle = cross(face.a, face.b), along = (1.0 / 3) * cross(face.a, face.c),
-              across = (1.0 / 3) * cross(face.c, face.b);
+  const Vector3 middle = cross(face.a, face.b), along = (1.0 / 3) * cross(face.a, face.c),
+                across = (1.0 / 3) * cross(face.c, face.b);
   FaceCorners areas;
   for (std::size_t k = 0; k < 4; ++k)
     areas[k] = middle + s_of[k] * along + t_of[k] * across;
@@ -49,8 +49,8 @@ std::array<double, 144> corner_area_gradient(const FaceCorners &place) {
     for (std::size_t n = 0; n < 4; ++n) {
       const double s = s_of[n], t = t_of[n], st = s * t, third_s = s_of[m] / 3, third_t = t_of[m] / 3;
       // The change of n_m under a move d of corner n is d x w.
-      const Point w = 0.25 * ((s * face.b - t * face.a) + third_s * (s * face.c - st * face.a) +
-                              third_t * (st * face.b - t * face.c));
+      const Vector3 w = 0.25 * ((s * face.b - t * face.a) + third_s * (s * face.c - st * face.a) +
+                                third_t * (st * face.b - t * face.c));
       const std::array<double, 9> block = {0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0};
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k)

@@ -10,11 +10,11 @@
 
 #include <array>
 
-#include "fem/point.h"
+#include "base/vector3.h"
 
 namespace platen::fem {
 
-using FaceCorners = std::array<Point, 4>; // counter-clockwise seen from outside
+using FaceCorners = std::array<Vector3, 4>; // counter-clockwise seen from outside
 
 // Share of the area vector that belongs to each corner, m^2; pressure p pushes there with -p times it.
 FaceCorners corner_areas(const FaceCorners &place);

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/shortest_text.h"
 #include "fem/gmsh_check.h"
 
 namespace platen::fem {
@@ -22,12 +23,6 @@ constexpr double smallest = 1e-6, largest = 100; // m, across a body that a spec
 
 [[noreturn]] void refuse(const GmshOptions &options, const std::string &what) {
   throw std::invalid_argument((options.name.empty() ? "Gmsh file" : options.name) + ": " + what);
-}
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 void read(std::istream &stream, const GmshOptions &options, dealii::Triangulation<3> &grid) {
@@ -91,8 +86,9 @@ Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
     if (k == 2) low = least, high = most;
   }
   if (!(across > smallest && across < largest))
-    refuse(options, "the body is " + number(across) + " m across; allowed are " + number(smallest) + " to " +
-                        number(largest) + " m. Is " + number(options.unit) + " m the file's unit of length?");
+    refuse(options, "the body is " + text_of(across) + " m across; allowed are " + text_of(smallest) +
+                        " to " + text_of(largest) + " m. Is " + text_of(options.unit) +
+                        " m the file's unit of length?");
   const std::string inverted = inverted_cell(grid);
   if (!inverted.empty()) refuse(options, inverted + " is inverted or warped through itself");
   count_materials(*grid);

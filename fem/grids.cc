@@ -1,4 +1,6 @@
 #include "fem/grids.h"
+#include "base/pi.h"
+#include "base/require.h"
 #include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -18,12 +20,6 @@
 
 namespace platen::fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("platen grid: " + what);
-}
 
 // Square core of n x n cells, surrounded by `rings` rings of 4 n cells that blend from the square to the
 // circle.
@@ -98,10 +94,10 @@ void tag_ends(dealii::Triangulation<3> &grid, double z_low, double thickness) {
 } // namespace
 
 Grid make_grid(const CylinderPlate &plate) {
-  require(plate.radius > 0, "radius must be positive");
-  require(plate.thickness > 0, "thickness must be positive");
-  require(plate.elements_across >= 3, "a round plate needs at least 3 elements across");
-  require(plate.elements_thick >= 1, "at least one element through the thickness");
+  require(plate.radius > 0, "platen grid: radius must be positive");
+  require(plate.thickness > 0, "platen grid: thickness must be positive");
+  require(plate.elements_across >= 3, "platen grid: a round plate needs at least 3 elements across");
+  require(plate.elements_thick >= 1, "platen grid: at least one element through the thickness");
   dealii::Triangulation<2> disc;
   DiscMesh(plate.radius, plate.elements_across).create(disc);
   auto grid = std::make_shared<dealii::Triangulation<3>>();
@@ -120,8 +116,9 @@ Grid make_grid(const CylinderPlate &plate) {
 
 Grid make_grid(const BoxPlate &plate) {
   for (std::size_t k = 0; k < 3; ++k) {
-    require(plate.high[k] > plate.low[k], "the high corner of a box must lie above its low corner");
-    require(plate.elements[k] >= 1, "at least one element along each side of a box");
+    require(plate.high[k] > plate.low[k],
+            "platen grid: the high corner of a box must lie above its low corner");
+    require(plate.elements[k] >= 1, "platen grid: at least one element along each side of a box");
   }
   const auto count = [&](std::size_t k) { return static_cast<unsigned int>(plate.elements[k]); };
   auto grid = std::make_shared<dealii::Triangulation<3>>();
@@ -164,10 +161,10 @@ unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
 } // namespace
 
 Grid make_grid(const std::vector<BoxPlate> &boxes) {
-  require(!boxes.empty(), "there are no boxes");
+  require(!boxes.empty(), "platen grid: there are no boxes");
   for (std::size_t k = 0; k < boxes.size(); ++k)
     for (std::size_t other = 0; other < k; ++other)
-      require(!touch(boxes[k], boxes[other]), "two boxes of one grid touch");
+      require(!touch(boxes[k], boxes[other]), "platen grid: two boxes of one grid touch");
   std::vector<Grid> parts;
   std::vector<const dealii::Triangulation<3> *> all;
   for (const BoxPlate &box : boxes) {
@@ -190,14 +187,14 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
 namespace {
 
 void check(const std::vector<Layer> &layers, double whole) {
-  require(!layers.empty(), "there are no layers");
+  require(!layers.empty(), "platen grid: there are no layers");
   double sum = 0;
   for (const Layer &layer : layers) {
-    require(layer.thickness > 0, "the thickness of a layer must be positive");
-    require(layer.elements >= 1, "at least one element through a layer");
+    require(layer.thickness > 0, "platen grid: the thickness of a layer must be positive");
+    require(layer.elements >= 1, "platen grid: at least one element through a layer");
     sum += layer.thickness;
   }
-  require(std::abs(sum - whole) <= 1e-9 * whole, "the layers are " + std::to_string(sum) +
+  require(std::abs(sum - whole) <= 1e-9 * whole, "platen grid: the layers are " + std::to_string(sum) +
                                                      " m thick together, the plate " + std::to_string(whole) +
                                                      " m");
 }
@@ -253,12 +250,12 @@ Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers) {
   return grid;
 }
 
-Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place) {
+Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> &place) {
   auto moved = std::make_shared<dealii::Triangulation<3>>();
   moved->copy_triangulation(*grid);
   dealii::GridTools::transform(
       [&](const dealii::Point<3> &p) {
-        const Point q = place({p[0], p[1], p[2]});
+        const Vector3 q = place({p[0], p[1], p[2]});
         return dealii::Point<3>(q[0], q[1], q[2]);
       },
       *moved);
@@ -310,7 +307,7 @@ GridSurface extract_surface(const Grid &grid) {
   for (const auto &ring : corners)
     result.surface.faces.push_back(
         {surface_vertex[ring[0]], surface_vertex[ring[1]], surface_vertex[ring[2]], surface_vertex[ring[3]]});
-  result.surface.velocities.assign(result.surface.vertices.size(), Point{});
+  result.surface.velocities.assign(result.surface.vertices.size(), Vector3{});
   return result;
 }
 
@@ -329,17 +326,17 @@ VolumeMoments volume_moments(const Grid &grid) {
       values.reinit(cell);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const dealii::Point<3> &p = values.quadrature_point(q);
-        add(Point{p[0], p[1], p[2]}, values.JxW(q));
+        add(Vector3{p[0], p[1], p[2]}, values.JxW(q));
       }
     }
   };
-  integrate([&](const Point &p, double weight) {
+  integrate([&](const Vector3 &p, double weight) {
     m.volume += weight;
     m.centroid = m.centroid + weight * p;
   });
   m.centroid = (1.0 / m.volume) * m.centroid;
-  integrate([&](const Point &p, double weight) {
-    const Point r = p - m.centroid;
+  integrate([&](const Vector3 &p, double weight) {
+    const Vector3 r = p - m.centroid;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
         m.second[3 * i + j] += weight * r[i] * r[j];

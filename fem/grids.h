@@ -38,7 +38,7 @@ struct CylinderPlate {
 
 // A plate between two corners, all hexahedra alike.
 struct BoxPlate {
-  Point low{}, high{}; // m
+  Vector3 low{}, high{}; // m
   std::array<int, 3> elements{1, 1, 1};
 };
 
@@ -73,7 +73,7 @@ Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers);
 
 // The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials stay. Cells
 // that this inverts are found by those who use them.
-Grid moved_grid(const Grid &grid, const std::function<Point(const Point &)> &place);
+Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> &place);
 
 // Names the first cell that is inverted or warped through itself at a corner, with its number from 0 and the
 // place of its middle; empty where there is none.
@@ -88,9 +88,9 @@ GridSurface extract_surface(const Grid &grid);
 
 // Integrals over the volume of a grid, exact for its trilinear cells.
 struct VolumeMoments {
-  double volume = 0;              // m^3
-  Point centroid{};               // m
-  std::array<double, 9> second{}; // m^5, integral of r_i r_j about the centroid, row by row
+  double volume = 0;  // m^3
+  Vector3 centroid{}; // m
+  Matrix3 second{};   // m^5, integral of r_i r_j about the centroid, row by row
 };
 VolumeMoments volume_moments(const Grid &grid);
 

@@ -19,7 +19,7 @@ constexpr std::size_t cell_grain = 64;
 } // namespace
 
 FaceCorners HyperelasticSolid::face_places(const BoundaryFace &face,
-                                           const std::vector<Point> &displacement) const {
+                                           const std::vector<Vector3> &displacement) const {
   FaceCorners place;
   for (std::size_t k = 0; k < 4; ++k)
     place[k] = mesh_.nodes[index(face.nodes[k])] + displacement[index(face.nodes[k])];
@@ -27,18 +27,18 @@ FaceCorners HyperelasticSolid::face_places(const BoundaryFace &face,
 }
 
 void HyperelasticSolid::add_pressure_forces() {
-  std::fill(pressed_.begin(), pressed_.end(), Point{});
+  std::fill(pressed_.begin(), pressed_.end(), Vector3{});
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
     if (face_pressure_[f] == 0) continue;
     const FaceCorners areas = corner_areas(face_places(mesh_.faces[f], displacement_));
     for (std::size_t k = 0; k < 4; ++k) {
-      Point &sum = pressed_[index(mesh_.faces[f].nodes[k])];
+      Vector3 &sum = pressed_[index(mesh_.faces[f].nodes[k])];
       sum = sum - face_pressure_[f] * areas[k];
     }
   }
 }
 
-double HyperelasticSolid::pressure_work_to(const std::vector<Point> &displacement,
+double HyperelasticSolid::pressure_work_to(const std::vector<Vector3> &displacement,
                                            const std::vector<double> &pressures) const {
   double work = 0;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
@@ -53,13 +53,13 @@ double HyperelasticSolid::pressure_work_to(const std::vector<Point> &displacemen
 double HyperelasticSolid::enclosed_volume(int tag) const {
   std::set<std::pair<int, int>> edges; // walked one way only
   double volume = 0;
-  Point origin{}; // a near one loses fewer digits
+  Vector3 origin{}; // a near one loses fewer digits
   bool found = false;
   for (const BoundaryFace &face : mesh_.faces) {
     if (face.tag != tag) continue;
     const FaceCorners place = face_places(face, displacement_);
     if (!found) origin = place[0], found = true;
-    const Point middle = 0.25 * ((place[0] + place[1]) + (place[2] + place[3])) - origin;
+    const Vector3 middle = 0.25 * ((place[0] + place[1]) + (place[2] + place[3])) - origin;
     volume += dot(middle, cross(place[2] - place[0], place[3] - place[1])) / 6;
     for (std::size_t k = 0; k < 4; ++k) {
       const int a = face.nodes[k], b = face.nodes[(k + 1) % 4];
@@ -70,8 +70,8 @@ double HyperelasticSolid::enclosed_volume(int tag) const {
   const std::map<int, int> next(edges.begin(), edges.end());
   std::set<int> done;
   for (const auto &start : next) {
-    std::vector<Point> ring;
-    Point middle{};
+    std::vector<Vector3> ring;
+    Vector3 middle{};
     for (int n = start.first; done.insert(n).second; n = next.at(n)) {
       ring.push_back(node_place(n) - origin);
       middle = middle + ring.back();
@@ -84,7 +84,7 @@ double HyperelasticSolid::enclosed_volume(int tag) const {
   return std::abs(volume);
 }
 
-HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Point> &displacement) const {
+HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Vector3> &displacement) const {
   struct First {
     Worst worst;
     void operator+=(const First &other) {
@@ -105,8 +105,8 @@ HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Poi
   return ordered_sum<First>(mesh_.cells.size(), look, cell_grain).worst;
 }
 
-Point HyperelasticSolid::cell_middle(int cell, const std::vector<Point> &displacement) const {
-  Point middle{};
+Vector3 HyperelasticSolid::cell_middle(int cell, const std::vector<Vector3> &displacement) const {
+  Vector3 middle{};
   for (const int n : mesh_.cell_nodes[index(cell)])
     middle = middle + 0.125 * (mesh_.nodes[index(n)] + displacement[index(n)]);
   return middle;
@@ -119,15 +119,15 @@ std::string HyperelasticSolid::words_of_loads() const {
   std::ostringstream text;
   for (const auto &[tag, pressure] : pressures)
     text << "pressure " << pressure << " Pa on side " << tag << ", ";
-  const Point force = total_force();
+  const Vector3 force = total_force();
   text << "contact force (" << force[0] << ", " << force[1] << ", " << force[2] << ") N";
   return text.str();
 }
 
-void HyperelasticSolid::check(const std::vector<Point> &displacement) const {
+void HyperelasticSolid::check(const std::vector<Vector3> &displacement) const {
   const Worst worst = first_inverted(displacement);
   if (worst.cell < 0) return;
-  const Point at = cell_middle(worst.cell, displacement);
+  const Vector3 at = cell_middle(worst.cell, displacement);
   std::ostringstream text;
   text << "solid: cell " << worst.cell << " at (" << at[0] << ", " << at[1] << ", " << at[2]
        << ") m would turn inside out: volume ratio " << worst.volume_ratio << ", at least " << inverted_share
@@ -149,8 +149,8 @@ CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
   return k;
 }
 
-std::vector<Point> HyperelasticSolid::stiffness_times(const std::vector<Point> &direction) const {
-  std::vector<Point> result(direction.size(), Point{});
+std::vector<Vector3> HyperelasticSolid::stiffness_times(const std::vector<Vector3> &direction) const {
+  std::vector<Vector3> result(direction.size(), Vector3{});
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     const CellStiffness k = total_stiffness(c);
     const Corners own = mesh_.gather(c, direction);

@@ -6,18 +6,15 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/require.h"
 
 namespace platen::fem {
 namespace {
 
 constexpr std::size_t cell_grain = 64; // per part of a loop: some tens of microseconds
 
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("solid: " + what);
-}
-
-bool is_finite(const std::vector<Point> &values) {
-  return std::all_of(values.begin(), values.end(), [](const Point &p) {
+bool is_finite(const std::vector<Vector3> &values) {
+  return std::all_of(values.begin(), values.end(), [](const Vector3 &p) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   });
 }
@@ -26,10 +23,10 @@ bool is_finite(const std::vector<Point> &values) {
 
 HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
     : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
-  require(material.density > 0 && std::isfinite(material.density), "density must be positive");
+  require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");
   material_.law = NeoHookean::from_moduli(material.law.shear_modulus, material.law.bulk_modulus);
   for (const int tag : contact_tags)
-    require(!mesh_.nodes_of(tag).empty(), "no face has the contact tag " + std::to_string(tag));
+    require(!mesh_.nodes_of(tag).empty(), "solid: no face has the contact tag " + std::to_string(tag));
   PartSurface part = part_surface(mesh_, contact_tags);
   set_surface(std::move(part.surface));
   surface_node_ = std::move(part.node);
@@ -46,8 +43,8 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
     mass_.push_back(material_.density * share);
     volume_ += share;
   }
-  for (std::vector<Point> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
-    column->assign(nodes, Point{});
+  for (std::vector<Vector3> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
+    column->assign(nodes, Vector3{});
   led_.assign(nodes, 0);
   face_pressure_.assign(mesh_.faces.size(), 0.0);
   acting_ = face_pressure_;
@@ -57,7 +54,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
 
 double HyperelasticSolid::largest_move(double dt) const {
   double squared = 0;
-  for (const Point &v : velocity_)
+  for (const Vector3 &v : velocity_)
     squared = std::max(squared, dot(v, v));
   return std::abs(dt) * std::sqrt(squared);
 }
@@ -81,10 +78,10 @@ int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool
   unsigned char bits = 0;
   for (std::size_t k = 0; k < 3; ++k)
     if (components[k]) bits = static_cast<unsigned char>(bits | (1u << k));
-  require(!nodes.empty() && bits != 0, "a lead needs nodes and components");
+  require(!nodes.empty() && bits != 0, "solid: a lead needs nodes and components");
   for (const int n : nodes) {
-    require(n >= 0 && index(n) < led_.size(), "there is no node " + std::to_string(n) + " to lead");
-    require((led_[index(n)] & bits) == 0, "node " + std::to_string(n) + " is led already");
+    require(n >= 0 && index(n) < led_.size(), "solid: there is no node " + std::to_string(n) + " to lead");
+    require((led_[index(n)] & bits) == 0, "solid: node " + std::to_string(n) + " is led already");
   }
   for (const int n : nodes)
     led_[index(n)] = static_cast<unsigned char>(led_[index(n)] | bits);
@@ -93,22 +90,22 @@ int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool
 }
 
 const HyperelasticSolid::Lead &HyperelasticSolid::lead_of(int lead) const {
-  require(lead >= 0 && index(lead) < leads_.size(), "there is no lead " + std::to_string(lead));
+  require(lead >= 0 && index(lead) < leads_.size(), "solid: there is no lead " + std::to_string(lead));
   return leads_[index(lead)];
 }
 
-void HyperelasticSolid::set_lead_velocity(int lead, const Point &velocity, const Point &spin,
-                                          const Point &about) {
+void HyperelasticSolid::set_lead_velocity(int lead, const Vector3 &velocity, const Vector3 &spin,
+                                          const Vector3 &about) {
   lead_of(lead);
   Lead &own = leads_[index(lead)];
   own.velocity = velocity, own.spin = spin, own.about = about;
 }
 
-Point HyperelasticSolid::lead_force(int lead) const {
+Vector3 HyperelasticSolid::lead_force(int lead) const {
   const Lead &own = lead_of(lead);
-  Point sum{};
+  Vector3 sum{};
   for (const int n : own.nodes) {
-    const Point free = out_of_balance(index(n));
+    const Vector3 free = out_of_balance(index(n));
     for (std::size_t k = 0; k < 3; ++k)
       if (own.components[k]) sum[k] -= free[k];
   }
@@ -116,22 +113,22 @@ Point HyperelasticSolid::lead_force(int lead) const {
 }
 
 void HyperelasticSolid::set_pressure(int tag, double pressure) {
-  require(std::isfinite(pressure), "pressure must be finite");
+  require(std::isfinite(pressure), "solid: pressure must be finite");
   bool found = false;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     if (mesh_.faces[f].tag == tag) face_pressure_[f] = pressure, found = true;
-  require(found, "no face has the tag " + std::to_string(tag) + " to press on");
+  require(found, "solid: no face has the tag " + std::to_string(tag) + " to press on");
 }
 
 double HyperelasticSolid::pressure(int tag) const {
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     if (mesh_.faces[f].tag == tag) return face_pressure_[f];
-  require(false, "no face has the tag " + std::to_string(tag));
+  require(false, "solid: no face has the tag " + std::to_string(tag));
   return 0;
 }
 
 void HyperelasticSolid::set_damping(double rate) {
-  require(rate >= 0 && std::isfinite(rate), "damping must not be negative");
+  require(rate >= 0 && std::isfinite(rate), "solid: damping must not be negative");
   damping_ = rate;
 }
 
@@ -144,7 +141,7 @@ void HyperelasticSolid::half_kick(double dt) {
   // What the new velocity of a lead adds to the energy of motion is the lead's work as well.
   for (const Lead &own : leads_)
     for (const int n : own.nodes) {
-      const Point given = own.velocity + cross(own.spin, node_place(n) - own.about);
+      const Vector3 given = own.velocity + cross(own.spin, node_place(n) - own.about);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!own.components[k]) continue;
         double &v = velocity_[index(n)][k];
@@ -155,7 +152,7 @@ void HyperelasticSolid::half_kick(double dt) {
   const auto kick = [&](std::size_t first, std::size_t last) {
     Works sum;
     for (std::size_t n = first; n < last; ++n) {
-      const Point force = out_of_balance(n);
+      const Vector3 force = out_of_balance(n);
       for (std::size_t k = 0; k < 3; ++k) {
         double &v = velocity_[n][k];
         if (is_led(n, k)) {
@@ -177,7 +174,7 @@ void HyperelasticSolid::half_kick(double dt) {
 }
 
 bool HyperelasticSolid::can_drift(double dt) const {
-  std::vector<Point> there(displacement_);
+  std::vector<Vector3> there(displacement_);
   for (std::size_t n = 0; n < there.size(); ++n)
     there[n] = there[n] + dt * velocity_[n];
   return first_inverted(there).cell < 0;
@@ -202,7 +199,7 @@ void HyperelasticSolid::update_forces() {
       },
       cell_grain);
   for_each(internal_.size(), [&](std::size_t n) {
-    Point sum{};
+    Vector3 sum{};
     for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
       sum = sum + cell_force_[mesh_.corner[k] / 8].force[mesh_.corner[k] % 8];
     internal_[n] = sum;
@@ -225,17 +222,17 @@ double HyperelasticSolid::internal_energy() const {
   return energy;
 }
 
-void HyperelasticSolid::set_displacement(const std::vector<Point> &displacement) {
-  require(displacement.size() == displacement_.size(), "one displacement per node is needed");
+void HyperelasticSolid::set_displacement(const std::vector<Vector3> &displacement) {
+  require(displacement.size() == displacement_.size(), "solid: one displacement per node is needed");
   check(displacement);
   displacement_ = displacement;
   place_surface();
   update_forces();
 }
 
-void HyperelasticSolid::set_velocity(const std::vector<Point> &velocity) {
+void HyperelasticSolid::set_velocity(const std::vector<Vector3> &velocity) {
   require(velocity.size() == velocity_.size() && is_finite(velocity),
-          "one finite velocity per node is needed");
+          "solid: one finite velocity per node is needed");
   velocity_ = velocity;
   place_surface();
 }

@@ -29,10 +29,10 @@ struct Rubber {
 
 // Thrown before an inverted element is used; the text names cell, place, volume ratio and load.
 struct InvertedElement : std::runtime_error {
-  InvertedElement(const std::string &what, int cell_, const Point &place_, double volume_ratio_)
+  InvertedElement(const std::string &what, int cell_, const Vector3 &place_, double volume_ratio_)
       : std::runtime_error(what), cell(cell_), place(place_), volume_ratio(volume_ratio_) {}
   int cell;
-  Point place; // m, middle of the cell where it would have been
+  Vector3 place; // m, middle of the cell where it would have been
   double volume_ratio;
 };
 
@@ -61,8 +61,9 @@ public:
   int lead(const std::vector<int> &nodes, const std::array<bool, 3> &components);
   // m/s; rad/s about a point (m). Takes effect at the next half_kick, with the places of now: call it again
   // each step while a lead turns.
-  void set_lead_velocity(int lead, const Point &velocity, const Point &spin = {}, const Point &about = {});
-  Point lead_force(int lead) const; // N, that the lead does on the solid, without inertia
+  void set_lead_velocity(int lead, const Vector3 &velocity, const Vector3 &spin = {},
+                         const Vector3 &about = {});
+  Vector3 lead_force(int lead) const; // N, that the lead does on the solid, without inertia
 
   // Pa, on all faces of a tag from now on. Throws where there is none.
   void set_pressure(int tag, double pressure);
@@ -94,17 +95,17 @@ public:
   double lead_work() const { return lead_work_; }
   double damping_work() const { return damping_work_; } // lost, positive
 
-  const std::vector<Point> &displacement() const { return displacement_; } // m, one per node
-  const std::vector<Point> &velocity() const { return velocity_; }         // m/s
-  const std::vector<Point> &internal_forces() const { return internal_; }  // N, derivative of the energy
-  const std::vector<Point> &pressure_forces() const { return pressed_; }   // N
-  const std::vector<double> &nodal_mass() const { return mass_; }          // kg
-  Point node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
+  const std::vector<Vector3> &displacement() const { return displacement_; } // m, one per node
+  const std::vector<Vector3> &velocity() const { return velocity_; }         // m/s
+  const std::vector<Vector3> &internal_forces() const { return internal_; }  // N, derivative of the energy
+  const std::vector<Vector3> &pressure_forces() const { return pressed_; }   // N
+  const std::vector<double> &nodal_mass() const { return mass_; }            // kg
+  Vector3 node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
   // Places all nodes and updates the forces; books no work. Throws InvertedElement, then nothing has changed.
-  void set_displacement(const std::vector<Point> &displacement);
-  void set_velocity(const std::vector<Point> &velocity);
+  void set_displacement(const std::vector<Vector3> &displacement);
+  void set_velocity(const std::vector<Vector3> &velocity);
   // Derivative of (internal - pressure) forces times a vector, one per node.
-  std::vector<Point> stiffness_times(const std::vector<Point> &direction) const;
+  std::vector<Vector3> stiffness_times(const std::vector<Vector3> &direction) const;
 
   // Cauchy stress (Pa), tension positive. Node values are means over the cells around, by current volume.
   std::vector<CellStress> cell_stresses() const;
@@ -122,7 +123,7 @@ private:
   struct Lead {
     std::vector<int> nodes;
     std::array<bool, 3> components;
-    Point velocity{}, spin{}, about{};
+    Vector3 velocity{}, spin{}, about{};
   };
   struct Worst {
     int cell = -1; // none
@@ -132,21 +133,24 @@ private:
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
   const Lead &lead_of(int lead) const;
   bool is_led(std::size_t node, std::size_t component) const { return (led_[node] >> component & 1) != 0; }
-  Point out_of_balance(std::size_t node) const { return node_load(node) + pressed_[node] - internal_[node]; }
-  Point node_load(std::size_t node) const {
-    return vertex_of_[node] < 0 ? Point{} : load_[index(vertex_of_[node])];
+  Vector3 out_of_balance(std::size_t node) const {
+    return node_load(node) + pressed_[node] - internal_[node];
+  }
+  Vector3 node_load(std::size_t node) const {
+    return vertex_of_[node] < 0 ? Vector3{} : load_[index(vertex_of_[node])];
   }
   // The inverted cell with the lowest number if nodes were displaced so.
-  Worst first_inverted(const std::vector<Point> &displacement) const;
-  Point cell_middle(int cell, const std::vector<Point> &displacement) const;
+  Worst first_inverted(const std::vector<Vector3> &displacement) const;
+  Vector3 cell_middle(int cell, const std::vector<Vector3> &displacement) const;
   std::string words_of_loads() const;
-  void check(const std::vector<Point> &displacement) const; // throws InvertedElement
-  double pressure_work_to(const std::vector<Point> &displacement, const std::vector<double> &pressures) const;
+  void check(const std::vector<Vector3> &displacement) const; // throws InvertedElement
+  double pressure_work_to(const std::vector<Vector3> &displacement,
+                          const std::vector<double> &pressures) const;
   void add_pressure_forces();
   CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
   void lay_out_stiffness();
   void assemble(const std::vector<CellStiffness> &cells, BlockRows &rows) const;
-  FaceCorners face_places(const BoundaryFace &face, const std::vector<Point> &displacement) const;
+  FaceCorners face_places(const BoundaryFace &face, const std::vector<Vector3> &displacement) const;
   void place_surface();
   void follow_state();
 
@@ -160,7 +164,7 @@ private:
   std::vector<double> mass_; // kg, of each node
   BlockRows stiffness_;      // layout alone
 
-  std::vector<Point> displacement_, velocity_, next_;
+  std::vector<Vector3> displacement_, velocity_, next_;
   std::vector<unsigned char> led_; // bits x, y, z of each node
   std::vector<Lead> leads_;
   std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
@@ -168,7 +172,7 @@ private:
   double damping_ = 0;
 
   std::vector<CellForce> cell_force_;
-  std::vector<Point> internal_, pressed_; // N, of each node
+  std::vector<Vector3> internal_, pressed_; // N, of each node
   double pressure_work_ = 0, lead_work_ = 0, damping_work_ = 0;
 };
 

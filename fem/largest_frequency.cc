@@ -48,7 +48,7 @@ double last_component(const std::vector<double> &diagonal, const std::vector<dou
 double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> &mass, const Held &held,
                           double bound) {
   const std::size_t n = mass.size();
-  std::vector<Point> now(n), before(n, Point{}), scaled(n), next(n);
+  std::vector<Vector3> now(n), before(n, Vector3{}), scaled(n), next(n);
   std::uint64_t random = 88172645463325252ull;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> 
     }
   double length = std::sqrt(dot(now, now)), value = 0, residual = 0;
   if (length == 0) return 0;
-  for (Point &p : now)
+  for (Vector3 &p : now)
     p = (1 / length) * p;
   std::vector<double> diagonal, beside;
   for (int k = 0; k < most_iterations; ++k) {

@@ -10,25 +10,25 @@ namespace {
 
 // Areas that belong to each vertex (m^2 times normal), one entry per side that the vertex lies on: a vertex
 // on the rim of a plate is loaded on one side of it, and only that side's area carries the load.
-std::vector<std::map<int, Point>> tributary_areas(const SurfaceMesh &surface) {
-  std::vector<std::map<int, Point>> areas(surface.vertices.size());
+std::vector<std::map<int, Vector3>> tributary_areas(const SurfaceMesh &surface) {
+  std::vector<std::map<int, Vector3>> areas(surface.vertices.size());
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
     for (const int v : surface.faces[f]) {
-      Point &area = areas[static_cast<std::size_t>(v)][surface.face_tags[f]];
+      Vector3 &area = areas[static_cast<std::size_t>(v)][surface.face_tags[f]];
       area = area + 0.25 * face_area_vector(surface, f);
     }
   return areas;
 }
 
 // The side that the load presses on most squarely carries it.
-LoadedSurface::Traction traction(const std::map<int, Point> &sides, const Point &load) {
+LoadedSurface::Traction traction(const std::map<int, Vector3> &sides, const Vector3 &load) {
   LoadedSurface::Traction result;
   bool found = false;
   double best = 0;
   for (const auto &[tag, area] : sides) {
     const double size = norm(area);
     if (size <= 0) continue;
-    const Point normal = (1.0 / size) * area;
+    const Vector3 normal = (1.0 / size) * area;
     const double pressing = -dot(load, normal);
     if (found && pressing <= best) continue;
     found = true;
@@ -47,28 +47,28 @@ void LoadedSurface::set_surface(SurfaceMesh surface) {
   if (!empty.empty())
     throw std::invalid_argument("body: surface face " + std::to_string(empty[0]) + " has no area");
   surface_ = std::move(surface);
-  load_.assign(surface_.vertices.size(), Point{});
+  load_.assign(surface_.vertices.size(), Vector3{});
   is_loaded_.assign(surface_.vertices.size(), 0);
   loaded_.clear();
 }
 
 void LoadedSurface::clear_loads() {
   for (const int v : loaded_) {
-    load_[static_cast<std::size_t>(v)] = Point{};
+    load_[static_cast<std::size_t>(v)] = Vector3{};
     is_loaded_[static_cast<std::size_t>(v)] = 0;
   }
   loaded_.clear();
 }
 
-Point LoadedSurface::total_force() const {
-  Point sum{};
+Vector3 LoadedSurface::total_force() const {
+  Vector3 sum{};
   for (const int v : loaded_)
     sum = sum + contact_load(v);
   return sum;
 }
 
-Point LoadedSurface::moment(const Point &about) const {
-  Point sum{};
+Vector3 LoadedSurface::moment(const Vector3 &about) const {
+  Vector3 sum{};
   for (const int v : loaded_)
     sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
   return sum;
@@ -91,7 +91,7 @@ std::vector<LoadedSurface::Traction> LoadedSurface::contact_tractions() const {
 
 void LoadedSurface::describe_loads(Archive &archive) {
   std::vector<int> vertices(loaded_);
-  std::vector<Point> forces;
+  std::vector<Vector3> forces;
   for (const int v : loaded_)
     forces.push_back(contact_load(v));
   archive.rows("loaded_vertices", vertices);

@@ -15,17 +15,17 @@ public:
 
   // Loads on the surface (N), accumulated in the order of the calls.
   void clear_loads();
-  void add_surface_force(int vertex, const Point &force) {
+  void add_surface_force(int vertex, const Vector3 &force) {
     const std::size_t v = static_cast<std::size_t>(vertex);
     if (!is_loaded_[v]) loaded_.push_back(vertex);
     is_loaded_[v] = 1;
     load_[v] = load_[v] + force;
   }
-  const Point &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
-  const std::vector<Point> &contact_loads() const { return load_; }   // N, one per vertex
+  const Vector3 &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
+  const std::vector<Vector3> &contact_loads() const { return load_; } // N, one per vertex
   const std::vector<int> &loaded_vertices() const { return loaded_; } // in the order of their first load
-  Point total_force() const;                                          // N
-  Point moment(const Point &about) const;                             // N m
+  Vector3 total_force() const;                                        // N
+  Vector3 moment(const Vector3 &about) const;                         // N m
   double load_power() const; // W, sum of load . vertex velocity: what the particles do to the body
 
   // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
@@ -33,8 +33,8 @@ public:
   // load.
   struct Traction {
     double pressure = 0; // Pa, positive when pressed
-    Point shear{};       // Pa, along the side
-    Point area{};        // m^2 times outward normal
+    Vector3 shear{};     // Pa, along the side
+    Vector3 area{};      // m^2 times outward normal
   };
   std::vector<Traction> contact_tractions() const;
 
@@ -49,7 +49,7 @@ protected:
   void describe_loads(Archive &archive);
 
   SurfaceMesh surface_;
-  std::vector<Point> load_;     // N, one per vertex
+  std::vector<Vector3> load_;   // N, one per vertex
   std::vector<int> loaded_;     // vertices with a load, in the order of their first one
   std::vector<char> is_loaded_; // one per vertex
 };

@@ -16,11 +16,6 @@ Tensor deformation_gradient(const Corners &gradient, const Corners &displacement
   return f;
 }
 
-Point times(const Tensor &f, const Point &v) {
-  return {f[0] * v[0] + f[1] * v[1] + f[2] * v[2], f[3] * v[0] + f[4] * v[1] + f[5] * v[2],
-          f[6] * v[0] + f[7] * v[1] + f[8] * v[2]};
-}
-
 // All points of a deformed cell.
 struct Deformed {
   std::array<Tensor, 8> f, cof;
@@ -72,7 +67,7 @@ CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Cor
     for (std::size_t k = 0; k < 9; ++k)
       p[k] = shape * at.f[q][k] + beside * at.cof[q][k];
     for (std::size_t a = 0; a < 8; ++a)
-      result.force[a] = result.force[a] + times(p, cell.gradient[q][a]);
+      result.force[a] = result.force[a] + p * cell.gradient[q][a];
   }
   return result;
 }
@@ -87,8 +82,8 @@ CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, c
     const double third = squared_norm(at.f[q]) / 3, push = w * along * j, back = shape * third - push;
     Corners g, h; // gradient in the current place; F times that in the reference place
     for (std::size_t a = 0; a < 8; ++a) {
-      g[a] = (1 / j) * times(at.cof[q], cell.gradient[q][a]);
-      h[a] = times(at.f[q], cell.gradient[q][a]);
+      g[a] = (1 / j) * (at.cof[q] * cell.gradient[q][a]);
+      h[a] = at.f[q] * cell.gradient[q][a];
       swelling[a] = swelling[a] + w * j * g[a];
     }
     for (std::size_t a = 0; a < 8; ++a)

@@ -9,12 +9,12 @@
 
 #include <array>
 
+#include "base/vector3.h"
 #include "fem/materials/neo_hookean.h"
-#include "fem/point.h"
 
 namespace platen::fem {
 
-using Corners = std::array<Point, 8>; // x fastest, then y, then z
+using Corners = std::array<Vector3, 8>; // x fastest, then y, then z
 
 // A cell where it carries no stress.
 struct ReferenceCell {

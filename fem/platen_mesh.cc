@@ -37,9 +37,9 @@ Grid laid_platen(const Grid &grid, bool faces_up, double plane) {
     low = std::min(low, p[2]), high = std::max(high, p[2]);
   const double shift = plane - (faces_up ? high : low), near = in_plane * (high - low);
   const double held = (faces_up ? low : high) + shift;
-  const Grid laid = moved_grid(grid, [&](const Point &p) {
+  const Grid laid = moved_grid(grid, [&](const Vector3 &p) {
     const bool extreme = std::abs(p[2] + shift - plane) <= near; // what is flat is flat to the last bit
-    return Point{p[0], p[1], extreme ? plane : p[2] + shift};
+    return Vector3{p[0], p[1], extreme ? plane : p[2] + shift};
   });
   const int near_tag = faces_up ? high_end_tag : low_end_tag, far_tag = faces_up ? low_end_tag : high_end_tag;
   int flat = 0, gripped = 0;

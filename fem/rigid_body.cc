@@ -7,19 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "fem/rotation.h"
+#include "base/require.h"
+#include "base/vector3.h"
 
 namespace platen::fem {
-namespace {
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("body: " + what);
-}
-
-} // namespace
-
 RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
-  require(grid_ != nullptr, "no grid");
+  require(grid_ != nullptr, "body: no grid");
   check(material, "body");
   GridSurface extracted = extract_surface(grid_);
   set_surface(std::move(extracted.surface));
@@ -36,15 +29,15 @@ RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid
       inertia_[3 * i + j] = material.density * ((i == j ? trace : 0.0) - m.second[3 * i + j]);
 }
 
-Point RigidBody::current_position(const Point &reference) const {
+Vector3 RigidBody::current_position(const Vector3 &reference) const {
   // Without rotation the sum is kept plain: a flat face stays flat to the last bit.
   if (is_identity(rotation_)) return reference + displacement_;
-  return centre() + rotated(rotation_, reference - reference_centre_);
+  return centre() + rotate(rotation_, reference - reference_centre_);
 }
 
 void RigidBody::place_vertices() {
-  const Point middle = centre();
-  const bool turns = angular_velocity_ != Point{};
+  const Vector3 middle = centre();
+  const bool turns = angular_velocity_ != Vector3{};
   surface_.only_shifted = !turns && is_identity(rotation_);
   for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
     surface_.vertices[v] = current_position(reference_vertices_[v]);
@@ -53,7 +46,7 @@ void RigidBody::place_vertices() {
   }
 }
 
-void RigidBody::set_velocity(const Point &velocity, const Point &angular_velocity) {
+void RigidBody::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   velocity_ = velocity;
   angular_velocity_ = angular_velocity;
@@ -62,25 +55,25 @@ void RigidBody::set_velocity(const Point &velocity, const Point &angular_velocit
 
 void RigidBody::drift(double dt) {
   last_move_ = largest_move(dt);
-  if (velocity_ == Point{} && angular_velocity_ == Point{}) return;
+  if (velocity_ == Vector3{} && angular_velocity_ == Vector3{}) return;
   displacement_ = displacement_ + dt * velocity_;
-  if (angular_velocity_ != Point{})
-    rotation_ = normalised(product(exponential(dt * angular_velocity_), rotation_));
+  if (angular_velocity_ != Vector3{})
+    rotation_ = normalised(normalised(rotation_quaternion(dt * angular_velocity_)) * rotation_);
   place_vertices();
 }
 
 double RigidBody::largest_move(double dt) const {
   double reach = 0;
-  if (angular_velocity_ != Point{})
-    for (const Point &v : reference_vertices_)
+  if (angular_velocity_ != Vector3{})
+    for (const Vector3 &v : reference_vertices_)
       reach = std::max(reach, norm(v - reference_centre_));
   return std::abs(dt) * (norm(velocity_) + norm(angular_velocity_) * reach);
 }
 
 double RigidBody::kinetic_energy() const {
   double energy = 0.5 * mass() * dot(velocity_, velocity_);
-  if (angular_velocity_ != Point{}) {
-    const Point w = rotated({rotation_[0], -rotation_[1], -rotation_[2], -rotation_[3]}, angular_velocity_);
+  if (angular_velocity_ != Vector3{}) {
+    const Vector3 w = rotate(conjugate(rotation_), angular_velocity_);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
         energy += 0.5 * w[i] * inertia_[3 * i + j] * w[j];

@@ -18,8 +18,8 @@ void RigidBody::write_vtu(std::ostream &stream, const std::vector<double> &slip)
   VertexField pressure{"contact_pressure", 1, std::vector<double>(places.size())};
   VertexField slipped{"slip", 1, std::vector<double>(places.size())};
   for (std::size_t n = 0; n < places.size(); ++n) {
-    const Point reference = {places[n][0], places[n][1], places[n][2]},
-                moved = current_position(reference) - reference;
+    const Vector3 reference = {places[n][0], places[n][1], places[n][2]},
+                  moved = current_position(reference) - reference;
     for (std::size_t k = 0; k < 3; ++k)
       displacement.values[3 * n + k] = moved[k];
   }

@@ -1,4 +1,5 @@
 #include "fem/solid_mesh.h"
+#include "base/require.h"
 #include "fem/threads.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -12,10 +13,6 @@
 
 namespace platen::fem {
 namespace {
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("solid: " + what);
-}
 
 void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
   const NoCellReuse same_for_any_threads;
@@ -32,7 +29,7 @@ void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
     const std::string name = "cell " + std::to_string(mesh.cells.size());
     reference.corner_volume = corner_volumes(mesh.gather(mesh.cells.size(), mesh.nodes));
     for (const double volume : reference.corner_volume)
-      require(volume > 0, name + " is folded at a corner");
+      require(volume > 0, "solid: " + name + " is folded at a corner");
     values.reinit(cell);
     for (unsigned int q = 0; q < 8; ++q) {
       reference.weight[q] = values.JxW(q);
@@ -89,15 +86,15 @@ void list_corners(SolidMesh &mesh) {
 } // namespace
 
 SolidMesh read_mesh(const Grid &grid) {
-  require(grid != nullptr, "no grid");
-  require(!grid->has_hanging_nodes() && grid->n_levels() == 1, "the grid must not be refined locally");
+  require(grid != nullptr, "solid: no grid");
+  require(!grid->has_hanging_nodes() && grid->n_levels() == 1, "solid: the grid must not be refined locally");
   SolidMesh mesh;
   for (const dealii::Point<3> &p : grid->get_vertices())
     mesh.nodes.push_back({p[0], p[1], p[2]});
   mesh.node_volume.assign(mesh.nodes.size(), 0.0);
   read_cells(*grid, mesh);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    require(mesh.node_volume[n] > 0, "node " + std::to_string(n) + " belongs to no cell");
+    require(mesh.node_volume[n] > 0, "solid: node " + std::to_string(n) + " belongs to no cell");
   read_faces(*grid, mesh);
   list_corners(mesh);
   return mesh;
@@ -135,7 +132,7 @@ PartSurface part_surface(const SolidMesh &mesh, const std::vector<int> &tags) {
     part.surface.faces.push_back(ring);
     part.surface.face_tags.push_back(face->tag);
   }
-  part.surface.velocities.assign(part.node.size(), Point{});
+  part.surface.velocities.assign(part.node.size(), Vector3{});
   return part;
 }
 

@@ -21,7 +21,7 @@ struct BoundaryFace {
 
 // Nodes are the vertices of the grid, with its numbers.
 struct SolidMesh {
-  std::vector<Point> nodes; // m, reference places
+  std::vector<Vector3> nodes; // m, reference places
   std::vector<ReferenceCell> cells;
   std::vector<std::array<int, 8>> cell_nodes; // x fastest
   std::vector<double> node_volume;            // m^3, integral of each shape function
@@ -30,7 +30,7 @@ struct SolidMesh {
   // ascending.
   std::vector<std::size_t> first_corner, corner;
 
-  Corners gather(std::size_t cell, const std::vector<Point> &values) const {
+  Corners gather(std::size_t cell, const std::vector<Vector3> &values) const {
     Corners own;
     for (std::size_t a = 0; a < 8; ++a)
       own[a] = values[static_cast<std::size_t>(cell_nodes[cell][a])];

@@ -73,18 +73,18 @@ void for_entries(const BlockRows &a, const Held &held, const Add &add) {
 }
 
 // One after the other over all unknowns: three translations, then rotations about the axes through the mean.
-std::vector<double> rigid_motions(const std::vector<Point> &nodes) {
-  Point middle{};
-  for (const Point &p : nodes)
+std::vector<double> rigid_motions(const std::vector<Vector3> &nodes) {
+  Vector3 middle{};
+  for (const Vector3 &p : nodes)
     middle = middle + (1.0 / static_cast<double>(nodes.size())) * p;
   const std::size_t n = 3 * nodes.size();
   std::vector<double> modes(6 * n, 0.0);
   for (std::size_t k = 0; k < 3; ++k) {
-    Point axis{};
+    Vector3 axis{};
     axis[k] = 1;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       modes[k * n + 3 * i + k] = 1;
-      const Point turn = cross(axis, nodes[i] - middle);
+      const Vector3 turn = cross(axis, nodes[i] - middle);
       for (std::size_t c = 0; c < 3; ++c)
         modes[(3 + k) * n + 3 * i + c] = turn[c];
     }
@@ -122,7 +122,7 @@ struct StaticSolver::Parts {
     direct.initialize(full);
   }
   void aggregate(const BlockRows &a, const dealii::DynamicSparsityPattern &rows,
-                 const std::vector<Point> &nodes) {
+                 const std::vector<Vector3> &nodes) {
     const dealii::IndexSet all = dealii::complete_index_set(rows.n_rows());
     dealii::TrilinosWrappers::SparsityPattern pattern(all, MPI_COMM_SELF, rows.max_entries_per_row());
     for (Index row = 0; row < rows.n_rows(); ++row)
@@ -168,7 +168,7 @@ struct StaticSolver::Parts {
   }
 };
 
-StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Point> &nodes, Held held,
+StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Held held,
                            LinearSolver kind) {
   bool any = false;
   for (const auto &node : held)
@@ -196,10 +196,10 @@ StaticSolver::~StaticSolver() = default;
 StaticSolver::StaticSolver(StaticSolver &&) noexcept = default;
 StaticSolver &StaticSolver::operator=(StaticSolver &&) noexcept = default;
 
-void StaticSolver::solve(const BlockRows &stiffness, const std::vector<Point> &load,
-                         std::vector<Point> &x) const {
+void StaticSolver::solve(const BlockRows &stiffness, const std::vector<Vector3> &load,
+                         std::vector<Vector3> &x) const {
   const Held &held = parts_->held;
-  std::vector<Point> led(x.size(), Point{}), brought;
+  std::vector<Vector3> led(x.size(), Vector3{}), brought;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (held[i][k]) led[i][k] = x[i][k];

@@ -20,7 +20,7 @@ class StaticSolver {
 public:
   // Held components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
   // held. Sets MPI up where nobody has: Trilinos does not go without.
-  StaticSolver(const BlockRows &stiffness, const std::vector<Point> &nodes, Held held,
+  StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Held held,
                LinearSolver kind = LinearSolver::automatic);
   ~StaticSolver();
   StaticSolver(StaticSolver &&) noexcept;
@@ -29,7 +29,7 @@ public:
   // Displacements (m) under nodal loads (N). Comes with the held components and, for multigrid, a guess of
   // the others. Residual of the free components at most 1e-12 of the loads' (of what held motions bring,
   // too). Throws std::runtime_error where the gradients do not get there.
-  void solve(const BlockRows &stiffness, const std::vector<Point> &load, std::vector<Point> &x) const;
+  void solve(const BlockRows &stiffness, const std::vector<Vector3> &load, std::vector<Vector3> &x) const;
 
   LinearSolver kind() const; // direct or multigrid
   int iterations() const;    // of the last solve; 0 for a direct one

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fem/point.h"
+#include "base/vector3.h"
 
 namespace platen::fem {
 
@@ -13,8 +13,8 @@ namespace platen::fem {
 // (v1 - v0) x (v3 - v0) points out of the solid. No duplicate vertices: faces that share a corner share its
 // index.
 struct SurfaceMesh {
-  std::vector<Point> vertices;           // m, current
-  std::vector<Point> velocities;         // m/s, one per vertex
+  std::vector<Vector3> vertices;         // m, current
+  std::vector<Vector3> velocities;       // m/s, one per vertex
   std::vector<std::array<int, 4>> faces; // vertex indices
   std::vector<int> face_tags;            // boundary id of each face (0 unless the body gives another)
   // The vertices are those of the start plus one displacement and have one velocity.
@@ -26,10 +26,10 @@ struct SurfaceMesh {
 using FaceCompliance = std::array<std::array<double, 4>, 4>;
 
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
-Point face_area_vector(const SurfaceMesh &surface, std::size_t face);
+Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face);
 
 // Sum of all area vectors (m^2): zero for a closed surface.
-Point total_area_vector(const SurfaceMesh &surface);
+Vector3 total_area_vector(const SurfaceMesh &surface);
 
 // Volume inside a closed surface (m^3), by the divergence theorem; exact for flat faces.
 double enclosed_volume(const SurfaceMesh &surface);

@@ -5,26 +5,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
+#include "base/require.h"
 #include "fem/grids.h"
 
 namespace platen::fem {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("tube grid: " + what);
-}
-
-} // namespace
-
 Grid make_grid(const Tube &tube) {
-  require(tube.inner_radius > 0, "inner radius must be positive");
-  require(tube.thickness > 0, "thickness must be positive");
-  require(tube.height > 0, "height must be positive");
-  require(tube.elements_around >= 3, "at least 3 elements around");
-  require(tube.elements_along >= 1, "at least one element along the axis");
-  require(tube.elements_through >= 1, "at least one element through the wall");
+  require(tube.inner_radius > 0, "tube grid: inner radius must be positive");
+  require(tube.thickness > 0, "tube grid: thickness must be positive");
+  require(tube.height > 0, "tube grid: height must be positive");
+  require(tube.elements_around >= 3, "tube grid: at least 3 elements around");
+  require(tube.elements_along >= 1, "tube grid: at least one element along the axis");
+  require(tube.elements_through >= 1, "tube grid: at least one element through the wall");
   const int around = tube.elements_around, along = tube.elements_along, through = tube.elements_through;
   const auto number = [&](int k, int i, int j) { // height, angle, radius
     return static_cast<unsigned int>((k * around + i % around) * (through + 1) + j);

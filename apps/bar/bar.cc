@@ -11,7 +11,6 @@ namespace platen::apps {
 namespace {
 
 using dem::Particles;
-using dem::Vector3;
 
 // Part of the length, about the middle, over which sections are measured.
 constexpr double measured_share = 0.5;
@@ -157,7 +156,7 @@ EndMotion motion_of(const Particles &p, const BarEnd &end) {
   for (const std::size_t i : end.rows) {
     displacement[i] = p.position[i] - p.reference_position[i];
     if (p.has_rotation()) {
-      const dem::Quaternion &q = (*p.orientation)[i];
+      const Quaternion &q = (*p.orientation)[i];
       turn[i] = (q.w < 0 ? -2.0 : 2.0) * vector_part(q);
     }
   }

@@ -20,7 +20,7 @@ struct BarEnd {
 
 // Mean motion of an end, as of a rigid body: m, and rad about z.
 struct EndMotion {
-  dem::Vector3 moved;
+  Vector3 moved;
   double twist = 0;
 };
 
@@ -51,12 +51,12 @@ BarGeometry measure_bar(const dem::Particles &particles, const dem::Bonds &bonds
 // Loads on an end: shares of a force by mass, and of a torque as a rigid body of these spheres would be
 // turned: each takes (force) across its distance from the middle and (torque) about its own centre.
 void add_force(dem::StaticCase &load, const dem::Particles &particles, const BarEnd &end,
-               const dem::Vector3 &force); // N
+               const Vector3 &force); // N
 void add_torque(dem::StaticCase &load, const dem::Particles &particles, const BarEnd &end,
                 double torque); // N m about z
 // By least squares over the end, in the weights of the loads above, so that load times motion is the work.
 EndMotion motion_of(const dem::Particles &particles, const BarEnd &end,
-                    const std::vector<dem::Vector3> &displacement, const std::vector<dem::Vector3> &turn);
+                    const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 // The same of where the particles are now.
 EndMotion motion_of(const dem::Particles &particles, const BarEnd &end);
 

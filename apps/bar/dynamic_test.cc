@@ -14,7 +14,6 @@ namespace {
 
 using dem::Model;
 using dem::Particles;
-using dem::Vector3;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Of the clamped spheres: what pulls at them moves them by less than round-off.
@@ -141,7 +140,7 @@ Oscillation release(Model &model, const BarGeometry &bar, BarLoad load, const de
   Particles &p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.position[i] = p.reference_position[i] + from.displacement[i];
-    if (p.has_rotation()) (*p.orientation)[i] = dem::rotation_quaternion(from.turn[i]);
+    if (p.has_rotation()) (*p.orientation)[i] = rotation_quaternion(from.turn[i]);
   }
   clamp(p, bar.low);
   Run run(model, bar);

@@ -7,7 +7,6 @@
 namespace platen::apps {
 namespace {
 
-using dem::Vector3;
 
 constexpr double small_strain = 1e-4; // of the solves, which are linear
 

@@ -22,7 +22,6 @@ constexpr int steps_of_a_move = 40;      // in which a prescribed displacement i
 constexpr double bonded_gap = 1e-9;      // of the radius: spheres touch, whatever Bond/Gap allows beyond that
 constexpr double base_clearance = 1e-6;  // of the radius, between base spheres without a bond
 
-using dem::Vector3;
 
 } // namespace
 
@@ -155,7 +154,7 @@ double BondRig::driven_displacement() const {
   const dem::Particles &p = model_.particles;
   const std::size_t i = row_[0];
   if (driven_ < 3) return (p.position[i] - p.reference_position[i])[static_cast<int>(driven_)];
-  const dem::Quaternion q = (*p.orientation)[i];
+  const Quaternion q = (*p.orientation)[i];
   return 2 * std::atan2(vector_part(q)[static_cast<int>(driven_) - 3], q.w);
 }
 

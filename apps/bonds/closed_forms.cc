@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
+
 namespace platen::apps {
 namespace {
 

@@ -82,11 +82,11 @@ void InterfaceTest::move(const InterfacePlace &to) {
   const double distance = section_.length + to.opening;
   p.velocity[upper_] = {0, 0, (distance - here) / step};
   if (p.has_rotation())
-    for (dem::Vector3 &spin : *p.angular_velocity)
+    for (Vector3 &spin : *p.angular_velocity)
       spin = {0, -(to.slip - at_.slip) / (distance * step), 0};
   model_.begin_step(step);
   model_.compute_forces(step);
-  const dem::Vector3 force = p.force[upper_];
+  const Vector3 force = p.force[upper_];
   const InterfaceLoad before = now_;
   now_ = {0 - force.z, 0 - force.x};
   work_ += 0.5 * ((before.normal + now_.normal) * (to.opening - at_.opening) +

@@ -7,6 +7,7 @@
 
 #include "apps/calibrate/response_model.h"
 #include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
@@ -168,7 +169,7 @@ std::string Search::story(const FoundStrengths &found, const Eigen::VectorXd &mi
   if (may_.moments)
     text += fmt::format("; moment contribution {:.4g} (searched from {:.4g} to {:.4g})",
                         c.moment_contribution, c_.moments_low, start_.moment_contribution);
-  const double degree = std::acos(-1.0) / 180;
+  const double degree = pi / 180;
   if (may_.friction)
     text += fmt::format("; friction angle {:.4g} degree (searched from {:.4g} to {:.4g})",
                         c.friction_angle / degree, may_.friction_low / degree, may_.friction_high / degree);

@@ -118,7 +118,7 @@ void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &
     OutputFile file(part);
     std::string text = shape_line(specimen.shape) + std::string(header) + '\n';
     for (std::size_t k = 0; k < specimen.size(); ++k) {
-      const dem::Vector3 &c = specimen.centre[k];
+      const Vector3 &c = specimen.centre[k];
       fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", c.x, c.y, c.z, specimen.radius[k]);
       if (text.size() < write_bytes) continue;
       file.write(text);

@@ -49,8 +49,8 @@ void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t 
         field.values);
 }
 
-void set_points(vtkUnstructuredGrid &grid, const std::vector<dem::Vector3> &points) {
-  static_assert(sizeof(dem::Vector3) == 3 * sizeof(double), "points are passed on as plain numbers");
+void set_points(vtkUnstructuredGrid &grid, const std::vector<Vector3> &points) {
+  static_assert(sizeof(Vector3) == 3 * sizeof(double), "points are passed on as plain numbers");
   vtkNew<vtkPoints> vtk_points;
   vtk_points->SetDataTypeToDouble();
   if (!points.empty()) vtk_points->SetData(view(&points.front().x, 3 * points.size(), 3));
@@ -114,11 +114,11 @@ void write_grid(const std::filesystem::path &path, vtkUnstructuredGrid &grid) {
 
 } // namespace
 
-Field::Field(std::string field_name, const std::vector<dem::Vector3> &v)
+Field::Field(std::string field_name, const std::vector<Vector3> &v)
     : name(std::move(field_name)), components(3) {
   std::vector<double> flat;
   flat.reserve(3 * v.size());
-  for (const dem::Vector3 &vector : v)
+  for (const Vector3 &vector : v)
     flat.insert(flat.end(), {vector.x, vector.y, vector.z});
   values = std::move(flat);
 }
@@ -127,7 +127,7 @@ void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer) {
   write_aside(path, [&](const std::filesystem::path &part) { write_part(part, writer); });
 }
 
-void write_points(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+void write_points(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                   const std::vector<Field> &point_fields) {
   std::vector<int> corners(points.size());
   std::iota(corners.begin(), corners.end(), 0);
@@ -139,7 +139,7 @@ void write_points(const std::filesystem::path &path, double time, const std::vec
   write_grid(path, *grid);
 }
 
-void write_lines(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
                  const std::vector<Field> &line_fields) {
   const auto outside = [&](int p) { return p < 0 || static_cast<std::size_t>(p) >= points.size(); };

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 class vtkXMLWriter;
 
@@ -26,18 +26,18 @@ struct Field {
   template <class Number>
   Field(std::string field_name, std::vector<Number> v, int n = 1)
       : name(std::move(field_name)), components(n), values(std::move(v)) {}
-  Field(std::string field_name, const std::vector<dem::Vector3> &v);
+  Field(std::string field_name, const std::vector<Vector3> &v);
 };
 
 // Points, each with a vertex cell, and their fields. `time` (s) is stored with the frame. Throws OutputError
 // where the file cannot be written (a former one stays), std::logic_error where a field has another length
 // than the points.
-void write_points(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+void write_points(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                   const std::vector<Field> &point_fields);
 
 // Lines between two of the points, with fields of the points and of the lines; errors as above, and
 // std::logic_error where a line ends at no point.
-void write_lines(const std::filesystem::path &path, double time, const std::vector<dem::Vector3> &points,
+void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
                  const std::vector<Field> &line_fields);
 

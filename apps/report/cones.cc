@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::apps::report {
 namespace {
 

@@ -15,6 +15,7 @@
 #include "apps/report/chart.h"
 #include "apps/report/cracks.h"
 #include "apps/report/specimen_view.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {

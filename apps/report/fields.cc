@@ -18,6 +18,8 @@
 #include "apps/io/output_folder.h"
 #include "apps/io/pvd.h"
 #include "apps/io/vtu.h"
+#include "apps/scene/errors.h"
+#include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
@@ -28,7 +30,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // flat surface, and less where the ends were packed against a wall.
 constexpr double at_surface = 0.2;
 
-dem::Vector3 vector_at(vtkDataArray &array, vtkIdType k) {
+Vector3 vector_at(vtkDataArray &array, vtkIdType k) {
   return {array.GetComponent(k, 0), array.GetComponent(k, 1), array.GetComponent(k, 2)};
 }
 
@@ -44,8 +46,8 @@ void add_contacts(dem::SphereColumns &spheres, const std::unordered_map<long lon
     if (found == row_of_id.end()) continue; // of a frame of another time
     const std::size_t i = found->second;
     const double *p = grid->GetPoint(k), r = spheres.radius[i];
-    const dem::Vector3 arm = dem::Vector3{p[0], p[1], p[2]} - spheres.position[i],
-                       force = size.GetComponent(k, 0) * vector_at(normal, k) + vector_at(shear, k);
+    const Vector3 arm = Vector3{p[0], p[1], p[2]} - spheres.position[i],
+                  force = size.GetComponent(k, 0) * vector_at(normal, k) + vector_at(shear, k);
     const double volume = 4.0 / 3 * pi * r * r * r / packing_fraction;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)

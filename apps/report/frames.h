@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/pi.h"
+
 namespace platen::apps::report {
 
 struct Frame {
@@ -33,7 +35,6 @@ vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points point
 // A field of a frame's points. Throws InputError where there is none of so many components.
 vtkDataArray &point_data(vtkUnstructuredGrid &grid, const char *name, int components, const Frame &frame);
 
-constexpr double pi = 3.14159265358979323846;
 using Position = std::array<double, 3>; // m
 
 // A frame of spheres as plain columns.

@@ -7,6 +7,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/scene/surfaces.h"
+#include "base/pi.h"
 #include "dem/mean_radius.h"
 #include "dem/measure/bond_stress.h"
 
@@ -137,7 +138,7 @@ void CompressionRun::write_bond_stress() const {
   const double axial = 0.5 * (test_->stress_top() + test_->stress_bottom());
   WholeTable table(paths_.bond_stress(), {"angle_low_deg", "angle_high_deg", "bonds", "pressed_bonds",
                                           "mean_stress_pa", "mean_pressed_stress_pa", "pressed_over_axial"});
-  constexpr double degree = 3.14159265358979323846 / 180;
+  constexpr double degree = pi / 180;
   for (const dem::DirectionClass &c :
        dem::bond_stress_by_direction(test_->model.particles, *test_->model.bonds, classes))
     table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,

@@ -1,7 +1,6 @@
 // One test between platens: its set-up, its schedule, its files.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,20 +15,15 @@
 #include "apps/run/summary_of_run.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/scene.h"
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "coupling/platen_test.h"
 
 namespace platen::apps {
 
-using Clock = std::chrono::steady_clock;
-
 // Rows of history.csv and frames for ParaView over the way to the target strain, where the scene leaves it
 // open.
 constexpr double automatic_rows = 600, automatic_frames = 24;
-
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // How the platens meet the specimen: at the ends of its axis, or across it, at its rim.
 enum class Pressed { along_axis, across_axis };

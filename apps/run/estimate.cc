@@ -1,8 +1,7 @@
 #include "apps/run/estimate.h"
+#include "base/clock.h"
 
 #include <fmt/format.h>
-
-#include <chrono>
 
 #include "apps/io/machine.h"
 #include "apps/io/progress.h"
@@ -17,10 +16,6 @@ constexpr long warm_up = 3, most_trials = 1000, at_a_time = 8;
 } // namespace
 
 std::string cost_estimate(coupling::PlatenTest &problem, double steps) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
   long trials = 0;
   double seconds = 0;
   try {

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 
-Json json_of(const dem::Vector3 &v) {
+Json json_of(const Vector3 &v) {
   return Json::array({v.x, v.y, v.z});
 }
 

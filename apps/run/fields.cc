@@ -16,7 +16,7 @@
 namespace platen::apps {
 namespace {
 
-std::vector<dem::Vector3> vectors(const Column<dem::Vector3> &column) {
+std::vector<Vector3> vectors(const Column<Vector3> &column) {
   return {column.begin(), column.end()};
 }
 
@@ -54,7 +54,7 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem) {
   const dem::Model &model = problem.model;
   const dem::Particles &p = model.particles;
   const std::size_t n = p.size();
-  std::vector<dem::Vector3> displacement(n);
+  std::vector<Vector3> displacement(n);
   for (std::size_t i = 0; i < n; ++i)
     displacement[i] = p.position[i] - p.reference_position[i];
   std::vector<double> stress;
@@ -70,11 +70,11 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem) {
   if (p.phase != nullptr) fields.push_back({"phase", std::vector<int>(p.phase->begin(), p.phase->end())});
   if (p.has_rotation()) {
     // As a rotation vector, rad.
-    std::vector<dem::Vector3> rotation(n);
+    std::vector<Vector3> rotation(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const dem::Quaternion q = (*p.orientation)[i];
-      const dem::Vector3 v = q.w < 0 ? -dem::vector_part(q) : dem::vector_part(q);
-      const double sine = dem::norm(v);
+      const Quaternion q = (*p.orientation)[i];
+      const Vector3 v = q.w < 0 ? -vector_part(q) : vector_part(q);
+      const double sine = norm(v);
       if (sine > 0) rotation[i] = (2 * std::atan2(sine, std::abs(q.w)) / sine) * v;
     }
     fields.emplace_back("rotation", rotation);
@@ -147,7 +147,7 @@ void FieldSeries::write_boundaries(const coupling::PlatenTest &problem) {
 }
 
 void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
-  std::vector<dem::Vector3> points, normals, shears;
+  std::vector<Vector3> points, normals, shears;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
   for (const auto &boundary : problem.boundaries())
@@ -156,7 +156,7 @@ void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
       normals.push_back(c.normal);
       shears.push_back(c.shear);
       normal_force.push_back(c.normal_force);
-      shear_force.push_back(dem::norm(c.shear));
+      shear_force.push_back(norm(c.shear));
       slip.push_back(c.slip);
       sliding.push_back(c.sliding ? 1 : 0);
       particle.push_back(problem.model.particles.id[static_cast<std::size_t>(c.particle)]);

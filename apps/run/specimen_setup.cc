@@ -9,6 +9,7 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
+#include "base/pi.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/radius_distribution.h"
 
@@ -117,7 +118,7 @@ constexpr double least_packing_fraction = 0.5, least_bytes = 500, most_spheres =
 
 void check_count(const Scene &scene, const dem::Shape &shape) {
   const double radius = scene.specimen.sphere_radius;
-  const double room = least_packing_fraction * shape.volume() / (4.0 / 3.0 * M_PI);
+  const double room = least_packing_fraction * shape.volume() / (4.0 / 3.0 * pi);
   const double spheres = room / std::pow(radius, 3);
   const auto memory = static_cast<double>(this_machine().memory_bytes);
   const double most = memory > 0 ? std::min(memory / least_bytes, most_spheres) : most_spheres;

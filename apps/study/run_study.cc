@@ -25,13 +25,13 @@
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/tables.h"
+#include "base/clock.h"
 #include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 // Runs that are asked to end finish their step and write a checkpoint, at most some hundred megabytes.
 constexpr std::chrono::seconds patience_of_study{60};
@@ -227,7 +227,7 @@ int StudyApp::finish(const StudyTables &tables) {
   s.update(study);
   s["missed"] = missed_;
   s["threads"] = threads();
-  s["wall_seconds"] = std::chrono::duration<double>(Clock::now() - start_).count();
+  s["wall_seconds"] = seconds_since(start_);
   s["peak_memory_bytes"] = peak_memory_bytes();
   write_summary(paths_.summary(), s);
   log_.info("{}{}", tables.text(), compared);

@@ -1,9 +1,10 @@
 #include "limit/idealised_loop.h"
+#include "base/pi.h"
+#include "base/random.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
 
 #include "base/parallel.h"
 #include "limit/bond_forces.h"
@@ -13,7 +14,6 @@ namespace platen::bench {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double share_of_safe_step = 0.2;
 constexpr double first_speed = 1e-3; // m/s, per axis: strains of about 1e-6
 
@@ -98,11 +98,11 @@ void IdealisedLoop::State::place(const Part &part, const Network &network) {
 
 // Random velocities without net momentum.
 void IdealisedLoop::State::push() {
-  std::mt19937_64 random(1);
+  Random random(1);
   Pack mean{};
   for (std::size_t k = 0; k < particles; ++k) {
     for (int c = 0; c < 3; ++c)
-      motions[k].velocity[c] = first_speed * (2.0 * static_cast<double>(random()) / 0x1p64 - 1.0);
+      motions[k].velocity[c] = first_speed * random.uniform(-1, 1);
     mean += motions[k].velocity / static_cast<double>(particles);
   }
   for (std::size_t k = 0; k < particles; ++k)

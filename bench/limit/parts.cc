@@ -1,4 +1,5 @@
 #include "limit/parts.h"
+#include "base/pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@ namespace platen::bench {
 namespace {
 
 void set_bond(BondBlock &b, std::size_t lane, const Network &network, std::size_t bond, bool real) {
-  constexpr double pi = 3.14159265358979323846;
   b.first[lane] = network.first[bond];
   b.second[lane] = network.second[bond];
   const auto &xi = network.position[static_cast<std::size_t>(b.first[lane])];

@@ -6,9 +6,6 @@
 
 namespace platen::coupling {
 
-using fem::operator*;
-using fem::operator+;
-
 void MeanLoads::add(const fem::Body &body, double dt) {
   for (const int v : body.loaded_vertices())
     impulse_[static_cast<std::size_t>(v)] = impulse_[static_cast<std::size_t>(v)] + dt * body.contact_load(v);
@@ -16,15 +13,15 @@ void MeanLoads::add(const fem::Body &body, double dt) {
   ++steps_;
 }
 
-std::vector<fem::Point> MeanLoads::mean() const {
-  std::vector<fem::Point> loads(impulse_);
-  for (fem::Point &load : loads)
+std::vector<Vector3> MeanLoads::mean() const {
+  std::vector<Vector3> loads(impulse_);
+  for (Vector3 &load : loads)
     load = (1 / time_) * load;
   return loads;
 }
 
 void MeanLoads::reset() {
-  impulse_.assign(impulse_.size(), fem::Point{});
+  impulse_.assign(impulse_.size(), Vector3{});
   time_ = 0;
   steps_ = 0;
 }
@@ -50,11 +47,11 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     if (surface.face_tags[f] != tag) continue;
     const std::array<int, 4> &corners = surface.faces[f];
-    const double area = fem::norm(fem::face_area_vector(surface, f)) / (parts * parts);
+    const double area = norm(fem::face_area_vector(surface, f)) / (parts * parts);
     for (int k = 0; k < parts * parts; ++k) {
       const double s = (k % parts + 0.5) / parts, t = (k / parts + 0.5) / parts;
       const std::array<double, 4> weights = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
-      fem::Point place{};
+      Vector3 place{};
       for (std::size_t c = 0; c < 4; ++c)
         place = place + weights[c] * surface.vertices[static_cast<std::size_t>(corners[c])];
       const bool inside = covers(place[0], place[1]);

@@ -13,17 +13,17 @@ namespace platen::coupling {
 class MeanLoads {
 public:
   MeanLoads() = default;
-  explicit MeanLoads(std::size_t vertices) : impulse_(vertices, fem::Point{}) {}
+  explicit MeanLoads(std::size_t vertices) : impulse_(vertices, Vector3{}) {}
   void add(const fem::Body &body, double dt); // the loads as they are, for dt (s)
   int steps() const { return steps_; }        // added since the last reset()
-  std::vector<fem::Point> mean() const;       // N, one per vertex
+  std::vector<Vector3> mean() const;          // N, one per vertex
   void reset();
 
   void describe(Archive &archive);
 
 private:
-  std::vector<fem::Point> impulse_; // N s
-  double time_ = 0;                 // s
+  std::vector<Vector3> impulse_; // N s
+  double time_ = 0;              // s
   int steps_ = 0;
 };
 

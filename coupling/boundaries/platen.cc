@@ -42,7 +42,7 @@ double Platen::midspan_moment(double z) const {
   const fem::SurfaceMesh &mesh = body_->surface();
   double sum = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const fem::Point &load = body_->contact_load(static_cast<int>(v)), &x = mesh.vertices[v];
+    const Vector3 &load = body_->contact_load(static_cast<int>(v)), &x = mesh.vertices[v];
     // Force on the bar: -load. A push up at |x| pulls the lower side, as does a pull outwards below z.
     const double outwards = std::copysign(1.0, x[0]) * load[0];
     sum += -load[2] * std::abs(x[0]) - outwards * (z - x[2]);
@@ -58,9 +58,9 @@ void Platen::describe(Archive &archive) {
 }
 
 void RigidPlaten::finish(const Step &step) {
-  const fem::Point before = force_;
+  const Vector3 before = force_;
   Platen::finish(step);
-  power_ = fem::dot(fem::operator+(before, force_), body_->velocity());
+  power_ = dot(before + force_, body_->velocity());
 }
 
 } // namespace platen::coupling

@@ -21,8 +21,8 @@ public:
   double dashpots() const override { return layer_.parameters().damping; }
   std::size_t near() const override { return layer_.search().particles().size(); }
   std::size_t closed() const override { return layer_.closed; }
-  fem::Point force() const override { return force_; }
-  double speed() const override { return fem::norm(body_->velocity()); }
+  Vector3 force() const override { return force_; }
+  double speed() const override { return norm(body_->velocity()); }
   ServoLoad servo_load(const dem::Particles &particles) const override;
   std::string series() const override { return "platens"; }
   void write_vtu(std::ostream &stream) const override;
@@ -47,7 +47,7 @@ protected:
   double farthest(const Step &) const override { return body_->last_move(); }
   std::unique_ptr<fem::Body> body_;
   ContactLayer layer_;
-  fem::Point force_{}; // N, of the last step
+  Vector3 force_{}; // N, of the last step
 };
 
 // One that keeps its shape. Where its loads do work, the machine does it.

@@ -5,19 +5,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
+#include "base/require.h"
+#include "base/shortest_text.h"
 #include "coupling/errors.h"
-#include "coupling/text_of.h"
 
 namespace platen::coupling {
 
-// fem::Point is an array: its operators are not found by its type.
-using fem::operator+;
-using fem::operator-;
-using fem::operator*;
-
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // The elements' own limit costs as much as twenty of their steps and changes with their shape alone.
 constexpr int intervals_between_limits = 100;
 // Intervals of so many steps make a sleeve cheap. Springs grow with the pressure; so does then the mass that
@@ -25,10 +21,6 @@ constexpr int intervals_between_limits = 100;
 constexpr double steps_of_cheap_interval = 8;
 constexpr double bound_over_mean =
     2.5; // of a row of the contacts' stiffness: one for the nearest, half for three
-
-void require(bool holds, const std::string &what) {
-  if (!holds) throw std::invalid_argument("sleeve: " + what);
-}
 
 // Faces of this many mean radii meet four spheres or so; with fewer the rubber is driven into the gaps
 // between them.
@@ -45,11 +37,11 @@ int elements_around(const dem::Particles &particles, const dem::Shape &shape, co
 }
 
 fem::Grid tube_around(const dem::Shape &shape, double low, double high, const SleeveSettings &s) {
-  require(shape.kind == dem::ShapeKind::cylinder, "only a cylinder has one");
-  require(s.thickness > 0, "thickness must be positive");
-  require(s.elements_around >= fewest_around, "at least 8 elements around");
-  require(s.elements_along >= 0, "elements along must not be negative");
-  require(high > low, "its ends must lie apart");
+  require(shape.kind == dem::ShapeKind::cylinder, "sleeve: only a cylinder has one");
+  require(s.thickness > 0, "sleeve: thickness must be positive");
+  require(s.elements_around >= fewest_around, "sleeve: at least 8 elements around");
+  require(s.elements_along >= 0, "sleeve: elements along must not be negative");
+  require(high > low, "sleeve: its ends must lie apart");
   fem::Tube tube;
   tube.inner_radius = shape.radius / std::cos(pi / s.elements_around);
   tube.thickness = s.thickness;
@@ -78,9 +70,10 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double 
       shape_(shape),
       low_(low),
       high_(high) {
-  require(settings.safety > 0 && settings.safety <= 1, "safety must lie in (0, 1]");
-  require(settings.most_steps >= 1, "an interval has at least one step");
-  require(settings.mass_scaling == 0 || settings.mass_scaling >= 1, "mass scaling must be 0, or at least 1");
+  require(settings.safety > 0 && settings.safety <= 1, "sleeve: safety must lie in (0, 1]");
+  require(settings.most_steps >= 1, "sleeve: an interval has at least one step");
+  require(settings.mass_scaling == 0 || settings.mass_scaling >= 1,
+          "sleeve: mass scaling must be 0, or at least 1");
   build(particles);
 }
 
@@ -173,8 +166,7 @@ double Sleeve::find_limit() {
   std::vector<double> stiffness(surface.vertices.size(), 0.0);
   for (const ActiveContact &c : contact_->contacts()) {
     const std::array<int, 4> &face = surface.faces[static_cast<std::size_t>(c.face)];
-    const fem::Point at = {c.point.x, c.point.y, c.point.z};
-    const auto far = [&](int v) { return fem::norm(surface.vertices[static_cast<std::size_t>(v)] - at); };
+    const auto far = [&](int v) { return norm(surface.vertices[static_cast<std::size_t>(v)] - c.point); };
     const int nearest =
         *std::min_element(face.begin(), face.end(), [&](int a, int b) { return far(a) < far(b); });
     for (const int v : face)
@@ -210,8 +202,8 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
 
 // Platens have made the first step of the interval already.
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
-  const auto follow = [&](int number, std::size_t node, const fem::Point &velocity, const fem::Point &place) {
-    const fem::Point &rim = solid_->displacement()[node];
+  const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
+    const Vector3 &rim = solid_->displacement()[node];
     solid_->set_lead_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
   };
   follow(bottom_lead_, bottom_rim_, rims.bottom, rims.bottom_place);

@@ -70,9 +70,9 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
 // Motion of the ends and pressure for the next interval: rims go where platens are, on the velocities that
 // these have now.
 struct RimMotion {
-  fem::Point bottom{}, top{};             // m/s
-  double pressure = 0;                    // Pa, on the outer face
-  fem::Point bottom_place{}, top_place{}; // m, displacements of the platens since the start
+  Vector3 bottom{}, top{};             // m/s
+  double pressure = 0;                 // Pa, on the outer face
+  Vector3 bottom_place{}, top_place{}; // m, displacements of the platens since the start
 };
 
 class Sleeve : public ContactBoundary {

@@ -17,7 +17,7 @@ fem::Grid make_grid(const Strips &s) {
 bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth) {
   const auto meets = [&](double middle) {
     for (std::size_t i = 0; i < specimen.size(); ++i) {
-      const dem::Vector3 &c = specimen.centre[i];
+      const Vector3 &c = specimen.centre[i];
       const double r = specimen.radius[i];
       const double gap =
           strips.presses_from_above ? strips.z_low - c.z - r : c.z - r - strips.z_low - strips.thickness;

@@ -23,7 +23,7 @@ public:
   virtual double lateral_pressure() const = 0; // Pa
   virtual double broken_bonds() const = 0;     // since the start
   // Of a boundary by its place in the experiment's list: N, of the specimen on it; what it pushes against.
-  virtual fem::Point force(std::size_t boundary) const = 0;
+  virtual Vector3 force(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };
 

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
+#include "base/vector3.h"
 #include "dem/laws/bond_law.h"
 #include "dem/pair_blocks.h"
-#include "dem/vector3.h"
 
 namespace platen::dem::kernels {
 

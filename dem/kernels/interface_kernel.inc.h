@@ -1,4 +1,5 @@
 // Body of the interface kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
+#include "base/pi.h"
 #include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/interface_kernel.h"
 #include "dem/kernels/pack.inc.h"
@@ -94,7 +95,6 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, const Rows &
 template <bool rotation, bool factors>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const ElastoDamagePlastic &law, const Rows &r,
                             const Ends &ends, double dt) {
-  constexpr double pi = 3.14159265358979323846;
   const Pack radius = load(r.bond_radius);
   InterfaceGeometry<Pack> g{load(r.rest_length), load(r.lever), load(r.normal_stiffness),
                             Pack(pi * radius * radius)};

@@ -5,8 +5,8 @@
 
 #include <cstddef>
 
+#include "base/vector3.h"
 #include "dem/laws/parallel_bond.h"
-#include "dem/vector3.h"
 
 namespace platen::dem::kernels {
 namespace {

@@ -7,6 +7,7 @@
 // what the sections turn against the chord (docs/theory.md), a millionth at strengths of a thousandth.
 #pragma once
 
+#include "base/pi.h"
 #include "dem/laws/bond_form.h"
 
 namespace platen::dem {
@@ -79,7 +80,6 @@ template <bool moments, class Real>
 PLATEN_INLINE BondResponse<Real> CohesiveBeam::turning(const BondGeometry<Real> &g,
                                                        const BondMotion<Real> &m) const {
   static_assert(moments, "a beam bends");
-  constexpr double pi = 3.14159265358979323846;
   const Real square = g.radius * g.radius;
   const Real area_stiffness = pi * square * g.normal_stiffness; // E S/l
   BondStrain<Real> strain;
@@ -91,7 +91,6 @@ PLATEN_INLINE BondResponse<Real> CohesiveBeam::turning(const BondGeometry<Real> 
 }
 
 inline BondStiffness CohesiveBeam::stiffness(const BondGeometry<double> &g) const {
-  constexpr double pi = 3.14159265358979323846;
   const double square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
   const double bending = 0.25 * square * axial;
   return {axial, shear_ratio(g) * axial, bending, bending / (1 + parameters.poisson_ratio)};

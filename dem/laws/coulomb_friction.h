@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

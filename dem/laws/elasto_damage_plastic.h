@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "base/pi.h"
 #include "dem/laws/bond_form.h"
 
 namespace platen::dem {
@@ -347,7 +348,6 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
 }
 
 inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &g) const {
-  constexpr double pi = 3.14159265358979323846;
   const double axial = pi * g.radius * g.radius * g.normal_stiffness;
   return {axial, shear_ratio() * axial, 0, 0};
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::dem {
@@ -36,7 +37,7 @@ struct HertzContact {
   }
   // Dashpot F = 2 sqrt(5/6) xi sqrt(k m*) v that gives restitution e when it is not clamped.
   static double damping_fraction(double restitution) {
-    const double logarithm = std::log(restitution), pi = 3.14159265358979323846;
+    const double logarithm = std::log(restitution);
     return -std::sqrt(5.0 / 6.0) * logarithm / std::sqrt(logarithm * logarithm + pi * pi);
   }
 

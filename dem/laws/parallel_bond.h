@@ -3,6 +3,7 @@
 // motion dF_n = k_n A dU_n, dF_s = k_s A dU_s, dM_n = k_s J dtheta_n, dM_s = k_n I dtheta_s.
 #pragma once
 
+#include "base/pi.h"
 #include "dem/laws/bond_form.h"
 
 namespace platen::dem {
@@ -71,7 +72,6 @@ PLATEN_INLINE void ParallelBond::add_failure(BondResponse<Real> &r, const BondGe
 template <bool moments, class Real>
 PLATEN_INLINE BondResponse<Real> ParallelBond::turning(const BondGeometry<Real> &g,
                                                        const BondMotion<Real> &m) const {
-  constexpr double pi = 3.14159265358979323846;
   const Real bond_square = g.radius * g.radius;
   const Real area_stiffness = pi * bond_square * g.normal_stiffness; // k_n A
   BondStrain<Real> strain;
@@ -87,7 +87,6 @@ PLATEN_INLINE BondResponse<Real> ParallelBond::turning(const BondGeometry<Real> 
 template <class Real>
 PLATEN_INLINE BondResponse<Real> ParallelBond::without_rotation(const BondGeometry<Real> &g,
                                                                 const Triple<Real> &d) const {
-  constexpr double pi = 3.14159265358979323846;
   const Real area_stiffness = pi * g.radius * g.radius * g.normal_stiffness;
   const Real shear_stiffness = parameters.stiffness_ratio * area_stiffness;
   const Real length = root(dot(d, d));
@@ -113,7 +112,6 @@ PLATEN_INLINE BondResponse<Real> ParallelBond::without_rotation(const BondGeomet
 }
 
 inline BondStiffness ParallelBond::stiffness(const BondGeometry<double> &g) const {
-  constexpr double pi = 3.14159265358979323846;
   const double square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
   const double shear = parameters.stiffness_ratio * axial;
   if (!parameters.moments) return {axial, shear, 0, 0};

@@ -2,7 +2,7 @@
 // plane.
 #pragma once
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

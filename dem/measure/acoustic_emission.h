@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/archive.h"
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

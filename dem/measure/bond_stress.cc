@@ -4,13 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
+
 namespace platen::dem {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-} // namespace
-
 std::vector<DirectionClass> bond_stress_by_direction(const Particles &p, const Bonds &b, int classes) {
   std::vector<DirectionClass> all(static_cast<std::size_t>(classes));
   const double width = 0.5 * pi / classes;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Of the determinant of the spheres' scatter about a node over the cube of its mean; below it they lie in a
 // plane or on a line.

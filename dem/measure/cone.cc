@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/pi.h"
 #include "dem/mean_radius.h"
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/gauge.h"
@@ -11,7 +12,6 @@
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double narrowest = 2;   // equivalent radius of the last slice that is looked at, mean radii
 constexpr double full = 0.9;      // share of a section from which the rim cuts the flank
 constexpr double flank_reach = 3; // mean radii to both sides

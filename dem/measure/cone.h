@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "base/archive.h"
+#include "base/vector3.h"
 #include "dem/measure/sound_pieces.h"
-#include "dem/vector3.h"
 
 namespace platen::dem {
 

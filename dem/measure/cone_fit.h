@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

@@ -5,10 +5,12 @@
 #include <limits>
 #include <numeric>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 namespace {
 
-constexpr double right_angle = 3.14159265358979323846 / 2;
+constexpr double right_angle = pi / 2;
 
 } // namespace
 

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double least_column = 0.05;                 // of the volume
 constexpr double sound_end = 0.3, gone_middle = 0.45; // damage
 constexpr double crushed_end = 0.4;                   // damage

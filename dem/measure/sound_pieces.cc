@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/pi.h"
 #include "dem/mean_radius.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/disjoint_sets.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double sphere_volume(double radius) {
   return 4.0 / 3 * pi * radius * radius * radius;

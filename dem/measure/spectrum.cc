@@ -5,10 +5,10 @@
 #include <complex>
 #include <limits>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 class Transform {
 public:

@@ -1,9 +1,9 @@
 #include "dem/measure/stress.h"
 
+#include "base/pi.h"
+
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void add(std::array<double, 9> &s, const Vector3 &arm, const Vector3 &force) {
   for (int r = 0; r < 3; ++r)

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 
 namespace {
@@ -53,7 +55,7 @@ DirectionCells::DirectionCells() {
       split(child[a], grandchild);
       for (std::size_t b = 0; b < 4; ++b) {
         const Vector3 *c = grandchild[b].corner;
-        weight_[16 * f + 4 * a + b] = solid_angle(c[0], c[1], c[2]) / (4 * 3.14159265358979323846);
+        weight_[16 * f + 4 * a + b] = solid_angle(c[0], c[1], c[2]) / (4 * pi);
         middle_[16 * f + 4 * a + b] = unit(c[0] + c[1] + c[2]);
       }
     }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 

@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
-#include "dem/packing/random.h"
+#include "base/pi.h"
+#include "base/random.h"
 #include "dem/packing/soft_spheres.h"
 
 namespace platen::dem {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // Packing fraction of a large jammed packing, and its loss at walls in units of mean radius times surface
 // over volume: fitted to this program's own packings, used only to guess the number of spheres.
 constexpr double bulk_fraction = 0.6465, wall_loss = 0.29;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/pi.h"
 #include "dem/packing/point_grid.h"
 #include "dem/packing/sphere_clipping.h"
 
@@ -13,7 +14,6 @@ namespace platen::dem {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int contacts_that_hold = 4; // a frictionless sphere needs four to be at rest in space
 
 bool has_core(const Shape &core) {

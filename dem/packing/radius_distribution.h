@@ -1,7 +1,7 @@
 // Sizes of spheres to be packed. SI units.
 #pragma once
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 
 namespace platen::dem {
 

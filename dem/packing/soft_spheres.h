@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
+#include "base/vector3.h"
 #include "dem/packing/specimen.h"
-#include "dem/vector3.h"
 
 namespace platen::dem {
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
+#include "base/pi.h"
+#include "base/shortest_text.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
@@ -21,12 +22,6 @@ bool finite(const Vector3 &v) {
 void require_positive(double value, const char *what) {
   if (!(value > 0) || !std::isfinite(value))
     throw std::invalid_argument(std::string("the ") + what + " of a specimen must be positive and finite");
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 std::string sphere(std::size_t i) {
@@ -57,7 +52,7 @@ void check_numbers(const Specimen &s, ProblemList &problems) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (!finite(s.centre[i])) problems.add(sphere(i) + " has a centre that is not finite");
     if (!std::isfinite(s.radius[i]) || !(s.radius[i] > 0))
-      problems.add(sphere(i) + " has radius " + number(s.radius[i]) + " m; it must be positive and finite");
+      problems.add(sphere(i) + " has radius " + text_of(s.radius[i]) + " m; it must be positive and finite");
   }
 }
 
@@ -79,8 +74,8 @@ void check_walls(const Specimen &s, double tolerance, ProblemList &problems) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double outside = s.radius[i] - wall_clearance(s.shape, s.centre[i]);
     if (outside > tolerance)
-      problems.add(sphere(i) + " reaches " + number(outside) + " m out of the shape (allowed " +
-                   number(tolerance) + " m)");
+      problems.add(sphere(i) + " reaches " + text_of(outside) + " m out of the shape (allowed " +
+                   text_of(tolerance) + " m)");
   }
 }
 
@@ -129,8 +124,7 @@ Specimen laid_along_x(const Specimen &standing) {
 }
 
 double lateral_perimeter(const Shape &shape) {
-  return shape.kind == ShapeKind::cylinder ? 2 * 3.14159265358979323846 * shape.radius
-                                           : 2 * (shape.width_x + shape.width_y);
+  return shape.kind == ShapeKind::cylinder ? 2 * pi * shape.radius : 2 * (shape.width_x + shape.width_y);
 }
 
 double surface_area(const Shape &shape) {
@@ -200,7 +194,7 @@ double volume_of_spheres(const Specimen &specimen) {
   double sum = 0;
   for (const double r : specimen.radius)
     sum += r * r * r;
-  return 4.0 / 3.0 * 3.14159265358979323846 * sum;
+  return 4.0 / 3.0 * pi * sum;
 }
 
 std::vector<std::string> check_specimen(const Specimen &specimen, double wall_tolerance,

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dem/vector3.h"
+#include "base/pi.h"
+#include "base/vector3.h"
 
 namespace platen::dem {
 
@@ -22,7 +23,6 @@ struct Shape {
 
   // m^2, what a load along z is divided by; of a disc pi r w, which gives 2 P / (pi D w).
   double cross_section() const {
-    constexpr double pi = 3.14159265358979323846;
     if (kind == ShapeKind::disc) return pi * radius * width_y;
     return kind == ShapeKind::cylinder ? pi * radius * radius : width_x * width_y;
   }

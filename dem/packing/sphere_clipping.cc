@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace platen::dem {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Eight Gauss-Legendre points on [-1, 1] (Abramowitz and Stegun, table 25.4), used on several equal pieces
 // because a cut sphere's slices have kinks.

@@ -1,8 +1,8 @@
 // How much of a sphere lies inside a shape. SI units.
 #pragma once
 
+#include "base/vector3.h"
 #include "dem/packing/specimen.h"
-#include "dem/vector3.h"
 
 namespace platen::dem {
 

@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/vector3.h"
 #include "dem/statics/block_rows.h"
-#include "dem/vector3.h"
 
 namespace platen::dem::statics {
 

@@ -11,6 +11,8 @@
 #include <coupling/boundary.h>
 #include <dem/packing/specimen.h>
 
+#include "base/pi.h"
+
 class Jacket : public platen::coupling::Boundary {
 public:
   struct Parameters {
@@ -21,7 +23,7 @@ public:
   // Around the spheres whose surface lies within a mean radius of the mantle of the shape, a cylinder.
   Jacket(const platen::dem::Particles &particles, const platen::dem::Shape &shape,
          const Parameters &parameters)
-      : Boundary("jacket"), mantle_(2 * pi * shape.radius * shape.height) {
+      : Boundary("jacket"), mantle_(2 * platen::pi * shape.radius * shape.height) {
     double mean_radius = 0; // m
     for (const double r : particles.radius)
       mean_radius += r / static_cast<double>(particles.size());
@@ -72,7 +74,6 @@ public:
   void describe(platen::Archive &archive) override { archive.version(1); }
 
 private:
-  static constexpr double pi = 3.14159265358979323846;
   static double distance(const platen::dem::Particles &particles, std::size_t i) {
     return std::hypot(particles.position[i].x, particles.position[i].y);
   }

@@ -6,6 +6,7 @@
 #include "apps/io_folder.h"
 #include "apps/program.h"
 #include "apps/scene/scene.h"
+#include "base/pi.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -106,7 +107,7 @@ TEST_F(BarApp, any_bond_and_any_specimen_go_through) {
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const nlohmann::json c = summary("c");
   // Four straight columns: E A = 4 E_b A_b of bonds between centres, exactly.
-  const double bond = 265e9 * 3.14159265358979323846 * .71e-3 * .71e-3;
+  const double bond = 265e9 * pi * .71e-3 * .71e-3;
   EXPECT_NEAR(c["axial_rigidity_n"].get<double>(), 4 * bond, 1e-5 * bond);
   EXPECT_NEAR(c["tension"]["static_error"].get<double>(), 0, 1e-5);
   EXPECT_NEAR(c["effective_width_x_m"].get<double>(), std::sqrt(12) * 1e-3, 1e-9);

@@ -7,11 +7,10 @@
 #include "apps/bar/dynamic_test.h"
 #include "apps/bar/static_test.h"
 #include "apps/bar/strength_of_materials.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Torsion of rectangles: Timoshenko and Goodier, Theory of Elasticity, table of art. 109.
 TEST(bar_theory, rectangles_twist_as_tabulated) {

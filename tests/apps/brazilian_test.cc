@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "apps/crushed.h"
+#include "base/pi.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/stress.h"
 #include "dem/packing/growth.h"
@@ -29,7 +30,7 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   EXPECT_EQ(s["app"], "platen-brazilian");
   // 2 P / (pi D t).
   const double load = s["failure_load_n"];
-  EXPECT_NEAR(s["strength_pa"].get<double>(), 2 * load / (M_PI * 24e-3 * 10e-3),
+  EXPECT_NEAR(s["strength_pa"].get<double>(), 2 * load / (pi * 24e-3 * 10e-3),
               1e-6 * s["strength_pa"].get<double>());
   // Below the bond's own strength, 9.5 MPa, far below what the same network bears in compression (40 MPa).
   EXPECT_GT(s["strength_pa"], 1e6);
@@ -84,14 +85,14 @@ TEST(brazilian, the_centre_of_an_elastic_disc_has_the_stress_of_the_closed_form)
   const auto stress = dem::particle_stress(p, problem.model.bonds.get(), nullptr, 1.0);
   double across = 0, along = 0, through = 0, volume = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const dem::Vector3 &x = p.position[i];
+    const Vector3 &x = p.position[i];
     if (std::hypot(x.x, x.z - radius) > 0.35 * radius) continue;
-    const double v = 4.0 / 3.0 * M_PI * std::pow(p.radius[i], 3);
+    const double v = 4.0 / 3.0 * pi * std::pow(p.radius[i], 3);
     across += v * stress[i][0], through += v * stress[i][4], along += v * stress[i][8];
     volume += v;
   }
   // Stress of spheres times the share of space that spheres take there.
-  const double solid = volume / (M_PI * std::pow(0.35 * radius, 2) * thickness);
+  const double solid = volume / (pi * std::pow(0.35 * radius, 2) * thickness);
   across *= solid / volume, along *= solid / volume, through *= solid / volume;
   const double closed = 0.5 * (problem.stress_top() + problem.stress_bottom()); // 2 P / (pi D t)
   // Averages over the disc of 0.35 R in the closed form: 0.88 across, 0.96 x 3 along. 15 %: some 400 spheres,

@@ -1,5 +1,6 @@
 // The search for strengths, on closed forms that stand for specimens.
 #include "apps/calibrate/strengths.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@
 namespace platen::apps {
 namespace {
 
-constexpr double degree = 0.017453292519943295; // rad
+constexpr double degree = pi / 180; // rad
 
 Scene scene_of(double compressive, double tensile, double triaxial = not_given) {
   Scene s;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "apps/io/checkpoint.h"
-#include "dem/vector3.h"
+#include "base/vector3.h"
 #include "io_folder.h"
 #include "tests/same_state.h"
 
@@ -12,7 +12,6 @@ namespace platen::apps {
 namespace {
 
 using namespace testing;
-using dem::Vector3;
 
 struct Spheres {
   Table table;

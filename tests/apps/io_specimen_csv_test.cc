@@ -49,7 +49,7 @@ void expect_same_bits(const dem::Specimen &a, const dem::Specimen &b) {
   EXPECT_EQ(a.shape.height, b.shape.height);
   ASSERT_EQ(a.size(), b.size());
   ASSERT_EQ(a.radius.size(), b.radius.size());
-  EXPECT_EQ(std::memcmp(a.centre.data(), b.centre.data(), a.size() * sizeof(dem::Vector3)), 0);
+  EXPECT_EQ(std::memcmp(a.centre.data(), b.centre.data(), a.size() * sizeof(Vector3)), 0);
   EXPECT_EQ(std::memcmp(a.radius.data(), b.radius.data(), a.size() * sizeof(double)), 0);
 }
 

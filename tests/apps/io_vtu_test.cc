@@ -18,7 +18,6 @@ namespace platen::apps {
 namespace {
 
 using namespace testing;
-using dem::Vector3;
 
 class Vtu : public ScratchFolder {
 protected:

@@ -1,4 +1,5 @@
 #include "apps/report/cracks.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@
 namespace platen::apps::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const Extent cylinder{Extent::Form::cylinder, 0.025, 0.0, 0.1, 0.025};
 const Extent disc{Extent::Form::disc, 0.025, 0.0, 0.05, 0.01};
 

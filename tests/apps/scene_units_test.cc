@@ -6,11 +6,10 @@
 
 #include "apps/scene/units.h"
 #include "apps/scene/values.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Conversion {
   const char *text, *unit;

@@ -10,12 +10,6 @@
 namespace platen::coupling {
 namespace {
 
-using dem::cross;
-using dem::dot;
-using dem::norm;
-using dem::norm_squared;
-using dem::Vector3;
-
 class Draw {
 public:
   explicit Draw(unsigned seed) : engine_(seed) {}

@@ -6,12 +6,14 @@
 
 #include "sphere_scene.h"
 
+#include "base/pi.h"
+
 namespace platen::coupling {
 namespace {
 
 // Steps as a share of the period of a sphere on its contact spring.
 double step_of(const SphereScene &scene, double share) {
-  return share * 2 * 3.14159265358979323846 * std::sqrt(scene.particles.mass[0] / stiffness);
+  return share * 2 * pi * std::sqrt(scene.particles.mass[0] / stiffness);
 }
 
 // Free flight, contact, free flight. Returns the relative loss of kinetic energy not found in the works.
@@ -60,7 +62,7 @@ TEST(contact_energy, restitution_is_that_of_a_spring_and_a_dashpot_that_cannot_p
     contact.damping = xi;
     double measured = 0;
     bounce_error({0, 0, -1}, {}, contact, 0.0002, &measured);
-    const double root = std::sqrt(1 - xi * xi), pi = 3.14159265358979323846;
+    const double root = std::sqrt(1 - xi * xi);
     const double phase = pi - std::atan2(2 * xi * root, 1 - 2 * xi * xi);
     EXPECT_NEAR(measured, std::exp(-xi / root * phase), 2e-3) << xi;
   }
@@ -130,9 +132,9 @@ TEST(contact_energy, a_moving_plate_puts_in_what_the_book_shows) {
   Vector3 last = scene.load();
   for (int n = 0; n < 100000; ++n) {
     scene.body.set_velocity({0.02 * std::sin(2e-4 * n), 0.01, 0.03 * std::cos(3e-4 * n)});
-    const fem::Point u = scene.body.velocity();
+    const Vector3 u = scene.body.velocity();
     scene.step(dt);
-    const double in = -dt * dot(0.5 * (last + scene.load()), Vector3{u[0], u[1], u[2]});
+    const double in = -dt * dot(0.5 * (last + scene.load()), u);
     work += in;
     size += std::abs(in);
     last = scene.load();

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "sphere_scene.h"
 #include "tests/measured.h"
 #include "tests/same_state.h"
@@ -98,16 +99,15 @@ TEST(contact_history, a_common_rotation_turns_the_spring_and_stretches_nothing) 
     scene.particles.velocity[0] = {0.3, 0.1, 0};
     scene.carry(1e-5); // stretch
     const Vector3 start = scene.layer.contacts()[0].shear;
-    const fem::Point c = scene.body.centre();
-    const Vector3 centre = {c[0], c[1], c[2]}, axis = Vector3{1, 2, 2} / 3.0;
-    const double pi = 3.14159265358979323846, rate = 2 * pi;
+    const Vector3 centre = scene.body.centre(), axis = Vector3{1, 2, 2} / 3.0;
+    const double rate = 2 * pi;
     const int steps = 2000 << level;
     const double dt = 1.0 / steps;
     const Vector3 w = rate * axis, arm = scene.particles.position[0] - centre;
-    scene.body.set_velocity({}, {w.x, w.y, w.z});
+    scene.body.set_velocity({}, w);
     for (int n = 0; n < steps; ++n) {
       // Positions and velocities of the exact circle at the end of the step.
-      const Vector3 r = dem::rotate(dem::rotation_quaternion((n + 1) * dt * w), arm);
+      const Vector3 r = rotate(rotation_quaternion((n + 1) * dt * w), arm);
       scene.particles.velocity[0] = cross(w, r);
       (*scene.particles.angular_velocity)[0] = w;
       scene.particles.position[0] = centre + r - dt * scene.particles.velocity[0];
@@ -222,7 +222,6 @@ TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
   const double normal = 50; // N
   scene.particles.position[0].z -= normal / stiffness;
   scene.compute_forces(0);
-  const double pi = 3.14159265358979323846;
   const double k = 2 * 40e9 * pi * 1e-9 / 8, h = 1e-5, limit = 0.5 * normal * sphere_radius;
   // Rolls about its contact point: no slip there, so the torque is the seat's alone.
   const double arm = scene.particles.position[0].z, rate = limit / k / (50 * h);
@@ -232,8 +231,8 @@ TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
     scene.carry(h);
     const double expected = std::min(limit, k * rate * h * n);
     ASSERT_NEAR((*scene.particles.torque)[0].y, -expected, 1e-9 * limit) << n;
-    const fem::Point c = {scene.particles.position[0].x, scene.particles.position[0].y,
-                          scene.particles.position[0].z};
+    const Vector3 c = {scene.particles.position[0].x, scene.particles.position[0].y,
+                       scene.particles.position[0].z};
     ASSERT_NEAR(scene.body.moment(c)[1], expected, 1e-9 * limit);
     ASSERT_NEAR((*scene.particles.torque)[0].z, 0, 1e-9 * limit);
   }

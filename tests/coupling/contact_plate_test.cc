@@ -106,11 +106,10 @@ TEST(contact_plate, a_skew_plate_feels_like_a_level_one) {
   body.set_velocity({});
   Vector3 up;
   for (std::size_t f = 0; f < body.surface().faces.size(); ++f) {
-    const fem::Point a = fem::face_area_vector(body.surface(), f);
-    if (body.surface().face_tags[f] == fem::high_end_tag) up = Vector3{a[0], a[1], a[2]} / fem::norm(a);
+    const Vector3 a = fem::face_area_vector(body.surface(), f);
+    if (body.surface().face_tags[f] == fem::high_end_tag) up = a / norm(a);
   }
-  const fem::Point c = body.centre();
-  const Vector3 top = Vector3{c[0], c[1], c[2]} + 0.005 * up;
+  const Vector3 top = body.centre() + 0.005 * up;
   const Vector3 along = cross(up, Vector3{1, 0, 0}) / norm(cross(up, Vector3{1, 0, 0}));
   SphereScene scene(std::move(body), {top - 0.006 * along + 0.995 * sphere_radius * up},
                     frictional(0.4, 0.4));

@@ -1,4 +1,5 @@
 #include "dem/laws/coulomb_friction.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -143,7 +144,7 @@ TEST(rotating_plane, opposite_normals_keep_the_vector) {
 // Once around a circle on the sphere of normals the plane has turned by the solid angle (parallel transport):
 // a closed form of something that a projection would get wrong. Error of second order in the step.
 TEST(rotating_plane, a_closed_way_of_the_normal_turns_the_vector_by_its_solid_angle) {
-  const double pi = 3.14159265358979323846, polar = 0.5;
+  const double polar = 0.5;
   const auto at = [&](double angle) {
     return Vector3{std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar)};
   };

@@ -17,7 +17,6 @@ namespace platen::coupling {
 namespace {
 
 using fem::ElasticMotion;
-using fem::operator+;
 
 constexpr double steel = 200e9; // Pa
 
@@ -131,16 +130,16 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
   advance_to(problem, 1000);
   for (fem::Body *body : {&problem.top().body(), &problem.bottom().body()}) {
     auto &solid = static_cast<fem::ElasticSolid &>(*body);
-    const fem::Point load = solid.total_force();
+    const Vector3 load = solid.total_force();
     ASSERT_GT(std::abs(load[2]), 10);
     solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
-    const std::vector<fem::Point> u = solid.deformation();
-    std::vector<fem::Point> force;
+    const std::vector<Vector3> u = solid.deformation();
+    std::vector<Vector3> force;
     solid.model().stiffness.multiply(u, force);
-    fem::Point reaction{};
+    Vector3 reaction{};
     for (const int node : solid.grip_nodes())
       reaction = reaction + force[static_cast<std::size_t>(node)];
-    EXPECT_LT(fem::norm(reaction + load), 1e-12 * fem::norm(load)) << fem::norm(reaction + load);
+    EXPECT_LT(norm(reaction + load), 1e-12 * norm(load)) << norm(reaction + load);
     double mean = 0;
     int cells = 0;
     const std::vector<fem::Stress> stress = solid.stress_of_cells();
@@ -180,19 +179,18 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
       settings.platens.elastic->seat = seat;
       PlatenTest problem(cylinder(), settings);
       advance_to(problem, 2000);
-      fem::Point moment{};
+      Vector3 moment{};
       double force = 0;
       for (int k = 0; k < 1000; ++k) {
         advance_to(problem, problem.steps() + 1);
-        const fem::Point seat_now =
-            fem::Point{0, 0, problem.shape().height} + problem.top().body().displacement();
+        const Vector3 seat_now = Vector3{0, 0, problem.shape().height} + problem.top().body().displacement();
         moment = moment + problem.top().body().moment(seat_now);
         force += problem.top().body().total_force()[2];
       }
-      arm[seat] = fem::norm(fem::Point{moment[0], moment[1], 0}) / force;
+      arm[seat] = norm(Vector3{moment[0], moment[1], 0}) / force;
       EXPECT_LT(std::abs(problem.energy().residual()), 2e-3 * problem.energy().boundary);
       EXPECT_EQ(problem.grip_closure() > 0, true);
-      const double turned = problem.elastic_top()->solid().rotation()[0];
+      const double turned = problem.elastic_top()->solid().rotation().w;
       EXPECT_EQ(turned == 1, !seat);
     }
     EXPECT_LT(arm[1], 0.1 * arm[0]) << static_cast<int>(motion) << " " << arm[0] << " " << arm[1];
@@ -290,8 +288,8 @@ TEST(elastic_platens, a_given_mesh_of_the_same_plate_presses_alike) {
 TEST(elastic_platens, a_mesh_that_cannot_be_held_is_refused_by_name) {
   PlatenTestSettings settings = between(ElasticMotion::explicit_steps, steel);
   const fem::Grid plate = fem::make_grid(fem::CylinderPlate{5e-3, 4e-3, 0, 4, 2});
-  settings.platens.top.grid = fem::moved_grid(plate, [](const fem::Point &p) {
-    return fem::Point{p[0], p[1], p[2] * (1 + 20 * p[0])}; // its upper side slants
+  settings.platens.top.grid = fem::moved_grid(plate, [](const Vector3 &p) {
+    return Vector3{p[0], p[1], p[2] * (1 + 20 * p[0])}; // its upper side slants
   });
   try {
     PlatenTest problem(cylinder(), settings);

@@ -76,7 +76,7 @@ struct Nothing : Measures {
   double axial_stress() const override { return 0; }
   double lateral_pressure() const override { return 0; }
   double broken_bonds() const override { return 0; }
-  fem::Point force(std::size_t) const override { return {}; }
+  Vector3 force(std::size_t) const override { return {}; }
   ServoLoad servo_load(std::size_t) const override { return {}; }
 };
 

@@ -16,7 +16,7 @@ namespace {
 Quad strained_square(double by, std::mt19937 &engine) {
   std::uniform_real_distribution<double> draw(-1, 1);
   const Vector3 turn = {draw(engine), draw(engine), draw(engine)}, place = {draw(engine), draw(engine), 7};
-  const dem::Quaternion q = dem::rotation_quaternion(3 * turn);
+  const Quaternion q = rotation_quaternion(3 * turn);
   Quad corners = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
   for (Vector3 &c : corners)
     c = place + rotate(q, c + by * Vector3{draw(engine), draw(engine), draw(engine)});
@@ -78,7 +78,7 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
   fem::SurfaceMesh surface =
       fem::RigidBody(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel).surface();
   surface.only_shifted = false;
-  const std::vector<fem::Point> start = surface.vertices;
+  const std::vector<Vector3> start = surface.vertices;
   std::mt19937 engine(8);
   std::uniform_real_distribution<double> draw(-0.6, 0.6), high(-0.2, 0.2);
   std::vector<Vector3> centres;
@@ -91,9 +91,9 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
     const double bend = 0.01 * step;
     double farthest = 0;
     for (std::size_t v = 0; v < start.size(); ++v) {
-      const fem::Point &p = start[v];
-      const fem::Point now = {p[0] * (1 + 0.2 * bend) - bend * p[1] * p[2], p[1] + bend * p[0] * p[2],
-                              p[2] + bend * (p[0] * p[0] + p[0] * p[1])};
+      const Vector3 &p = start[v];
+      const Vector3 now = {p[0] * (1 + 0.2 * bend) - bend * p[1] * p[2], p[1] + bend * p[0] * p[2],
+                           p[2] + bend * (p[0] * p[0] + p[0] * p[1])};
       double squared = 0;
       for (std::size_t c = 0; c < 3; ++c)
         squared += (now[c] - surface.vertices[v][c]) * (now[c] - surface.vertices[v][c]);

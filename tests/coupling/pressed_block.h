@@ -15,13 +15,6 @@
 
 namespace platen::coupling {
 
-using fem::dot;
-using fem::operator+;
-using fem::operator-;
-using fem::operator*;
-
-using dem::Vector3;
-
 constexpr double radius = 1e-3;                // m, of the sphere
 constexpr fem::Material rock{2600, 50e9, 0.3}; // of the block
 inline const double plane_modulus = rock.young_modulus / (1 - rock.poisson_ratio * rock.poisson_ratio);
@@ -55,8 +48,8 @@ inline fem::Grid graded_block(double h, double reach) {
   const auto graded = [&place](double x) {
     return std::copysign(place[static_cast<std::size_t>(std::lround(std::abs(x)))], x);
   };
-  return fem::moved_grid(numbers, [&](const fem::Point &p) {
-    return fem::Point{graded(p[0]), graded(p[1]), graded(p[2])};
+  return fem::moved_grid(numbers, [&](const Vector3 &p) {
+    return Vector3{graded(p[0]), graded(p[1]), graded(p[2])};
   });
 }
 
@@ -85,11 +78,11 @@ struct PressedBlock {
       particles.force[0] = {};
       layer.make_list(particles, block);
       layer.add_forces(particles, block, 0);
-      fem::Point sum{};
-      for (const fem::Point &load : load_)
+      Vector3 sum{};
+      for (const Vector3 &load : load_)
         sum = sum + load;
       const double force = norm(particles.force[0]);
-      if (std::abs(force - fem::norm(sum)) < 1e-4 * force) return force;
+      if (std::abs(force - norm(sum)) < 1e-4 * force) return force;
       for (std::size_t v = 0; v < load_.size(); ++v)
         load_[v] = load_[v] + part * (block.contact_load(static_cast<int>(v)) - load_[v]);
     }
@@ -119,7 +112,7 @@ private:
     return c;
   }
 
-  std::vector<fem::Point> load_ = std::vector<fem::Point>(block.surface().vertices.size(), fem::Point{});
+  std::vector<Vector3> load_ = std::vector<Vector3>(block.surface().vertices.size(), Vector3{});
 };
 
 } // namespace platen::coupling

@@ -96,11 +96,11 @@ TEST(pressed_block, makes_a_spring_stiffer_within_bounds) {
 fem::Grid irregular_block(double h) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> draw(-0.2 * h, 0.2 * h);
-  return fem::moved_grid(graded_block(h, 6 * radius), [&](const fem::Point &p) {
-    const fem::Point shift = {draw(engine), draw(engine), draw(engine)};
+  return fem::moved_grid(graded_block(h, 6 * radius), [&](const Vector3 &p) {
+    const Vector3 shift = {draw(engine), draw(engine), draw(engine)};
     const double inside = 3.01 * h;
     if (std::abs(p[0]) > inside || std::abs(p[1]) > inside || p[2] < -inside) return p;
-    return p + fem::Point{shift[0], shift[1], p[2] < 0 ? shift[2] : 0.0};
+    return p + Vector3{shift[0], shift[1], p[2] < 0 ? shift[2] : 0.0};
   });
 }
 
@@ -128,11 +128,11 @@ TEST(pressed_block, feels_no_mesh_under_a_dragged_sphere) {
 // those of the plane to the round-off of places (1e-18 m) against the overlap (1e-5 m).
 TEST(pressed_block, is_a_plane_to_a_sphere_where_it_is_evenly_strained) {
   PressedBlock pressed(graded_block(radius, 6 * radius), 1, 1e6, false);
-  const auto strained = [](const fem::Point &p) {
-    return fem::Point{0.01 * p[0] + 0.02 * p[1], -0.01 * p[1], 0.02 * p[0] - 0.01 * p[1] + 0.03 * p[2]};
+  const auto strained = [](const Vector3 &p) {
+    return Vector3{0.01 * p[0] + 0.02 * p[1], -0.01 * p[1], 0.02 * p[0] - 0.01 * p[1] + 0.03 * p[2]};
   };
-  std::vector<fem::Point> u;
-  for (const fem::Point &node : pressed.block.model().nodes)
+  std::vector<Vector3> u;
+  for (const Vector3 &node : pressed.block.model().nodes)
     u.push_back(strained(node));
   pressed.block.set_deformation(u, {});
   // Normal of the plane that the face is in, from where it goes along x and y.

@@ -13,10 +13,6 @@
 namespace platen::coupling {
 namespace {
 
-using fem::operator+;
-using fem::operator-;
-using fem::operator*;
-
 constexpr int across = 8;
 constexpr double radius = 1e-3, edge = 2 * radius; // m, of a sphere and of an element: one above each face
 constexpr fem::Material steel{7850, 200e9, 0};     // that does not widen: its grip bears nothing sideways
@@ -56,7 +52,7 @@ Transmitted transmitted(bool once, int inside) {
   if (once) contact.face_compliance = block.face_compliance();
   contact.skin = 0.3 * radius;
   ContactLayer layer(spheres, block, contact);
-  std::vector<fem::Point> load(block.surface().vertices.size(), fem::Point{});
+  std::vector<Vector3> load(block.surface().vertices.size(), Vector3{});
   for (int round = 0; round < 40; ++round) { // half of the way at a time
     block.aim(load, 0);
     block.clear_loads();
@@ -66,20 +62,20 @@ Transmitted transmitted(bool once, int inside) {
       load[v] = 0.5 * (load[v] + block.contact_load(static_cast<int>(v)));
   }
   block.aim(load, 0);
-  fem::Point sum{}, reaction{};
-  for (const fem::Point &f : load)
+  Vector3 sum{}, reaction{};
+  for (const Vector3 &f : load)
     sum = sum + f;
   const fem::ElasticModel &model = block.model();
-  std::vector<fem::Point> force;
+  std::vector<Vector3> force;
   model.stiffness.multiply(block.deformation(), force);
   for (const int node : block.grip_nodes())
     reaction = reaction + force[static_cast<std::size_t>(node)];
   Transmitted result;
-  result.reaction = fem::norm(reaction + sum) / fem::norm(sum);
-  const double pressure = fem::norm(sum) / (across * across * edge * edge);
+  result.reaction = norm(reaction + sum) / norm(sum);
+  const double pressure = norm(sum) / (across * across * edge * edge);
   const std::vector<fem::Stress> stress = block.stress_of_cells();
   for (std::size_t c = 0; c < stress.size(); ++c) {
-    fem::Point middle{};
+    Vector3 middle{};
     for (std::size_t k = 0; k < 8; ++k)
       middle = middle + 0.125 * model.nodes[static_cast<std::size_t>(model.cell_nodes[8 * c + k])];
     const double from_side = 0.5 * across * edge - std::max(std::abs(middle[0]), std::abs(middle[1]));

@@ -23,7 +23,7 @@ struct Seen : Measures {
   double axial_stress() const override { return stress; }
   double lateral_pressure() const override { return pressure; }
   double broken_bonds() const override { return broken; }
-  fem::Point force(std::size_t) const override { return {0, 0, stress * area}; }
+  Vector3 force(std::size_t) const override { return {0, 0, stress * area}; }
   ServoLoad servo_load(std::size_t) const override { return {1e8, 100}; }
 };
 

@@ -1,4 +1,5 @@
 #include "coupling/program/servo.h"
+#include "base/pi.h"
 #include "base/state.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ struct Column {
 
   ServoLoad load() const { return {k_platen, std::sqrt(k_platen * m)}; }
   // Of a mass on the stiffest spring.
-  double period() const { return 2 * 3.14159265358979323846 * std::sqrt(m / std::max(k, k_platen)); }
+  double period() const { return 2 * pi * std::sqrt(m / std::max(k, k_platen)); }
   double static_stiffness() const { return 1 / (1 / k_platen + n / k); }
   double reaction() const {
     const double overlap = platen - gap - u[0];

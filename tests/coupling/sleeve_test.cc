@@ -1,6 +1,7 @@
 // A sleeve around a bonded cylinder: what the cell presses on it arrives at the particles, and no energy is
 // lost on the way.
 #include "coupling/boundaries/sleeve.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,6 @@
 
 namespace platen::coupling {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 SleeveSettings butyl() {
   SleeveSettings s;
@@ -51,7 +50,7 @@ struct Cell {
     return s;
   }
   // `blow`: a force on one vertex of the inner face (N).
-  void step(const fem::Point &blow = {}) {
+  void step(const Vector3 &blow = {}) {
     model.begin_step(dt);
     const double x = std::min(1.0, model.time / ramp);
     sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
@@ -100,7 +99,7 @@ TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
   EXPECT_GT(radial_force(cell), 0.75 * whole);
   EXPECT_LT(radial_force(cell), whole);
   // What the particles got the sleeve has got with the other sign.
-  fem::Point on_particles{}, on_sleeve{};
+  Vector3 on_particles{}, on_sleeve{};
   cell.sleeve.solid().clear_loads();
   for (std::size_t i = 0; i < cell.model.particles.size(); ++i)
     cell.model.particles.force[i] = {};
@@ -168,7 +167,7 @@ TEST(sleeve, an_interval_that_would_invert_an_element_is_cut) {
     cell.step();
   const int planned = cell.sleeve.steps_of_next_interval(cell.dt);
   ASSERT_GT(planned, 3);
-  const fem::Point &at = cell.sleeve.solid().surface().vertices[Cell::struck];
+  const Vector3 &at = cell.sleeve.solid().surface().vertices[Cell::struck];
   const double interval = planned * cell.dt, from_axis = std::hypot(at[0], at[1]);
   const double wall = 1e-3, mass = cell.sleeve.solid().surface_mass(Cell::struck);
   const double force = 1.2 * mass * wall / (interval * interval); // at its end and the next one's start

@@ -10,8 +10,6 @@
 
 namespace platen::coupling {
 
-using dem::Vector3;
-
 constexpr fem::Material steel{7850, 210e9, 0.3};
 constexpr double sphere_radius = 1e-3; // m
 constexpr double stiffness = 1e6;      // N/m, of particle and contact (rigid plate)
@@ -102,10 +100,7 @@ struct SphereScene {
     return sum;
   }
 
-  Vector3 load() const {
-    const fem::Point f = body.total_force();
-    return {f[0], f[1], f[2]};
-  }
+  Vector3 load() const { return body.total_force(); }
 };
 
 } // namespace platen::coupling

@@ -85,7 +85,7 @@ class Disc : public testing::TestWithParam<bool> {};
 
 TEST_P(Disc, the_list_gives_the_answer_of_looking_at_every_face) {
   fem::RigidBody body(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel);
-  body.set_velocity({0.3, 0.1, -0.2}, GetParam() ? fem::Point{0.5, -0.4, 0.3} : fem::Point{});
+  body.set_velocity({0.3, 0.1, -0.2}, GetParam() ? Vector3{0.5, -0.4, 0.3} : Vector3{});
   ASSERT_NE(body.surface().only_shifted, GetParam());
   std::vector<Vector3> centres = random_points(150, 0.8, 11);
   dem::Particles particles(spheres(centres, 0.05), 1000, false);
@@ -167,10 +167,8 @@ TEST(surface_search, broken_surfaces_still_give_one_finite_answer) {
     surface.face_tags.assign(surface.faces.size(), 0);
     surface.only_shifted = trial % 2 == 0;
     std::vector<Vector3> centres = random_points(10, 2, static_cast<unsigned>(trial));
-    for (const int v : {0, 5, 9}) { // exactly on vertices
-      const fem::Point &p = surface.vertices[static_cast<std::size_t>(v)];
-      centres.push_back({p[0], p[1], p[2]});
-    }
+    for (const int v : {0, 5, 9}) // exactly on vertices
+      centres.push_back(surface.vertices[static_cast<std::size_t>(v)]);
     dem::Particles particles(spheres(centres, 0.1), 1000, false);
     SurfaceSearch search(surface, 0.2);
     search.rebuild(surface, particles.position, std::vector<double>(particles.size(), 5.0), {});

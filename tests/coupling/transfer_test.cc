@@ -12,10 +12,6 @@
 namespace platen::coupling {
 namespace {
 
-Vector3 vec(const fem::Point &p) {
-  return {p[0], p[1], p[2]};
-}
-
 // A disc that drifts and turns, with a crowd of spheres pressed into it from all sides at random.
 struct Crowd {
   SphereScene scene;
@@ -40,7 +36,7 @@ struct Crowd {
   }
   static std::vector<Vector3> centres() {
     const fem::RigidBody body = disc();
-    const Vector3 c = vec(body.centre());
+    const Vector3 c = body.centre();
     std::mt19937 engine(8);
     std::uniform_real_distribution<double> draw(-1, 1);
     std::vector<Vector3> points(400);
@@ -78,10 +74,9 @@ TEST_P(Transfer, loads_are_equal_and_opposite_to_what_the_particles_feel) {
     }
     // Each by itself: a maximum passes over what is no number.
     EXPECT_LE(norm(force + scene.load()), 1e-13 * forces);
-    EXPECT_LE(norm(moment + vec(scene.body.moment({about.x, about.y, about.z}))), 1e-13 * moments);
+    EXPECT_LE(norm(moment + scene.body.moment(about)), 1e-13 * moments);
     worst_force = std::max(worst_force, norm(force + scene.load()) / forces);
-    worst_moment =
-        std::max(worst_moment, norm(moment + vec(scene.body.moment({about.x, about.y, about.z}))) / moments);
+    worst_moment = std::max(worst_moment, norm(moment + scene.body.moment(about)) / moments);
   }
   measured::expect_below(7, "sum_of_forces", worst_force, 1e-13);
   measured::expect_below(7, "sum_of_moments", worst_moment, 1e-13);
@@ -96,8 +91,8 @@ TEST_P(Transfer, power_is_the_same_on_both_sides) {
   double power = 0, size = 0;
   for (const ActiveContact &c : scene.layer.contacts()) {
     const auto i = static_cast<std::size_t>(c.particle);
-    const Vector3 f = p.force[i], r = c.point - vec(scene.body.centre());
-    const Vector3 w = vec(scene.body.angular_velocity()), surface = vec(scene.body.velocity()) + cross(w, r);
+    const Vector3 f = p.force[i], r = c.point - scene.body.centre();
+    const Vector3 w = scene.body.angular_velocity(), surface = scene.body.velocity() + cross(w, r);
     const Vector3 seat = (*p.torque)[i] - cross(c.point - p.position[i], f);
     power += dot(f, surface) + dot(seat, w);
     size += norm(f) * norm(surface);
@@ -119,9 +114,8 @@ TEST(transfer, a_rigid_motion_of_the_corners_is_a_rigid_motion_of_the_face) {
     const Quad q = {o, o + Vector3{1, 0, 0} + 0.3 * random(), o + Vector3{1, 1, 0} + 0.3 * random(),
                     o + Vector3{0, 1, 0} + 0.3 * random()};
     for (const Vector3 &x : q) {
-      const Vector3 u = v + cross(w, x);
-      surface.vertices.push_back({x.x, x.y, x.z});
-      surface.velocities.push_back({u.x, u.y, u.z});
+      surface.vertices.push_back(x);
+      surface.velocities.push_back(v + cross(w, x));
     }
     surface.faces = {{0, 1, 2, 3}};
     surface.face_tags = {0};
@@ -139,8 +133,8 @@ TEST(transfer, a_rigid_motion_of_the_corners_is_a_rigid_motion_of_the_face) {
 TEST(transfer, a_moment_on_a_face_is_a_moment_without_a_force) {
   fem::RigidBody body(fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 0.001, 0.1}, {1, 1, 1}}), steel);
   apply_moment(body, 0, {1, -2, 3});
-  EXPECT_LT(norm(vec(body.total_force())), 1e-13 * 3e3); // forces of M / width
-  EXPECT_LT(norm(vec(body.moment({4, 5, 6})) - Vector3{1, -2, 3}), 1e-10);
+  EXPECT_LT(norm(body.total_force()), 1e-13 * 3e3); // forces of M / width
+  EXPECT_LT(norm(body.moment({4, 5, 6}) - Vector3{1, -2, 3}), 1e-10);
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <string>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/random.h"
 #include "dem/not_finite.h"
-#include "dem/packing/random.h"
 
 namespace platen::dem {
 namespace {

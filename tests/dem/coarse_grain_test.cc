@@ -1,5 +1,6 @@
 // Fields from spheres: what comes out is what was put in, whatever the grid and the frame.
 #include "dem/measure/coarse_grain.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace platen::dem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, reach = 3.5; // lengths in mean radii
+constexpr double reach = 3.5; // lengths in mean radii
 
 double volume(double r) {
   return 4.0 / 3 * pi * r * r * r;

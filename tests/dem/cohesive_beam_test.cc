@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/dual.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/static_solve.h"

@@ -1,6 +1,7 @@
 // A pressure on the skin: the surface that it acts on is closed, has the specimen's area, and is that of the
 // specimen as it is now.
 #include "dem/confinement.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,6 @@
 
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 BondLayout layout() {
   BondLayout l;

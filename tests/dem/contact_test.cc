@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "dem/laws/hertz_contact.h"
-#include "dem/packing/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

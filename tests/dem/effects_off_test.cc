@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/instructions.h"
 #include "tests/measured.h"

@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/motion_kernel.h"
-#include "dem/packing/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

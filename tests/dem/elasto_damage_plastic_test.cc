@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "base/pi.h"
 #include "dem/laws/elasto_damage_plastic.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Concrete of Onate et al. 2015, table 5.
 ElastoDamagePlastic::Parameters concrete() {

@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include "base/pi.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem::examples {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 1.3e-3;      // m, of every sphere unless a test says otherwise
 constexpr double modulus = 40e9;       // Pa, G_b
 constexpr double stiffness_ratio = .4; // k_s / k_n

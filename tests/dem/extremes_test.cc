@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 

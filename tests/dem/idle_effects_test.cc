@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

@@ -7,9 +7,9 @@
 #include <ostream>
 #include <set>
 
+#include "base/random.h"
 #include "dem/integrator.h"
 #include "dem/kernels/motion_kernel.h"
-#include "dem/packing/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

@@ -10,6 +10,7 @@
 
 namespace {
 
+using namespace platen;
 using namespace platen::dem;
 
 constexpr double mm = 1e-3;

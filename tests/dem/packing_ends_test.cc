@@ -6,11 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/pi.h"
 #include "dem/packing/ends.h"
 #include "dem/packing/specimen.h"
 
 namespace {
 
+using namespace platen;
 using namespace platen::dem;
 
 // Unit spheres with gaps of 0, .4, .6 and 1.5 to z = 0, and of 0, .2 to z = 20; mean radius 1.
@@ -108,7 +110,7 @@ TEST(SpecimenMeasures, agree_with_plain_geometry) {
   EXPECT_DOUBLE_EQ(bounds.low.x, -9.0);
   EXPECT_DOUBLE_EQ(bounds.high.z, 20.0);
   EXPECT_DOUBLE_EQ(mean_radius(s), 1.0);
-  EXPECT_NEAR(surface_area(cylinder(2, 3)), 2 * 3.14159265358979 * 2 * 5, 1e-12);
+  EXPECT_NEAR(surface_area(cylinder(2, 3)), 2 * pi * 2 * 5, 1e-12);
   EXPECT_DOUBLE_EQ(surface_area(box(1, 2, 3)), 22.0);
   EXPECT_DOUBLE_EQ(smallest_width(cylinder(2, 3)), 3.0);
   EXPECT_DOUBLE_EQ(wall_clearance(cylinder(2, 3), {1, 0, 1.5}), 1.0);

@@ -11,6 +11,7 @@
 
 namespace {
 
+using namespace platen;
 using namespace platen::dem;
 
 // About 900 spheres in a cylinder of ten mean radii; made once.

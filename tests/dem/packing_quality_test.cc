@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/pi.h"
+#include "base/random.h"
 #include "dem/packing/direction_cells.h"
 #include "dem/packing/quality.h"
-#include "dem/packing/random.h"
 #include "dem/packing/sphere_clipping.h"
 
 namespace {
 
+using namespace platen;
 using namespace platen::dem;
-
-constexpr double pi = 3.14159265358979323846;
 
 // n^3 touching spheres of radius 1/2 in a cube of edge n.
 Specimen simple_cubic(int n) {

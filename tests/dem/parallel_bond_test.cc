@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "dem/packing/random.h"
+#include "base/random.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

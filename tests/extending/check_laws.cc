@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/pi.h"
 #include "dem/laws/normal_contact.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
@@ -42,10 +43,10 @@ void check_bond(dem::InstructionSet set, bool rotation) {
   spring.axial_share = 0.5;
   settings.bond = spring;
   dem::Model model(pair(2 * radius), settings);
-  model.particles.position[1] += dem::Vector3{1e-6, 0, 1e-6};
+  model.particles.position[1] += Vector3{1e-6, 0, 1e-6};
   model.compute_forces(1e-9);
   model.end_step(1e-9);
-  const double length = std::hypot(1e-6, 2 * radius + 1e-6), pi = 3.14159265358979323846;
+  const double length = std::hypot(1e-6, 2 * radius + 1e-6);
   const double k = 0.5 * 30e9 / (2 * radius) * pi * radius * radius, force = k * (length - 2 * radius);
   expect("force along", force * (2 * radius + 1e-6) / length, model.particles.force[0].z, 1e-9);
   expect("force across", force * 1e-6 / length, model.particles.force[0].x, 1e-9);

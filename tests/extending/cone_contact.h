@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::dem {
@@ -21,7 +22,6 @@ struct ConeContact {
     return std::cbrt(3 * energy / coefficient);
   }
   static double coefficient(const ContactSettings &s, double, double, const BondLayout &) {
-    const double pi = 3.14159265358979323846;
     return 2 / pi * s.young_modulus / (2 * (1 - s.poisson_ratio * s.poisson_ratio));
   }
   static bool follows_bonds(const ContactSettings &) { return false; }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "base/state.h"
 #include "tests/fem/elastic_plate.h"
 
@@ -32,7 +33,7 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
     const ElasticSolid still(plate(), {steel}, Grip{});
     const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to swing
     solid.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
-    std::vector<Point> rate(solid.model().nodes.size(), Point{});
+    std::vector<Vector3> rate(solid.model().nodes.size(), Vector3{});
     solid.set_deformation(rate, rate); // inside moves with the frame
     if (kind == ElasticMotion::explicit_steps) {
       // A free inside would feel the turn's centripetal force; one step over all of it is not the test.
@@ -48,17 +49,17 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
     } else {
       for (int k = 0; k < 64; ++k)
         solid.drift(dt);
-      solid.aim(std::vector<Point>(solid.surface().vertices.size(), Point{}), 0);
+      solid.aim(std::vector<Vector3>(solid.surface().vertices.size(), Vector3{}), 0);
     }
-    EXPECT_NEAR(solid.rotation()[1], std::sqrt(0.5), 1e-12); // a quarter turn about x
+    EXPECT_NEAR(solid.rotation().x, std::sqrt(0.5), 1e-12); // a quarter turn about x
     EXPECT_LT(solid.book().strain, 1e-20);
     for (const Stress &s : solid.stress_of_cells())
       EXPECT_LT(von_mises(s), 1e-13 * steel.young_modulus);
-    const Point moved = solid.displacement();
+    const Vector3 moved = solid.displacement();
     EXPECT_NEAR(moved[0], 0.9, 1e-12);
     for (std::size_t v = 0; v < still.surface().vertices.size(); ++v) {
-      const Point r = still.surface().vertices[v] - still.centre();
-      const Point expected = still.centre() + moved + Point{r[0], -r[2], r[1]};
+      const Vector3 r = still.surface().vertices[v] - still.centre();
+      const Vector3 expected = still.centre() + moved + Vector3{r[0], -r[2], r[1]};
       EXPECT_LT(norm(solid.surface().vertices[v] - expected), 1e-13);
     }
   }
@@ -70,10 +71,10 @@ TEST(elastic_solid, a_turned_body_bends_as_an_upright_one) {
   ElasticSolid turned(plate(), {steel}, Grip{}, {2, ElasticMotion::quasi_static});
   turned.set_velocity({}, {0, 0.5 * pi, 0});
   turned.drift(1);
-  std::vector<Point> loads = uneven_loads(upright, 1e3);
+  std::vector<Vector3> loads = uneven_loads(upright, 1e3);
   upright.aim(loads, 0);
-  for (Point &f : loads)
-    f = rotated(turned.rotation(), f);
+  for (Vector3 &f : loads)
+    f = rotate(turned.rotation(), f);
   turned.aim(loads, 0);
   const auto a = upright.deformation(), b = turned.deformation();
   double size = 0;
@@ -99,7 +100,7 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
     const auto press = [&] {
       solid.clear_loads();
       for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v) {
-        const Point &p = solid.surface().vertices[v];
+        const Vector3 &p = solid.surface().vertices[v];
         if (std::abs(p[2]) > 5e-3) continue;
         const double speed = solid.surface().velocities[v][2];
         solid.add_surface_force(static_cast<int>(v),
@@ -116,7 +117,7 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
       if (kind == ElasticMotion::quasi_static && k % 50 == 49) solid.aim(solid.contact_loads(), 50 * dt);
     }
     EXPECT_LT(norm(solid.moment(solid.centre())), 1e-6 * moment_at_start);
-    const Point normal = rotated(solid.rotation(), {0, 0, 1});
+    const Vector3 normal = rotate(solid.rotation(), {0, 0, 1});
     EXPECT_NEAR(-normal[0] / normal[2], slope, 5e-3 * slope);
     EXPECT_NEAR(normal[1], 0, 1e-9);
     EXPECT_NEAR(norm(solid.displacement()), 0, 1e-15); // the seat is held
@@ -130,10 +131,10 @@ TEST(elastic_solid, a_body_on_its_seat_keeps_its_angular_momentum) {
   grip.turns = true;
   grip.seat = {0.01, 0.005, 0.03};
   ElasticSolid solid(plate(), {steel}, grip, {1});
-  const std::vector<Point> none(solid.model().nodes.size(), Point{});
+  const std::vector<Vector3> none(solid.model().nodes.size(), Vector3{});
   solid.set_velocity({}, {20, -10, 30});
   solid.set_deformation(none, shaken(solid, 1e-2));
-  const Point start = solid.angular_momentum();
+  const Vector3 start = solid.angular_momentum();
   const double dt = 0.8 * solid.stable_step();
   solid.drift(dt, 1);
   const double energy = total(solid.book());

@@ -1,4 +1,5 @@
 #include "fem/elastic_model.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -11,15 +12,14 @@
 namespace platen::fem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr Material steel{7850, 210e9, 0.3};
 constexpr Material rubber{1200, 10e6, 0.45};
 
 // The unit cube with its inside pushed about: no cell is a parallelepiped, the faces stay where they are.
 Grid distorted_cube(int n) {
-  return moved_grid(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {n, n, n}}), [](const Point &p) {
+  return moved_grid(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {n, n, n}}), [](const Vector3 &p) {
     const double s = std::sin(pi * p[0]) * std::sin(pi * p[1]) * std::sin(pi * p[2]);
-    return p + s * Point{0.08 * std::cos(2 * p[1]), -0.09 * p[2], 0.1 * std::sin(3 * p[0])};
+    return p + s * Vector3{0.08 * std::cos(2 * p[1]), -0.09 * p[2], 0.1 * std::sin(3 * p[0])};
   });
 }
 
@@ -33,17 +33,17 @@ Held held_on(const ElasticModel &model, const std::vector<int> &tags) {
 
 // A displacement that is zero on the faces of the unit cube, and the force per volume that goes with it.
 struct Wave {
-  Point direction{1, 0.5, -0.7};
-  double bump(const Point &p, const std::array<int, 3> &slopes = {0, 0, 0}) const {
+  Vector3 direction{1, 0.5, -0.7};
+  double bump(const Vector3 &p, const std::array<int, 3> &slopes = {0, 0, 0}) const {
     double product = 1;
     for (std::size_t k = 0; k < 3; ++k)
       product *= slopes[k] ? pi * std::cos(pi * p[k]) : std::sin(pi * p[k]);
     return product;
   }
-  Point displacement(const Point &p) const { return bump(p) * direction; }
-  Point force(const Point &p, const Material &material) const {
+  Vector3 displacement(const Vector3 &p) const { return bump(p) * direction; }
+  Vector3 force(const Vector3 &p, const Material &material) const {
     const Lame c = lame(material);
-    Point f{};
+    Vector3 f{};
     for (std::size_t i = 0; i < 3; ++i) {
       double gradient = 0;
       for (std::size_t j = 0; j < 3; ++j) {
@@ -60,12 +60,12 @@ struct Wave {
 double error_of_wave(int degree, int n) {
   const Wave wave;
   const ElasticModel model = make_elastic_model(distorted_cube(n), degree, {steel});
-  std::vector<Point> x(model.nodes.size(), Point{});
-  const auto load = body_load(model, [&](const Point &p) { return wave.force(p, steel); });
+  std::vector<Vector3> x(model.nodes.size(), Vector3{});
+  const auto load = body_load(model, [&](const Vector3 &p) { return wave.force(p, steel); });
   StaticSolver(model.stiffness, model.nodes, held_on(model, {0, 1, 2, 3, 4, 5}))
       .solve(model.stiffness, load, x);
-  return std::sqrt(integral(model, x, [&](const Point &p, const Point &u) {
-    const Point d = u - wave.displacement(p);
+  return std::sqrt(integral(model, x, [&](const Vector3 &p, const Vector3 &u) {
+    const Vector3 d = u - wave.displacement(p);
     return dot(d, d);
   }));
 }
@@ -93,18 +93,18 @@ TEST(elastic_model, quadratic_elements_are_of_third_order) {
 
 // A linear displacement on the boundary is taken up exactly inside, and its stress is even.
 TEST(elastic_model, passes_the_patch_test_on_distorted_cells) {
-  const auto linear = [](const Point &p) {
-    return Point{1e-3 * p[0] + 2e-3 * p[1] - 5e-4 * p[2], -3e-4 * p[0] + 1e-3 * p[2],
-                 7e-4 * p[1] - 2e-3 * p[2]};
+  const auto linear = [](const Vector3 &p) {
+    return Vector3{1e-3 * p[0] + 2e-3 * p[1] - 5e-4 * p[2], -3e-4 * p[0] + 1e-3 * p[2],
+                   7e-4 * p[1] - 2e-3 * p[2]};
   };
   for (const int degree : {1, 2})
     for (const LinearSolver kind : {LinearSolver::direct, LinearSolver::multigrid}) {
       const ElasticModel model = make_elastic_model(distorted_cube(4), degree, {steel});
       const Held held = held_on(model, {0, 1, 2, 3, 4, 5});
-      std::vector<Point> x(model.nodes.size(), Point{});
+      std::vector<Vector3> x(model.nodes.size(), Vector3{});
       for (std::size_t i = 0; i < x.size(); ++i)
         if (held[i][0]) x[i] = linear(model.nodes[i]);
-      const std::vector<Point> none(x.size(), Point{});
+      const std::vector<Vector3> none(x.size(), Vector3{});
       StaticSolver(model.stiffness, model.nodes, held, kind).solve(model.stiffness, none, x);
       double worst = 0;
       for (std::size_t i = 0; i < x.size(); ++i)
@@ -126,8 +126,8 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
   for (const int degree : {1, 2}) {
     const int n = degree == 1 ? 16 : 8;
     const Grid grid =
-        moved_grid(make_grid(BoxPlate{{a, 0, 0}, {b, 0.5 * pi, 0.2}, {n, 2 * n, 1}}), [](const Point &q) {
-          return Point{q[0] * std::cos(q[1]), q[0] * std::sin(q[1]), q[2]};
+        moved_grid(make_grid(BoxPlate{{a, 0, 0}, {b, 0.5 * pi, 0.2}, {n, 2 * n, 1}}), [](const Vector3 &q) {
+          return Vector3{q[0] * std::cos(q[1]), q[0] * std::sin(q[1]), q[2]};
         });
     const ElasticModel model = make_elastic_model(grid, degree, {steel});
     Held held(model.nodes.size(), {0, 0, 0});
@@ -136,8 +136,9 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
         held[static_cast<std::size_t>(i)][k] = 1;
     };
     hold(2, 1), hold(3, 0), hold(4, 2), hold(5, 2);
-    const auto load = face_load(model, 0, [&](const Point &, const Point &normal) { return -p * normal; });
-    std::vector<Point> x(load.size(), Point{});
+    const auto load =
+        face_load(model, 0, [&](const Vector3 &, const Vector3 &normal) { return -p * normal; });
+    std::vector<Vector3> x(load.size(), Vector3{});
     StaticSolver(model.stiffness, model.nodes, held).solve(model.stiffness, load, x);
     const double A = p * a * a / (b * b - a * a), B = A * b * b, e = steel.young_modulus,
                  nu = steel.poisson_ratio;
@@ -146,7 +147,7 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
     for (std::size_t k = 0; k < stress.size(); ++k)
       at_node[static_cast<std::size_t>(model.cell_nodes[k])] = stress[k];
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Point &q = model.nodes[i];
+      const Vector3 &q = model.nodes[i];
       const double r = std::hypot(q[0], q[1]);
       const double expected = (1 + nu) / e * (A * (1 - 2 * nu) * r + B / r);
       EXPECT_NEAR((x[i][0] * q[0] + x[i][1] * q[1]) / r, expected, 0.005 * expected) << degree;
@@ -171,12 +172,12 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
       const double p = 1e6, area = model.volume / 0.02;
       const double closure = p * (0.001 / 10e6 + 0.002 / 0.5e9 + 0.017 / 210e9);
       Held held = held_on(model, {high_end_tag});
-      std::vector<Point> x(model.nodes.size(), Point{}), force;
+      std::vector<Vector3> x(model.nodes.size(), Vector3{}), force;
       for (const int i : nodes_on(model, low_end_tag)) {
         held[static_cast<std::size_t>(i)][2] = 1;
         x[static_cast<std::size_t>(i)][2] = closure;
       }
-      const std::vector<Point> none(x.size(), Point{});
+      const std::vector<Vector3> none(x.size(), Vector3{});
       StaticSolver(model.stiffness, model.nodes, held).solve(model.stiffness, none, x);
       model.stiffness.multiply(x, force);
       double reaction = 0;
@@ -189,8 +190,8 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
 }
 
 TEST(elastic_model, lumped_masses_are_positive_and_weigh_what_the_solid_does) {
-  const auto bent = [](const Point &p) {
-    return Point{p[0] + 0.3 * p[1] * p[2], p[1] - 0.2 * p[0] * p[2], p[2]};
+  const auto bent = [](const Vector3 &p) {
+    return Vector3{p[0] + 0.3 * p[1] * p[2], p[1] - 0.2 * p[0] * p[2], p[2]};
   };
   for (const int degree : {1, 2}) {
     const Grid grid =
@@ -199,7 +200,7 @@ TEST(elastic_model, lumped_masses_are_positive_and_weigh_what_the_solid_does) {
     const VolumeMoments whole = volume_moments(grid);
     const ElasticModel even = make_elastic_model(grid, degree, {steel, steel});
     double sum = 0, even_sum = 0;
-    Point first{};
+    Vector3 first{};
     for (std::size_t i = 0; i < model.mass.size(); ++i) {
       EXPECT_GT(model.mass[i], 0);
       sum += model.mass[i], even_sum += even.mass[i];
@@ -226,11 +227,11 @@ TEST(elastic_model, stiffness_is_symmetric_and_blind_to_rigid_motions) {
           for (std::size_t c = 0; c < 3; ++c)
             ASSERT_EQ(k.values[9 * b + 3 * r + c], mirror[3 * c + r]);
       }
-    std::vector<Point> motion(model.nodes.size()), force;
+    std::vector<Vector3> motion(model.nodes.size()), force;
     for (std::size_t i = 0; i < motion.size(); ++i)
-      motion[i] = Point{1, -2, 3} + cross(Point{3, 1, -2}, model.nodes[i]);
+      motion[i] = Vector3{1, -2, 3} + cross(Vector3{3, 1, -2}, model.nodes[i]);
     k.multiply(motion, force);
-    for (const Point &f : force)
+    for (const Vector3 &f : force)
       EXPECT_LT(norm(f), 1e-13 * steel.young_modulus * 10);
   }
 }
@@ -250,7 +251,7 @@ TEST(elastic_model, every_node_of_the_boundary_is_a_vertex) {
     for (std::size_t v = 0; v < s.node.size(); ++v)
       EXPECT_EQ(s.surface.vertices[v], model.nodes[static_cast<std::size_t>(s.node[v])]);
     std::size_t low = 0;
-    for (const Point &p : model.nodes)
+    for (const Vector3 &p : model.nodes)
       low += p[2] == -0.01;
     EXPECT_EQ(nodes_on(model, low_end_tag).size(), low);
   }
@@ -260,9 +261,9 @@ TEST(elastic_model, multigrid_and_factors_agree) {
   for (const int degree : {1, 2}) {
     const ElasticModel model = make_elastic_model(
         make_grid(CylinderPlate{0.03, 0.02, 0, 8, 1}, {{0.002, 1}, {0.018, 2}}), degree, {rubber, steel});
-    const auto load = body_load(model, [](const Point &p) { return Point{1e6 * p[1], 2e5, 3e7 * p[0]}; });
+    const auto load = body_load(model, [](const Vector3 &p) { return Vector3{1e6 * p[1], 2e5, 3e7 * p[0]}; });
     const Held held = held_on(model, {high_end_tag});
-    std::vector<Point> by_factors(load.size(), Point{}), by_multigrid = by_factors;
+    std::vector<Vector3> by_factors(load.size(), Vector3{}), by_multigrid = by_factors;
     StaticSolver(model.stiffness, model.nodes, held, LinearSolver::direct)
         .solve(model.stiffness, load, by_factors);
     const StaticSolver multigrid(model.stiffness, model.nodes, held, LinearSolver::multigrid);
@@ -286,8 +287,8 @@ TEST(elastic_model, what_no_solid_can_be_is_refused) {
   EXPECT_THROW(make_elastic_model(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, {{0.5, 1}, {0.5, 1}}),
                                   1, {steel}),
                std::invalid_argument);
-  const Grid turned = moved_grid(grid, [](const Point &p) { // the last corner pushed through its cell
-    return p == Point{1, 1, 1} ? Point{0.4, 0.4, 0.4} : p;
+  const Grid turned = moved_grid(grid, [](const Vector3 &p) { // the last corner pushed through its cell
+    return p == Vector3{1, 1, 1} ? Vector3{0.4, 0.4, 0.4} : p;
   });
   for (const int degree : {1, 2})
     try {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "tests/fem/elastic_plate.h"
 
 namespace platen::fem {
@@ -15,10 +16,10 @@ TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
   for (const int degree : {1, 2}) {
     ElasticSolid rod(make_grid(BoxPlate{{0, 0, 0}, {0.1, 0.1, 1}, {1, 1, 8}}), {{2000, 8e9, 0}}, Grip{},
                      {degree});
-    std::vector<Point> u(rod.model().nodes.size(), Point{});
+    std::vector<Vector3> u(rod.model().nodes.size(), Vector3{});
     for (std::size_t i = 0; i < u.size(); ++i)
       u[i][2] = 1e-6 * std::cos(0.5 * pi * rod.model().nodes[i][2]);
-    rod.set_deformation(u, std::vector<Point>(u.size(), Point{}));
+    rod.set_deformation(u, std::vector<Vector3>(u.size(), Vector3{}));
     const double c = 2000, dt = 0.5 * rod.stable_step();
     std::size_t tip = 0;
     while (rod.model().nodes[tip][2] != 0)
@@ -44,14 +45,14 @@ TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
 TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
   const double h = 0.05, e = 8e9, rho = 2000;
   ElasticSolid beam(make_grid(BoxPlate{{0, 0, 0}, {h, h, 1}, {1, 1, 10}}), {{rho, e, 0}}, Grip{}, {2});
-  std::vector<Point> u(beam.model().nodes.size(), Point{});
+  std::vector<Vector3> u(beam.model().nodes.size(), Vector3{});
   for (std::size_t i = 0; i < u.size(); ++i) { // the shape under a force at the tip
     const double s = 1 - beam.model().nodes[i][2];
     u[i][0] = 1e-4 * s * s * (3 - s) / 2;
     u[i][2] = 1e-4 * (beam.model().nodes[i][0] - h / 2) * (6 * s - 3 * s * s) / 2;
   }
-  beam.set_deformation(u, std::vector<Point>(u.size(), Point{}));
-  const std::vector<Point> shape = beam.deformation();
+  beam.set_deformation(u, std::vector<Vector3>(u.size(), Vector3{}));
+  const std::vector<Vector3> shape = beam.deformation();
   const double w = 1.8751041 * 1.8751041 * std::sqrt(e * h * h / 12 / rho), dt = 0.9 * beam.stable_step();
   double time = 0, first = 0, last = 0, before = 0;
   int crossings = 0;
@@ -59,7 +60,7 @@ TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
     beam.drift(dt, 1);
     time += dt;
     double now = 0; // how much of the shape is left: other modes have little share in it
-    const std::vector<Point> now_at = beam.deformation();
+    const std::vector<Vector3> now_at = beam.deformation();
     for (std::size_t i = 0; i < u.size(); ++i)
       now += beam.model().mass[i] * dot(shape[i], now_at[i]);
     if (before * now < 0) {
@@ -79,7 +80,7 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
       options.mass_damping = damped ? 500 : 0;
       options.stiffness_damping = damped ? 1e-8 : 0;
       ElasticSolid solid(plate(), {steel}, Grip{}, options);
-      const std::vector<Point> loads = uneven_loads(solid, 1e4);
+      const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
       solid.set_velocity({0, 0, -0.5});
       const double dt = 0.8 * solid.stable_step();
       solid.drift(dt, 1);
@@ -87,8 +88,8 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
       double largest = 0;
       for (int k = 0; k < 1000; ++k) {
         if (k == 300) solid.set_velocity({0, 0, 0.3});
-        std::vector<Point> now = loads;
-        for (Point &f : now)
+        std::vector<Vector3> now = loads;
+        for (Vector3 &f : now)
           f = (1 + std::sin(0.1 * k)) * f;
         solid.kick(0.5 * dt);
         solid.drift(dt, 1);
@@ -111,11 +112,11 @@ TEST(elastic_solid, explicit_motion_is_of_second_order) {
     const auto run = [&](int steps) {
       ElasticSolid solid(plate(), {pad}, Grip{}, {1});
       const double end = 24 * solid.stable_step() * (inner == 1 ? 1 : 2), dt = end / steps;
-      const std::vector<Point> loads = uneven_loads(solid, 10);
+      const std::vector<Vector3> loads = uneven_loads(solid, 10);
       solid.set_velocity({0, 0, -0.01});
       for (int k = 0; k <= steps; ++k) {
-        std::vector<Point> now = loads;
-        for (Point &f : now)
+        std::vector<Vector3> now = loads;
+        for (Vector3 &f : now)
           f = std::pow(std::sin(2 * pi * k / steps), 2) * f;
         put(solid, now);
         if (k > 0) solid.kick(0.5 * dt);
@@ -136,14 +137,14 @@ TEST(elastic_solid, explicit_motion_is_of_second_order) {
 
 // Shaken at random, energy stays for thousands of steps below the limit and explodes above it.
 TEST(elastic_solid, the_stable_step_is_the_limit) {
-  const Grid skew = moved_grid(plate(), [](const Point &p) {
-    return Point{p[0] + 0.3 * p[1] * std::sin(40 * p[2]), p[1] + 5 * p[0] * p[2],
-                 p[2] + 400 * p[0] * p[2] * (0.02 - p[2])};
+  const Grid skew = moved_grid(plate(), [](const Vector3 &p) {
+    return Vector3{p[0] + 0.3 * p[1] * std::sin(40 * p[2]), p[1] + 5 * p[0] * p[2],
+                   p[2] + 400 * p[0] * p[2] * (0.02 - p[2])};
   });
   for (const int degree : {1, 2}) {
     const auto growth = [&](double share) {
       ElasticSolid solid(skew, {steel}, Grip{}, {degree});
-      const std::vector<Point> none(solid.model().nodes.size(), Point{});
+      const std::vector<Vector3> none(solid.model().nodes.size(), Vector3{});
       solid.set_deformation(none, shaken(solid, 1e-3));
       const double start = solid.kinetic_energy(), dt = share * solid.stable_step();
       for (int k = 0; k < 3000; ++k)
@@ -164,9 +165,9 @@ TEST(elastic_solid, a_free_body_keeps_its_momentum) {
   Grip none;
   none.tag = no_grip;
   ElasticSolid solid(plate(), {steel}, none, {2});
-  const std::vector<Point> u = shaken(solid, 1e-7);
+  const std::vector<Vector3> u = shaken(solid, 1e-7);
   solid.set_deformation(u, shaken(solid, 1e-2));
-  const Point start = solid.momentum();
+  const Vector3 start = solid.momentum();
   const double size = std::sqrt(2 * solid.mass() * solid.kinetic_energy()), dt = 0.9 * solid.stable_step();
   for (int k = 0; k < 1000; ++k)
     solid.drift(dt, 1);

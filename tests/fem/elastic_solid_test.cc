@@ -28,12 +28,12 @@ TEST(elastic_solid, the_grip_bears_what_the_loads_give) {
   EXPECT_LT(norm(solid.grip_moment() - solid.moment(solid.centre())), 1e-6 * norm(solid.grip_moment()));
   // Quasi-static: the same shape, and the strain energy is half of what the loads would do at full size.
   ElasticSolid slow(plate(), {steel}, Grip{}, {1, ElasticMotion::quasi_static});
-  const std::vector<Point> loads = uneven_loads(slow, 1e4);
+  const std::vector<Vector3> loads = uneven_loads(slow, 1e4);
   put(slow, loads);
   slow.aim(loads, 0);
   const auto a = solid.deformation(), b = slow.deformation();
   double largest = 0;
-  for (const Point &p : b)
+  for (const Vector3 &p : b)
     largest = std::max(largest, norm(p));
   for (std::size_t i = 0; i < a.size(); ++i)
     EXPECT_LT(norm(a[i] - b[i]), 1e-8 * largest);
@@ -48,7 +48,7 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
     ElasticOptions options{2, ElasticMotion::quasi_static};
     options.solver = kind;
     ElasticSolid solid(plate(), {steel}, Grip{}, options), at_once(plate(), {steel}, Grip{}, options);
-    const std::vector<Point> loads = uneven_loads(solid, 1e4);
+    const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
     at_once.aim(loads, 0);
     solid.set_velocity({0, 0, -0.1});
     solid.aim(loads, 1e-5);
@@ -60,7 +60,7 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
       solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
       double farthest = 0;
       for (std::size_t v = 0; v < before.size(); ++v) { // velocities are those of the way
-        const Point way = solid.surface().vertices[v] - before[v];
+        const Vector3 way = solid.surface().vertices[v] - before[v];
         EXPECT_LT(norm(way - dt * solid.surface().velocities[v]), 1e-16);
         farthest = std::max(farthest, norm(way));
       }
@@ -72,8 +72,8 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
     EXPECT_NEAR(solid.book().strain, at_once.book().strain, 1e-10 * at_once.book().strain);
     EXPECT_NEAR(total(solid.book()), 0, 1e-9 * solid.book().strain);
     solid.drift(dt); // there: only the machine moves it
-    for (const Point &v : solid.surface().velocities)
-      EXPECT_EQ(v, (Point{0, 0, -0.1}));
+    for (const Vector3 &v : solid.surface().velocities)
+      EXPECT_EQ(v, (Vector3{0, 0, -0.1}));
   }
 }
 
@@ -99,7 +99,7 @@ TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
     grip.seat = {0.01, 0, 0.02};
     const auto make = [&] { return ElasticSolid(plate(), {steel}, grip, {1, kind}); };
     ElasticSolid solid = make();
-    const std::vector<Point> loads = uneven_loads(solid, 1e4);
+    const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
     const double dt = 3e-7;
     const auto go = [&](ElasticSolid &body, int first, int last) {
       for (int k = first; k < last; ++k) {
@@ -131,7 +131,7 @@ TEST(elastic_solid, the_picture_names_its_fields_and_repeats) {
   for (const int degree : {1, 2}) {
     ElasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0.5, 1}, {0.5, 1}}),
                        {pad, steel}, Grip{}, {degree, ElasticMotion::quasi_static});
-    const std::vector<Point> loads = uneven_loads(solid, 1e3);
+    const std::vector<Vector3> loads = uneven_loads(solid, 1e3);
     put(solid, loads);
     solid.aim(loads, 0);
     std::ostringstream first, second;

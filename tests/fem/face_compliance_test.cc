@@ -1,5 +1,6 @@
 // Dents of a mesh under single forces: against a half space, and what they may not depend on.
 #include "fem/face_compliance.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -31,8 +32,8 @@ double own_compliance(const ElasticSolid &s, const std::vector<FaceCompliance> &
   double least = 1e300, found = 0;
   for (std::size_t f = 0; f < c.size(); ++f)
     for (std::size_t k = 0; k < 4; ++k) {
-      const Point &p = s.surface().vertices[static_cast<std::size_t>(s.surface().faces[f][k])];
-      const double away = norm(p - Point{x, y, 0});
+      const Vector3 &p = s.surface().vertices[static_cast<std::size_t>(s.surface().faces[f][k])];
+      const double away = norm(p - Vector3{x, y, 0});
       if (away < least) least = away, found = c[f][k][k];
     }
   return found;
@@ -46,14 +47,14 @@ TEST(face_compliance, is_the_dent_of_a_half_space) {
     const int across = degree == 1 ? 12 : 8;
     ElasticSolid s = solid(block(across), degree);
     const std::vector<FaceCompliance> c = s.face_compliance();
-    const std::vector<Point> before = s.surface().vertices;
+    const std::vector<Vector3> before = s.surface().vertices;
     for (const double at : {0.0, 0.5}) {
       if (degree == 1 && at > 0) continue; // a node in the middle of an edge
-      std::vector<Point> load(s.surface().vertices.size(), Point{});
+      std::vector<Vector3> load(s.surface().vertices.size(), Vector3{});
       const auto vertex = [&](double x, double y) {
         std::size_t best = 0;
         for (std::size_t v = 0; v < before.size(); ++v)
-          if (norm(before[v] - Point{x, y, 0}) < norm(before[best] - Point{x, y, 0})) best = v;
+          if (norm(before[v] - Vector3{x, y, 0}) < norm(before[best] - Vector3{x, y, 0})) best = v;
         return best;
       };
       const std::size_t loaded = vertex(at * h, 0);
@@ -61,9 +62,8 @@ TEST(face_compliance, is_the_dent_of_a_half_space) {
       s.aim(load, 0);
       const auto dent = [&](std::size_t v) { return before[v][2] - s.surface().vertices[v][2]; };
       double block_share = 0;
-      for (const Point &way : {Point{4, 0, 0}, Point{-4, 0, 0}, Point{0, 4, 0}, Point{0, -4, 0}})
-        block_share +=
-            0.25 * (dent(vertex((at + way[0]) * h, way[1] * h)) - 1 / (std::acos(-1.0) * scale * 4));
+      for (const Vector3 &way : {Vector3{4, 0, 0}, Vector3{-4, 0, 0}, Vector3{0, 4, 0}, Vector3{0, -4, 0}})
+        block_share += 0.25 * (dent(vertex((at + way[0]) * h, way[1] * h)) - 1 / (pi * scale * 4));
       const double expected = dent(loaded) - block_share;
       EXPECT_NEAR(own_compliance(s, c, at * h, 0), expected, 0.04 * expected) << degree << ' ' << at;
       EXPECT_GT(expected * scale, 0.8); // far from nothing
@@ -79,8 +79,8 @@ TEST(face_compliance, scales_and_turns_with_the_body) {
   Material soft = rock;
   soft.young_modulus *= 0.5;
   const std::vector<FaceCompliance> large_and_soft = solid(block(4, 3 * h), 1, soft).face_compliance();
-  const auto turn = [](const Point &p) {
-    return Point{0.6 * p[0] - 0.8 * p[2] + 2, p[1] - 1, 0.8 * p[0] + 0.6 * p[2]};
+  const auto turn = [](const Vector3 &p) {
+    return Vector3{0.6 * p[0] - 0.8 * p[2] + 2, p[1] - 1, 0.8 * p[0] + 0.6 * p[2]};
   };
   const std::vector<FaceCompliance> turned = solid(moved_grid(block(4), turn), 1).face_compliance();
   ASSERT_EQ(c.size(), plain.surface().faces.size());

@@ -1,4 +1,5 @@
 #include "fem/grids.h"
+#include "base/pi.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace platen::fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<std::pair<const char *, Grid>> plates() {
   return {{"box", make_grid(BoxPlate{{-1, -2, 0.5}, {3, 1, 0.75}, {4, 3, 2}})},
@@ -44,11 +43,11 @@ TEST(grids, the_surface_of_a_plate_is_closed) {
 TEST(grids, faces_point_out_of_the_solid) {
   for (const auto &[name, grid] : plates()) {
     const SurfaceMesh surface = extract_surface(grid).surface;
-    const Point whole = volume_moments(grid).centroid;
+    const Vector3 whole = volume_moments(grid).centroid;
     const bool strips = std::string(name) == "strips";
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-      const Point corner = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
-      Point middle = whole; // plates are convex, and so is each strip
+      const Vector3 corner = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
+      Vector3 middle = whole; // plates are convex, and so is each strip
       if (strips) middle[0] = corner[0] < 0 ? -2.5 : 2.55;
       EXPECT_GT(dot(corner - middle, face_area_vector(surface, f)), 0) << name;
     }
@@ -67,7 +66,7 @@ TEST(grids, ends_are_flat_to_the_last_bit_and_tagged) {
   for (const auto &[name, grid] : plates()) {
     const SurfaceMesh surface = extract_surface(grid).surface;
     double low = 1e300, high = -1e300;
-    for (const Point &v : surface.vertices)
+    for (const Vector3 &v : surface.vertices)
       low = std::min(low, v[2]), high = std::max(high, v[2]);
     int ends[2] = {0, 0};
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -122,8 +121,8 @@ TEST(grids, a_tube_has_four_sides_and_the_volume_of_its_prisms) {
   EXPECT_LT(norm(total_area_vector(surface)), 1e-15);
   std::map<int, double> area;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    const Point own = face_area_vector(surface, f),
-                at = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
+    const Vector3 own = face_area_vector(surface, f),
+                  at = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])];
     area[surface.face_tags[f]] += norm(own);
     const double outwards = own[0] * at[0] + own[1] * at[1];
     switch (surface.face_tags[f]) {

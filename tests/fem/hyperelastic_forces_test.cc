@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "tests/fem/rubber_sleeve.h"
 
 namespace platen::fem {
@@ -10,7 +11,7 @@ namespace {
 
 TEST(hyperelastic_solid, mass_is_density_times_volume) {
   const HyperelasticSolid solid = sleeve();
-  const double volume = 8 * std::sin(M_PI / 8) * (0.055 * 0.055 - 0.05 * 0.05) * 0.06;
+  const double volume = 8 * std::sin(pi / 8) * (0.055 * 0.055 - 0.05 * 0.05) * 0.06;
   EXPECT_NEAR(solid.volume(), volume, 1e-13 * volume);
   double sum = 0;
   for (const double m : solid.nodal_mass())
@@ -21,7 +22,7 @@ TEST(hyperelastic_solid, mass_is_density_times_volume) {
 // Energy in mu V: round-off of 1 - 1; forces in mu A: the bulk modulus is 50 mu.
 TEST(hyperelastic_solid, a_rotation_by_any_angle_stores_nothing) {
   HyperelasticSolid solid = sleeve();
-  solid.set_displacement(turned_places(solid, std::vector<Point>(solid.mesh().nodes.size())));
+  solid.set_displacement(turned_places(solid, std::vector<Vector3>(solid.mesh().nodes.size())));
   const double mu = rubber.law.shear_modulus;
   EXPECT_LT(std::abs(solid.internal_energy()), 1e-14 * mu * solid.volume());
   EXPECT_LT(largest(solid.internal_forces()), 1e-12 * mu * 1e-4);
@@ -31,7 +32,7 @@ TEST(hyperelastic_solid, forces_and_pressure_turn_with_the_solid) {
   HyperelasticSolid solid = sleeve();
   solid.set_pressure(mantle_tag, 1e5);
   solid.set_displacement(bent(solid));
-  const std::vector<Point> inner = solid.internal_forces(), pressed = solid.pressure_forces();
+  const std::vector<Vector3> inner = solid.internal_forces(), pressed = solid.pressure_forces();
   const double energy = solid.internal_energy(), size = largest(inner);
   solid.set_displacement(turned_places(solid, bent(solid)));
   EXPECT_NEAR(solid.internal_energy(), energy, 1e-12 * energy);
@@ -44,10 +45,10 @@ TEST(hyperelastic_solid, forces_and_pressure_turn_with_the_solid) {
 TEST(hyperelastic_solid, internal_forces_have_no_sum_and_no_moment) {
   HyperelasticSolid solid = sleeve();
   solid.set_displacement(bent(solid));
-  Point sum{}, moment{};
+  Vector3 sum{}, moment{};
   double forces = 0;
   for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
-    const Point f = solid.internal_forces()[n];
+    const Vector3 f = solid.internal_forces()[n];
     sum = sum + f, moment = moment + cross(solid.node_place(static_cast<int>(n)), f);
     forces += norm(f);
   }
@@ -58,21 +59,21 @@ TEST(hyperelastic_solid, internal_forces_have_no_sum_and_no_moment) {
 TEST(hyperelastic_solid, the_tangent_with_pressure_is_the_slope_of_the_forces) {
   HyperelasticSolid solid = sleeve();
   solid.set_pressure(mantle_tag, 2e6), solid.set_pressure(inner_tag, 5e5);
-  const std::vector<Point> u = bent(solid, 0.002), d = random_field(u.size(), 1);
+  const std::vector<Vector3> u = bent(solid, 0.002), d = random_field(u.size(), 1);
   solid.set_displacement(u);
-  const std::vector<Point> k = solid.stiffness_times(d);
+  const std::vector<Vector3> k = solid.stiffness_times(d);
   const double h = 1e-8, size = largest(k);
   const auto forces = [&](double step) {
-    std::vector<Point> place = u;
+    std::vector<Vector3> place = u;
     for (std::size_t n = 0; n < u.size(); ++n)
       place[n] = u[n] + step * d[n];
     solid.set_displacement(place);
-    std::vector<Point> f = solid.internal_forces();
+    std::vector<Vector3> f = solid.internal_forces();
     for (std::size_t n = 0; n < f.size(); ++n)
       f[n] = f[n] - solid.pressure_forces()[n];
     return f;
   };
-  const std::vector<Point> up = forces(h), down = forces(-h);
+  const std::vector<Vector3> up = forces(h), down = forces(-h);
   for (std::size_t n = 0; n < u.size(); ++n)
     EXPECT_LT(norm(k[n] - (0.5 / h) * (up[n] - down[n])), 1e-6 * size);
 }
@@ -97,10 +98,10 @@ HyperelasticSolid pressed_all_around(double pressure) {
 TEST(hyperelastic_solid, pressure_on_a_closed_deformed_surface_sums_to_zero) {
   HyperelasticSolid solid = pressed_all_around(1e6);
   solid.set_displacement(bent(solid));
-  Point sum{}, moment{};
+  Vector3 sum{}, moment{};
   double forces = 0;
   for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
-    const Point f = solid.pressure_forces()[n];
+    const Vector3 f = solid.pressure_forces()[n];
     sum = sum + f, moment = moment + cross(solid.node_place(static_cast<int>(n)), f);
     forces += norm(f);
   }
@@ -128,12 +129,12 @@ TEST(hyperelastic_solid, pressure_does_the_work_p_dv) {
 // On the inner face alone, ends in their planes: the same with the volume inside the tube.
 TEST(hyperelastic_solid, pressure_inside_a_tube_does_the_work_of_its_lumen) {
   HyperelasticSolid solid = sleeve();
-  const double share = 8 * std::sin(M_PI / 8);
+  const double share = 8 * std::sin(pi / 8);
   EXPECT_NEAR(solid.enclosed_volume(inner_tag), share * 0.05 * 0.05 * 0.06, 1e-17);
   EXPECT_NEAR(solid.enclosed_volume(mantle_tag), share * 0.055 * 0.055 * 0.06, 1e-17);
   solid.set_pressure(inner_tag, 1e5);
   solid.update_forces();
-  std::vector<Point> v = bent(solid);
+  std::vector<Vector3> v = bent(solid);
   for (std::size_t n = 0; n < v.size(); ++n) {
     const double z = solid.mesh().nodes[n][2];
     if (z < 1e-9 || z > 0.06 - 1e-9) v[n][2] = 0;

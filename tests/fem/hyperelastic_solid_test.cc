@@ -12,8 +12,8 @@
 namespace platen::fem {
 namespace {
 
-bool same(const std::vector<Point> &a, const std::vector<Point> &b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
+bool same(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vector3)) == 0;
 }
 
 TEST(hyperelastic_solid, a_resumed_run_is_the_same_to_the_last_bit) {
@@ -56,8 +56,8 @@ TEST(hyperelastic_solid, particles_see_the_inner_face_alone) {
   EXPECT_EQ(surface.faces.size(), 16u * 6);
   EXPECT_EQ(surface.vertices.size(), 16u * 7);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    const Point at = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])],
-                area = face_area_vector(surface, f);
+    const Vector3 at = surface.vertices[static_cast<std::size_t>(surface.faces[f][0])],
+                  area = face_area_vector(surface, f);
     EXPECT_EQ(surface.face_tags[f], inner_tag);
     EXPECT_LT(at[0] * area[0] + at[1] * area[1], 0);
     for (const int v : surface.faces[f])
@@ -70,8 +70,8 @@ TEST(hyperelastic_solid, particles_see_the_inner_face_alone) {
   }
   EXPECT_LT(norm(solid.total_force()), 1e-11);
   EXPECT_LT(norm(solid.moment({1, 2, 3})), 1e-11);
-  solid.set_velocity(std::vector<Point>(solid.mesh().nodes.size(), Point{0, 0, 2}));
-  EXPECT_EQ(surface.velocities[5], (Point{0, 0, 2}));
+  solid.set_velocity(std::vector<Vector3>(solid.mesh().nodes.size(), Vector3{0, 0, 2}));
+  EXPECT_EQ(surface.velocities[5], (Vector3{0, 0, 2}));
   EXPECT_EQ(solid.largest_move(0.5), 1);
   EXPECT_THROW(sleeve(rubber, {77}), std::invalid_argument);
 }

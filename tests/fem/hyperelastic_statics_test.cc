@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "base/pi.h"
 #include "tests/fem/newton.h"
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/measured.h"
@@ -14,7 +15,7 @@ namespace platen::fem {
 namespace {
 
 std::vector<int> nodes_where(const HyperelasticSolid &solid,
-                             const std::function<bool(const Point &)> &holds) {
+                             const std::function<bool(const Vector3 &)> &holds) {
   std::vector<int> found;
   for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n)
     if (holds(solid.mesh().nodes[n])) found.push_back(static_cast<int>(n));
@@ -29,10 +30,10 @@ TEST(hyperelastic_statics, an_even_finite_strain_is_kept_by_cells_of_any_shape) 
   Newton newton(solid);
   const Tensor f = {1.15, 0.3, -0.05, 0.02, 0.9, 0.1, -0.1, 0.05, 0.97};
   std::vector<int> outside;
-  std::vector<Point> all;
-  for (const Point &x : solid.mesh().nodes)
-    all.push_back(Point{f[0] * x[0] + f[1] * x[1] + f[2] * x[2], f[3] * x[0] + f[4] * x[1] + f[5] * x[2],
-                        f[6] * x[0] + f[7] * x[1] + f[8] * x[2]} -
+  std::vector<Vector3> all;
+  for (const Vector3 &x : solid.mesh().nodes)
+    all.push_back(Vector3{f[0] * x[0] + f[1] * x[1] + f[2] * x[2], f[3] * x[0] + f[4] * x[1] + f[5] * x[2],
+                          f[6] * x[0] + f[7] * x[1] + f[8] * x[2]} -
                   x);
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v)
     outside.push_back(solid.surface_node(static_cast<int>(v)));
@@ -85,8 +86,8 @@ TEST(hyperelastic_statics, leads_balance_the_pressure) {
   solid.set_pressure(inner_tag, 3e4);
   newton.place(above, {0.002, 0, -0.004});
   newton.solve();
-  Point sum = solid.lead_force(low) + solid.lead_force(high);
-  for (const Point &f : solid.pressure_forces())
+  Vector3 sum = solid.lead_force(low) + solid.lead_force(high);
+  for (const Vector3 &f : solid.pressure_forces())
     sum = sum + f;
   EXPECT_GT(norm(solid.lead_force(high)), 1);
   EXPECT_LT(norm(sum), 1e-7 * norm(solid.lead_force(high)));
@@ -103,12 +104,12 @@ struct PlaneTube {
   Newton newton{solid};
   PlaneTube(double thickness, int around, int through, const NeoHookean &law)
       : solid(make_grid(Tube{1, thickness, 0, 0.1, around, 1, through}), {1100, law}) {
-    const auto lead = [&](std::size_t axis, const std::function<bool(const Point &)> &holds) {
+    const auto lead = [&](std::size_t axis, const std::function<bool(const Vector3 &)> &holds) {
       newton.lead(nodes_where(solid, holds), {axis == 0, axis == 1, axis == 2});
     };
-    lead(2, [](const Point &) { return true; });
-    lead(0, [](const Point &x) { return std::abs(x[0]) < 1e-9; });
-    lead(1, [](const Point &x) { return std::abs(x[1]) < 1e-9; });
+    lead(2, [](const Vector3 &) { return true; });
+    lead(0, [](const Vector3 &x) { return std::abs(x[0]) < 1e-9; });
+    lead(1, [](const Vector3 &x) { return std::abs(x[1]) < 1e-9; });
   }
   void inflate(double pressure) {
     solid.set_pressure(inner_tag, pressure);
@@ -149,12 +150,12 @@ TEST(hyperelastic_statics, volume_at_each_point_would_lock_where_the_mean_does_n
   double exact = 0; // work of the closed form's pressure per height, over a from 1 to 1.25
   for (int i = 0; i < 1000; ++i) {
     const double at = 1 + 0.25 * (i + 0.5) / 1000;
-    exact += closed_form(at) * 2 * M_PI * at * 0.25 / 1000;
+    exact += closed_form(at) * 2 * pi * at * 0.25 / 1000;
   }
   PlaneTube tube(0.3, 32, 2, law);
   HyperelasticSolid &solid = tube.solid;
-  std::vector<Point> u;
-  for (const Point &x : solid.mesh().nodes) {
+  std::vector<Vector3> u;
+  for (const Vector3 &x : solid.mesh().nodes) {
     const double big = std::hypot(x[0], x[1]), r = std::sqrt(big * big + a * a - 1);
     u.push_back({(r / big - 1) * x[0], (r / big - 1) * x[1], 0});
   }
@@ -197,8 +198,8 @@ double bending_share(double element_length, int through, double poisson) {
   HyperelasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {length, t, t}, {along, 1, through}}),
                           {1100, NeoHookean::from_young(young, poisson)});
   Newton newton(solid);
-  newton.lead(nodes_where(solid, [](const Point &x) { return x[0] < 1e-9; }), {true, true, true});
-  const std::vector<int> tip = nodes_where(solid, [&](const Point &x) { return x[0] > length - 1e-9; });
+  newton.lead(nodes_where(solid, [](const Vector3 &x) { return x[0] < 1e-9; }), {true, true, true});
+  const std::vector<int> tip = nodes_where(solid, [&](const Vector3 &x) { return x[0] > length - 1e-9; });
   double sum = 0;
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v)
     if (solid.surface().vertices[v][0] > length - 1e-9) sum += 1;
@@ -252,7 +253,7 @@ TEST(hyperelastic_statics, contact_loads_come_and_go) {
   solid.add_surface_force(middle, {1, 2, 3});
   int side = 0;
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v) {
-    const Point &x = solid.surface().vertices[v];
+    const Vector3 &x = solid.surface().vertices[v];
     if (x[0] > 0.0299 && std::abs(x[1] - 0.015) < 1e-9 && std::abs(x[2] - 0.015) < 1e-9)
       side = static_cast<int>(v);
   }

@@ -20,11 +20,11 @@ double lanczos(const HyperelasticSolid &solid, int steps) {
   const std::size_t nodes = solid.mesh().nodes.size();
   const auto count = static_cast<Eigen::Index>(3 * nodes);
   const auto apply = [&](const Eigen::VectorXd &x) {
-    std::vector<Point> d(nodes);
+    std::vector<Vector3> d(nodes);
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t k = 0; k < 3; ++k)
         d[n][k] = x[static_cast<Eigen::Index>(3 * n + k)] / std::sqrt(solid.nodal_mass()[n]);
-    const std::vector<Point> f = solid.stiffness_times(d);
+    const std::vector<Vector3> f = solid.stiffness_times(d);
     Eigen::VectorXd y(count);
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t k = 0; k < 3; ++k)
@@ -140,7 +140,7 @@ TEST(hyperelastic_solid, an_inverted_element_is_found_before_it_is_used) {
   HyperelasticSolid solid = held_sleeve(2e4);
   step(solid, 0.9 * solid.stable_step(), 20);
   const State before = state_of(solid);
-  std::vector<Point> v = solid.velocity();
+  std::vector<Vector3> v = solid.velocity();
   const int node = solid.mesh().cell_nodes[37][6];
   v[static_cast<std::size_t>(node)] = {0, 0, -100};
   solid.set_velocity(v);

@@ -21,7 +21,7 @@ using Matrix24 = Eigen::Matrix<double, 24, 24, Eigen::RowMajor>;
 class Random {
 public:
   double operator()(double size) { return size * spread_(engine_); }
-  Point point(double size) { return {(*this)(size), (*this)(size), (*this)(size)}; }
+  Vector3 point(double size) { return {(*this)(size), (*this)(size), (*this)(size)}; }
   Tensor tensor(double size) {
     Tensor f = identity_tensor;
     for (double &x : f)
@@ -30,7 +30,7 @@ public:
   }
   Corners corners(double size) {
     Corners c;
-    for (Point &p : c)
+    for (Vector3 &p : c)
       p = point(size);
     return c;
   }
@@ -187,13 +187,13 @@ TEST(mean_dilatation, the_mean_stress_of_an_even_strain_is_that_of_the_law) {
 
 // ---- faces
 FaceCorners warped() {
-  return {Point{0.1, 0, 0.2}, {1, -0.1, -0.3}, {1.2, 0.9, 0.4}, {-0.2, 1.1, -0.1}};
+  return {Vector3{0.1, 0, 0.2}, {1, -0.1, -0.3}, {1.2, 0.9, 0.4}, {-0.2, 1.1, -0.1}};
 }
 
 TEST(follower_pressure, corner_areas_sum_to_the_area_vector) {
   const FaceCorners x = warped();
-  Point sum{};
-  for (const Point &area : corner_areas(x))
+  Vector3 sum{};
+  for (const Vector3 &area : corner_areas(x))
     sum = sum + area;
   EXPECT_LT(norm(sum - 0.5 * cross(x[2] - x[0], x[3] - x[1])), 1e-15);
 }
@@ -206,9 +206,9 @@ TEST(follower_pressure, corner_areas_are_those_of_the_shape_functions) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double s = (i + 0.5) / n, t = (j + 0.5) / n;
-      const Point along = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
-      const Point across = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
-      const Point area = (1.0 / (n * n)) * cross(along, across);
+      const Vector3 along = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
+      const Vector3 across = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
+      const Vector3 area = (1.0 / (n * n)) * cross(along, across);
       const std::array<double, 4> shape = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
       for (std::size_t k = 0; k < 4; ++k)
         sum[k] = sum[k] + shape[k] * area;
@@ -234,7 +234,7 @@ TEST(follower_pressure, the_gradient_is_the_slope_of_the_areas) {
 TEST(follower_pressure, swept_volume_is_the_integral_along_the_path) {
   const FaceCorners from = warped();
   FaceCorners to = from, at;
-  to[0] = to[0] + Point{0.3, -0.2, 0.9}, to[2] = to[2] + Point{-0.5, 0.3, 0.4};
+  to[0] = to[0] + Vector3{0.3, -0.2, 0.9}, to[2] = to[2] + Vector3{-0.5, 0.3, 0.4};
   double sum = 0;
   const int n = 1000;
   for (int i = 0; i < n; ++i) {

@@ -33,7 +33,7 @@ public:
         if (components[k]) led_[index(n)][k] = true;
     return solid_.lead(nodes, components);
   }
-  void place(const std::vector<int> &nodes, const Point &displacement) { // m, of their led components
+  void place(const std::vector<int> &nodes, const Vector3 &displacement) { // m, of their led components
     for (const int n : nodes)
       goal_[index(n)] = displacement;
   }
@@ -47,10 +47,10 @@ public:
     double size = 0; // N, the largest that the forces were: those of an unloaded solid are round-off
     for (int k = 0; k <= most_steps; ++k) {
       solid_.update_forces();
-      const std::vector<Point> balance = out_of_balance();
+      const std::vector<Vector3> balance = out_of_balance();
       size = std::max({size, root(solid_.internal_forces()), root(solid_.pressure_forces()), root(balance)});
       residuals.push_back(size > 0 ? root(balance) / size : 0);
-      const std::vector<Point> way = way_of_leads();
+      const std::vector<Vector3> way = way_of_leads();
       if (residuals.back() <= tolerance && root(way) == 0) return residuals;
       step(balance, way);
     }
@@ -59,36 +59,36 @@ public:
 
 private:
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
-  static double product(const std::vector<Point> &a, const std::vector<Point> &b) {
+  static double product(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
     double sum = 0;
     for (std::size_t n = 0; n < a.size(); ++n)
       sum += dot(a[n], b[n]);
     return sum;
   }
-  static double root(const std::vector<Point> &a) { return std::sqrt(product(a, a)); }
-  static void add(std::vector<Point> &to, double factor, const std::vector<Point> &what) {
+  static double root(const std::vector<Vector3> &a) { return std::sqrt(product(a, a)); }
+  static void add(std::vector<Vector3> &to, double factor, const std::vector<Vector3> &what) {
     for (std::size_t n = 0; n < to.size(); ++n)
       to[n] = to[n] + factor * what[n];
   }
-  void keep(std::vector<Point> &field, bool led) const { // zero where nodes are led, or where they are not
+  void keep(std::vector<Vector3> &field, bool led) const { // zero where nodes are led, or where they are not
     for (std::size_t n = 0; n < field.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
         if (led_[n][k] != led) field[n][k] = 0;
   }
 
-  std::vector<Point> out_of_balance() const {
-    std::vector<Point> balance = solid_.pressure_forces();
+  std::vector<Vector3> out_of_balance() const {
+    std::vector<Vector3> balance = solid_.pressure_forces();
     add(balance, -1, solid_.internal_forces());
-    const std::vector<Point> loads = solid_.contact_loads();
+    const std::vector<Vector3> loads = solid_.contact_loads();
     for (std::size_t v = 0; v < loads.size(); ++v) {
-      Point &sum = balance[index(solid_.surface_node(static_cast<int>(v)))];
+      Vector3 &sum = balance[index(solid_.surface_node(static_cast<int>(v)))];
       sum = sum + loads[v];
     }
     keep(balance, false);
     return balance;
   }
-  std::vector<Point> way_of_leads() const {
-    std::vector<Point> way = goal_;
+  std::vector<Vector3> way_of_leads() const {
+    std::vector<Vector3> way = goal_;
     add(way, -1, solid_.displacement());
     keep(way, true);
     return way;
@@ -114,10 +114,10 @@ private:
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t c = 0; c < colours_; ++c)
       for (std::size_t k = 0; k < 3; ++k) {
-        std::vector<Point> probe(led_.size(), Point{});
+        std::vector<Vector3> probe(led_.size(), Vector3{});
         for (std::size_t n = 0; n < probe.size(); ++n)
           if (colour_[n] == c) probe[n][k] = 1;
-        const std::vector<Point> forces = solid_.stiffness_times(probe);
+        const std::vector<Vector3> forces = solid_.stiffness_times(probe);
         for (std::size_t n = 0; n < probe.size(); ++n) {
           if (colour_[n] != c) continue;
           if (led_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);
@@ -133,14 +133,14 @@ private:
     return matrix;
   }
 
-  void step(const std::vector<Point> &balance, const std::vector<Point> &way) {
+  void step(const std::vector<Vector3> &balance, const std::vector<Vector3> &way) {
     Eigen::VectorXd right(static_cast<Eigen::Index>(3 * led_.size()));
     for (std::size_t n = 0; n < led_.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
         right[static_cast<Eigen::Index>(3 * n + k)] = led_[n][k] ? way[n][k] : balance[n][k];
     Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(tangent());
     const Eigen::VectorXd move = factors.solve(right);
-    std::vector<Point> place = solid_.displacement();
+    std::vector<Vector3> place = solid_.displacement();
     for (std::size_t n = 0; n < led_.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
         place[n][k] = led_[n][k] ? goal_[n][k] : place[n][k] + move[static_cast<Eigen::Index>(3 * n + k)];
@@ -149,7 +149,7 @@ private:
 
   HyperelasticSolid &solid_;
   std::vector<std::array<bool, 3>> led_;
-  std::vector<Point> goal_;           // m
+  std::vector<Vector3> goal_;         // m
   std::vector<std::set<int>> around_; // each node: itself and the nodes of its cells
   std::vector<std::size_t> colour_;
   std::size_t colours_ = 0;

@@ -16,9 +16,9 @@ Grid block() {
 }
 
 // Area of the faces of a tag, and the sum of their outward normals times area (m^2).
-Point area_of(const Grid &grid, int tag) {
+Vector3 area_of(const Grid &grid, int tag) {
   const SurfaceMesh surface = extract_surface(grid).surface;
-  Point sum{};
+  Vector3 sum{};
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
     if (surface.face_tags[f] == tag) sum = sum + face_area_vector(surface, f);
   return sum;
@@ -38,9 +38,9 @@ TEST(platen_mesh, the_end_towards_the_specimen_lies_in_its_plane) {
 }
 
 TEST(platen_mesh, all_that_looks_to_the_specimen_is_the_face_of_a_convex_one) {
-  const auto dished = [](const Point &p) {
+  const auto dished = [](const Vector3 &p) {
     const double share = (p[2] - 1) / 0.01;
-    return Point{p[0], p[1], p[2] - 4 * share * (p[0] * p[0] + p[1] * p[1])};
+    return Vector3{p[0], p[1], p[2] - 4 * share * (p[0] * p[0] + p[1] * p[1])};
   };
   // Without a node on the axis no face lies in the highest plane.
   const Grid convex =
@@ -49,8 +49,8 @@ TEST(platen_mesh, all_that_looks_to_the_specimen_is_the_face_of_a_convex_one) {
   // Seen from above it covers the block, however it is curved; the middle face lies in the highest plane.
   const Grid shifted =
       laid_platen(moved_grid(convex,
-                             [](const Point &p) {
-                               return Point{p[0], p[1], p[2] + (p[2] > 1.005 ? 1e-3 * p[0] : 0)};
+                             [](const Vector3 &p) {
+                               return Vector3{p[0], p[1], p[2] + (p[2] > 1.005 ? 1e-3 * p[0] : 0)};
                              }),
                   true, 0);
   EXPECT_NEAR(area_of(laid, high_end_tag)[2], 0.008 * 0.008, 1e-12);
@@ -59,7 +59,9 @@ TEST(platen_mesh, all_that_looks_to_the_specimen_is_the_face_of_a_convex_one) {
 }
 
 TEST(platen_mesh, a_platen_that_cannot_be_held_is_refused) {
-  const Grid slant = moved_grid(block(), [](const Point &p) { return Point{p[0], p[1], p[2] + 0.1 * p[0]}; });
+  const Grid slant = moved_grid(block(), [](const Vector3 &p) {
+    return Vector3{p[0], p[1], p[2] + 0.1 * p[0]};
+  });
   EXPECT_THROW(laid_platen(slant, true, 0), std::invalid_argument);
 }
 

@@ -1,4 +1,5 @@
 #include "fem/rigid_body.h"
+#include "base/pi.h"
 #include "tests/same_state.h"
 
 #include <gtest/gtest.h>
@@ -67,8 +68,8 @@ TEST(rigid_body, rigid_rotation_keeps_the_shape) {
 // 1e4 products of quaternions.
 TEST(rigid_body, whole_turns_bring_every_vertex_back) {
   RigidBody body = box();
-  const std::vector<Point> start = body.surface().vertices;
-  const double pi = 3.14159265358979323846, rate = 2 * pi * 10;
+  const std::vector<Vector3> start = body.surface().vertices;
+  const double rate = 2 * pi * 10;
   body.set_velocity({}, {rate / 3, 2 * rate / 3, 2 * rate / 3});
   for (int step = 0; step < 10000; ++step)
     body.drift(1e-4);
@@ -79,11 +80,11 @@ TEST(rigid_body, whole_turns_bring_every_vertex_back) {
 TEST(rigid_body, vertex_velocities_are_those_of_the_motion) {
   RigidBody body = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
-  const std::vector<Point> velocities = body.surface().velocities, before = body.surface().vertices;
+  const std::vector<Vector3> velocities = body.surface().velocities, before = body.surface().vertices;
   const double h = 1e-6;
   body.drift(h);
   for (std::size_t v = 0; v < before.size(); ++v) { // difference quotient: error h w^2 r / 2 = 1e-6
-    const Point quotient = (1 / h) * (body.surface().vertices[v] - before[v]);
+    const Vector3 quotient = (1 / h) * (body.surface().vertices[v] - before[v]);
     EXPECT_LT(norm(quotient - velocities[v]), 2e-6);
   }
 }
@@ -107,15 +108,15 @@ TEST(rigid_body, load_power_is_force_times_velocity_plus_moment_times_spin) {
   body.add_surface_force(3, {10, 20, -30});
   body.add_surface_force(17, {-5, 1, 2});
   body.add_surface_force(3, {1, 1, 1});
-  EXPECT_EQ(body.contact_load(3), (Point{11, 21, -29}));
+  EXPECT_EQ(body.contact_load(3), (Vector3{11, 21, -29}));
   const double power =
       dot(body.total_force(), body.velocity()) + dot(body.moment(body.centre()), body.angular_velocity());
   EXPECT_NEAR(body.load_power(), power, 1e-13 * std::abs(power));
-  const Point shifted = body.moment({1, 2, 3}) - body.moment({});
-  EXPECT_LT(norm(shifted - cross(Point{-1, -2, -3}, body.total_force())), 1e-13);
+  const Vector3 shifted = body.moment({1, 2, 3}) - body.moment({});
+  EXPECT_LT(norm(shifted - cross(Vector3{-1, -2, -3}, body.total_force())), 1e-13);
   body.clear_loads();
-  EXPECT_EQ(body.total_force(), Point{});
-  EXPECT_EQ(body.contact_load(3), Point{});
+  EXPECT_EQ(body.total_force(), Vector3{});
+  EXPECT_EQ(body.contact_load(3), Vector3{});
 }
 
 TEST(rigid_body, state_comes_back_to_the_last_bit) {
@@ -128,14 +129,14 @@ TEST(rigid_body, state_comes_back_to_the_last_bit) {
   RigidBody other = box();
   other.add_surface_force(5, {1, 1, 1}); // must be gone afterwards
   set_state(other, state_of(body));
-  const auto same = [](const std::vector<Point> &a, const std::vector<Point> &b) {
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
+  const auto same = [](const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(Vector3)) == 0;
   };
   EXPECT_TRUE(same_state(body, other));
   EXPECT_TRUE(same(other.surface().vertices, body.surface().vertices));
   EXPECT_TRUE(same(other.surface().velocities, body.surface().velocities));
   EXPECT_EQ(other.total_force(), body.total_force());
-  EXPECT_EQ(other.contact_load(5), Point{});
+  EXPECT_EQ(other.contact_load(5), Vector3{});
   body.drift(1e-3), other.drift(1e-3);
   EXPECT_TRUE(same(other.surface().vertices, body.surface().vertices));
 }
@@ -146,7 +147,7 @@ TEST(rigid_body, a_state_of_another_body_is_refused) {
   RigidBody finer(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {20, 20, 2}}), {1, 1, 0.3});
   finer.add_surface_force(static_cast<int>(finer.surface().vertices.size()) - 1, {1, 0, 0});
   EXPECT_THROW(set_state(body, state_of(finer)), StateError);
-  EXPECT_EQ(body.total_force(), Point{});
+  EXPECT_EQ(body.total_force(), Vector3{});
 }
 
 TEST(rigid_body, impossible_materials_are_refused) {
@@ -161,7 +162,7 @@ TEST(rigid_body, no_vertex_moves_farther_than_the_bound) {
   RigidBody body = box();
   body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
   const double bound = body.largest_move(0.01);
-  const std::vector<Point> before = body.surface().vertices;
+  const std::vector<Vector3> before = body.surface().vertices;
   body.drift(0.01);
   double largest = 0;
   for (std::size_t v = 0; v < before.size(); ++v)
@@ -176,12 +177,12 @@ TEST(rigid_body, an_even_load_is_an_even_pressure_up_to_the_rim) {
   for (const bool disc : {false, true}) {
     RigidBody body = disc ? RigidBody(make_grid(CylinderPlate{0.03, 0.01, 0, 9, 2}), steel) : box();
     const double pressure = 3e6;
-    const Point shear = {1e6, -5e5, 0};
+    const Vector3 shear = {1e6, -5e5, 0};
     std::vector<char> on_top(body.surface().vertices.size(), 0);
     double area = 0;
     for (std::size_t f = 0; f < body.surface().faces.size(); ++f) {
       if (body.surface().face_tags[f] != high_end_tag) continue;
-      const Point a = face_area_vector(body.surface(), f);
+      const Vector3 a = face_area_vector(body.surface(), f);
       area += a[2];
       for (const int v : body.surface().faces[f]) {
         body.add_surface_force(v, 0.25 * (a[2] * shear - pressure * a));

@@ -17,40 +17,40 @@ inline HyperelasticSolid sleeve(const Rubber &material = rubber,
   return HyperelasticSolid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}), material, contact);
 }
 
-inline std::vector<Point> random_field(std::size_t nodes, double size, unsigned seed = 3) {
+inline std::vector<Vector3> random_field(std::size_t nodes, double size, unsigned seed = 3) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> spread(-size, size);
-  std::vector<Point> field(nodes);
-  for (Point &p : field)
+  std::vector<Vector3> field(nodes);
+  for (Vector3 &p : field)
     p = {spread(engine), spread(engine), spread(engine)};
   return field;
 }
 
 // A smooth field as large as the wall is thick.
-inline std::vector<Point> bent(const HyperelasticSolid &solid, double size = 0.005) {
-  std::vector<Point> field;
-  for (const Point &x : solid.mesh().nodes)
+inline std::vector<Vector3> bent(const HyperelasticSolid &solid, double size = 0.005) {
+  std::vector<Vector3> field;
+  for (const Vector3 &x : solid.mesh().nodes)
     field.push_back({size * std::sin(40 * x[1] + 20 * x[2]), size * std::cos(30 * x[2] + 10 * x[0]),
                      size * std::sin(30 * x[0])});
   return field;
 }
 
-inline Point turned(const Point &p) { // 2.3 rad about (2, 3, 6)/7
-  const Point axis = {2.0 / 7, 3.0 / 7, 6.0 / 7};
+inline Vector3 turned(const Vector3 &p) { // 2.3 rad about (2, 3, 6)/7
+  const Vector3 axis = {2.0 / 7, 3.0 / 7, 6.0 / 7};
   const double c = std::cos(2.3), s = std::sin(2.3);
   return c * p + s * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
 }
 
-inline double largest(const std::vector<Point> &field) {
+inline double largest(const std::vector<Vector3> &field) {
   double most = 0;
-  for (const Point &p : field)
+  for (const Vector3 &p : field)
     most = std::max(most, norm(p));
   return most;
 }
 
-inline std::vector<Point> turned_places(const HyperelasticSolid &solid,
-                                        const std::vector<Point> &displacement) {
-  std::vector<Point> moved = displacement;
+inline std::vector<Vector3> turned_places(const HyperelasticSolid &solid,
+                                          const std::vector<Vector3> &displacement) {
+  std::vector<Vector3> moved = displacement;
   for (std::size_t n = 0; n < moved.size(); ++n)
     moved[n] = turned(solid.mesh().nodes[n] + displacement[n]) - solid.mesh().nodes[n];
   return moved;

@@ -18,9 +18,6 @@ namespace platen::coupling {
 namespace {
 
 using namespace dem::examples;
-using dem::Vector3;
-using fem::operator+;
-using fem::operator*;
 using measured::expect_below;
 
 constexpr fem::Material steel{7850, 210e9, 0.3};
@@ -33,14 +30,14 @@ fem::Grid falling_grid() {
 
 struct RigidPlaten {
   fem::RigidBody body{falling_grid(), steel};
-  fem::Point speed{};
+  Vector3 speed{};
 
   explicit RigidPlaten(double v) : speed{0, 0, -v} { body.set_velocity(speed); }
   void kick(double dt) {
     speed = speed + (dt / body.mass()) * body.total_force();
     body.set_velocity(speed);
   }
-  fem::Point momentum() const { return body.mass() * speed; }
+  Vector3 momentum() const { return body.mass() * speed; }
   double energy() const { return body.kinetic_energy(); }
 };
 
@@ -49,11 +46,11 @@ struct ElasticPlaten {
 
   explicit ElasticPlaten(double v) {
     const std::size_t nodes = body.model().nodes.size();
-    body.set_deformation(std::vector<fem::Point>(nodes, fem::Point{}),
-                         std::vector<fem::Point>(nodes, fem::Point{0, 0, -v}));
+    body.set_deformation(std::vector<Vector3>(nodes, Vector3{}),
+                         std::vector<Vector3>(nodes, Vector3{0, 0, -v}));
   }
   void kick(double dt) { body.kick(dt); }
-  fem::Point momentum() const { return body.momentum(); }
+  Vector3 momentum() const { return body.momentum(); }
   double energy() const { return body.book().kinetic + body.book().strain; }
 };
 
@@ -75,8 +72,8 @@ void fall(double speed, const std::string &which) {
   const auto energy = [&] {
     return model.energy().stored() + layer.elastic_energy() + layer.friction_work + platen.energy();
   };
-  const double start = energy(), thrown = fem::norm(platen.momentum());
-  const fem::Point before = platen.momentum();
+  const double start = energy(), thrown = norm(platen.momentum());
+  const Vector3 before = platen.momentum();
   double momentum_off = 0, energy_off = 0, pressed = 0;
   int apart = 0; // looks since they last touched
   for (int n = 0; n < 200000; ++n) {
@@ -92,10 +89,8 @@ void fall(double speed, const std::string &which) {
     pressed = std::max(pressed, layer.elastic_energy());
     if (n % 10 != 0) continue;
     const Vector3 block = momentum(p).linear;
-    const fem::Point now = platen.momentum();
-    momentum_off = std::max(momentum_off,
-                            fem::norm(fem::Point{now[0] + block.x - before[0], now[1] + block.y - before[1],
-                                                 now[2] + block.z - before[2]}));
+    const Vector3 now = platen.momentum();
+    momentum_off = std::max(momentum_off, norm(now + block - before));
     energy_off = std::max(energy_off, std::abs(energy() / start - 1));
     if (pressed > 0 && layer.closed == 0 && ++apart == 100) break; // thrown back
     if (layer.closed > 0) apart = 0;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "dem/cell_grid.h"
-#include "dem/packing/random.h"
 #include "tests/measured.h"
 
 namespace platen::dem {

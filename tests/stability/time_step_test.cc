@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/random.h"
 #include "base/state.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/packing/random.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/measured.h"
@@ -88,8 +88,8 @@ struct Outcome {
 };
 
 Outcome run(PlatenTest &problem, long steps) {
-  dem::Random random(1);
-  for (dem::Vector3 &v : problem.model.particles.velocity)
+  Random random(1);
+  for (Vector3 &v : problem.model.particles.velocity)
     v = 1e-6 * random.direction();
   Outcome o;
   try {
@@ -179,7 +179,7 @@ TEST(time_step, energy_that_was_given_is_not_from_nowhere) {
   const Case c = bonded_block();
   PlatenTest thrown(c.specimen, c.settings), resumed(c.specimen, c.settings);
   for (PlatenTest *p : {&thrown, &resumed})
-    for (dem::Vector3 &v : p->model.particles.velocity)
+    for (Vector3 &v : p->model.particles.velocity)
       v = {0, 0, 5}; // a thousand times the energy that the platens bring in
   thrown.advance(50);
   set_state(resumed, state_of(thrown));

@@ -13,7 +13,6 @@
 namespace platen {
 namespace {
 
-using dem::Vector3;
 using measured::expect_below;
 
 std::string power(double ratio) {

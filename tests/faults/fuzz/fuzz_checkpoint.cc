@@ -6,11 +6,12 @@
 #include <cstring>
 
 #include "apps/io/checkpoint.h"
-#include "dem/vector3.h"
+#include "apps/io/checkpoint_format.h"
+#include "base/vector3.h"
+#include "base/vector3.h"
 #include "memory_file.h"
 
 using namespace platen::apps;
-namespace dem = platen::dem;
 
 namespace {
 
@@ -52,7 +53,7 @@ struct Spheres {
   std::vector<double> numbers;
   std::string reason;
   Spheres() {
-    table.add<dem::Vector3>("position", "m");
+    table.add<platen::Vector3>("position", "m");
     table.add<double>("radius", "m");
     table.add<int>("id", "1");
   }

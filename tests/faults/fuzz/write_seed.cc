@@ -1,12 +1,12 @@
 // Writes a small checkpoint, for the fuzzer to begin with.
 #include "apps/io/checkpoint.h"
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
 namespace {
 
 struct Spheres {
   platen::Table table;
-  platen::Column<platen::dem::Vector3> &position = table.add<platen::dem::Vector3>("position", "m");
+  platen::Column<platen::Vector3> &position = table.add<platen::Vector3>("position", "m");
   platen::Column<double> &radius = table.add<double>("radius", "m");
   platen::Column<int> &id = table.add<int>("id", "1");
   void describe(platen::Archive &archive) {

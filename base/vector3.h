@@ -1,12 +1,13 @@
-// Vectors, quaternions and 3 x 3 matrices of the particle library: plain values, no library behind them,
-// because the force kernels are compiled for several instruction sets (docs/architecture.md).
+// Vectors in space and rotations, of particles and of bodies alike: plain values, no library behind them,
+// because the force kernels are compiled for several instruction sets (bench/results/vectors.md).
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/block_type.h"
 
-namespace platen::dem {
+namespace platen {
 
 struct Vector3 {
   double x = 0, y = 0, z = 0;
@@ -45,6 +46,12 @@ inline Vector3 operator*(const Vector3 &a, double s) {
 inline Vector3 operator/(const Vector3 &a, double s) {
   return {a.x / s, a.y / s, a.z / s};
 }
+inline bool operator==(const Vector3 &a, const Vector3 &b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+inline bool operator!=(const Vector3 &a, const Vector3 &b) {
+  return !(a == b);
+}
 inline double dot(const Vector3 &a, const Vector3 &b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -56,6 +63,14 @@ inline double norm_squared(const Vector3 &a) {
 }
 inline double norm(const Vector3 &a) {
   return std::sqrt(dot(a, a));
+}
+
+// Row by row.
+using Matrix3 = std::array<double, 9>;
+
+inline Vector3 operator*(const Matrix3 &a, const Vector3 &v) {
+  return {a[0] * v.x + a[1] * v.y + a[2] * v.z, a[3] * v.x + a[4] * v.y + a[5] * v.z,
+          a[6] * v.x + a[7] * v.y + a[8] * v.z};
 }
 
 // Unit quaternion w + x i + y j + z k; turns reference axes into current ones: v = rotate(q, v_reference).
@@ -81,6 +96,9 @@ inline Vector3 rotate(const Quaternion &q, const Vector3 &v) {
   const Vector3 u = vector_part(q), t = 2.0 * cross(u, v);
   return v + q.w * t + cross(u, t);
 }
+inline bool is_identity(const Quaternion &q) {
+  return q.x == 0 && q.y == 0 && q.z == 0;
+}
 // Rotation by the vector phi (axis times angle, rad).
 inline Quaternion rotation_quaternion(const Vector3 &phi) {
   const double angle = norm(phi);
@@ -89,16 +107,12 @@ inline Quaternion rotation_quaternion(const Vector3 &phi) {
   return {std::cos(0.5 * angle), s * phi.x, s * phi.y, s * phi.z};
 }
 
-} // namespace platen::dem
-
-namespace platen {
-
 template <>
-struct NumbersOf<dem::Vector3> {
+struct NumbersOf<Vector3> {
   using Number = double;
 };
 template <>
-struct NumbersOf<dem::Quaternion> {
+struct NumbersOf<Quaternion> {
   using Number = double;
 };
 

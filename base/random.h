@@ -6,20 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "dem/vector3.h"
+#include "base/vector3.h"
 
-namespace platen::dem {
+namespace platen {
+
+// The next word of splitmix64, which tells neighbouring seeds apart.
+inline std::uint64_t split_mix(std::uint64_t &state) {
+  std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
 
 class Random {
 public:
   explicit Random(std::uint64_t seed) {
-    for (std::uint64_t &word :
-         state_) { // splitmix64 fills the state, so that seeds 0, 1, 2 ... are unrelated
-      std::uint64_t z = (seed += 0x9e3779b97f4a7c15ULL);
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-      word = z ^ (z >> 31);
-    }
+    for (std::uint64_t &word : state_)
+      word = split_mix(seed);
   }
 
   std::uint64_t next() {
@@ -59,4 +62,4 @@ private:
   std::uint64_t state_[4];
 };
 
-} // namespace platen::dem
+} // namespace platen

@@ -1,0 +1,14 @@
+// What a caller must hold to.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace platen {
+
+// Throws std::invalid_argument with the text, "part: what is wrong".
+inline void require(bool holds, const std::string &text) {
+  if (!holds) throw std::invalid_argument(text);
+}
+
+} // namespace platen
