@@ -23,10 +23,10 @@ struct Cost {
 };
 
 // Loads that change a little from solve to solve, as those of contacts do; each starts from the last answer.
-Cost measure(const fem::ElasticModel &model, const fem::Held &held, fem::LinearSolver kind, int solves) {
+Cost measure(const fem::ElasticModel &model, const fem::Fixed &fixed, fem::LinearSolver kind, int solves) {
   Cost cost{};
   auto start = Clock::now();
-  const fem::StaticSolver solver(model.stiffness, model.nodes, held, kind);
+  const fem::StaticSolver solver(model.stiffness, model.nodes, fixed, kind);
   cost.setup = seconds_since(start);
   cost.x.assign(model.nodes.size(), Vector3{});
   for (int k = 0; k < solves; ++k) {
@@ -60,13 +60,13 @@ int main(int argc, char **argv) {
       const fem::ElasticModel model =
           fem::make_elastic_model(fem::make_grid(fem::CylinderPlate{0.03, 0.02, 0, n, std::max(1, n / 3)}),
                                   degree, {{7850, 210e9, 0.3}});
-      fem::Held held(model.nodes.size(), {0, 0, 0});
+      fem::Fixed fixed(model.nodes.size(), {0, 0, 0});
       for (const int i : fem::nodes_on(model, fem::high_end_tag))
-        held[static_cast<std::size_t>(i)] = {1, 1, 1};
+        fixed[static_cast<std::size_t>(i)] = {1, 1, 1};
       std::vector<Vector3> first;
       for (const fem::LinearSolver kind : {fem::LinearSolver::multigrid, fem::LinearSolver::direct}) {
         if (kind == fem::LinearSolver::direct && n > largest_direct) continue;
-        const Cost cost = measure(model, held, kind, solves);
+        const Cost cost = measure(model, fixed, kind, solves);
         double difference = 0, size = 0;
         for (std::size_t i = 0; i < first.size(); ++i) {
           difference = std::max(difference, norm(first[i] - cost.x[i]));

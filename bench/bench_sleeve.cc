@@ -1,5 +1,5 @@
 // What a sleeve costs: explicit steps by size. The sleeve of a 150 x 300 mm specimen, 3 mm of rubber, ends
-// held, blown up a little; one line per mesh: cells, unknowns, time of a step per cell, stable step.
+// fixed, blown up a little; one line per mesh: cells, unknowns, time of a step per cell, stable step.
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -35,8 +35,8 @@ std::vector<Vector3> blown_up(const HyperelasticSolid &solid) {
 void measure(int around, int along, int through, double poisson, int steps) {
   HyperelasticSolid solid(make_grid(Tube{radius, wall, 0, height, around, along, through}),
                           {1100, NeoHookean::from_young(young, poisson)}, {inner_tag});
-  solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
-  solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
+  solid.prescribe(solid.nodes_of(low_end_tag), {true, true, true});
+  solid.prescribe(solid.nodes_of(high_end_tag), {true, true, true});
   solid.set_pressure(inner_tag, pressure);
   solid.set_displacement(blown_up(solid));
   const double limit = solid.stable_step(), dt = step_share * limit;

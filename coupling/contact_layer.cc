@@ -16,9 +16,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
 // this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
-// dent alone is as much, nothing is taken out.
+// indentation alone is as much, nothing is taken out.
 constexpr double most_answer = 0.85;
-constexpr double most_dent = most_answer / (1 + most_answer); // k c up to which all of it is taken out
+constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
 
 // One minus the cosine of a normal that counts as upright.
 constexpr double aslant = 1e-9;
@@ -42,10 +42,11 @@ void check(const SurfaceContact &p, bool rotation) {
   require(p.skin > 0, "surface contact: skin must be positive");
 }
 
-// N/m, of the spring that makes up the stiffness with a dent (m/N) in series.
-double beside_dent(double stiffness, double dent) {
-  const double share = stiffness * dent;
-  return stiffness * std::min(1 / (1 - std::min(share, most_dent)), std::max(1.0, most_answer / share));
+// N/m, of the spring that makes up the stiffness with an indentation (m/N) in series.
+double beside_indentation(double stiffness, double indentation) {
+  const double share = stiffness * indentation;
+  return stiffness *
+         std::min(1 / (1 - std::min(share, most_indentation)), std::max(1.0, most_answer / share));
 }
 
 std::size_t index(int row) {
@@ -184,19 +185,19 @@ double ContactLayer::spring(const SurfacePoint &at) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
   const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
   const std::array<double, 4> &w = at.local.weights;
-  double dent = 0;
+  double indentation = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    dent += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
-  return beside_dent(stiffness_, dent);
+    indentation += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
+  return beside_indentation(stiffness_, indentation);
 }
 
 double ContactLayer::stiffest_spring(int face) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
-  // w^T C w is convex, so that nothing within the face dents more than the worst of its corners; where that
-  // is more than can be taken out, some other place is the stiffest.
+  // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
+  // that is more than can be taken out, some other place is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  return beside_dent(stiffness_,
-                     std::min(most_dent / stiffness_, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+  return beside_indentation(
+      stiffness_, std::min(most_indentation / stiffness_, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 
 std::size_t ContactLayer::bytes() const {

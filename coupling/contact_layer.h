@@ -39,8 +39,8 @@ enum class Attachment {
 // Frictionless surfaces have no tangential columns.
 struct SurfaceContact : dem::SurfaceFriction {
   double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m, k_n of the whole contact
-  // Of a body that yields: the dents of its mesh under single forces, which the stiffness above holds already
-  // and which are therefore taken out of the spring (see below). Empty: none.
+  // Of a body that yields: the indentations of its mesh under single forces, which the stiffness above holds
+  // already and which are therefore taken out of the spring (see below). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
   double tangential_ratio = 0.8;                    // k_t / k_n, > 0
   double damping = 0;                               // fraction of critical, >= 0
@@ -118,7 +118,7 @@ public:
   std::size_t closed = 0;   // contacts in the last add_forces
 
   // Springs of all particles near the surface: for the stable step as stiff as they may be anywhere on the
-  // face, for equilibria (`whole`) with the dent of the mesh.
+  // face, for equilibria (`whole`) with the indentation of the mesh.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
                                                 const fem::LoadedSurface &body, bool whole = false) const;
   // What the same particles would put on each vertex of the surface.
@@ -168,7 +168,7 @@ private:
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
   void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
-  double spring(const SurfacePoint &at) const; // N/m, without the dent of the mesh
+  double spring(const SurfacePoint &at) const; // N/m, without the indentation of the mesh
   double stiffest_spring(int face) const;
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;

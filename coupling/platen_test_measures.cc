@@ -22,7 +22,7 @@ double PlatenTest::closure_strain() const {
   return (bottom_->face_rise() - top_->face_rise()) / shape().height;
 }
 
-double PlatenTest::grip_closure() const {
+double PlatenTest::clamp_closure() const {
   return bottom_->body().displacement()[2] - top_->body().displacement()[2];
 }
 

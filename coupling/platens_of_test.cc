@@ -131,18 +131,18 @@ SurfaceContact contact_settings(const dem::Model &model, const dem::Specimen &s,
 std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const PlatenTestSettings &settings,
                                                  bool top) {
   const PlatenSettings &p = settings.platens;
-  fem::Grip grip;
-  grip.tag = top ? fem::high_end_tag : fem::low_end_tag;
+  fem::Clamp clamp;
+  clamp.tag = top ? fem::high_end_tag : fem::low_end_tag;
   if (top && p.elastic->seat) {
-    grip.turns = true;
-    grip.seat = {0, 0, platen_plane(s, true, settings.ends)};
+    clamp.turns = true;
+    clamp.seat = {0, 0, platen_plane(s, true, settings.ends)};
   }
   fem::ElasticOptions options;
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
   return std::make_unique<fem::ElasticSolid>(
-      platen_grid(s, settings, top), platen_materials(p, (top ? p.top : p.bottom).grid, top), grip, options);
+      platen_grid(s, settings, top), platen_materials(p, (top ? p.top : p.bottom).grid, top), clamp, options);
 }
 
 PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settings, bool top,

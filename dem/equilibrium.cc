@@ -24,22 +24,22 @@ void check(const Particles &p, const StaticCase &load) {
   };
   for (const Support &s : load.supports)
     require_row(s.spring.particle, "a static support");
-  std::vector<char> led(p.size(), 0);
-  for (const Led &l : load.led) {
+  std::vector<char> prescribed(p.size(), 0);
+  for (const PrescribedMotion &l : load.prescribed) {
     require_row(l.particle, "a static motion");
-    if (led[static_cast<std::size_t>(l.particle)]++)
+    if (prescribed[static_cast<std::size_t>(l.particle)]++)
       throw std::invalid_argument("particle " + std::to_string(p.id[static_cast<std::size_t>(l.particle)]) +
-                                  " is led twice. Allowed: one motion for each particle");
+                                  " is prescribed twice. Allowed: one motion for each particle");
   }
 }
 
-// Pieces of the network that nothing leads or supports rest only under loads that balance; found out here,
-// because conjugate gradients would look for a balance until they are stopped.
+// Pieces of the network that nothing prescribes or supports rest only under loads that balance; found out
+// here, because conjugate gradients would look for a balance until they are stopped.
 void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase &load, double tolerance) {
   if (load.force.empty() && load.torque.empty()) return;
   const Fragments pieces = find_fragments(p, &bonds);
   struct Sum {
-    bool held = false;
+    bool fixed = false;
     int particle = 0;               // row, one of the piece
     Vector3 force, torque;          // N, N m about that particle
     double forces = 0, torques = 0; // sums of sizes
@@ -49,9 +49,9 @@ void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase 
     return sums[static_cast<std::size_t>(pieces.of_particle[static_cast<std::size_t>(row)])];
   };
   for (const Support &s : load.supports)
-    piece(s.spring.particle).held = true;
-  for (const Led &l : load.led)
-    piece(l.particle).held = true;
+    piece(s.spring.particle).fixed = true;
+  for (const PrescribedMotion &l : load.prescribed)
+    piece(l.particle).fixed = true;
   for (std::size_t i = 0; i < p.size(); ++i)
     piece(static_cast<int>(i)).particle = static_cast<int>(i);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -66,7 +66,7 @@ void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase 
   }
   for (const Sum &s : sums) {
     const bool turns = p.has_rotation() && norm(s.torque) > tolerance * s.torques;
-    if (s.held || !(norm(s.force) > tolerance * s.forces || turns)) continue;
+    if (s.fixed || !(norm(s.force) > tolerance * s.forces || turns)) continue;
     const std::size_t i = static_cast<std::size_t>(s.particle);
     throw NoEquilibrium("nothing holds the piece of " +
                         std::to_string(pieces.particles[static_cast<std::size_t>(pieces.of_particle[i])]) +
@@ -111,8 +111,8 @@ public:
     take(load, x, right);
     if (!multigrid_)
       multigrid_.emplace(matrix_, std::vector<Vector3>(p_.position.begin(), p_.position.end()),
-                         std::vector<double>(p_.radius.begin(), p_.radius.end()), held_);
-    const statics::Solution s = statics::conjugate_gradients(matrix_, *multigrid_, held_, right, x,
+                         std::vector<double>(p_.radius.begin(), p_.radius.end()), fixed_);
+    const statics::Solution s = statics::conjugate_gradients(matrix_, *multigrid_, fixed_, right, x,
                                                              settings.tolerance, settings.most_iterations);
     if (!(s.residual <= settings.tolerance))
       throw NoEquilibrium("the static solve stopped at a residual of " + std::to_string(s.residual) +
@@ -121,18 +121,19 @@ public:
   }
 
 private:
-  // What is led, or held by nothing, has no equation. Another set of them needs another multigrid.
+  // What is prescribed, or supported by nothing, has no equation. Another set of them needs another
+  // multigrid.
   void hold(const StaticCase &load) {
-    std::vector<char> held(p_.size(), 0);
-    for (const Led &l : load.led)
-      held[static_cast<std::size_t>(l.particle)] = 1;
+    std::vector<char> fixed(p_.size(), 0);
+    for (const PrescribedMotion &l : load.prescribed)
+      fixed[static_cast<std::size_t>(l.particle)] = 1;
     std::vector<char> supported(p_.size(), 0);
     for (const Support &s : load.supports)
       supported[static_cast<std::size_t>(s.spring.particle)] = 1;
     for (std::size_t i = 0; i < p_.size(); ++i)
-      if (!supported[i] && loose(i)) held[i] = 1;
-    if (held == held_) return;
-    held_ = std::move(held);
+      if (!supported[i] && loose(i)) fixed[i] = 1;
+    if (fixed == fixed_) return;
+    fixed_ = std::move(fixed);
     multigrid_.reset();
   }
   bool loose(std::size_t i) const {
@@ -163,12 +164,12 @@ private:
       if (!load.force.empty()) put(load.force[i], &right[n * i]);
       if constexpr (n == 6)
         if (!load.torque.empty()) put(load.torque[i] / p_.radius[i], &right[n * i + 3]);
-      if (held_[i]) std::fill_n(&x[n * i], n, 0.0);
+      if (fixed_[i]) std::fill_n(&x[n * i], n, 0.0);
     }
     for (const Support &s : load.supports)
       statics::add_support_load<n>(p_, s.spring, s.moved,
                                    &right[n * static_cast<std::size_t>(s.spring.particle)]);
-    for (const Led &l : load.led) {
+    for (const PrescribedMotion &l : load.prescribed) {
       const std::size_t i = static_cast<std::size_t>(l.particle);
       put(l.displacement, &x[n * i]);
       if constexpr (n == 6) put(p_.radius[i] * l.turn, &x[n * i + 3]);
@@ -194,7 +195,7 @@ private:
   statics::BlockRows<n, double> bonds_, matrix_; // without and with supports
   std::vector<std::size_t> diagonal_;            // block of each row
   std::vector<std::size_t> supported_;           // rows
-  std::vector<char> held_;
+  std::vector<char> fixed_;
   std::optional<statics::Multigrid<n>> multigrid_;
 };
 

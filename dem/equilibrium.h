@@ -18,14 +18,15 @@ struct Support {
   GroundSpring spring;
   Vector3 moved; // m, of the body where it holds the particle
 };
-// A particle that is led.
-struct Led {
+// A particle whose motion is prescribed.
+struct PrescribedMotion {
   int particle = 0;
   Vector3 displacement, turn; // m, rad
 };
 struct StaticCase {
   std::vector<Support> supports;
-  std::vector<Led> led;               // each particle at most once; goes before what supports would do to it
+  std::vector<PrescribedMotion>
+      prescribed;                     // each particle at most once; goes before what supports would do to it
   std::vector<Vector3> force, torque; // N, N m, on every particle; empty: none
 };
 struct StaticSettings {
@@ -47,12 +48,12 @@ struct NoEquilibrium : std::runtime_error {
 // to rest at one of its equilibria, if the loads have any. Throws NoEquilibrium where a piece that nothing
 // holds has loads that do not balance or the residual does not fall to the tolerance, and
 // std::invalid_argument where columns of loads do not fit the particles, a row is none of theirs or a
-// particle is led twice. The same on any number of threads, to the last bit.
+// particle is prescribed twice. The same on any number of threads, to the last bit.
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings = {});
 
 // The same for several cases of one network, which must stay as it is: its stiffness is assembled once, and
-// what prepares the solves is kept while the led particles are the same.
+// what prepares the solves is kept while the prescribed particles are the same.
 class StaticSolver {
 public:
   StaticSolver(const Particles &particles, const Bonds &bonds);

@@ -207,7 +207,7 @@ Mode start_mode(std::size_t n, bool turning) {
   return x;
 }
 
-int loudest_particle(const Mode &mode) {
+int largest_particle(const Mode &mode) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t i = 0; i < mode.u.size(); ++i) {
@@ -304,7 +304,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     x = stiffness.apply(x);
     multiply(x, 1 / std::sqrt(std::max(inner(x, x), 1e-300)));
   }
-  result.particle_id = particles.id[static_cast<std::size_t>(loudest_particle(x))];
+  result.particle_id = particles.id[static_cast<std::size_t>(largest_particle(x))];
   result.reason = "2/omega of " + springs_of(bonds, contacts, ground) + ", highest mode at particle " +
                   std::to_string(result.particle_id);
   return result;

@@ -11,13 +11,13 @@
 namespace platen::fem {
 
 // Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
-// grip_work stays what it was. A rigid body keeps no book: where its loads do work, the machine does it.
+// clamp_work stays what it was. A rigid body keeps no book: where its loads do work, the machine does it.
 struct BodyBook {
   // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
   double kinetic = 0;
   double strain = 0;
   double load_work = 0;  // by loads on the surface
-  double grip_work = 0;  // by the machine
+  double clamp_work = 0; // by the machine
   double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
 };
 
@@ -37,9 +37,9 @@ public:
 
   virtual double mass() const = 0; // kg
 
-  // How the machine leads the body, without turning it: its grip, or all of it where it is rigid.
+  // How the machine moves the body, without turning it: its clamp, or all of it where it is rigid.
   virtual void set_velocity(const Vector3 &velocity) = 0; // m/s
-  virtual const Vector3 &velocity() const = 0;            // m/s, of the centre of the frame that is led
+  virtual const Vector3 &velocity() const = 0;            // m/s, of the centre of the frame that is moved
   virtual const Vector3 &displacement() const = 0;        // m, of the same
 
   virtual void kick(double dt) = 0;  // impulse of the loads over dt (s)
@@ -50,7 +50,8 @@ public:
   // holds at rest; infinite where nothing limits it.
   virtual double stable_step(const VertexSprings &springs) const = 0;
 
-  // Of each face of the surface, how the mesh dents under a single force; empty for a body without dents.
+  // Of each face of the surface, how the mesh yields locally under a single force; empty for a body whose
+  // mesh does not.
   virtual std::vector<FaceCompliance> face_compliance() const { return {}; }
 
   virtual BodyBook book() const = 0;

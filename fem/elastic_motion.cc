@@ -33,7 +33,7 @@ void ElasticSolid::set_velocity(const Vector3 &velocity) {
 
 void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
-  if (grip_nodes_.empty()) throw std::logic_error("elastic solid: a body without grip is not led");
+  if (clamped_nodes_.empty()) throw std::logic_error("elastic solid: a body without clamp is not moved");
   const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
   if (turns_freely()) {
     // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
@@ -46,7 +46,7 @@ void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_
   }
   velocity_ = velocity;
   if (!is_static()) place_held();
-  grip_work_ += (is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy()) - before;
+  clamp_work_ += (is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy()) - before;
   place_surface();
 }
 
@@ -56,7 +56,7 @@ void ElasticSolid::find_angular_velocity() {
 
 double ElasticSolid::held_kinetic_energy() const {
   double twice = 0;
-  for (const int i : grip_nodes_) {
+  for (const int i : clamped_nodes_) {
     const auto node = static_cast<std::size_t>(i);
     twice += model_.mass[node] * dot(rate_[node], rate_[node]);
   }
@@ -79,7 +79,7 @@ void ElasticSolid::move_frame(double dt) {
 }
 
 void ElasticSolid::place_held() {
-  for (const int i : grip_nodes_) {
+  for (const int i : clamped_nodes_) {
     const auto node = static_cast<std::size_t>(i);
     moved_[node] = carried(node);
     rate_[node] = carried_velocity(arm(node));
@@ -101,11 +101,11 @@ void ElasticSolid::place_surface() {
   }
 }
 
-// What the body hands to its grip over dt: the machine takes it, or the free seat turns.
-void ElasticSolid::give_to_grip(double dt, const Vector3 &force, const Vector3 &moment) {
-  grip_work_ -= dt * dot(force, velocity_);
+// What the body hands to its clamp over dt: the machine takes it, or the free seat turns.
+void ElasticSolid::give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment) {
+  clamp_work_ -= dt * dot(force, velocity_);
   if (!turns_freely()) {
-    grip_work_ -= dt * dot(moment, angular_velocity_);
+    clamp_work_ -= dt * dot(moment, angular_velocity_);
     return;
   }
   spin_ = spin_ + dt * moment;
@@ -113,7 +113,7 @@ void ElasticSolid::give_to_grip(double dt, const Vector3 &force, const Vector3 &
 }
 
 void ElasticSolid::kick(double dt) {
-  Vector3 force{}, moment{}; // handed on to the grip
+  Vector3 force{}, moment{}; // handed on to the clamp
   double relative = 0;       // power in the frame, quasi-static
   kicked_.clear();
   for (const int v : loaded_) {
@@ -133,7 +133,7 @@ void ElasticSolid::kick(double dt) {
     force = force + kept, moment = moment + cross(r, kept);
   }
   const Vector3 before = angular_velocity_;
-  give_to_grip(dt, force, moment);
+  give_to_clamp(dt, force, moment);
   load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
   dissipated_ += dt * relative;
   if (turns_freely() && !is_static()) place_held();
@@ -206,8 +206,8 @@ void ElasticSolid::find_internal_forces() {
     f = -1.0 * to_space(f);
 }
 
-// The grip answers the forces on free nodes, force and moment: with those on held nodes, the moment of small
-// strain would miss the part of the second order and angular momentum would leak.
+// The clamp answers the forces on free nodes, force and moment: with those on fixed nodes, the moment of
+// small strain would miss the part of the second order and angular momentum would leak.
 void ElasticSolid::internal_kick(double dt) {
   Vector3 force{}, moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
@@ -215,8 +215,8 @@ void ElasticSolid::internal_kick(double dt) {
     rate_[i] = rate_[i] + (dt / model_.mass[i]) * free;
     force = force - free, moment = moment - cross(arm(i), free);
   }
-  if (grip_nodes_.empty()) return;
-  give_to_grip(dt, force, moment);
+  if (clamped_nodes_.empty()) return;
+  give_to_clamp(dt, force, moment);
   if (turns_freely()) place_held();
 }
 
@@ -249,8 +249,8 @@ void ElasticSolid::damp(double dt) {
     rate_[k.node] = rate_[k.node] + k.gain;
   }
   kicked_.clear();
-  if (grip_nodes_.empty()) return;
-  give_to_grip(1, force, moment);
+  if (clamped_nodes_.empty()) return;
+  give_to_clamp(1, force, moment);
   if (turns_freely()) place_held();
 }
 

@@ -12,10 +12,10 @@
 namespace platen::fem {
 namespace {
 
-void check(const Grip &grip, const ElasticOptions &options) {
+void check(const Clamp &clamp, const ElasticOptions &options) {
   const bool is_static = options.motion == ElasticMotion::quasi_static;
-  require(!(grip.turns && grip.tag == no_grip), "elastic solid: there is no grip to turn");
-  require(!(is_static && grip.tag == no_grip), "elastic solid: a quasi-static body needs a grip");
+  require(!(clamp.turns && clamp.tag == no_clamp), "elastic solid: there is no clamp to turn");
+  require(!(is_static && clamp.tag == no_clamp), "elastic solid: a quasi-static body needs a clamp");
   require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
           "elastic solid: damping must not be negative");
   require(!is_static ||
@@ -32,12 +32,12 @@ Matrix3 inverse(const Matrix3 &a) {
 
 } // namespace
 
-ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Grip &grip,
+ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Clamp &clamp,
                            const ElasticOptions &options)
     : model_(make_elastic_model(std::move(grid), options.degree, std::move(materials))),
-      grip_(grip),
+      clamp_(clamp),
       options_(options) {
-  check(grip, options);
+  check(clamp, options);
   NodeSurface extracted = node_surface(model_);
   set_surface(std::move(extracted.surface));
   node_of_ = std::move(extracted.node);
@@ -47,32 +47,32 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Gri
     mass_ += model_.mass[i];
     pivot_ = pivot_ + model_.mass[i] * model_.nodes[i];
   }
-  pivot_ = grip.turns ? grip.seat : (1 / mass_) * pivot_;
-  held_.assign(n, {0, 0, 0});
-  if (grip.tag != no_grip) hold(grip);
+  pivot_ = clamp.turns ? clamp.seat : (1 / mass_) * pivot_;
+  fixed_.assign(n, {0, 0, 0});
+  if (clamp.tag != no_clamp) hold(clamp);
   moved_.assign(n, Vector3{}), rate_.assign(n, Vector3{});
   if (is_static())
     start_.assign(n, Vector3{}), target_.assign(n, Vector3{});
   else
     strained_.assign(n, Vector3{}), force_.assign(n, Vector3{});
-  if (grip.turns) weigh_rotor();
+  if (clamp.turns) weigh_rotor();
   stable_step_ = std::numeric_limits<double>::infinity();
   if (is_static()) return;
-  // A grip that turns as one is no faster than its nodes are by themselves.
-  const Held none(n, {0, 0, 0});
+  // A clamp that turns as one is no faster than its nodes are by themselves.
+  const Fixed none(n, {0, 0, 0});
   const double square =
-      largest_eigenvalue(model_.stiffness, model_.mass, grip.turns ? none : held_, model_.cell_bound);
+      largest_eigenvalue(model_.stiffness, model_.mass, clamp.turns ? none : fixed_, model_.cell_bound);
   stable_step_ = 2 / std::sqrt(square);
   options_.stiffness_damping += 2 * options.fastest_damping / std::sqrt(square);
   if (options_.stiffness_damping > 0)
     stable_step_ = std::min(stable_step_, 2 / (options_.stiffness_damping * square));
 }
 
-void ElasticSolid::hold(const Grip &grip) {
-  grip_nodes_ = nodes_on(model_, grip.tag);
-  require(!grip_nodes_.empty(), "elastic solid: no face has the grip's tag " + std::to_string(grip.tag));
-  for (const int i : grip_nodes_)
-    held_[static_cast<std::size_t>(i)] = {1, 1, 1};
+void ElasticSolid::hold(const Clamp &clamp) {
+  clamped_nodes_ = nodes_on(model_, clamp.tag);
+  require(!clamped_nodes_.empty(), "elastic solid: no face has the clamp's tag " + std::to_string(clamp.tag));
+  for (const int i : clamped_nodes_)
+    fixed_[static_cast<std::size_t>(i)] = {1, 1, 1};
 }
 
 void ElasticSolid::weigh_rotor() {
@@ -87,7 +87,7 @@ void ElasticSolid::weigh_rotor() {
     for (std::size_t i = 0; i < model_.nodes.size(); ++i)
       add(i);
   } else {
-    for (const int i : grip_nodes_)
+    for (const int i : clamped_nodes_)
       add(static_cast<std::size_t>(i));
   }
   rotor_inverse_ = inverse(rotor_);
@@ -98,7 +98,7 @@ void ElasticSolid::describe(Archive &archive) {
   archive("last_step", last_step_, "s");
   archive("last_move", last_move_, "m");
   archive("load_work", load_work_, "J");
-  archive("grip_work", grip_work_, "J");
+  archive("clamp_work", clamp_work_, "J");
   archive("dissipated", dissipated_, "J");
   archive("displacement", displacement_, "m");
   archive("velocity", velocity_, "m/s");

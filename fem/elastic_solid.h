@@ -1,9 +1,9 @@
-// A linear elastic body that meets the particles with its surface and a machine with its grip. Strain is
-// small, motion is not: deformation is measured in the frame of the grip, so that the machine may carry and
+// A linear elastic body that meets the particles with its surface and a machine with its clamp. Strain is
+// small, motion is not: deformation is measured in the frame of the clamp, so that the machine may carry and
 // turn the body as far as it likes without stress.
 //
 // Place of node i: x = X + carried + R u, with u its displacement in the frame's axes. Internal forces are
-// -R K u, and the grip answers the moment of the forces on free nodes, so that momentum and angular momentum
+// -R K u, and the clamp answers the moment of the forces on free nodes, so that momentum and angular momentum
 // are kept exactly.
 //
 // Explicit: central differences with lumped mass. Loads act as impulses (kick) around a drift, which takes
@@ -25,13 +25,14 @@
 
 namespace platen::fem {
 
-constexpr int no_grip = -1;
+constexpr int no_clamp = -1;
 
 // How the machine holds a body: by the nodes on the faces of one tag, in all directions.
-struct Grip {
-  int tag = high_end_tag; // no_grip: a free body, whose frame stays where it is (small motion; explicit only)
-  // Free to turn about the seat, which the machine leads: the frame turns as a rigid rotor under the moment
-  // on the grip (explicit) or of all loads (quasi-static).
+struct Clamp {
+  int tag =
+      high_end_tag; // no_clamp: a free body, whose frame stays where it is (small motion; explicit only)
+  // Free to turn about the seat, which the machine moves: the frame turns as a rigid rotor under the moment
+  // on the clamp (explicit) or of all loads (quasi-static).
   bool turns = false;
   Vector3 seat{}; // m, centre of the spherical seat at the start
 };
@@ -52,12 +53,12 @@ struct ElasticOptions {
 class ElasticSolid : public Body {
 public:
   // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
-  // no face has the grip's tag, an option is out of range or two exclude each other.
-  ElasticSolid(Grid grid, std::vector<Material> materials, const Grip &grip,
+  // no face has the clamp's tag, an option is out of range or two exclude each other.
+  ElasticSolid(Grid grid, std::vector<Material> materials, const Clamp &clamp,
                const ElasticOptions &options = {});
 
   const ElasticModel &model() const { return model_; }
-  const std::vector<int> &grip_nodes() const { return grip_nodes_; }
+  const std::vector<int> &clamped_nodes() const { return clamped_nodes_; }
   double mass() const override { return mass_; } // kg
 
   // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
@@ -94,18 +95,18 @@ public:
 
   // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
   // the loads.
-  Vector3 grip_force() const;
-  Vector3 grip_moment() const;
+  Vector3 clamp_force() const;
+  Vector3 clamp_moment() const;
 
   double kinetic_energy() const;                           // J
   double internal_energy() const { return book().strain; } // J
   BodyBook book() const override;
-  Vector3 momentum() const;         // kg m/s, grip nodes included; explicit
+  Vector3 momentum() const;         // kg m/s, clamp nodes included; explicit
   Vector3 angular_momentum() const; // kg m^2/s about centre or seat; explicit
 
   // Displacement of each node in the frame's axes (m): what is strained.
   std::vector<Vector3> deformation() const;
-  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; held nodes are
+  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; fixed nodes are
   // ignored. The book starts anew.
   void set_deformation(const std::vector<Vector3> &displacement, const std::vector<Vector3> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
@@ -119,9 +120,9 @@ public:
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
 
 private:
-  bool turns_freely() const { return grip_.turns; }
+  bool turns_freely() const { return clamp_.turns; }
   bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }
-  void hold(const Grip &grip);
+  void hold(const Clamp &clamp);
   void weigh_rotor();
   void follow_state();
 
@@ -133,7 +134,7 @@ private:
   Vector3 carried_velocity(const Vector3 &arm_of_node) const {
     return velocity_ + cross(angular_velocity_, arm_of_node);
   }
-  bool is_held(std::size_t node) const { return held_[node][0] != 0; }
+  bool is_held(std::size_t node) const { return fixed_[node][0] != 0; }
   Vector3 free_part(std::size_t node, const Vector3 &v) const { return is_held(node) ? Vector3{} : v; }
   void move_frame(double dt);
   void find_angular_velocity();
@@ -146,7 +147,7 @@ private:
   void find_internal_forces();
   void internal_kick(double dt);
   void damp(double dt);
-  void give_to_grip(double dt, const Vector3 &force, const Vector3 &moment);
+  void give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment);
 
   // Quasi-static.
   double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the way to the target
@@ -155,10 +156,10 @@ private:
   void drift_evenly(double dt);
 
   ElasticModel model_;
-  Grip grip_;
+  Clamp clamp_;
   ElasticOptions options_;
-  std::vector<int> node_of_, grip_nodes_;
-  Held held_; // all components of a node, or none
+  std::vector<int> node_of_, clamped_nodes_;
+  Fixed fixed_; // all components of a node, or none
   double mass_ = 0, stable_step_ = 0;
   Vector3 pivot_{}; // m, centre of mass or seat at the start
   Matrix3 rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
@@ -175,7 +176,7 @@ private:
   bool on_the_way_ = false;               // whether the last drift deformed the body
   std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
   double last_step_ = 0, last_move_ = 0;
-  double load_work_ = 0, grip_work_ = 0, dissipated_ = 0;
+  double load_work_ = 0, clamp_work_ = 0, dissipated_ = 0;
   struct Kicked {
     std::size_t node;
     Vector3 gain, before; // m/s

@@ -31,7 +31,7 @@ void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
   }
   elapsed_ = duration_ = last_step_ = 0;
   on_the_way_ = false;
-  load_work_ = grip_work_ = dissipated_ = 0;
+  load_work_ = clamp_work_ = dissipated_ = 0;
   if (is_static())
     measure_path();
   else
@@ -41,7 +41,7 @@ void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
 
 BodyBook ElasticSolid::book() const {
   BodyBook book;
-  book.load_work = load_work_, book.grip_work = grip_work_, book.dissipated = dissipated_;
+  book.load_work = load_work_, book.clamp_work = clamp_work_, book.dissipated = dissipated_;
   book.kinetic = kinetic_energy();
   if (is_static()) {
     book.strain = path_strain();
@@ -73,7 +73,7 @@ double ElasticSolid::kinetic_energy() const {
   return 0.5 * twice;
 }
 
-Vector3 ElasticSolid::grip_force() const {
+Vector3 ElasticSolid::clamp_force() const {
   if (is_static()) return total_force();
   Vector3 sum{};
   for (std::size_t i = 0; i < force_.size(); ++i)
@@ -85,7 +85,7 @@ Vector3 ElasticSolid::grip_force() const {
   return sum;
 }
 
-Vector3 ElasticSolid::grip_moment() const {
+Vector3 ElasticSolid::clamp_moment() const {
   if (is_static()) return moment(centre());
   Vector3 sum{};
   for (std::size_t i = 0; i < force_.size(); ++i)
@@ -113,7 +113,7 @@ void ElasticSolid::measure_path() {
 }
 
 std::vector<FaceCompliance> ElasticSolid::face_compliance() const {
-  return fem::face_compliance(model_, node_surface(model_), held_);
+  return fem::face_compliance(model_, node_surface(model_), fixed_);
 }
 
 void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration) {
@@ -123,7 +123,7 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
   const bool follows = duration > 0 && !support_.empty();
   std::vector<StaticSolver> &solver = follows ? supported_solver_ : solver_;
   const BlockRows &stiffness = follows ? supported_ : model_.stiffness;
-  if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, held_, options_.solver);
+  if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, fixed_, options_.solver);
   std::vector<Vector3> load(model_.nodes.size(), Vector3{});
   for (std::size_t v = 0; v < node_of_.size(); ++v)
     load[static_cast<std::size_t>(node_of_[v])] = to_frame(vertex_loads[v]);

@@ -6,7 +6,7 @@
 namespace platen::fem {
 namespace {
 
-// Of a half space, by the difference between it and held patches (see the header).
+// Of a half space, by the difference between it and fixed patches (see the header).
 constexpr double beyond_the_patch = 0.55;
 // A pivot below this share of its diagonal: nothing holds the patch.
 constexpr double loose = 1e-10;
@@ -56,7 +56,7 @@ bool solve(std::vector<double> &a, std::vector<double> &b) {
 // Surroundings of one node after another.
 class Patch {
 public:
-  Patch(const ElasticModel &model, const Held &held) : model_(model), held_(held) {
+  Patch(const ElasticModel &model, const Fixed &fixed) : model_(model), fixed_(fixed) {
     const std::size_t cells = model.cell_material.size();
     per_cell_ = model.cell_nodes.size() / cells;
     cells_of_.resize(model.nodes.size());
@@ -66,7 +66,7 @@ public:
     place_.assign(model.nodes.size(), -1);
   }
 
-  bool holds(std::size_t node) const { return held_[node][0] || held_[node][1] || held_[node][2]; }
+  bool holds(std::size_t node) const { return fixed_[node][0] || fixed_[node][1] || fixed_[node][2]; }
 
   // Pushes a node by a unit force.
   void push(int node, const Vector3 &direction) {
@@ -117,7 +117,7 @@ private:
     border_.erase(std::unique(border_.begin(), border_.end()), border_.end());
   }
 
-  // What the machine holds is held; the rest of the border gives way.
+  // What the machine holds is fixed; the rest of the border gives way.
   void find_beyond(int node) {
     if (border_.empty()) return;
     double sum = 0;
@@ -129,7 +129,7 @@ private:
   }
 
   const ElasticModel &model_;
-  const Held &held_;
+  const Fixed &fixed_;
   std::size_t per_cell_ = 0;
   std::vector<std::vector<std::size_t>> cells_of_; // each node
   std::vector<int> place_;                         // of each node in the patch, or -1
@@ -141,7 +141,7 @@ private:
 } // namespace
 
 std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const NodeSurface &surface,
-                                            const Held &held) {
+                                            const Fixed &fixed) {
   const std::vector<Vector3> normal = vertex_normals(surface);
   const auto &faces = surface.surface.faces;
   std::vector<std::vector<std::size_t>> faces_of(surface.node.size());
@@ -149,7 +149,7 @@ std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const Nod
     for (const int v : faces[f])
       faces_of[index(v)].push_back(f);
   std::vector<FaceCompliance> compliance(faces.size(), FaceCompliance{});
-  Patch patch(model, held);
+  Patch patch(model, fixed);
   for (std::size_t v = 0; v < surface.node.size(); ++v) {
     patch.push(surface.node[v], normal[v]);
     for (const std::size_t f : faces_of[v])

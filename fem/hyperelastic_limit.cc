@@ -65,11 +65,11 @@ double HyperelasticSolid::stable_step() const {
   if (!(bound > 0)) return std::numeric_limits<double>::infinity();
   BlockRows rows = stiffness_;
   assemble(cells, rows);
-  Held held(led_.size());
-  for (std::size_t n = 0; n < led_.size(); ++n)
+  Fixed fixed(prescribed_.size());
+  for (std::size_t n = 0; n < prescribed_.size(); ++n)
     for (std::size_t k = 0; k < 3; ++k)
-      held[n][k] = is_led(n, k);
-  return 2 / std::sqrt(largest_eigenvalue(rows, mass_, held, bound));
+      fixed[n][k] = is_prescribed(n, k);
+  return 2 / std::sqrt(largest_eigenvalue(rows, mass_, fixed, bound));
 }
 
 } // namespace platen::fem

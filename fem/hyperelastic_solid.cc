@@ -45,7 +45,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
   }
   for (std::vector<Vector3> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
     column->assign(nodes, Vector3{});
-  led_.assign(nodes, 0);
+  prescribed_.assign(nodes, 0);
   face_pressure_.assign(mesh_.faces.size(), 0.0);
   acting_ = face_pressure_;
   cell_force_.resize(mesh_.cells.size());
@@ -74,35 +74,38 @@ void HyperelasticSolid::place_surface_ahead(double dt) {
   }
 }
 
-int HyperelasticSolid::lead(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
+int HyperelasticSolid::prescribe(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
   unsigned char bits = 0;
   for (std::size_t k = 0; k < 3; ++k)
     if (components[k]) bits = static_cast<unsigned char>(bits | (1u << k));
-  require(!nodes.empty() && bits != 0, "solid: a lead needs nodes and components");
+  require(!nodes.empty() && bits != 0, "solid: a prescribed motion needs nodes and components");
   for (const int n : nodes) {
-    require(n >= 0 && index(n) < led_.size(), "solid: there is no node " + std::to_string(n) + " to lead");
-    require((led_[index(n)] & bits) == 0, "solid: node " + std::to_string(n) + " is led already");
+    require(n >= 0 && index(n) < prescribed_.size(),
+            "solid: there is no node " + std::to_string(n) + " to prescribe");
+    require((prescribed_[index(n)] & bits) == 0,
+            "solid: node " + std::to_string(n) + " is prescribed already");
   }
   for (const int n : nodes)
-    led_[index(n)] = static_cast<unsigned char>(led_[index(n)] | bits);
-  leads_.push_back({nodes, components});
-  return static_cast<int>(leads_.size()) - 1;
+    prescribed_[index(n)] = static_cast<unsigned char>(prescribed_[index(n)] | bits);
+  prescribed_motions_.push_back({nodes, components});
+  return static_cast<int>(prescribed_motions_.size()) - 1;
 }
 
-const HyperelasticSolid::Lead &HyperelasticSolid::lead_of(int lead) const {
-  require(lead >= 0 && index(lead) < leads_.size(), "solid: there is no lead " + std::to_string(lead));
-  return leads_[index(lead)];
+const HyperelasticSolid::PrescribedMotion &HyperelasticSolid::prescribed_motion(int motion) const {
+  require(motion >= 0 && index(motion) < prescribed_motions_.size(),
+          "solid: there is no prescribed motion " + std::to_string(motion));
+  return prescribed_motions_[index(motion)];
 }
 
-void HyperelasticSolid::set_lead_velocity(int lead, const Vector3 &velocity, const Vector3 &spin,
-                                          const Vector3 &about) {
-  lead_of(lead);
-  Lead &own = leads_[index(lead)];
+void HyperelasticSolid::set_prescribed_velocity(int motion, const Vector3 &velocity, const Vector3 &spin,
+                                                const Vector3 &about) {
+  prescribed_motion(motion);
+  PrescribedMotion &own = prescribed_motions_[index(motion)];
   own.velocity = velocity, own.spin = spin, own.about = about;
 }
 
-Vector3 HyperelasticSolid::lead_force(int lead) const {
-  const Lead &own = lead_of(lead);
+Vector3 HyperelasticSolid::prescribed_force(int motion) const {
+  const PrescribedMotion &own = prescribed_motion(motion);
   Vector3 sum{};
   for (const int n : own.nodes) {
     const Vector3 free = out_of_balance(index(n));
@@ -135,17 +138,17 @@ void HyperelasticSolid::set_damping(double rate) {
 void HyperelasticSolid::half_kick(double dt) {
   const double h = 0.5 * dt, drag = 0.5 * h * damping_; // by the velocity in the middle of the kick
   struct Works {
-    double lead = 0, damping = 0;
-    void operator+=(const Works &other) { lead += other.lead, damping += other.damping; }
+    double prescribed = 0, damping = 0;
+    void operator+=(const Works &other) { prescribed += other.prescribed, damping += other.damping; }
   };
-  // What the new velocity of a lead adds to the energy of motion is the lead's work as well.
-  for (const Lead &own : leads_)
+  // What a new prescribed velocity adds to the energy of motion is the machine's work as well.
+  for (const PrescribedMotion &own : prescribed_motions_)
     for (const int n : own.nodes) {
       const Vector3 given = own.velocity + cross(own.spin, node_place(n) - own.about);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!own.components[k]) continue;
         double &v = velocity_[index(n)][k];
-        lead_work_ += 0.5 * mass_[index(n)] * (given[k] * given[k] - v * v);
+        prescribed_work_ += 0.5 * mass_[index(n)] * (given[k] * given[k] - v * v);
         v = given[k];
       }
     }
@@ -155,8 +158,8 @@ void HyperelasticSolid::half_kick(double dt) {
       const Vector3 force = out_of_balance(n);
       for (std::size_t k = 0; k < 3; ++k) {
         double &v = velocity_[n][k];
-        if (is_led(n, k)) {
-          sum.lead -= h * force[k] * v;
+        if (is_prescribed(n, k)) {
+          sum.prescribed -= h * force[k] * v;
           continue;
         }
         const double before = v;
@@ -167,7 +170,7 @@ void HyperelasticSolid::half_kick(double dt) {
     return sum;
   };
   const Works works = ordered_sum<Works>(velocity_.size(), kick);
-  lead_work_ += works.lead;
+  prescribed_work_ += works.prescribed;
   damping_work_ += works.damping;
   for (std::size_t v = 0; v < surface_node_.size(); ++v)
     surface_.velocities[v] = velocity_[index(surface_node_[v])];
@@ -240,13 +243,13 @@ void HyperelasticSolid::set_velocity(const std::vector<Vector3> &velocity) {
 void HyperelasticSolid::describe(Archive &archive) {
   archive.version(1);
   archive("pressure_work", pressure_work_, "J");
-  archive("lead_work", lead_work_, "J");
+  archive("prescribed_work", prescribed_work_, "J");
   archive("damping_work", damping_work_, "J");
-  for (std::size_t k = 0; k < leads_.size(); ++k) {
-    const std::string lead = "lead_" + std::to_string(k) + "_";
-    archive(lead + "velocity", leads_[k].velocity, "m/s");
-    archive(lead + "angular_velocity", leads_[k].spin, "rad/s");
-    archive(lead + "about", leads_[k].about, "m");
+  for (std::size_t k = 0; k < prescribed_motions_.size(); ++k) {
+    const std::string motion = "prescribed_" + std::to_string(k) + "_";
+    archive(motion + "velocity", prescribed_motions_[k].velocity, "m/s");
+    archive(motion + "angular_velocity", prescribed_motions_[k].spin, "rad/s");
+    archive(motion + "about", prescribed_motions_[k].about, "m");
   }
   archive.same_rows("face_pressure", face_pressure_, "Pa");
   archive.same_rows("acting_pressure", acting_, "Pa");

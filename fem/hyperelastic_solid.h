@@ -56,14 +56,14 @@ public:
   double largest_move(double dt) const; // m, bound on how far any node moves in a drift over dt
 
   // Nodes whose motion is given. `components` says which of x, y, z: all for an end that is bonded to a
-  // platen, z alone for one that slides along it. Returns the number of the lead. Throws where a component of
-  // a node is led already.
-  int lead(const std::vector<int> &nodes, const std::array<bool, 3> &components);
+  // platen, z alone for one that slides along it. Returns the number of the motion. Throws where a component
+  // of a node is prescribed already.
+  int prescribe(const std::vector<int> &nodes, const std::array<bool, 3> &components);
   // m/s; rad/s about a point (m). Takes effect at the next half_kick, with the places of now: call it again
-  // each step while a lead turns.
-  void set_lead_velocity(int lead, const Vector3 &velocity, const Vector3 &spin = {},
-                         const Vector3 &about = {});
-  Vector3 lead_force(int lead) const; // N, that the lead does on the solid, without inertia
+  // each step while a prescribed motion turns.
+  void set_prescribed_velocity(int motion, const Vector3 &velocity, const Vector3 &spin = {},
+                               const Vector3 &about = {});
+  Vector3 prescribed_force(int motion) const; // N, that the machine does on the solid there, without inertia
 
   // Pa, on all faces of a tag from now on. Throws where there is none.
   void set_pressure(int tag, double pressure);
@@ -92,7 +92,7 @@ public:
   // Since the start (J). Pressure: the volume swept times the mean of the pressures of the last forces and of
   // the next, as velocity Verlet has them.
   double pressure_work() const { return pressure_work_; }
-  double lead_work() const { return lead_work_; }
+  double prescribed_work() const { return prescribed_work_; }
   double damping_work() const { return damping_work_; } // lost, positive
 
   const std::vector<Vector3> &displacement() const { return displacement_; } // m, one per node
@@ -115,12 +115,12 @@ public:
   // or empty for zero), J (volume ratio of the cell).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
 
-  // Everything that changes in a run: motion, leads' velocities, pressures, loads, works. The solid must have
-  // been given the same leads. Throws InvertedElement where an element would be inside out.
+  // Everything that changes in a run: motion, prescribed velocities, pressures, loads, works. The solid must
+  // have been given the same prescribed motions. Throws InvertedElement where an element would be inside out.
   void describe(Archive &archive);
 
 private:
-  struct Lead {
+  struct PrescribedMotion {
     std::vector<int> nodes;
     std::array<bool, 3> components;
     Vector3 velocity{}, spin{}, about{};
@@ -131,8 +131,10 @@ private:
   };
 
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
-  const Lead &lead_of(int lead) const;
-  bool is_led(std::size_t node, std::size_t component) const { return (led_[node] >> component & 1) != 0; }
+  const PrescribedMotion &prescribed_motion(int motion) const;
+  bool is_prescribed(std::size_t node, std::size_t component) const {
+    return (prescribed_[node] >> component & 1) != 0;
+  }
   Vector3 out_of_balance(std::size_t node) const {
     return node_load(node) + pressed_[node] - internal_[node];
   }
@@ -165,15 +167,15 @@ private:
   BlockRows stiffness_;      // layout alone
 
   std::vector<Vector3> displacement_, velocity_, next_;
-  std::vector<unsigned char> led_; // bits x, y, z of each node
-  std::vector<Lead> leads_;
+  std::vector<unsigned char> prescribed_; // bits x, y, z of each node
+  std::vector<PrescribedMotion> prescribed_motions_;
   std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
   std::vector<double> acting_;        // Pa, the same in the forces that stand
   double damping_ = 0;
 
   std::vector<CellForce> cell_force_;
   std::vector<Vector3> internal_, pressed_; // N, of each node
-  double pressure_work_ = 0, lead_work_ = 0, damping_work_ = 0;
+  double pressure_work_ = 0, prescribed_work_ = 0, damping_work_ = 0;
 };
 
 } // namespace platen::fem

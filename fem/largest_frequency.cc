@@ -45,7 +45,7 @@ double last_component(const std::vector<double> &diagonal, const std::vector<dou
 
 } // namespace
 
-double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> &mass, const Held &held,
+double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> &mass, const Fixed &fixed,
                           double bound) {
   const std::size_t n = mass.size();
   std::vector<Vector3> now(n), before(n, Vector3{}), scaled(n), next(n);
@@ -53,7 +53,7 @@ double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> 
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       random ^= random << 13, random ^= random >> 7, random ^= random << 17; // Marsaglia 2003
-      now[i][k] = held[i][k] ? 0.0 : static_cast<double>(random >> 11) / 9007199254740992.0 - 0.5;
+      now[i][k] = fixed[i][k] ? 0.0 : static_cast<double>(random >> 11) / 9007199254740992.0 - 0.5;
     }
   double length = std::sqrt(dot(now, now)), value = 0, residual = 0;
   if (length == 0) return 0;
@@ -66,7 +66,7 @@ double largest_eigenvalue(const BlockRows &stiffness, const std::vector<double> 
     stiffness.multiply(scaled, next);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t c = 0; c < 3; ++c)
-        next[i][c] = held[i][c] ? 0.0 : next[i][c] / std::sqrt(mass[i]);
+        next[i][c] = fixed[i][c] ? 0.0 : next[i][c] / std::sqrt(mass[i]);
     diagonal.push_back(dot(next, now));
     for (std::size_t i = 0; i < n; ++i)
       next[i] = next[i] - diagonal.back() * now[i] - (k == 0 ? 0 : beside.back()) * before[i];

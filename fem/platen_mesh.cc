@@ -36,13 +36,13 @@ Grid laid_platen(const Grid &grid, bool faces_up, double plane) {
   for (const dealii::Point<3> &p : points)
     low = std::min(low, p[2]), high = std::max(high, p[2]);
   const double shift = plane - (faces_up ? high : low), near = in_plane * (high - low);
-  const double held = (faces_up ? low : high) + shift;
+  const double fixed = (faces_up ? low : high) + shift;
   const Grid laid = moved_grid(grid, [&](const Vector3 &p) {
     const bool extreme = std::abs(p[2] + shift - plane) <= near; // what is flat is flat to the last bit
     return Vector3{p[0], p[1], extreme ? plane : p[2] + shift};
   });
   const int near_tag = faces_up ? high_end_tag : low_end_tag, far_tag = faces_up ? low_end_tag : high_end_tag;
-  int flat = 0, gripped = 0;
+  int flat = 0, clamped = 0;
   const auto tag_faces = [&](const auto &tag_of) {
     for (const auto &cell : laid->active_cell_iterators())
       for (const unsigned int f : cell->face_indices()) {
@@ -52,11 +52,11 @@ Grid laid_platen(const Grid &grid, bool faces_up, double plane) {
       }
   };
   tag_faces([&](const auto &face, const dealii::Point<3> &) {
-    const bool at_near = lies_at(face, plane, near), at_far = lies_at(face, held, near);
-    flat += at_near, gripped += at_far;
+    const bool at_near = lies_at(face, plane, near), at_far = lies_at(face, fixed, near);
+    flat += at_near, clamped += at_far;
     return at_near ? near_tag : at_far ? far_tag : mantle_tag;
   });
-  if (gripped == 0)
+  if (clamped == 0)
     throw std::invalid_argument(std::string("has no face in the plane of its ") +
                                 (faces_up ? "lowest" : "highest") +
                                 " point: the machine has nothing to hold");

@@ -54,16 +54,16 @@ Index row_of(std::size_t node, std::size_t k) {
   return static_cast<Index>(3 * node + k);
 }
 
-// Entries of the matrix with held rows and columns left out, and a diagonal entry of the same size for them.
+// Entries of the matrix with fixed rows and columns left out, and a diagonal entry of the same size for them.
 template <class Add>
-void for_entries(const BlockRows &a, const Held &held, const Add &add) {
+void for_entries(const BlockRows &a, const Fixed &fixed, const Add &add) {
   for (std::size_t i = 0; i < a.rows(); ++i)
     for (std::size_t b = a.begin[i]; b < a.begin[i + 1]; ++b) {
       const auto j = static_cast<std::size_t>(a.column[b]);
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c) {
           const double value = a.values[9 * b + 3 * r + c];
-          if (held[i][r] || held[j][c]) {
+          if (fixed[i][r] || fixed[j][c]) {
             if (i == j && r == c) add(row_of(i, r), row_of(j, c), value);
           } else {
             add(row_of(i, r), row_of(j, c), value);
@@ -107,7 +107,7 @@ struct Product {
 
 struct StaticSolver::Parts {
   LinearSolver kind;
-  Held held;
+  Fixed fixed;
   int iterations = 0;
   dealii::SparseDirectUMFPACK direct;
   dealii::TrilinosWrappers::SparseMatrix matrix;
@@ -118,7 +118,7 @@ struct StaticSolver::Parts {
     dealii::SparsityPattern pattern;
     pattern.copy_from(rows);
     dealii::SparseMatrix<double> full(pattern);
-    for_entries(a, held, [&](Index r, Index c, double value) { full.add(r, c, value); });
+    for_entries(a, fixed, [&](Index r, Index c, double value) { full.add(r, c, value); });
     direct.initialize(full);
   }
   void aggregate(const BlockRows &a, const dealii::DynamicSparsityPattern &rows,
@@ -130,7 +130,7 @@ struct StaticSolver::Parts {
         pattern.add(row, rows.column_number(row, k));
     pattern.compress();
     matrix.reinit(pattern);
-    for_entries(a, held, [&](Index r, Index c, double value) { matrix.add(r, c, value); });
+    for_entries(a, fixed, [&](Index r, Index c, double value) { matrix.add(r, c, value); });
     matrix.compress(dealii::VectorOperation::add);
     modes = rigid_motions(nodes);
     Teuchos::ParameterList list;
@@ -168,12 +168,12 @@ struct StaticSolver::Parts {
   }
 };
 
-StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Held held,
+StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
                            LinearSolver kind) {
   bool any = false;
-  for (const auto &node : held)
+  for (const auto &node : fixed)
     any = any || node[0] || node[1] || node[2];
-  if (!any) throw std::invalid_argument("elastic solid: nothing is held, a static solution is not unique");
+  if (!any) throw std::invalid_argument("elastic solid: nothing is fixed, a static solution is not unique");
   if (kind == LinearSolver::automatic) {
     const bool linear = stiffness.column.size() <= linear_blocks * nodes.size();
     const std::size_t most = linear ? direct_nodes_linear : direct_nodes_quadratic;
@@ -182,10 +182,10 @@ StaticSolver::StaticSolver(const BlockRows &stiffness, const std::vector<Vector3
   ensure_mpi();
   parts_ = std::make_unique<Parts>();
   parts_->kind = kind;
-  parts_->held = std::move(held);
+  parts_->fixed = std::move(fixed);
   const Index n = 3 * static_cast<Index>(nodes.size());
   dealii::DynamicSparsityPattern rows(n, n);
-  for_entries(stiffness, parts_->held, [&](Index r, Index c, double) { rows.add(r, c); });
+  for_entries(stiffness, parts_->fixed, [&](Index r, Index c, double) { rows.add(r, c); });
   if (kind == LinearSolver::direct)
     parts_->factorise(stiffness, rows);
   else
@@ -198,17 +198,17 @@ StaticSolver &StaticSolver::operator=(StaticSolver &&) noexcept = default;
 
 void StaticSolver::solve(const BlockRows &stiffness, const std::vector<Vector3> &load,
                          std::vector<Vector3> &x) const {
-  const Held &held = parts_->held;
-  std::vector<Vector3> led(x.size(), Vector3{}), brought;
+  const Fixed &fixed = parts_->fixed;
+  std::vector<Vector3> prescribed(x.size(), Vector3{}), brought;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      if (held[i][k]) led[i][k] = x[i][k];
-  stiffness.multiply(led, brought);
+      if (fixed[i][k]) prescribed[i][k] = x[i][k];
+  stiffness.multiply(prescribed, brought);
   const Index n = 3 * static_cast<Index>(x.size());
   dealii::Vector<double> right(n), solution(n);
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      if (!held[i][k]) right[row_of(i, k)] = load[i][k] - brought[i][k], solution[row_of(i, k)] = x[i][k];
+      if (!fixed[i][k]) right[row_of(i, k)] = load[i][k] - brought[i][k], solution[row_of(i, k)] = x[i][k];
   if (right.l2_norm() == 0) {
     solution = 0;
   } else if (parts_->kind == LinearSolver::direct) {
@@ -218,7 +218,7 @@ void StaticSolver::solve(const BlockRows &stiffness, const std::vector<Vector3> 
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      if (!held[i][k]) x[i][k] = solution[row_of(i, k)];
+      if (!fixed[i][k]) x[i][k] = solution[row_of(i, k)];
 }
 
 LinearSolver StaticSolver::kind() const {

@@ -18,16 +18,16 @@ enum class LinearSolver {
 
 class StaticSolver {
 public:
-  // Held components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
-  // held. Sets MPI up where nobody has: Trilinos does not go without.
-  StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Held held,
+  // Fixed components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
+  // fixed. Sets MPI up where nobody has: Trilinos does not go without.
+  StaticSolver(const BlockRows &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
                LinearSolver kind = LinearSolver::automatic);
   ~StaticSolver();
   StaticSolver(StaticSolver &&) noexcept;
   StaticSolver &operator=(StaticSolver &&) noexcept;
 
-  // Displacements (m) under nodal loads (N). Comes with the held components and, for multigrid, a guess of
-  // the others. Residual of the free components at most 1e-12 of the loads' (of what held motions bring,
+  // Displacements (m) under nodal loads (N). Comes with the fixed components and, for multigrid, a guess of
+  // the others. Residual of the free components at most 1e-12 of the loads' (of what fixed motions bring,
   // too). Throws std::runtime_error where the gradients do not get there.
   void solve(const BlockRows &stiffness, const std::vector<Vector3> &load, std::vector<Vector3> &x) const;
 

@@ -7,7 +7,6 @@
 namespace platen::apps {
 namespace {
 
-
 constexpr double small_strain = 1e-4; // of the solves, which are linear
 
 double mean_axial_stiffness(const dem::Bonds &bonds) {
@@ -95,7 +94,7 @@ StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad loa
                     const dem::StaticSettings &settings) {
   dem::StaticCase at_rest;
   for (const std::size_t row : bar.low.rows)
-    at_rest.led.push_back({static_cast<int>(row), {}, {}});
+    at_rest.prescribed.push_back({static_cast<int>(row), {}, {}});
   if (load == BarLoad::tension) add_force(at_rest, model.particles, bar.high, {0, 0, size});
   if (load == BarLoad::bending) add_force(at_rest, model.particles, bar.high, size * across(bar.along_x));
   if (load == BarLoad::torsion) add_torque(at_rest, model.particles, bar.high, size);
@@ -142,7 +141,7 @@ dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const d
     dem::StaticCase load;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (wall_clearance(shape, p.reference_position[i]) - p.radius[i] <= skin_depth * mean_radius)
-        load.led.push_back({static_cast<int>(i), product(e, p.reference_position[i]), {}});
+        load.prescribed.push_back({static_cast<int>(i), product(e, p.reference_position[i]), {}});
     const dem::StaticState state = solve_static(p, *model.bonds, load);
     strain[k] = mean_strain(region, p, state.displacement, bar.in_piece);
     stress[k] = mean_stress(region, p, *model.bonds, state.displacement, state.turn);

@@ -56,7 +56,7 @@ void ElasticPlaten::add_energy(dem::EnergyLedger &energy) const {
   const fem::BodyBook own = body_->book();
   energy.bodies += own.strain + own.kinetic;
   energy.damping += own.dissipated;
-  energy.boundary += own.grip_work;
+  energy.boundary += own.clamp_work;
 }
 
 void ElasticPlaten::describe(Archive &archive) {

@@ -40,7 +40,7 @@ public:
   // it pulls the lower side.
   double midspan_moment(double z) const;
   bool glued() const { return layer_.parameters().attachment == Attachment::glued; }
-  // Springs of the particles near it, listed anew, in row order, with the dents of its mesh.
+  // Springs of the particles near it, listed anew, in row order, with the indentations of its mesh.
   std::vector<dem::GroundSpring> whole_springs(const dem::Particles &particles);
 
 protected:

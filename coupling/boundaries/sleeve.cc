@@ -89,11 +89,11 @@ void Sleeve::build(const dem::Particles &particles) {
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,
                                                     std::vector<int>{fem::inner_tag});
   contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);
-  const std::array<bool, 3> held = {settings_.bonded_rims, settings_.bonded_rims, true};
+  const std::array<bool, 3> fixed = {settings_.bonded_rims, settings_.bonded_rims, true};
   const std::vector<int> below = solid_->nodes_of(fem::low_end_tag),
                          above = solid_->nodes_of(fem::high_end_tag);
-  bottom_lead_ = solid_->lead(below, held);
-  top_lead_ = solid_->lead(above, held);
+  bottom_motion_ = solid_->prescribe(below, fixed);
+  top_motion_ = solid_->prescribe(above, fixed);
   bottom_rim_ = static_cast<std::size_t>(below.front());
   top_rim_ = static_cast<std::size_t>(above.front());
   solid_->set_damping(settings_.mass_damping);
@@ -204,10 +204,10 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
   const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
     const Vector3 &rim = solid_->displacement()[node];
-    solid_->set_lead_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
+    solid_->set_prescribed_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
   };
-  follow(bottom_lead_, bottom_rim_, rims.bottom, rims.bottom_place);
-  follow(top_lead_, top_rim_, rims.top, rims.top_place);
+  follow(bottom_motion_, bottom_rim_, rims.bottom, rims.bottom_place);
+  follow(top_motion_, top_rim_, rims.top, rims.top_place);
   solid_->half_kick(interval);
 }
 

@@ -120,10 +120,10 @@ public:
   int steps_of_next_interval(double dt) const;       // of dt (s) each
   double longest_interval() const { return limit_; } // s, stability limit of the next one
   double axial_force_top() const {
-    return solid_->lead_force(top_lead_)[2];
+    return solid_->prescribed_force(top_motion_)[2];
   } // N, of the platen on the sleeve
-  double axial_force_bottom() const { return solid_->lead_force(bottom_lead_)[2]; } // N
-  double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); }   // m^3, of the specimen
+  double axial_force_bottom() const { return solid_->prescribed_force(bottom_motion_)[2]; } // N
+  double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); } // m^3, of the specimen
   // Of the volume within it, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
   // N: what platens press on its ends (the mean of both) beyond the pressure that stands in the rubber
@@ -132,7 +132,7 @@ public:
   double mass_scaling() const { return settings_.mass_scaling == 0 ? 1.0 : settings_.mass_scaling; }
   long cuts() const { return static_cast<long>(cuts_); } // halvings of intervals that would invert an element
   // Work of pressure and platens on the sleeve since the start, and what it stores and has lost (J).
-  double work() const { return solid_->pressure_work() + solid_->lead_work(); }
+  double work() const { return solid_->pressure_work() + solid_->prescribed_work(); }
   double stored() const { return solid_->kinetic_energy() + solid_->internal_energy(); }
   double lost() const { return solid_->damping_work(); }
 
@@ -156,7 +156,7 @@ private:
   std::unique_ptr<ContactLayer> contact_;
   std::optional<EndPlatens> ends_;
   double volume_at_start_ = 0, ring_ = 0; // m^3 within it; m^2 of an end of it
-  int bottom_lead_ = 0, top_lead_ = 0;
+  int bottom_motion_ = 0, top_motion_ = 0;
   std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
   int planned_ = 0, made_ = 0;               // steps of the interval
   double elapsed_ = 0;                       // s, of the interval

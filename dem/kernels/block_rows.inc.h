@@ -85,7 +85,7 @@ PLATEN_INLINE void scatter(const Ends &ends, const Triple<Pack> &force, const Tr
 
 // Copies the particles and clears the sums.
 template <bool rotation>
-void take_up(const BondColumns &c, const BlockColumns &block) {
+void gather(const BondColumns &c, const BlockColumns &block) {
   double *to = block.rows;
   const auto take = [&](const Vector3 *position, const Quaternion *orientation) {
     store_row(to, load_row(&position->x));
@@ -107,7 +107,7 @@ void take_up(const BondColumns &c, const BlockColumns &block) {
 // Writes the sums from row `first` on to `count` vectors, or adds them. Four doubles at once run into the
 // next vector, which comes next; the last vector has a neighbour that may be another thread's.
 template <bool rotation, bool add>
-void hand_over(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
+void scatter(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
   const double *from = row_of<rotation>(block, first) + at;
   int k = 0;
   if constexpr (!add)
@@ -120,13 +120,13 @@ void hand_over(const BlockColumns &block, int first, int count, int at, Vector3 
 }
 
 template <bool rotation, bool add>
-void hand_over(const BlockColumns &block) {
+void scatter(const BlockColumns &block) {
   constexpr int at = sums_at(rotation);
-  hand_over<rotation, add>(block, 0, block.own, at, block.force);
-  hand_over<rotation, add>(block, block.own, block.ghosts, at, block.ghost_force);
+  scatter<rotation, add>(block, 0, block.own, at, block.force);
+  scatter<rotation, add>(block, block.own, block.ghosts, at, block.ghost_force);
   if constexpr (rotation) {
-    hand_over<rotation, add>(block, 0, block.own, at + 4, block.torque);
-    hand_over<rotation, add>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
+    scatter<rotation, add>(block, 0, block.own, at + 4, block.torque);
+    scatter<rotation, add>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
   }
 }
 

@@ -85,13 +85,13 @@ template <Turning turning, bool factors, class Law>
 bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
                     std::size_t last) {
   constexpr bool rotation = turning != Turning::none;
-  take_up<rotation>(c, block);
+  gather<rotation>(c, block);
   Pack excess = Pack(-1.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
     excess = larger(excess, add_pack<turning, factors>(c, law, k, ends_of(c, block, k)));
   if (k < last) excess = larger(excess, add_tail<turning, factors>(c, block, law, k, last));
-  hand_over<rotation, false>(block);
+  scatter<rotation, false>(block);
   bool reached = false;
   for (int l = 0; l < lanes; ++l)
     reached |= excess.v[l] >= 0.0;
@@ -213,7 +213,7 @@ PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const E
 template <Turning turning>
 double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
   constexpr bool rotation = turning != Turning::none;
-  take_up<rotation>(c, block);
+  gather<rotation>(c, block);
   Pack power = Pack(0.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
@@ -226,7 +226,7 @@ double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t
       if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
     }
   }
-  hand_over<rotation, true>(block);
+  scatter<rotation, true>(block);
   double sum = 0;
   for (int l = 0; l < lanes; ++l)
     sum += power.v[l];

@@ -118,7 +118,7 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const ElastoDamagePlastic
 template <bool rotation, bool factors>
 bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
                     double dt, std::size_t first, std::size_t last) {
-  take_up<rotation>(c.bonds, block);
+  gather<rotation>(c.bonds, block);
   Pack failed(0.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
@@ -130,7 +130,7 @@ bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const 
                                                         tail_ends<rotation>(c.bonds, block, k, last), dt));
     filled.give_back(c, k, last);
   }
-  hand_over<rotation, false>(block);
+  scatter<rotation, false>(block);
   bool any = false;
   for (int l = 0; l < lanes; ++l)
     any |= failed.v[l] > 0.0;

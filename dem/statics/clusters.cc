@@ -7,8 +7,8 @@ namespace platen::dem::statics {
 
 template <int n>
 Clusters<n>::Clusters(const BlockRows<n, double> &a, const std::vector<Vector3> &place,
-                      const std::vector<double> &length, const std::vector<char> &held) {
-  join(a, held);
+                      const std::vector<double> &length, const std::vector<char> &fixed) {
+  join(a, fixed);
   const std::size_t rows = a.rows(), count = begin_.size() - 1;
   place_.resize(count);
   length_.resize(count);
@@ -32,11 +32,11 @@ Clusters<n>::Clusters(const BlockRows<n, double> &a, const std::vector<Vector3> 
 }
 
 template <int n>
-void Clusters<n>::join(const BlockRows<n, double> &a, const std::vector<char> &held) {
+void Clusters<n>::join(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
   const std::size_t rows = a.rows();
   cluster_.assign(rows, -1);
   int count = 0;
-  const auto free = [&](std::size_t i) { return !held[i]; };
+  const auto free = [&](std::size_t i) { return !fixed[i]; };
   for (std::size_t i = 0; i < rows; ++i) {
     if (!free(i) || cluster_[i] >= 0) continue;
     bool alone = true;

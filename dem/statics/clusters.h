@@ -14,9 +14,9 @@ class Clusters {
 public:
   Clusters() = default;
   // A row and all its neighbours where none of them is taken yet; what is left joins a neighbour's cluster.
-  // Held rows, and rows without a stiffness, are in none.
+  // Fixed rows, and rows without a stiffness, are in none.
   Clusters(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
-           const std::vector<double> &length, const std::vector<char> &held);
+           const std::vector<double> &length, const std::vector<char> &fixed);
 
   std::size_t size() const { return place_.size(); }
   const std::vector<Vector3> &place() const { return place_; }  // m, mean of the members'
@@ -32,7 +32,7 @@ private:
   struct Carry {
     double arm[3] = {0, 0, 0}, ratio = 1;
   };
-  void join(const BlockRows<n, double> &matrix, const std::vector<char> &held);
+  void join(const BlockRows<n, double> &matrix, const std::vector<char> &fixed);
   void add_carried(const double *block, const Carry &row, const Carry &column, double *to) const;
 
   std::vector<int> cluster_; // of each row, or -1

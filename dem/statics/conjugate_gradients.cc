@@ -31,27 +31,27 @@ double ordered(std::size_t entries, const Term &term) {
 
 template <int n>
 Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
-                             const std::vector<char> &held, const std::vector<double> &right,
+                             const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations) {
   const std::size_t size = right.size();
   std::vector<double> r(size), z(size), d(size, 0.0), ad(size, 0.0);
-  // What the loads, and the held rows where they are, ask for.
-  std::vector<double> led(size, 0.0);
+  // What the loads, and the fixed rows where they are, ask for.
+  std::vector<double> prescribed(size, 0.0);
   for (std::size_t k = 0; k < size; ++k)
-    if (held[k / n]) led[k] = x[k];
-  for_each_product(a, led.data(), [&](std::size_t i, const double *sum) {
+    if (fixed[k / n]) prescribed[k] = x[k];
+  for_each_product(a, prescribed.data(), [&](std::size_t i, const double *sum) {
     for (std::size_t c = 0; c < n; ++c)
-      r[n * i + c] = held[i] ? 0.0 : right[n * i + c] - sum[c];
+      r[n * i + c] = fixed[i] ? 0.0 : right[n * i + c] - sum[c];
   });
   const double wanted = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; }));
   Solution s;
   if (wanted == 0) {
-    x = led;
+    x = prescribed;
     return s;
   }
   for_each_product(a, x.data(), [&](std::size_t i, const double *sum) {
     for (std::size_t c = 0; c < n; ++c)
-      r[n * i + c] = held[i] ? 0.0 : right[n * i + c] - sum[c];
+      r[n * i + c] = fixed[i] ? 0.0 : right[n * i + c] - sum[c];
   });
   // The multigrid is not quite the same from call to call, by round-off of single precision: beta is that of
   // Polak and Ribiere, with the change of the residual.
@@ -67,7 +67,7 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
         size, [&](std::size_t k) { d[k] = z[k] + beta * d[k]; }, entries_per_part);
     for_each_product(a, d.data(), [&](std::size_t i, const double *sum) {
       for (std::size_t c = 0; c < n; ++c)
-        ad[n * i + c] = held[i] ? 0.0 : sum[c];
+        ad[n * i + c] = fixed[i] ? 0.0 : sum[c];
     });
     const double curvature = ordered(size, [&](std::size_t k) { return d[k] * ad[k]; });
     if (!(curvature > 0) || !(rz > 0)) return s;

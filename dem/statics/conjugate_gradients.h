@@ -9,15 +9,15 @@ namespace platen::dem::statics {
 
 struct Solution {
   int iterations = 0;
-  double residual = 0; // over the right hand side, that of the held rows included
+  double residual = 0; // over the right hand side, that of the fixed rows included
 };
 
-// A x = right in the rows that are not held; x is the start, holds what the held rows are at, and is the
-// answer. The residual is over the larger of `right` and of what the held rows bring to it. Ends at the
+// A x = right in the rows that are not fixed; x is the start, holds what the fixed rows are at, and is the
+// answer. The residual is over the larger of `right` and of what the fixed rows bring to it. Ends at the
 // tolerance, after so many iterations, or where A turns out to have a negative eigenvalue.
 template <int n>
 Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
-                             const std::vector<char> &held, const std::vector<double> &right,
+                             const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations);
 
 extern template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,

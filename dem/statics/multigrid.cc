@@ -26,7 +26,7 @@ constexpr double softest = 1e-6;
 template <int n>
 struct Multigrid<n>::Level {
   BlockRows<n, float> matrix;
-  std::vector<float> inverse; // of the diagonal blocks; 0 where held
+  std::vector<float> inverse; // of the diagonal blocks; 0 where fixed
   Clusters<n> clusters;
   std::vector<float> right, solution, residual, direction;
 };
@@ -34,7 +34,7 @@ struct Multigrid<n>::Level {
 template <int n>
 struct Multigrid<n>::Direct {
   Eigen::LDLT<Eigen::MatrixXd> factor;
-  std::vector<char> held;
+  std::vector<char> fixed;
   std::vector<float> right, solution;
 };
 
@@ -42,11 +42,11 @@ namespace {
 
 // Mean of the diagonal over the rows that are free.
 template <int n>
-double mean_diagonal(const BlockRows<n, double> &a, const std::vector<char> &held) {
+double mean_diagonal(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.rows(); ++i)
-    for (std::size_t k = a.begin[i]; k < a.begin[i + 1] && !held[i]; ++k)
+    for (std::size_t k = a.begin[i]; k < a.begin[i + 1] && !fixed[i]; ++k)
       if (static_cast<std::size_t>(a.column[k]) == i)
         for (int c = 0; c < n; ++c, ++count)
           sum += a.at(k)[(n + 1) * c];
@@ -54,14 +54,14 @@ double mean_diagonal(const BlockRows<n, double> &a, const std::vector<char> &hel
 }
 
 template <int n>
-std::vector<float> inverse_of_diagonal(const BlockRows<n, double> &a, const std::vector<char> &held) {
+std::vector<float> inverse_of_diagonal(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
   using Block = Eigen::Matrix<double, n, n>;
-  const double soft = softest * mean_diagonal(a, held);
+  const double soft = softest * mean_diagonal(a, fixed);
   std::vector<float> inverse(a.rows() * n * n, 0.0f);
   for_each(
       a.rows(),
       [&](std::size_t i) {
-        if (held[i]) return;
+        if (fixed[i]) return;
         Block d = soft * Block::Identity();
         for (std::size_t k = a.begin[i]; k < a.begin[i + 1]; ++k)
           if (static_cast<std::size_t>(a.column[k]) == i) d += Eigen::Map<const Block>(a.at(k));
@@ -88,8 +88,8 @@ BlockRows<n, float> in_single(const BlockRows<n, double> &a) {
 
 template <int n>
 Multigrid<n>::Multigrid(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
-                        const std::vector<double> &length, const std::vector<char> &held) {
-  make_next(matrix, place, length, held);
+                        const std::vector<double> &length, const std::vector<char> &fixed) {
+  make_next(matrix, place, length, fixed);
 }
 template <int n>
 Multigrid<n>::~Multigrid() = default;
@@ -98,13 +98,13 @@ Multigrid<n>::Multigrid(Multigrid &&) noexcept = default;
 
 template <int n>
 void Multigrid<n>::make_next(const BlockRows<n, double> &a, std::vector<Vector3> place,
-                             std::vector<double> length, std::vector<char> held) {
+                             std::vector<double> length, std::vector<char> fixed) {
   const std::size_t rows = a.rows();
   Clusters<n> clusters;
-  if (rows > few_rows) clusters = Clusters<n>(a, place, length, held);
+  if (rows > few_rows) clusters = Clusters<n>(a, place, length, fixed);
   if (rows > few_rows && 2 * clusters.size() < rows) {
     Level level;
-    level.inverse = inverse_of_diagonal(a, held);
+    level.inverse = inverse_of_diagonal(a, fixed);
     level.matrix = in_single(a);
     level.clusters = std::move(clusters);
     for (std::vector<float> *v : {&level.right, &level.solution, &level.residual, &level.direction})
@@ -121,15 +121,15 @@ void Multigrid<n>::make_next(const BlockRows<n, double> &a, std::vector<Vector3>
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t k = a.begin[i]; k < a.begin[i + 1]; ++k) {
       const std::size_t j = static_cast<std::size_t>(a.column[k]);
-      if (!held[i] && !held[j])
+      if (!fixed[i] && !fixed[j])
         dense.template block<n, n>(n * static_cast<Eigen::Index>(i), n * static_cast<Eigen::Index>(j)) +=
             Eigen::Map<const Eigen::Matrix<double, n, n>>(a.at(k));
     }
-  const double mean = mean_diagonal(a, held);
+  const double mean = mean_diagonal(a, fixed);
   for (Eigen::Index i = 0; i < size; ++i)
-    dense(i, i) += (held[static_cast<std::size_t>(i / n)] ? 1 : softest) * mean;
+    dense(i, i) += (fixed[static_cast<std::size_t>(i / n)] ? 1 : softest) * mean;
   direct_->factor.compute(dense);
-  direct_->held = std::move(held);
+  direct_->fixed = std::move(fixed);
   direct_->right.resize(n * rows);
   direct_->solution.resize(n * rows);
 }
@@ -143,7 +143,7 @@ void Multigrid<n>::cycle(std::size_t at, bool rest) {
     Eigen::Map<Eigen::VectorXf>(d.solution.data(), right.size()) =
         d.factor.solve(right.cast<double>()).template cast<float>();
     for (std::size_t k = 0; k < d.solution.size(); ++k)
-      if (d.held[k / n]) d.solution[k] = 0;
+      if (d.fixed[k / n]) d.solution[k] = 0;
     return;
   }
   Level &l = levels_[at];

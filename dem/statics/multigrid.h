@@ -19,9 +19,9 @@ template <int n>
 class Multigrid {
 public:
   // Of a symmetric matrix without negative eigenvalues. `place`: of each row, m; `length`: by which its
-  // rotation is multiplied, m. Rows that are `held` have no part in it: what comes back for them is 0.
+  // rotation is multiplied, m. Rows that are `fixed` have no part in it: what comes back for them is 0.
   Multigrid(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
-            const std::vector<double> &length, const std::vector<char> &held);
+            const std::vector<double> &length, const std::vector<char> &fixed);
   ~Multigrid();
   Multigrid(Multigrid &&) noexcept;
 
@@ -32,7 +32,7 @@ private:
   struct Level;
   struct Direct;
   void make_next(const BlockRows<n, double> &matrix, std::vector<Vector3> place, std::vector<double> length,
-                 std::vector<char> held);
+                 std::vector<char> fixed);
   void cycle(std::size_t level, bool rest);
   void visit_next(std::size_t level);
 

@@ -75,7 +75,7 @@ TEST(elastic_platens, stiff_ones_are_rigid_ones) {
     settings.platens.material.young_modulus = factor * steel;
     PlatenTest problem(cylinder(), settings);
     advance_to(problem, steps);
-    EXPECT_EQ(problem.grip_closure(), reference.grip_closure());
+    EXPECT_EQ(problem.clamp_closure(), reference.clamp_closure());
     shortfall.push_back(1 - 0.5 * (problem.stress_top() + problem.stress_bottom()) / stress);
   }
   EXPECT_GT(shortfall[2], 0);
@@ -96,7 +96,7 @@ TEST(elastic_platens, explicit_and_quasi_static_ones_bear_alike) {
     advance_to(problem, 5000);
     stress[still] = problem.stress_top();
     closure[still] = problem.closure_strain();
-    EXPECT_LT(problem.closure_strain() * problem.shape().height, 0.999 * problem.grip_closure());
+    EXPECT_LT(problem.closure_strain() * problem.shape().height, 0.999 * problem.clamp_closure());
     EXPECT_NEAR(problem.top().body().book().strain, problem.bottom().body().book().strain,
                 0.5 * problem.top().body().book().strain);
     // Contacts, friction, bonds and platens in one book.
@@ -137,7 +137,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
     std::vector<Vector3> force;
     solid.model().stiffness.multiply(u, force);
     Vector3 reaction{};
-    for (const int node : solid.grip_nodes())
+    for (const int node : solid.clamped_nodes())
       reaction = reaction + force[static_cast<std::size_t>(node)];
     EXPECT_LT(norm(reaction + load), 1e-12 * norm(load)) << norm(reaction + load);
     double mean = 0;
@@ -189,7 +189,7 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
       }
       arm[seat] = norm(Vector3{moment[0], moment[1], 0}) / force;
       EXPECT_LT(std::abs(problem.energy().residual()), 2e-3 * problem.energy().boundary);
-      EXPECT_EQ(problem.grip_closure() > 0, true);
+      EXPECT_EQ(problem.clamp_closure() > 0, true);
       const double turned = problem.elastic_top()->solid().rotation().w;
       EXPECT_EQ(turned == 1, !seat);
     }
@@ -197,7 +197,7 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
   }
 }
 
-// Pressure on the particles, the servo at the grip, then the platens alone.
+// Pressure on the particles, the servo at the clamp, then the platens alone.
 TEST(elastic_platens, the_book_closes_in_a_cell) {
   PlatenTestSettings settings = crushing(ElasticMotion::explicit_steps);
   settings.loading.cell = CellSettings{};
@@ -246,7 +246,7 @@ TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
   advance_to(problem, 5000);
   const double pressure = 0.5 * (problem.stress_top() + problem.stress_bottom());
   ASSERT_GT(pressure, 1e5);
-  const double yielded = 0.5 * (problem.grip_closure() - problem.closure_strain() * problem.shape().height);
+  const double yielded = 0.5 * (problem.clamp_closure() - problem.closure_strain() * problem.shape().height);
   const double most = pressure * 1e-3 / 1e9, least = most * (1 + 0.3) * (1 - 2 * 0.3) / (1 - 0.3);
   EXPECT_GT(yielded, least);
   EXPECT_LT(yielded, most);

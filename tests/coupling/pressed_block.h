@@ -58,17 +58,18 @@ struct PressedBlock {
   fem::ElasticSolid block;
   ContactLayer layer;
 
-  // `stiffness` (N/m) is that of the whole contact; `once`: without the dent of the mesh coming on top.
+  // `stiffness` (N/m) is that of the whole contact; `once`: without the indentation of the mesh coming on
+  // top.
   PressedBlock(fem::Grid grid, int degree, double stiffness, bool once)
       : particles(one_sphere(), 2500, false),
-        block(std::move(grid), {rock}, fem::Grip{fem::low_end_tag}, options(degree)),
+        block(std::move(grid), {rock}, fem::Clamp{fem::low_end_tag}, options(degree)),
         layer(particles, block,
               contact(stiffness, once ? block.face_compliance() : std::vector<fem::FaceCompliance>{})) {}
 
   // Force (N) between both at rest, with the sphere `approach` (m) deep at (x, y), measured from the block's
-  // face without load. The load goes a part of the way to the force that its own dent leaves, until that is
-  // within 1e-4 of it. In the valley of its dent the foot of a sphere changes sides, and only the size of the
-  // force comes to rest.
+  // face without load. The load goes a part of the way to the force that its own indentation leaves, until
+  // that is within 1e-4 of it. In the valley of its indentation the foot of a sphere changes sides, and only
+  // the size of the force comes to rest.
   double press(double x, double y, double approach) {
     constexpr double part = 0.6;
     particles.position[0] = {x, y, radius - approach};

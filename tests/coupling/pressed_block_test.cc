@@ -40,9 +40,9 @@ TEST(pressed_block, yields_as_hertz_says_in_degree_two) {
     EXPECT_NEAR(share_of_hertz(pressed, h, a, place), 1, 0.02) << place[0] << ' ' << place[1];
 }
 
-// What the tests above would say of a spring with the mesh's dent on top: too soft, the more the finer the
-// mesh, and three times as much on a vertex as in the middle of a face.
-TEST(pressed_block, yields_twice_where_the_dent_stays_in_the_spring) {
+// What the tests above would say of a spring with the mesh's indentation on top: too soft, the more the finer
+// the mesh, and three times as much on a vertex as in the middle of a face.
+TEST(pressed_block, yields_twice_where_the_indentation_stays_in_the_spring) {
   constexpr double a = 0.1 * radius;
   double excess[2];
   for (const bool fine : {false, true}) {
@@ -55,7 +55,7 @@ TEST(pressed_block, yields_twice_where_the_dent_stays_in_the_spring) {
   EXPECT_GT(excess[1], 1.8 * excess[0]);
 }
 
-// Where the mesh alone dents more than the contact should, nothing can be taken out; on the way there a
+// Where the mesh alone gives way more than the contact should, nothing can be taken out; on the way there a
 // spring is made stiffer by 1.85 at most. What the stable step is told covers any place in the face; an
 // equilibrium is told of the whole contact.
 TEST(pressed_block, makes_a_spring_stiffer_within_bounds) {
@@ -84,7 +84,7 @@ TEST(pressed_block, makes_a_spring_stiffer_within_bounds) {
     if (a < 0.1 * radius) {
       EXPECT_GT(smallest, 1.05 * k);
       EXPECT_LT(largest, 1.5 * k);
-    } else { // on a vertex the dent is .9 of the whole, in the middle of the face a third
+    } else { // on a vertex the indentation is .9 of the whole, in the middle of the face a third
       EXPECT_NEAR(smallest, k, 1e-9 * k);
       EXPECT_GT(largest, 1.4 * k);
       EXPECT_LE(largest, 1.85 * k);
@@ -104,8 +104,8 @@ fem::Grid irregular_block(double h) {
   });
 }
 
-// Dragged at a constant approach over edges and past vertices, in its own dent all the way. Without the
-// compliance taken out the force swings by 5 %.
+// Dragged at a constant approach over edges and past vertices, in its own indentation all the way. Without
+// the compliance taken out the force swings by 5 %.
 TEST(pressed_block, feels_no_mesh_under_a_dragged_sphere) {
   constexpr double h = radius, a = 0.1 * radius;
   PressedBlock pressed(irregular_block(h), 1, hertz_secant(a), true);
@@ -116,7 +116,7 @@ TEST(pressed_block, feels_no_mesh_under_a_dragged_sphere) {
       const double force = pressed.press(x, slope * x + 1e-5, hertz_approach(a));
       least = std::min(least, force), most = std::max(most, force);
       ASSERT_EQ(pressed.layer.contacts().size(), 1u) << x;
-      // Along the face there is none but that of a dent which the mesh cannot round.
+      // Along the face there is none but that of an indentation which the mesh cannot round.
       const Vector3 f = pressed.particles.force[0];
       ASSERT_LT(std::hypot(f.x, f.y), 0.005 * f.z) << x;
     }

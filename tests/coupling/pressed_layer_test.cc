@@ -15,16 +15,16 @@ namespace {
 
 constexpr int across = 8;
 constexpr double radius = 1e-3, edge = 2 * radius; // m, of a sphere and of an element: one above each face
-constexpr fem::Material steel{7850, 200e9, 0};     // that does not widen: its grip bears nothing sideways
+constexpr fem::Material steel{7850, 200e9, 0};     // that does not widen: its clamp bears nothing sideways
 constexpr double stiffness = 5e7;                  // N/m, of a contact
 
-fem::ElasticSolid block_on_its_grip() {
+fem::ElasticSolid block_on_its_clamp() {
   constexpr double half = 0.5 * across * edge;
   fem::ElasticOptions options;
   options.motion = fem::ElasticMotion::quasi_static;
   return fem::ElasticSolid(
       fem::make_grid(fem::BoxPlate{{-half, -half, -2 * half}, {half, half, 0}, {across, across, across}}),
-      {steel}, fem::Grip{fem::low_end_tag}, options);
+      {steel}, fem::Clamp{fem::low_end_tag}, options);
 }
 
 dem::Specimen layer_of_spheres(double approach) {
@@ -39,13 +39,13 @@ dem::Specimen layer_of_spheres(double approach) {
 
 struct Transmitted {
   double worst = 0;    // largest difference of a cell's stress along z from the mean pressure, over that
-  double reaction = 0; // of grip and loads together, over the loads
+  double reaction = 0; // of clamp and loads together, over the loads
 };
 
 // Looks at cells whose middle lies `inside` elements or more from the sides and three below the spheres.
-// `once`: with dents taken out of the springs, as platens have it.
+// `once`: with indentations taken out of the springs, as platens have it.
 Transmitted transmitted(bool once, int inside) {
-  fem::ElasticSolid block = block_on_its_grip();
+  fem::ElasticSolid block = block_on_its_clamp();
   dem::Particles spheres(layer_of_spheres(0.01 * radius), 2500, false);
   SurfaceContact contact;
   contact.particle_stiffness = stiffness;
@@ -68,7 +68,7 @@ Transmitted transmitted(bool once, int inside) {
   const fem::ElasticModel &model = block.model();
   std::vector<Vector3> force;
   model.stiffness.multiply(block.deformation(), force);
-  for (const int node : block.grip_nodes())
+  for (const int node : block.clamped_nodes())
     reaction = reaction + force[static_cast<std::size_t>(node)];
   Transmitted result;
   result.reaction = norm(reaction + sum) / norm(sum);
@@ -92,9 +92,9 @@ TEST(pressed_layer, puts_the_same_pressure_into_every_cell) {
   EXPECT_LT(plain.reaction, 1e-12);
 }
 
-// At the rim a face alone gives way more, so that more of its own dent is taken out and its sphere bears
-// more; inside that is gone within elements.
-TEST(pressed_layer, puts_the_pressure_into_the_inside_where_dents_are_taken_out) {
+// At the rim a face alone gives way more, so that more of its own indentation is taken out and its sphere
+// bears more; inside that is gone within elements.
+TEST(pressed_layer, puts_the_pressure_into_the_inside_where_indentations_are_taken_out) {
   const Transmitted taken = transmitted(true, 2);
   measured::expect_below(25, "stress_against_pressure", taken.worst, 0.01);
   measured::expect_below(25, "reactions_and_loads", taken.reaction, 1e-12);

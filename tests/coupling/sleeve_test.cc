@@ -90,7 +90,7 @@ TEST(sleeve, hands_the_pressure_of_the_cell_to_the_specimen) {
   Cell cell;
   cell.run(1e-3);
   EXPECT_GT(cell.sleeve.layer().closed, 50u);
-  // The pressure acts on the polygon of the outer face. Rims are held: they bear an eighth (half an element
+  // The pressure acts on the polygon of the outer face. Rims are fixed: they bear an eighth (half an element
   // at each end of eight) and what spans from the last spheres to them; the tube itself keeps next to
   // nothing.
   const dem::Shape &shape = cell.specimen.shape;

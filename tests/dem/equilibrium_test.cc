@@ -27,7 +27,7 @@ StaticSettings exact() {
 }
 StaticCase clamped_at(std::size_t row) {
   StaticCase load;
-  load.led.push_back({static_cast<int>(row), {}, {}});
+  load.prescribed.push_back({static_cast<int>(row), {}, {}});
   return load;
 }
 
@@ -59,7 +59,7 @@ TEST_P(Cantilever, of_beams_is_a_beam) {
 INSTANTIATE_TEST_SUITE_P(equilibrium, Cantilever,
                          testing::Values(Vector3{1, 0, 0}, Vector3{0, 0, -1}, Vector3{1, -2, .7}));
 
-// Loads and led particles ask for the same: what a load does, that displacement gives the load back.
+// Loads and prescribed particles ask for the same: what a load does, that displacement gives the load back.
 TEST(equilibrium, led_particles_feel_what_loads_would_do) {
   Model model(packed_box(9, 9, 9), bonded());
   const Particles &p = model.particles;
@@ -68,9 +68,9 @@ TEST(equilibrium, led_particles_feel_what_loads_would_do) {
   load.force.resize(p.size());
   load.force[high] = {3, -2, 5};
   const StaticState free = solve_static(p, *model.bonds, load, exact());
-  StaticCase led = clamped_at(low);
-  led.led.push_back({static_cast<int>(high), free.displacement[high], free.turn[high]});
-  const StaticState same = solve_static(p, *model.bonds, led, exact());
+  StaticCase prescribed = clamped_at(low);
+  prescribed.prescribed.push_back({static_cast<int>(high), free.displacement[high], free.turn[high]});
+  const StaticState same = solve_static(p, *model.bonds, prescribed, exact());
   double largest = 0, difference = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     largest = std::max(largest, norm(free.displacement[i]));
@@ -125,7 +125,7 @@ TEST(equilibrium, bonds_of_the_displaced_state_balance_the_loads) {
   }
 }
 
-// Some thousand spheres on springs below, led above, with a few loads: three levels of the multigrid.
+// Some thousand spheres on springs below, prescribed above, with a few loads: three levels of the multigrid.
 StaticCase pressed(const Particles &p, double height) {
   StaticCase load;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -133,7 +133,7 @@ StaticCase pressed(const Particles &p, double height) {
     if (p.position[i].z < 2 * radius)
       load.supports.push_back({{row, {0, 0, 1}, {0, 0, -radius}, 1e7, 0, 0.}, {}});
     if (p.position[i].z > height - 2 * radius)
-      load.led.push_back({row, {1e-6, 0, -2e-6}, {0, p.has_rotation() ? 1e-5 : 0, 0}});
+      load.prescribed.push_back({row, {1e-6, 0, -2e-6}, {0, p.has_rotation() ? 1e-5 : 0, 0}});
   }
   load.force.assign(p.size(), {0, 0, -1e-2});
   load.torque.assign(p.size(), {});
@@ -225,35 +225,35 @@ TEST(equilibrium, loose_spheres_stay_where_they_are) {
 TEST(equilibrium, a_particle_is_led_once) {
   Model model(row(3, {1, 0, 0}), bonded());
   StaticCase load = clamped_at(0);
-  load.led.push_back({0, {1e-6, 0, 0}, {}});
+  load.prescribed.push_back({0, {1e-6, 0, 0}, {}});
   StaticSolver solver(model.particles, *model.bonds);
   for (int way = 0; way < 2; ++way)
     try {
       way == 0 ? solver.solve(load) : solve_static(model.particles, *model.bonds, load);
       FAIL();
     } catch (const std::invalid_argument &e) {
-      EXPECT_NE(
-          std::string(e.what()).find("particle " + std::to_string(model.particles.id[0]) + " is led twice"),
-          std::string::npos)
+      EXPECT_NE(std::string(e.what()).find("particle " + std::to_string(model.particles.id[0]) +
+                                           " is prescribed twice"),
+                std::string::npos)
           << e.what();
     }
   for (const int none : {-1, 4}) {
-    load.led = {{none, {}, {}}};
+    load.prescribed = {{none, {}, {}}};
     EXPECT_THROW(solver.solve(load), std::invalid_argument);
-    load.led.clear();
+    load.prescribed.clear();
     load.supports = {{{none, {0, 0, 1}, {0, 0, -radius}, 1e7, 0, 0.}, {}}};
     EXPECT_THROW(solver.solve(load), std::invalid_argument);
     load.supports.clear();
   }
 }
 
-// Whatever spring it has too, a led particle is where it was led to.
+// Whatever spring it has too, a prescribed particle is where it was moved to.
 TEST(equilibrium, a_led_particle_does_not_feel_its_support) {
   Model model(row(3, {1, 0, 0}), bonded());
   const Particles &p = model.particles;
   const std::size_t low = row_of(p, 0), high = row_of(p, 3);
   StaticCase load = clamped_at(low);
-  load.led.push_back({static_cast<int>(high), {2e-6, 0, 0}, {}});
+  load.prescribed.push_back({static_cast<int>(high), {2e-6, 0, 0}, {}});
   const StaticState without = solve_static(p, *model.bonds, load, exact());
   load.supports.push_back(
       {{static_cast<int>(high), {1, 0, 0}, {-radius, 0, 0}, 1e9, 1e8, 0.}, {-1e-3, 0, 0}});
@@ -276,24 +276,24 @@ TEST(equilibrium, a_piece_that_nothing_holds_stays_where_it_is) {
     both.centre.push_back({0, 4 * wide * radius, 0}); // and a sphere
     both.radius.push_back(radius);
     Model model(both, bonded()), alone(one, bonded());
-    const auto held = [&](const Particles &p) {
+    const auto fixed = [&](const Particles &p) {
       StaticCase load;
       for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.position[i].x > wide * radius || p.position[i].y > 2 * wide * radius) continue;
         const int row = static_cast<int>(i);
         if (p.position[i].z < 2 * radius)
           load.supports.push_back({{row, {0, 0, 1}, {0, 0, -radius}, 1e7, 1e6, 0.}, {}});
-        if (p.position[i].z > (height - 2) * radius) load.led.push_back({row, {1e-6, 0, -2e-6}, {}});
+        if (p.position[i].z > (height - 2) * radius) load.prescribed.push_back({row, {1e-6, 0, -2e-6}, {}});
       }
       return load;
     };
     StaticSettings fine;
     fine.tolerance = 1e-12;
     const Particles &p = model.particles;
-    StaticCase load = held(p);
-    ASSERT_FALSE(load.led.empty());
+    StaticCase load = fixed(p);
+    ASSERT_FALSE(load.prescribed.empty());
     const StaticState s = solve_static(p, *model.bonds, load, fine),
-                      expected = solve_static(alone.particles, *alone.bonds, held(alone.particles), fine);
+                      expected = solve_static(alone.particles, *alone.bonds, fixed(alone.particles), fine);
     std::vector<std::size_t> at(both.size());
     for (std::size_t i = 0; i < p.size(); ++i)
       at[static_cast<std::size_t>(p.id[i])] = i;

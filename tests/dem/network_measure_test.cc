@@ -23,7 +23,7 @@ StaticSettings exact() {
   return s;
 }
 
-// A box of spheres held at its lower end and pulled, and pushed aside, at its upper one.
+// A box of spheres fixed at its lower end and pulled, and pushed aside, at its upper one.
 struct Pulled {
   Model model;
   StaticState state;
@@ -34,7 +34,7 @@ struct Pulled {
     StaticCase load;
     std::vector<std::size_t> top;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      if (p.position[i].z < low * radius) load.led.push_back({static_cast<int>(i), {}, {}});
+      if (p.position[i].z < low * radius) load.prescribed.push_back({static_cast<int>(i), {}, {}});
       if (p.position[i].z > high * radius) top.push_back(i);
     }
     load.force.resize(p.size());

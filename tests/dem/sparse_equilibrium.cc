@@ -38,13 +38,13 @@ Matrix3 spring(const Vector3 &n, double along, double across) {
 class Network {
 public:
   Network(const Particles &p, const StaticCase &load) : p_(p), width_(p.has_rotation() ? 6 : 3) {
-    led_.assign(p.size(), -1);
-    for (std::size_t k = 0; k < load.led.size(); ++k)
-      led_[static_cast<std::size_t>(load.led[k].particle)] = static_cast<int>(k);
-    led_state_.resize(load.led.size());
-    for (std::size_t k = 0; k < load.led.size(); ++k)
-      led_state_[k] << eigen(load.led[k].displacement),
-          p.radius[static_cast<std::size_t>(load.led[k].particle)] * eigen(load.led[k].turn);
+    prescribed_.assign(p.size(), -1);
+    for (std::size_t k = 0; k < load.prescribed.size(); ++k)
+      prescribed_[static_cast<std::size_t>(load.prescribed[k].particle)] = static_cast<int>(k);
+    prescribed_state_.resize(load.prescribed.size());
+    for (std::size_t k = 0; k < load.prescribed.size(); ++k)
+      prescribed_state_[k] << eigen(load.prescribed[k].displacement),
+          p.radius[static_cast<std::size_t>(load.prescribed[k].particle)] * eigen(load.prescribed[k].turn);
     diagonal_.assign(p.size(), Matrix6::Zero());
     right_ = Eigen::VectorXd::Zero(width_ * static_cast<Index>(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -122,14 +122,14 @@ private:
   }
 
   void couple(std::size_t row, std::size_t column, const Matrix6 &block) {
-    const int led_row = led_[row], led_column = led_[column];
+    const int led_row = prescribed_[row], led_column = prescribed_[column];
     if (led_row >= 0 && led_column >= 0) return;
     if (led_column >= 0)
       right_.segment(at(row), width_) -=
-          (block * led_state_[static_cast<std::size_t>(led_column)]).head(width_);
+          (block * prescribed_state_[static_cast<std::size_t>(led_column)]).head(width_);
     else if (led_row >= 0)
       right_.segment(at(column), width_) -=
-          (block.transpose() * led_state_[static_cast<std::size_t>(led_row)]).head(width_);
+          (block.transpose() * prescribed_state_[static_cast<std::size_t>(led_row)]).head(width_);
     else
       for (Index c = 0; c < width_; ++c)
         for (Index r = 0; r < width_; ++r)
@@ -144,13 +144,13 @@ private:
       largest = std::max(largest, d.diagonal().maxCoeff());
     if (largest == 0) largest = 1;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const bool led = led_[i] >= 0, loose = diagonal_[i].isZero(0);
+      const bool led = prescribed_[i] >= 0, loose = diagonal_[i].isZero(0);
       if (loose && !led && !right_.segment(at(i), width_).isZero(0))
         throw NoEquilibrium("nothing holds particle " + std::to_string(p_.id[i]) + ", which is loaded");
       if (led || loose) diagonal_[i] = largest * Matrix6::Identity();
       if (led)
         right_.segment(at(i), width_) =
-            (largest * led_state_[static_cast<std::size_t>(led_[i])]).head(width_);
+            (largest * prescribed_state_[static_cast<std::size_t>(prescribed_[i])]).head(width_);
       for (Index c = 0; c < width_; ++c)
         for (Index r = c; r < width_; ++r)
           entries_.emplace_back(at(i) + r, at(i) + c, diagonal_[i](r, c));
@@ -159,8 +159,8 @@ private:
 
   const Particles &p_;
   Index width_;
-  std::vector<int> led_; // row in led_state_, or -1
-  std::vector<Vector6> led_state_;
+  std::vector<int> prescribed_; // row in prescribed_state_, or -1
+  std::vector<Vector6> prescribed_state_;
   std::vector<Matrix6> diagonal_;
   std::vector<Eigen::Triplet<double>> entries_; // lower triangle
   Eigen::VectorXd right_;

@@ -29,8 +29,8 @@ State with_frame_of(const State &frame, const State &solid) {
 // However far the machine carries and turns a body: what is left is round-off of places, 1e-17 m.
 TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
-    ElasticSolid solid(plate(), {steel}, Grip{}, {1, kind});
-    const ElasticSolid still(plate(), {steel}, Grip{});
+    ElasticSolid solid(plate(), {steel}, Clamp{}, {1, kind});
+    const ElasticSolid still(plate(), {steel}, Clamp{});
     const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to swing
     solid.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
     std::vector<Vector3> rate(solid.model().nodes.size(), Vector3{});
@@ -38,7 +38,7 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
     if (kind == ElasticMotion::explicit_steps) {
       // A free inside would feel the turn's centripetal force; one step over all of it is not the test.
       // Placed:
-      ElasticSolid other(plate(), {steel}, Grip{}, {1, ElasticMotion::quasi_static});
+      ElasticSolid other(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
       other.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
       for (int k = 0; k < 64; ++k)
         other.drift(dt);
@@ -67,8 +67,8 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
 
 // Turned by a right angle first, a body bends in its own frame as it would have upright.
 TEST(elastic_solid, a_turned_body_bends_as_an_upright_one) {
-  ElasticSolid upright(plate(), {steel}, Grip{}, {2, ElasticMotion::quasi_static});
-  ElasticSolid turned(plate(), {steel}, Grip{}, {2, ElasticMotion::quasi_static});
+  ElasticSolid upright(plate(), {steel}, Clamp{}, {2, ElasticMotion::quasi_static});
+  ElasticSolid turned(plate(), {steel}, Clamp{}, {2, ElasticMotion::quasi_static});
   turned.set_velocity({}, {0, 0.5 * pi, 0});
   turned.drift(1);
   std::vector<Vector3> loads = uneven_loads(upright, 1e3);
@@ -89,12 +89,12 @@ TEST(elastic_solid, a_turned_body_bends_as_an_upright_one) {
 // sideways.
 TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
-    Grip grip;
-    grip.turns = true;
-    grip.seat = {0.01, 0, 0.02};
+    Clamp clamp;
+    clamp.turns = true;
+    clamp.seat = {0.01, 0, 0.02};
     ElasticOptions options{1, kind};
     if (kind == ElasticMotion::explicit_steps) options.mass_damping = 3000;
-    ElasticSolid solid(make_grid(BoxPlate{{-0.02, -0.03, 0}, {0.04, 0.03, 0.02}, {2, 2, 1}}), {steel}, grip,
+    ElasticSolid solid(make_grid(BoxPlate{{-0.02, -0.03, 0}, {0.04, 0.03, 0.02}, {2, 2, 1}}), {steel}, clamp,
                        options);
     const double stiffness = 1e7, dashpot = 500, slope = 2e-3, sink = 1e-4, dt = 1e-6;
     const auto press = [&] {
@@ -120,17 +120,17 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
     const Vector3 normal = rotate(solid.rotation(), {0, 0, 1});
     EXPECT_NEAR(-normal[0] / normal[2], slope, 5e-3 * slope);
     EXPECT_NEAR(normal[1], 0, 1e-9);
-    EXPECT_NEAR(norm(solid.displacement()), 0, 1e-15); // the seat is held
-    EXPECT_NEAR(solid.grip_force()[2], solid.total_force()[2], 1e-6 * solid.total_force()[2]);
+    EXPECT_NEAR(norm(solid.displacement()), 0, 1e-15); // the seat is fixed
+    EXPECT_NEAR(solid.clamp_force()[2], solid.total_force()[2], 1e-6 * solid.total_force()[2]);
   }
 }
 
 // Free to turn and not pushed, a body on its seat keeps its angular momentum about it.
 TEST(elastic_solid, a_body_on_its_seat_keeps_its_angular_momentum) {
-  Grip grip;
-  grip.turns = true;
-  grip.seat = {0.01, 0.005, 0.03};
-  ElasticSolid solid(plate(), {steel}, grip, {1});
+  Clamp clamp;
+  clamp.turns = true;
+  clamp.seat = {0.01, 0.005, 0.03};
+  ElasticSolid solid(plate(), {steel}, clamp, {1});
   const std::vector<Vector3> none(solid.model().nodes.size(), Vector3{});
   solid.set_velocity({}, {20, -10, 30});
   solid.set_deformation(none, shaken(solid, 1e-2));

@@ -23,12 +23,12 @@ Grid distorted_cube(int n) {
   });
 }
 
-Held held_on(const ElasticModel &model, const std::vector<int> &tags) {
-  Held held(model.nodes.size(), {0, 0, 0});
+Fixed held_on(const ElasticModel &model, const std::vector<int> &tags) {
+  Fixed fixed(model.nodes.size(), {0, 0, 0});
   for (const int tag : tags)
     for (const int i : nodes_on(model, tag))
-      held[static_cast<std::size_t>(i)] = {1, 1, 1};
-  return held;
+      fixed[static_cast<std::size_t>(i)] = {1, 1, 1};
+  return fixed;
 }
 
 // A displacement that is zero on the faces of the unit cube, and the force per volume that goes with it.
@@ -100,12 +100,12 @@ TEST(elastic_model, passes_the_patch_test_on_distorted_cells) {
   for (const int degree : {1, 2})
     for (const LinearSolver kind : {LinearSolver::direct, LinearSolver::multigrid}) {
       const ElasticModel model = make_elastic_model(distorted_cube(4), degree, {steel});
-      const Held held = held_on(model, {0, 1, 2, 3, 4, 5});
+      const Fixed fixed = held_on(model, {0, 1, 2, 3, 4, 5});
       std::vector<Vector3> x(model.nodes.size(), Vector3{});
       for (std::size_t i = 0; i < x.size(); ++i)
-        if (held[i][0]) x[i] = linear(model.nodes[i]);
+        if (fixed[i][0]) x[i] = linear(model.nodes[i]);
       const std::vector<Vector3> none(x.size(), Vector3{});
-      StaticSolver(model.stiffness, model.nodes, held, kind).solve(model.stiffness, none, x);
+      StaticSolver(model.stiffness, model.nodes, fixed, kind).solve(model.stiffness, none, x);
       double worst = 0;
       for (std::size_t i = 0; i < x.size(); ++i)
         worst = std::max(worst, norm(x[i] - linear(model.nodes[i])));
@@ -130,16 +130,16 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
           return Vector3{q[0] * std::cos(q[1]), q[0] * std::sin(q[1]), q[2]};
         });
     const ElasticModel model = make_elastic_model(grid, degree, {steel});
-    Held held(model.nodes.size(), {0, 0, 0});
+    Fixed fixed(model.nodes.size(), {0, 0, 0});
     const auto hold = [&](int tag, std::size_t k) {
       for (const int i : nodes_on(model, tag))
-        held[static_cast<std::size_t>(i)][k] = 1;
+        fixed[static_cast<std::size_t>(i)][k] = 1;
     };
     hold(2, 1), hold(3, 0), hold(4, 2), hold(5, 2);
     const auto load =
         face_load(model, 0, [&](const Vector3 &, const Vector3 &normal) { return -p * normal; });
     std::vector<Vector3> x(load.size(), Vector3{});
-    StaticSolver(model.stiffness, model.nodes, held).solve(model.stiffness, load, x);
+    StaticSolver(model.stiffness, model.nodes, fixed).solve(model.stiffness, load, x);
     const double A = p * a * a / (b * b - a * a), B = A * b * b, e = steel.young_modulus,
                  nu = steel.poisson_ratio;
     const auto stress = nodal_stress(model, x);
@@ -171,14 +171,14 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
       const ElasticModel model = make_elastic_model(grid, degree, {pad, teflon, metal});
       const double p = 1e6, area = model.volume / 0.02;
       const double closure = p * (0.001 / 10e6 + 0.002 / 0.5e9 + 0.017 / 210e9);
-      Held held = held_on(model, {high_end_tag});
+      Fixed fixed = held_on(model, {high_end_tag});
       std::vector<Vector3> x(model.nodes.size(), Vector3{}), force;
       for (const int i : nodes_on(model, low_end_tag)) {
-        held[static_cast<std::size_t>(i)][2] = 1;
+        fixed[static_cast<std::size_t>(i)][2] = 1;
         x[static_cast<std::size_t>(i)][2] = closure;
       }
       const std::vector<Vector3> none(x.size(), Vector3{});
-      StaticSolver(model.stiffness, model.nodes, held).solve(model.stiffness, none, x);
+      StaticSolver(model.stiffness, model.nodes, fixed).solve(model.stiffness, none, x);
       model.stiffness.multiply(x, force);
       double reaction = 0;
       for (const int i : nodes_on(model, low_end_tag))
@@ -262,11 +262,11 @@ TEST(elastic_model, multigrid_and_factors_agree) {
     const ElasticModel model = make_elastic_model(
         make_grid(CylinderPlate{0.03, 0.02, 0, 8, 1}, {{0.002, 1}, {0.018, 2}}), degree, {rubber, steel});
     const auto load = body_load(model, [](const Vector3 &p) { return Vector3{1e6 * p[1], 2e5, 3e7 * p[0]}; });
-    const Held held = held_on(model, {high_end_tag});
+    const Fixed fixed = held_on(model, {high_end_tag});
     std::vector<Vector3> by_factors(load.size(), Vector3{}), by_multigrid = by_factors;
-    StaticSolver(model.stiffness, model.nodes, held, LinearSolver::direct)
+    StaticSolver(model.stiffness, model.nodes, fixed, LinearSolver::direct)
         .solve(model.stiffness, load, by_factors);
-    const StaticSolver multigrid(model.stiffness, model.nodes, held, LinearSolver::multigrid);
+    const StaticSolver multigrid(model.stiffness, model.nodes, fixed, LinearSolver::multigrid);
     multigrid.solve(model.stiffness, load, by_multigrid);
     EXPECT_GT(multigrid.iterations(), 1);
     double size = 0, difference = 0;
@@ -302,7 +302,7 @@ TEST(elastic_model, what_no_solid_can_be_is_refused) {
   EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, {{1.5, 1}, {-0.5, 1}}),
                std::invalid_argument);
   const ElasticModel model = make_elastic_model(grid, 1, {steel});
-  EXPECT_THROW(StaticSolver(model.stiffness, model.nodes, Held(model.nodes.size(), {0, 0, 0})),
+  EXPECT_THROW(StaticSolver(model.stiffness, model.nodes, Fixed(model.nodes.size(), {0, 0, 0})),
                std::invalid_argument);
 }
 

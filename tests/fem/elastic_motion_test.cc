@@ -9,12 +9,12 @@
 namespace platen::fem {
 namespace {
 
-// Rod of unit length held at its high end, without sideways strain: u = cos(k z), k = pi / 2, swings with the
-// period 4 L / c. Linear elements with lumped mass are too slow by (k h)^2 / 24 = 0.16 %, the step's own
+// Rod of unit length fixed at its high end, without sideways strain: u = cos(k z), k = pi / 2, swings with
+// the period 4 L / c. Linear elements with lumped mass are too slow by (k h)^2 / 24 = 0.16 %, the step's own
 // error takes part of it back.
 TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
   for (const int degree : {1, 2}) {
-    ElasticSolid rod(make_grid(BoxPlate{{0, 0, 0}, {0.1, 0.1, 1}, {1, 1, 8}}), {{2000, 8e9, 0}}, Grip{},
+    ElasticSolid rod(make_grid(BoxPlate{{0, 0, 0}, {0.1, 0.1, 1}, {1, 1, 8}}), {{2000, 8e9, 0}}, Clamp{},
                      {degree});
     std::vector<Vector3> u(rod.model().nodes.size(), Vector3{});
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -44,7 +44,7 @@ TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
 // sections take 0.4 % off at L / h = 20. Degree 2, since linear elements lock in bending.
 TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
   const double h = 0.05, e = 8e9, rho = 2000;
-  ElasticSolid beam(make_grid(BoxPlate{{0, 0, 0}, {h, h, 1}, {1, 1, 10}}), {{rho, e, 0}}, Grip{}, {2});
+  ElasticSolid beam(make_grid(BoxPlate{{0, 0, 0}, {h, h, 1}, {1, 1, 10}}), {{rho, e, 0}}, Clamp{}, {2});
   std::vector<Vector3> u(beam.model().nodes.size(), Vector3{});
   for (std::size_t i = 0; i < u.size(); ++i) { // the shape under a force at the tip
     const double s = 1 - beam.model().nodes[i][2];
@@ -79,7 +79,7 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
       ElasticOptions options{degree};
       options.mass_damping = damped ? 500 : 0;
       options.stiffness_damping = damped ? 1e-8 : 0;
-      ElasticSolid solid(plate(), {steel}, Grip{}, options);
+      ElasticSolid solid(plate(), {steel}, Clamp{}, options);
       const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
       solid.set_velocity({0, 0, -0.5});
       const double dt = 0.8 * solid.stable_step();
@@ -100,17 +100,17 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
       }
       const BodyBook b = solid.book();
       EXPECT_NE(b.load_work, 0);
-      EXPECT_NE(b.grip_work, 0);
+      EXPECT_NE(b.clamp_work, 0);
       EXPECT_EQ(b.dissipated != 0, damped);
     }
 }
 
-// Loads and the machine's velocity held over a time in steps of dt and dt / 2 against far finer ones; drifts
+// Loads and the machine's velocity fixed over a time in steps of dt and dt / 2 against far finer ones; drifts
 // of one and of three steps of their own.
 TEST(elastic_solid, explicit_motion_is_of_second_order) {
   for (const int inner : {1, 3}) {
     const auto run = [&](int steps) {
-      ElasticSolid solid(plate(), {pad}, Grip{}, {1});
+      ElasticSolid solid(plate(), {pad}, Clamp{}, {1});
       const double end = 24 * solid.stable_step() * (inner == 1 ? 1 : 2), dt = end / steps;
       const std::vector<Vector3> loads = uneven_loads(solid, 10);
       solid.set_velocity({0, 0, -0.01});
@@ -143,7 +143,7 @@ TEST(elastic_solid, the_stable_step_is_the_limit) {
   });
   for (const int degree : {1, 2}) {
     const auto growth = [&](double share) {
-      ElasticSolid solid(skew, {steel}, Grip{}, {degree});
+      ElasticSolid solid(skew, {steel}, Clamp{}, {degree});
       const std::vector<Vector3> none(solid.model().nodes.size(), Vector3{});
       solid.set_deformation(none, shaken(solid, 1e-3));
       const double start = solid.kinetic_energy(), dt = share * solid.stable_step();
@@ -153,7 +153,7 @@ TEST(elastic_solid, the_stable_step_is_the_limit) {
     };
     EXPECT_LT(growth(0.95), 3) << degree;
     EXPECT_FALSE(growth(1.05) < 1e6) << degree;
-    const ElasticSolid solid(skew, {steel}, Grip{}, {degree});
+    const ElasticSolid solid(skew, {steel}, Clamp{}, {degree});
     const double by_cells = 2 / std::sqrt(solid.model().cell_bound);
     EXPECT_LE(by_cells, solid.stable_step());
     EXPECT_GT(by_cells, 0.5 * solid.stable_step());
@@ -162,8 +162,8 @@ TEST(elastic_solid, the_stable_step_is_the_limit) {
 }
 
 TEST(elastic_solid, a_free_body_keeps_its_momentum) {
-  Grip none;
-  none.tag = no_grip;
+  Clamp none;
+  none.tag = no_clamp;
   ElasticSolid solid(plate(), {steel}, none, {2});
   const std::vector<Vector3> u = shaken(solid, 1e-7);
   solid.set_deformation(u, shaken(solid, 1e-2));

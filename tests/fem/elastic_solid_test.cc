@@ -1,4 +1,4 @@
-// Grip, quasi-static shapes, state and picture of an elastic solid.
+// Clamp, quasi-static shapes, state and picture of an elastic solid.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,21 +13,21 @@
 namespace platen::fem {
 namespace {
 
-// Momentum gained = loads less what the grip takes, step by step; and what it takes at rest is the loads.
-TEST(elastic_solid, the_grip_bears_what_the_loads_give) {
+// Momentum gained = loads less what the clamp takes, step by step; and what it takes at rest is the loads.
+TEST(elastic_solid, the_clamp_bears_what_the_loads_give) {
   ElasticOptions options{1};
   options.mass_damping = 2e4;
-  ElasticSolid solid(plate(), {steel}, Grip{}, options);
+  ElasticSolid solid(plate(), {steel}, Clamp{}, options);
   put(solid, uneven_loads(solid, 1e4));
   const double dt = 0.9 * solid.stable_step();
   for (int k = 0; k < 4000; ++k) {
     solid.kick(0.5 * dt), solid.drift(dt, 1), solid.kick(0.5 * dt);
   }
   const double size = norm(solid.total_force());
-  EXPECT_LT(norm(solid.grip_force() - solid.total_force()), 1e-9 * size);
-  EXPECT_LT(norm(solid.grip_moment() - solid.moment(solid.centre())), 1e-6 * norm(solid.grip_moment()));
+  EXPECT_LT(norm(solid.clamp_force() - solid.total_force()), 1e-9 * size);
+  EXPECT_LT(norm(solid.clamp_moment() - solid.moment(solid.centre())), 1e-6 * norm(solid.clamp_moment()));
   // Quasi-static: the same shape, and the strain energy is half of what the loads would do at full size.
-  ElasticSolid slow(plate(), {steel}, Grip{}, {1, ElasticMotion::quasi_static});
+  ElasticSolid slow(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
   const std::vector<Vector3> loads = uneven_loads(slow, 1e4);
   put(slow, loads);
   slow.aim(loads, 0);
@@ -40,14 +40,14 @@ TEST(elastic_solid, the_grip_bears_what_the_loads_give) {
   const BodyBook book = slow.book();
   EXPECT_NEAR(book.load_work, 2 * book.strain, 1e-10 * book.strain);
   EXPECT_NEAR(total(book), 0, 1e-10 * book.strain);
-  EXPECT_LT(norm(slow.grip_force() - slow.total_force()), 1e-12 * size);
+  EXPECT_LT(norm(slow.clamp_force() - slow.total_force()), 1e-12 * size);
 }
 
 TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
   for (const LinearSolver kind : {LinearSolver::direct, LinearSolver::multigrid}) {
     ElasticOptions options{2, ElasticMotion::quasi_static};
     options.solver = kind;
-    ElasticSolid solid(plate(), {steel}, Grip{}, options), at_once(plate(), {steel}, Grip{}, options);
+    ElasticSolid solid(plate(), {steel}, Clamp{}, options), at_once(plate(), {steel}, Clamp{}, options);
     const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
     at_once.aim(loads, 0);
     solid.set_velocity({0, 0, -0.1});
@@ -81,7 +81,7 @@ TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
   std::vector<State> ends;
   for (const int threads : {1, 2, 4}) {
     const ThreadLimit limit(threads);
-    ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {steel}, Grip{}, {2});
+    ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {steel}, Clamp{}, {2});
     put(solid, uneven_loads(solid, 1e4));
     const double dt = 2 * solid.stable_step();
     for (int k = 0; k < 5; ++k)
@@ -94,10 +94,10 @@ TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
 
 TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
-    Grip grip;
-    grip.turns = true;
-    grip.seat = {0.01, 0, 0.02};
-    const auto make = [&] { return ElasticSolid(plate(), {steel}, grip, {1, kind}); };
+    Clamp clamp;
+    clamp.turns = true;
+    clamp.seat = {0.01, 0, 0.02};
+    const auto make = [&] { return ElasticSolid(plate(), {steel}, clamp, {1, kind}); };
     ElasticSolid solid = make();
     const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
     const double dt = 3e-7;
@@ -130,7 +130,7 @@ TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
 TEST(elastic_solid, the_picture_names_its_fields_and_repeats) {
   for (const int degree : {1, 2}) {
     ElasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0.5, 1}, {0.5, 1}}),
-                       {pad, steel}, Grip{}, {degree, ElasticMotion::quasi_static});
+                       {pad, steel}, Clamp{}, {degree, ElasticMotion::quasi_static});
     const std::vector<Vector3> loads = uneven_loads(solid, 1e3);
     put(solid, loads);
     solid.aim(loads, 0);
@@ -146,21 +146,21 @@ TEST(elastic_solid, the_picture_names_its_fields_and_repeats) {
 }
 
 TEST(elastic_solid, grips_that_cannot_hold_are_refused) {
-  const auto refused = [](Grip grip, ElasticOptions options = {}) {
-    EXPECT_THROW(ElasticSolid(plate(), {steel}, grip, options), std::invalid_argument);
+  const auto refused = [](Clamp clamp, ElasticOptions options = {}) {
+    EXPECT_THROW(ElasticSolid(plate(), {steel}, clamp, options), std::invalid_argument);
   };
-  Grip grip;
-  grip.tag = 77;
-  refused(grip);
-  grip = {};
-  grip.tag = no_grip, grip.turns = true;
-  refused(grip);
-  grip = {};
-  grip.tag = no_grip;
-  refused(grip, {1, ElasticMotion::quasi_static});
+  Clamp clamp;
+  clamp.tag = 77;
+  refused(clamp);
+  clamp = {};
+  clamp.tag = no_clamp, clamp.turns = true;
+  refused(clamp);
+  clamp = {};
+  clamp.tag = no_clamp;
+  refused(clamp, {1, ElasticMotion::quasi_static});
   refused({}, {1, ElasticMotion::quasi_static, 1.0});
   refused({}, {1, ElasticMotion::explicit_steps, -1.0});
-  ElasticSolid solid(plate(), {steel}, Grip{});
+  ElasticSolid solid(plate(), {steel}, Clamp{});
   EXPECT_THROW(solid.aim(solid.contact_loads(), 0), std::logic_error);
 }
 

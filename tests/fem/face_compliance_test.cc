@@ -1,4 +1,4 @@
-// Dents of a mesh under single forces: against a half space, and what they may not depend on.
+// Indentations of a mesh under single forces: against a half space, and what they may not depend on.
 #include "fem/face_compliance.h"
 #include "base/pi.h"
 
@@ -24,7 +24,7 @@ ElasticSolid solid(Grid grid, int degree, const Material &material = rock) {
   ElasticOptions options;
   options.degree = degree;
   options.motion = ElasticMotion::quasi_static;
-  return ElasticSolid(std::move(grid), {material}, Grip{low_end_tag}, options);
+  return ElasticSolid(std::move(grid), {material}, Clamp{low_end_tag}, options);
 }
 
 // Of the vertex on the upper face that is closest to (x, y), from some face around it.
@@ -39,10 +39,10 @@ double own_compliance(const ElasticSolid &s, const std::vector<FaceCompliance> &
   return found;
 }
 
-// The dent of one vertex in a block, with what the block's finite size takes from it put back: at four
+// The indentation of one vertex in a block, with what the block's finite size takes from it put back: at four
 // elements from the force the mesh is fine enough for Boussinesq's 1 / (pi E* r), and what differs there is
 // the block's. The rest of that is 1 %; 3 % are claimed.
-TEST(face_compliance, is_the_dent_of_a_half_space) {
+TEST(face_compliance, is_the_indentation_of_a_half_space) {
   for (const int degree : {1, 2}) {
     const int across = degree == 1 ? 12 : 8;
     ElasticSolid s = solid(block(across), degree);
@@ -60,11 +60,11 @@ TEST(face_compliance, is_the_dent_of_a_half_space) {
       const std::size_t loaded = vertex(at * h, 0);
       load[loaded] = {0, 0, -1};
       s.aim(load, 0);
-      const auto dent = [&](std::size_t v) { return before[v][2] - s.surface().vertices[v][2]; };
+      const auto indentation = [&](std::size_t v) { return before[v][2] - s.surface().vertices[v][2]; };
       double block_share = 0;
       for (const Vector3 &way : {Vector3{4, 0, 0}, Vector3{-4, 0, 0}, Vector3{0, 4, 0}, Vector3{0, -4, 0}})
-        block_share += 0.25 * (dent(vertex((at + way[0]) * h, way[1] * h)) - 1 / (pi * scale * 4));
-      const double expected = dent(loaded) - block_share;
+        block_share += 0.25 * (indentation(vertex((at + way[0]) * h, way[1] * h)) - 1 / (pi * scale * 4));
+      const double expected = indentation(loaded) - block_share;
       EXPECT_NEAR(own_compliance(s, c, at * h, 0), expected, 0.04 * expected) << degree << ' ' << at;
       EXPECT_GT(expected * scale, 0.8); // far from nothing
     }

@@ -20,7 +20,7 @@ TEST(hyperelastic_solid, a_resumed_run_is_the_same_to_the_last_bit) {
   HyperelasticSolid one = held_sleeve(2e4), other = held_sleeve(0);
   one.set_damping(50), other.set_damping(50);
   const double dt = 0.5 * one.stable_step();
-  one.set_lead_velocity(1, {0, 0, -0.3}, {0.1, 0.2, 5}, {0, 0, 0.06});
+  one.set_prescribed_velocity(1, {0, 0, -0.3}, {0.1, 0.2, 5}, {0, 0, 0.06});
   step(one, dt, 40);
   one.add_surface_force(3, {1, -2, 0.5});
   step(one, dt, 7);
@@ -38,7 +38,7 @@ TEST(hyperelastic_solid, the_number_of_threads_changes_no_bit) {
   State state[2];
   double energy[2], limit[2];
   for (const int threads : {1, 2}) {
-    const ThreadLimit held(threads);
+    const ThreadLimit fixed(threads);
     HyperelasticSolid solid = held_sleeve(2e4);
     limit[threads - 1] = solid.stable_step();
     step(solid, 0.5 * limit[threads - 1], 50);
@@ -79,13 +79,13 @@ TEST(hyperelastic_solid, particles_see_the_inner_face_alone) {
 TEST(hyperelastic_solid, senseless_requests_are_refused) {
   HyperelasticSolid solid = sleeve();
   const std::vector<int> end = solid.nodes_of(low_end_tag);
-  solid.lead(end, {false, false, true});
-  EXPECT_THROW(solid.lead(end, {true, true, true}), std::invalid_argument);
-  EXPECT_EQ(solid.lead(end, {true, true, false}), 1);
-  EXPECT_THROW(solid.lead({}, {true, true, true}), std::invalid_argument);
+  solid.prescribe(end, {false, false, true});
+  EXPECT_THROW(solid.prescribe(end, {true, true, true}), std::invalid_argument);
+  EXPECT_EQ(solid.prescribe(end, {true, true, false}), 1);
+  EXPECT_THROW(solid.prescribe({}, {true, true, true}), std::invalid_argument);
   EXPECT_THROW(solid.set_pressure(3, 1e5), std::invalid_argument);
   EXPECT_THROW(solid.set_pressure(mantle_tag, std::nan("")), std::invalid_argument);
-  EXPECT_THROW(solid.set_lead_velocity(2, {}), std::invalid_argument);
+  EXPECT_THROW(solid.set_prescribed_velocity(2, {}), std::invalid_argument);
   EXPECT_THROW(solid.set_damping(-1), std::invalid_argument);
   EXPECT_THROW(sleeve({0, rubber.law}), std::invalid_argument);
   EXPECT_THROW(sleeve({1100, {1e6, -1}}), std::invalid_argument);

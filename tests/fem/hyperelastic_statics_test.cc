@@ -38,7 +38,7 @@ TEST(hyperelastic_statics, an_even_finite_strain_is_kept_by_cells_of_any_shape) 
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v)
     outside.push_back(solid.surface_node(static_cast<int>(v)));
   ASSERT_LT(outside.size(), all.size());
-  newton.lead(outside, {true, true, true});
+  newton.prescribe(outside, {true, true, true});
   for (const int n : outside)
     newton.place({n}, all[static_cast<std::size_t>(n)]);
   newton.solve();
@@ -55,8 +55,8 @@ struct Block {
                           {1100, NeoHookean::from_young(3e6, 0.4)}};
   Newton newton{solid};
   Block() {
-    newton.lead(solid.nodes_of(low_end_tag), {true, true, true});
-    newton.lead(solid.nodes_of(high_end_tag), {true, true, true});
+    newton.prescribe(solid.nodes_of(low_end_tag), {true, true, true});
+    newton.prescribe(solid.nodes_of(high_end_tag), {true, true, true});
   }
 };
 
@@ -75,22 +75,22 @@ TEST(hyperelastic_statics, newton_converges_with_order_two) {
   EXPECT_GT(order, 1.8) << r[k - 2] << ' ' << r[k - 1] << ' ' << r[k];
 }
 
-// The leads carry what the pressure does not.
+// The prescribed ends carry what the pressure does not.
 TEST(hyperelastic_statics, leads_balance_the_pressure) {
   HyperelasticSolid solid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}),
                           {1100, NeoHookean::from_young(3e6, 0.45)});
   Newton newton(solid);
   const std::vector<int> above = solid.nodes_of(high_end_tag);
-  const int low = newton.lead(solid.nodes_of(low_end_tag), {true, true, true});
-  const int high = newton.lead(above, {true, true, true});
+  const int low = newton.prescribe(solid.nodes_of(low_end_tag), {true, true, true});
+  const int high = newton.prescribe(above, {true, true, true});
   solid.set_pressure(inner_tag, 3e4);
   newton.place(above, {0.002, 0, -0.004});
   newton.solve();
-  Vector3 sum = solid.lead_force(low) + solid.lead_force(high);
+  Vector3 sum = solid.prescribed_force(low) + solid.prescribed_force(high);
   for (const Vector3 &f : solid.pressure_forces())
     sum = sum + f;
-  EXPECT_GT(norm(solid.lead_force(high)), 1);
-  EXPECT_LT(norm(sum), 1e-7 * norm(solid.lead_force(high)));
+  EXPECT_GT(norm(solid.prescribed_force(high)), 1);
+  EXPECT_LT(norm(sum), 1e-7 * norm(solid.prescribed_force(high)));
 }
 
 // ---- the tube of physics: inner and outer radius 1 and 1.3, plane strain
@@ -105,7 +105,7 @@ struct PlaneTube {
   PlaneTube(double thickness, int around, int through, const NeoHookean &law)
       : solid(make_grid(Tube{1, thickness, 0, 0.1, around, 1, through}), {1100, law}) {
     const auto lead = [&](std::size_t axis, const std::function<bool(const Vector3 &)> &holds) {
-      newton.lead(nodes_where(solid, holds), {axis == 0, axis == 1, axis == 2});
+      newton.prescribe(nodes_where(solid, holds), {axis == 0, axis == 1, axis == 2});
     };
     lead(2, [](const Vector3 &) { return true; });
     lead(0, [](const Vector3 &x) { return std::abs(x[0]) < 1e-9; });
@@ -198,7 +198,7 @@ double bending_share(double element_length, int through, double poisson) {
   HyperelasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {length, t, t}, {along, 1, through}}),
                           {1100, NeoHookean::from_young(young, poisson)});
   Newton newton(solid);
-  newton.lead(nodes_where(solid, [](const Vector3 &x) { return x[0] < 1e-9; }), {true, true, true});
+  newton.prescribe(nodes_where(solid, [](const Vector3 &x) { return x[0] < 1e-9; }), {true, true, true});
   const std::vector<int> tip = nodes_where(solid, [&](const Vector3 &x) { return x[0] > length - 1e-9; });
   double sum = 0;
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v)
@@ -245,11 +245,11 @@ TEST(hyperelastic_statics, what_cannot_be_reached_is_named_and_leaves_the_solid_
   EXPECT_TRUE(same_state(before, block.solid));
 }
 
-// Loads that stand on the surface dent it; taken off, the solid is where it was.
+// Loads that stand on the surface indentation it; taken off, the solid is where it was.
 TEST(hyperelastic_statics, contact_loads_come_and_go) {
   Block block;
   HyperelasticSolid &solid = block.solid;
-  const int middle = 2 + 5 * 2; // a vertex of the low end, led; and one of a side
+  const int middle = 2 + 5 * 2; // a vertex of the low end, prescribed; and one of a side
   solid.add_surface_force(middle, {1, 2, 3});
   int side = 0;
   for (std::size_t v = 0; v < solid.surface().vertices.size(); ++v) {
@@ -259,9 +259,9 @@ TEST(hyperelastic_statics, contact_loads_come_and_go) {
   }
   solid.add_surface_force(side, {-20, 0, 0});
   block.newton.solve();
-  const double dent = solid.displacement()[static_cast<std::size_t>(solid.surface_node(side))][0];
-  EXPECT_LT(dent, -1e-4);
-  EXPECT_NEAR(norm(solid.lead_force(0) + solid.lead_force(1) + solid.total_force()), 0, 1e-7);
+  const double indentation = solid.displacement()[static_cast<std::size_t>(solid.surface_node(side))][0];
+  EXPECT_LT(indentation, -1e-4);
+  EXPECT_NEAR(norm(solid.prescribed_force(0) + solid.prescribed_force(1) + solid.total_force()), 0, 1e-7);
   solid.clear_loads();
   block.newton.solve();
   EXPECT_LT(largest(solid.displacement()), 1e-9 * 0.03);

@@ -62,7 +62,7 @@ TEST(hyperelastic_solid, the_stable_step_is_below_that_of_lanczos) {
 }
 
 // Energy of motion and strain = works. Velocity Verlet keeps a neighbour of the energy: the difference swings
-// with dt^2 and does not grow. The upper end is led up and down, so all books are in use.
+// with dt^2 and does not grow. The upper end is moved up and down, so all books are in use.
 TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
   double worst[2] = {0, 0}, book = 0;
   for (const int fine : {0, 1}) {
@@ -70,12 +70,12 @@ TEST(hyperelastic_solid, an_explicit_vibration_closes_its_energy_book) {
     solid.set_damping(50);
     const double dt = 0.4 * solid.stable_step() / (1 + fine);
     for (int k = 0; k < 300 * (1 + fine); ++k) {
-      solid.set_lead_velocity(1, {0, 0, -0.5 * std::sin(2e3 * k * dt)});
+      solid.set_prescribed_velocity(1, {0, 0, -0.5 * std::sin(2e3 * k * dt)});
       step(solid, dt, 1);
       worst[fine] = std::max(worst[fine], std::abs(imbalance(solid)));
     }
-    book = std::abs(solid.pressure_work()) + std::abs(solid.lead_work());
-    EXPECT_GT(std::abs(solid.lead_work()), 0.01 * book);
+    book = std::abs(solid.pressure_work()) + std::abs(solid.prescribed_work());
+    EXPECT_GT(std::abs(solid.prescribed_work()), 0.01 * book);
     EXPECT_GT(solid.damping_work(), 0.001 * book);
   }
   EXPECT_LT(worst[0], 0.01 * book);
@@ -91,14 +91,14 @@ TEST(hyperelastic_solid, works_of_a_slow_path_are_stored) {
     solid.set_damping(800);
     const double dt = 0.4 * solid.stable_step() / (1 + fine), duration = 0.03; // s
     const int steps = static_cast<int>(std::lround(duration / dt));
-    solid.set_lead_velocity(1, {0, 0, 0.012 / duration});
+    solid.set_prescribed_velocity(1, {0, 0, 0.012 / duration});
     for (int k = 0; k < steps; ++k) {
       solid.set_pressure(inner_tag, 4e4 * (k + 1) / steps);
       step(solid, dt, 1);
     }
     const double stored = solid.internal_energy();
     EXPECT_GT(solid.pressure_work(), 0.05 * stored);
-    EXPECT_GT(solid.lead_work(), 0.05 * stored);
+    EXPECT_GT(solid.prescribed_work(), 0.05 * stored);
     EXPECT_LT(solid.kinetic_energy() + solid.damping_work(), 0.05 * stored);
     error[fine] = imbalance(solid);
     EXPECT_LT(std::abs(error[fine]), 1e-6 * stored);
@@ -126,8 +126,8 @@ TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {
   explicit_one.set_damping(800);
   step(explicit_one, 0.9 * explicit_one.stable_step(), 6000);
   Newton newton(implicit);
-  newton.lead(implicit.nodes_of(low_end_tag), {true, true, true});
-  newton.lead(implicit.nodes_of(high_end_tag), {true, true, true});
+  newton.prescribe(implicit.nodes_of(low_end_tag), {true, true, true});
+  newton.prescribe(implicit.nodes_of(high_end_tag), {true, true, true});
   implicit.set_pressure(inner_tag, 2e4);
   newton.solve();
   const double size = largest(implicit.displacement());

@@ -19,28 +19,32 @@ namespace platen::fem {
 class Newton {
 public:
   explicit Newton(HyperelasticSolid &solid)
-      : solid_(solid), led_(solid.mesh().nodes.size()), goal_(solid.displacement()), around_(led_.size()) {
+      : solid_(solid),
+        prescribed_(solid.mesh().nodes.size()),
+        goal_(solid.displacement()),
+        around_(prescribed_.size()) {
     for (const std::array<int, 8> &cell : solid.mesh().cell_nodes)
       for (const int n : cell)
         around_[index(n)].insert(cell.begin(), cell.end());
     paint();
   }
 
-  // As the solid's lead(); the nodes stay where they are until they are placed.
-  int lead(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
+  // As the solid's prescribe(); the nodes stay where they are until they are placed.
+  int prescribe(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
     for (const int n : nodes)
       for (std::size_t k = 0; k < 3; ++k)
-        if (components[k]) led_[index(n)][k] = true;
-    return solid_.lead(nodes, components);
+        if (components[k]) prescribed_[index(n)][k] = true;
+    return solid_.prescribe(nodes, components);
   }
-  void place(const std::vector<int> &nodes, const Vector3 &displacement) { // m, of their led components
+  void place(const std::vector<int> &nodes,
+             const Vector3 &displacement) { // m, of their prescribed components
     for (const int n : nodes)
       goal_[index(n)] = displacement;
   }
 
-  // Goes to where pressures, contact loads and leads are in balance, in full steps. Returns what was out of
-  // balance before each step and after the last, over the forces in the solid. Throws std::runtime_error
-  // where that does not get below the tolerance, InvertedElement where a step is too long.
+  // Goes to where pressures, contact loads and prescribed motions are in balance, in full steps. Returns what
+  // was out of balance before each step and after the last, over the forces in the solid. Throws
+  // std::runtime_error where that does not get below the tolerance, InvertedElement where a step is too long.
   std::vector<double> solve(double tolerance = 1e-10) {
     constexpr int most_steps = 25;
     std::vector<double> residuals;
@@ -50,7 +54,7 @@ public:
       const std::vector<Vector3> balance = out_of_balance();
       size = std::max({size, root(solid_.internal_forces()), root(solid_.pressure_forces()), root(balance)});
       residuals.push_back(size > 0 ? root(balance) / size : 0);
-      const std::vector<Vector3> way = way_of_leads();
+      const std::vector<Vector3> way = prescribed_displacements();
       if (residuals.back() <= tolerance && root(way) == 0) return residuals;
       step(balance, way);
     }
@@ -70,10 +74,11 @@ private:
     for (std::size_t n = 0; n < to.size(); ++n)
       to[n] = to[n] + factor * what[n];
   }
-  void keep(std::vector<Vector3> &field, bool led) const { // zero where nodes are led, or where they are not
+  void keep(std::vector<Vector3> &field,
+            bool prescribed) const { // zero where nodes are prescribed, or where they are not
     for (std::size_t n = 0; n < field.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
-        if (led_[n][k] != led) field[n][k] = 0;
+        if (prescribed_[n][k] != prescribed) field[n][k] = 0;
   }
 
   std::vector<Vector3> out_of_balance() const {
@@ -87,7 +92,7 @@ private:
     keep(balance, false);
     return balance;
   }
-  std::vector<Vector3> way_of_leads() const {
+  std::vector<Vector3> prescribed_displacements() const {
     std::vector<Vector3> way = goal_;
     add(way, -1, solid_.displacement());
     keep(way, true);
@@ -108,47 +113,48 @@ private:
     }
   }
 
-  // Rows of free components; those of led ones say where they go.
+  // Rows of free components; those of prescribed ones say where they go.
   Eigen::SparseMatrix<double> tangent() const {
     const auto row = [](std::size_t node, std::size_t k) { return static_cast<int>(3 * node + k); };
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t c = 0; c < colours_; ++c)
       for (std::size_t k = 0; k < 3; ++k) {
-        std::vector<Vector3> probe(led_.size(), Vector3{});
+        std::vector<Vector3> probe(prescribed_.size(), Vector3{});
         for (std::size_t n = 0; n < probe.size(); ++n)
           if (colour_[n] == c) probe[n][k] = 1;
         const std::vector<Vector3> forces = solid_.stiffness_times(probe);
         for (std::size_t n = 0; n < probe.size(); ++n) {
           if (colour_[n] != c) continue;
-          if (led_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);
+          if (prescribed_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);
           for (const int other : around_[n])
             for (std::size_t l = 0; l < 3; ++l)
-              if (!led_[index(other)][l])
+              if (!prescribed_[index(other)][l])
                 entries.emplace_back(row(index(other), l), row(n, k), forces[index(other)][l]);
         }
       }
-    const auto size = static_cast<Eigen::Index>(3 * led_.size());
+    const auto size = static_cast<Eigen::Index>(3 * prescribed_.size());
     Eigen::SparseMatrix<double> matrix(size, size);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
 
   void step(const std::vector<Vector3> &balance, const std::vector<Vector3> &way) {
-    Eigen::VectorXd right(static_cast<Eigen::Index>(3 * led_.size()));
-    for (std::size_t n = 0; n < led_.size(); ++n)
+    Eigen::VectorXd right(static_cast<Eigen::Index>(3 * prescribed_.size()));
+    for (std::size_t n = 0; n < prescribed_.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
-        right[static_cast<Eigen::Index>(3 * n + k)] = led_[n][k] ? way[n][k] : balance[n][k];
+        right[static_cast<Eigen::Index>(3 * n + k)] = prescribed_[n][k] ? way[n][k] : balance[n][k];
     Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(tangent());
     const Eigen::VectorXd move = factors.solve(right);
     std::vector<Vector3> place = solid_.displacement();
-    for (std::size_t n = 0; n < led_.size(); ++n)
+    for (std::size_t n = 0; n < prescribed_.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
-        place[n][k] = led_[n][k] ? goal_[n][k] : place[n][k] + move[static_cast<Eigen::Index>(3 * n + k)];
+        place[n][k] =
+            prescribed_[n][k] ? goal_[n][k] : place[n][k] + move[static_cast<Eigen::Index>(3 * n + k)];
     solid_.set_displacement(place);
   }
 
   HyperelasticSolid &solid_;
-  std::vector<std::array<bool, 3>> led_;
+  std::vector<std::array<bool, 3>> prescribed_;
   std::vector<Vector3> goal_;         // m
   std::vector<std::set<int>> around_; // each node: itself and the nodes of its cells
   std::vector<std::size_t> colour_;

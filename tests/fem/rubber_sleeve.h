@@ -56,11 +56,11 @@ inline std::vector<Vector3> turned_places(const HyperelasticSolid &solid,
   return moved;
 }
 
-// Blown up from inside with its ends held; rings as it is let go. (From outside it would buckle at 7 kPa.)
+// Blown up from inside with its ends fixed; rings as it is let go. (From outside it would buckle at 7 kPa.)
 inline HyperelasticSolid held_sleeve(double pressure, double poisson = 0.45) {
   HyperelasticSolid solid = sleeve({1100, NeoHookean::from_young(3e6, poisson)});
-  solid.lead(solid.nodes_of(low_end_tag), {true, true, true});
-  solid.lead(solid.nodes_of(high_end_tag), {true, true, true});
+  solid.prescribe(solid.nodes_of(low_end_tag), {true, true, true});
+  solid.prescribe(solid.nodes_of(high_end_tag), {true, true, true});
   solid.set_pressure(inner_tag, pressure);
   solid.update_forces();
   return solid;
@@ -77,7 +77,7 @@ inline void step(HyperelasticSolid &solid, double dt, int steps) {
 
 inline double imbalance(const HyperelasticSolid &solid) {
   return solid.kinetic_energy() + solid.internal_energy() + solid.damping_work() - solid.pressure_work() -
-         solid.lead_work();
+         solid.prescribed_work();
 }
 
 } // namespace platen::fem

@@ -1,5 +1,5 @@
 // A whole platen that falls on a bonded block and is thrown back, and the wave that a blow sends through a
-// bar. In the program a machine leads every platen. Here nothing does: the elastic one has no grip, and the
+// bar. In the program a machine leads every platen. Here nothing does: the elastic one has no clamp, and the
 // rigid one moves by Newton's law, without turning.
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ struct RigidPlaten {
 };
 
 struct ElasticPlaten {
-  fem::ElasticSolid body{falling_grid(), {steel}, fem::Grip{fem::no_grip}};
+  fem::ElasticSolid body{falling_grid(), {steel}, fem::Clamp{fem::no_clamp}};
 
   explicit ElasticPlaten(double v) {
     const std::size_t nodes = body.model().nodes.size();

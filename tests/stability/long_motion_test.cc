@@ -16,14 +16,14 @@ namespace {
 using measured::expect_below;
 
 // Three unlike moments of inertia about a seat outside of its middle, spinning about the axis between: an
-// asymmetric top, which tumbles. As for an elastic platen of a test, its grip turns with the rotor and the
+// asymmetric top, which tumbles. As for an elastic platen of a test, its clamp turns with the rotor and the
 // rest is strained by it.
 TEST(long_motion, long_a_platen_tumbles_on_its_seat_for_ten_million_steps) {
-  fem::Grip grip;
-  grip.turns = true;
-  grip.seat = {0.004, 0.002, 0.02};
+  fem::Clamp clamp;
+  clamp.turns = true;
+  clamp.seat = {0.004, 0.002, 0.02};
   fem::ElasticSolid top(fem::make_grid(fem::BoxPlate{{-0.03, -0.02, 0}, {0.03, 0.02, 0.015}, {2, 1, 1}}),
-                        {steel}, grip, {1});
+                        {steel}, clamp, {1});
   top.set_velocity({}, {20, 300, -5});
   const Vector3 start = top.angular_momentum();
   const double dt = 0.8 * top.stable_step();
@@ -50,14 +50,14 @@ void stick_and_slip(int cycles) {
   constexpr int steps = 16; // of a cycle
   SphereScene scene(plate(0.01, 4), {{0.001, 0.0007, 0.999 * sphere_radius}}, frictional(mu, mu), false);
   dem::Particles &p = scene.particles;
-  const double overlap = 0.001 * sphere_radius, held = mu * overlap / 0.8; // m, along the face
+  const double overlap = 0.001 * sphere_radius, fixed = mu * overlap / 0.8; // m, along the face
   constexpr double dt = 1e-6;
   double beyond = 0, off_plane = 0;
   long slips = 0, sticks = 0;
   bool slid = false;
   for (int n = 0; n < cycles * steps; ++n) {
     const double phase = 2 * pi * n / steps, turn = 1e-3 * n;
-    const double way = 6 * held * std::cos(phase) * 2 * pi / steps;
+    const double way = 6 * fixed * std::cos(phase) * 2 * pi / steps;
     p.velocity[0] =
         Vector3{way * std::cos(turn), way * std::sin(turn), 0.05 * overlap * std::sin(0.37 * n)} / dt;
     scene.carry(dt);

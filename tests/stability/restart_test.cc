@@ -26,7 +26,7 @@ using coupling::PlatenTestSettings;
 constexpr long steps_after = 300; // M
 
 enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
-enum Held { rigid, elastic, quasi_static, sleeve };
+enum Fixed { rigid, elastic, quasi_static, sleeve };
 enum Moment { before_cracks, cracking, after_peak };
 constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
@@ -66,13 +66,13 @@ void choose(PlatenTestSettings &s, Law law) {
   }
 }
 
-void choose(PlatenTestSettings &s, Held held) {
-  if (held == elastic || held == quasi_static) {
+void choose(PlatenTestSettings &s, Fixed fixed) {
+  if (fixed == elastic || fixed == quasi_static) {
     s.platens.elastic = coupling::ElasticPlatens{};
     s.platens.elastic->seat = true;
-    if (held == quasi_static) s.platens.elastic->motion = fem::ElasticMotion::quasi_static;
+    if (fixed == quasi_static) s.platens.elastic->motion = fem::ElasticMotion::quasi_static;
   }
-  if (held != sleeve) return;
+  if (fixed != sleeve) return;
   s.loading.cell.emplace();
   s.loading.cell->pressure = 1e6;
   s.loading.cell->ramp = 2e-5;
@@ -86,7 +86,7 @@ void choose(PlatenTestSettings &s, Held held) {
   s.loading.cell->sleeve = v;
 }
 
-PlatenTestSettings settings_of(Law law, Held held) {
+PlatenTestSettings settings_of(Law law, Fixed fixed) {
   PlatenTestSettings s = coupling::elastic_settings(0.5);
   s.model.local_damping = 0.3;
   choose(s, law);
@@ -96,7 +96,7 @@ PlatenTestSettings settings_of(Law law, Held held) {
   s.platens.elements_across = 4;
   s.loading.rate = 1;
   s.loading.ramp = 5e-6;
-  choose(s, held);
+  choose(s, fixed);
   return s;
 }
 
@@ -121,9 +121,9 @@ struct Life {
   double strength = 0; // Pa
 };
 
-Life life_of(Law law, Held held) {
+Life life_of(Law law, Fixed fixed) {
   constexpr long between_looks = 10, most = 20000;
-  PlatenTest problem(specimen(), settings_of(law, held));
+  PlatenTest problem(specimen(), settings_of(law, fixed));
   Life life;
   while (problem.steps() < most) {
     advance_to(problem, problem.steps() + between_looks);
@@ -161,9 +161,9 @@ protected:
     });
   }
   // Of `first` threads until the moment, then, from the file, of each of `then`. Returns how many differ.
-  int different(Law law, Held held, Moment moment, const Life &life, int first,
+  int different(Law law, Fixed fixed, Moment moment, const Life &life, int first,
                 const std::vector<int> &then) {
-    const PlatenTestSettings settings = settings_of(law, held);
+    const PlatenTestSettings settings = settings_of(law, fixed);
     const long at = life.at[moment];
     std::string expected, stopped;
     {
@@ -186,7 +186,7 @@ protected:
       load_state(CheckpointReader(file), resumed, results);
       advance_to(resumed, at + steps_after);
       const bool same = bytes_of(resumed) == expected;
-      EXPECT_TRUE(same) << "law " << law << ", held " << held << ", moment " << moment << ", threads "
+      EXPECT_TRUE(same) << "law " << law << ", fixed " << fixed << ", moment " << moment << ", threads "
                         << first << " then " << next;
       count += !same;
     }
@@ -203,10 +203,10 @@ void note(int states, int different) {
 TEST_F(Restart, from_a_file_goes_on_to_the_same_bits) {
   int states = 0, off = 0;
   for (const Law law : laws)
-    for (const Held held : holds) {
-      const Moment moment = moments[static_cast<std::size_t>(law + held) % 3];
-      const std::size_t turn = static_cast<std::size_t>(law + 2 * held);
-      off += different(law, held, moment, life_of(law, held), thread_counts[turn % 3],
+    for (const Fixed fixed : holds) {
+      const Moment moment = moments[static_cast<std::size_t>(law + fixed) % 3];
+      const std::size_t turn = static_cast<std::size_t>(law + 2 * fixed);
+      off += different(law, fixed, moment, life_of(law, fixed), thread_counts[turn % 3],
                        {thread_counts[(turn + 1) % 3]});
       ++states;
     }
@@ -216,11 +216,11 @@ TEST_F(Restart, from_a_file_goes_on_to_the_same_bits) {
 TEST_F(Restart, long_from_a_file_goes_on_to_the_same_bits_by_every_law_hold_moment_and_threads) {
   int states = 0, off = 0;
   for (const Law law : laws)
-    for (const Held held : holds) {
-      const Life life = life_of(law, held);
+    for (const Fixed fixed : holds) {
+      const Life life = life_of(law, fixed);
       for (const Moment moment : moments)
         for (const int first : thread_counts) {
-          off += different(law, held, moment, life, first, {1, 2, 4});
+          off += different(law, fixed, moment, life, first, {1, 2, 4});
           states += 3;
         }
     }
