@@ -4,12 +4,12 @@
 #include <iostream>
 #include <sstream>
 
+#include "apps/report/accuracy_study.h"
 #include "apps/report/display.h"
-#include "apps/report/field_files.h"
-#include "apps/report/field_frame.h"
+#include "apps/report/fields.h"
+#include "apps/report/platen_study.h"
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
-#include "apps/report/study_pictures.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
 

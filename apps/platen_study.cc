@@ -1,4 +1,5 @@
 // platen-study: sweeps what a result may depend on, each case on several seeds.
+#include "apps/study/cases.h"
 #include "apps/study/run_study.h"
 
 int main(int argc, char **argv) {

@@ -5,11 +5,13 @@
 //     v("stiffness_ratio", p.stiffness_ratio, "1", between(0, 5), "Shear over normal stiffness, k_s / k_n.");
 //   }
 // After the name of a member and the member itself come, of a number or a list of them: unit, range and a
-// sentence; of an enum: its words and a sentence; of a flag, or of a type that describes itself in no other
-// way: a sentence. From it follow what the library refuses, and what a scene may say.
+// sentence; of a whole number: range and a sentence; of an enum: its words and a sentence; of a flag, or of a
+// type that describes itself in no other way: a sentence. From it follow what the library refuses, and what a
+// scene may say.
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +20,9 @@
 #include "base/range.h"
 
 namespace platen {
+
+// Of a number that has no default, or is left to other members.
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 template <class Enum>
 using Words = std::vector<std::pair<std::string, Enum>>;
@@ -53,6 +58,9 @@ public:
                   const Range &range, const char *sentence) const {
     for (const double value : values)
       (*this)(member, value, unit, range, sentence);
+  }
+  void operator()(const char *member, int value, const Range &range, const char *sentence) const {
+    (*this)(member, value, "1", range, sentence);
   }
   template <class Enum>
   void operator()(const char * /*member*/, const Enum & /*value*/, const Words<Enum> & /*words*/,

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "dem/model.h"
-#include "dem/parallel.h"
 #include "step_scene.h"
 
 namespace {
@@ -177,8 +177,8 @@ int main(int argc, char **argv) {
       ->check(CLI::Range(1, 1000));
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(threads);
-  std::printf("%s, %d threads, %s kernels\n", bench::machine().c_str(), threads,
+  const ThreadLimit limit(threads);
+  std::printf("%s, %d threads, %s kernels\n", apps::this_machine().processor.c_str(), threads,
               dem::name(dem::best_instruction_set()));
   const dem::Specimen specimen = bench::close_packed(particles);
   compare("bonded", specimen, scenes_of(bonded(), effects_of_bonds()), count, repeats);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "fem/elastic_model.h"
 #include "fem/static_solver.h"
-#include "fem/threads.h"
 
 namespace {
 
@@ -54,7 +54,7 @@ int main(int argc, char **argv) {
   app.add_option("--largest-direct", largest_direct, "elements across that UMFPACK is still asked for");
   CLI11_PARSE(app, argc, argv);
   try {
-    fem::limit_threads(threads);
+    const ThreadLimit limit(threads);
     std::printf("across degree nodes solver setup_s solve_s iterations difference\n");
     for (const int n : across) {
       const fem::ElasticModel model =

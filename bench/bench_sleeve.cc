@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "base/pi.h"
 #include "fem/hyperelastic_solid.h"
-#include "fem/threads.h"
 
 namespace {
 
@@ -62,7 +62,7 @@ int main(int count, char **arguments) {
   app.add_option("-t,--threads", threads, "threads, 0: all")->capture_default_str();
   app.add_option("-s,--steps", steps, "explicit steps per mesh")->capture_default_str();
   CLI11_PARSE(app, count, arguments);
-  limit_threads(threads);
+  const platen::ThreadLimit limit(threads);
   for (const double poisson : {0.49, 0.4995}) {
     measure(32, 20, 1, poisson, steps);
     measure(64, 40, 1, poisson, steps);

@@ -7,9 +7,9 @@
 
 #include "apps/io/specimen_csv.h"
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
-#include "dem/parallel.h"
 #include "dem/statics/network.h"
 #include "static_ml.h"
 #include "step_scene.h"
@@ -121,7 +121,7 @@ int main(int argc, char **argv) {
   app.add_flag("--ml", ml, "compare a solve with Trilinos ML");
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(threads);
+  const ThreadLimit limit(threads);
   const dem::Specimen specimen =
       read.empty() ? bench::close_packed(particles) : apps::read_specimen_csv(read).specimen;
   coupling::PlatenTestSettings settings = bench::elastic_press(law);
@@ -138,7 +138,7 @@ int main(int argc, char **argv) {
     if (!explicitly_too) step.push_back(seconds_of([&] { bench::run(problem, timed); }) / timed);
   }
   const double seconds = bench::spread(still).median;
-  std::printf("%s, %d threads\n", bench::machine().c_str(), threads);
+  std::printf("%s, %d threads\n", apps::this_machine().processor.c_str(), threads);
   std::printf("%zu particles, %zu bonds: E %.4g GPa (gauge), %.4g GPa (platens), nu %.4f\n",
               problem.model.particles.size(), problem.model.bonds->size(), 1e-9 * p.youngs_modulus(),
               1e-9 * p.platen_modulus(), p.poisson_ratio());

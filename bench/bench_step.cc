@@ -10,7 +10,7 @@
 
 #include "apps/io/specimen_csv.h"
 #include "base/clock.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 #include "step_scene.h"
 
 namespace {
@@ -38,7 +38,8 @@ void print_memory(const coupling::PlatenTest &problem, double before) {
   std::printf(
       "memory: %.0f bytes per particle in columns and search, bonds included; process %.0f MB, %.0f "
       "MB before the scene\n",
-      static_cast<double>(problem.bytes()) / particles, 1e-6 * bench::peak_memory(), 1e-6 * before);
+      static_cast<double>(problem.bytes()) / particles, 1e-6 * static_cast<double>(apps::peak_memory_bytes()),
+      1e-6 * before);
 }
 
 // The step and the idealised loop on one number of threads.
@@ -63,7 +64,7 @@ Series series_on(int threads, const Options &o, const coupling::PlatenTest &prob
 
 // Who comes after another needs a moment until its threads have found their processors.
 void repeat(Series &s, const Options &o, coupling::PlatenTest &problem) {
-  const dem::ThreadLimit limit(s.threads);
+  const ThreadLimit limit(s.threads);
   const int settling = o.steps / 10 + 1;
   const double bonds = static_cast<double>(problem.model.bonds->size());
   bench::run(problem, settling);
@@ -156,11 +157,11 @@ int main(int argc, char **argv) {
   app.add_flag("--alone", o.alone, "without the idealised loop");
   CLI11_PARSE(app, argc, argv);
 
-  const dem::ThreadLimit limit(o.threads);
+  const ThreadLimit limit(o.threads);
   const dem::Specimen specimen = specimen_for(o);
   coupling::PlatenTestSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
-  const double before = bench::peak_memory();
+  const double before = static_cast<double>(apps::peak_memory_bytes());
   const auto start = Clock::now();
   coupling::PlatenTest problem(specimen, chosen);
   std::printf("set up in %.3g s\n", seconds_since(start));

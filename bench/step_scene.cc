@@ -1,9 +1,6 @@
 #include "step_scene.h"
 
-#include <sys/resource.h>
-
 #include <cmath>
-#include <fstream>
 
 #include "base/pi.h"
 #include "dem/packing/growth.h"
@@ -99,19 +96,6 @@ Network network_of(const dem::Model &model) {
 void run(coupling::PlatenTest &problem, long steps) {
   while (steps > 0)
     steps -= problem.advance(steps);
-}
-
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-std::string machine() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown processor";
 }
 
 } // namespace platen::bench

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/machine.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/specimen.h"
 #include "limit/idealised_loop.h"
@@ -34,9 +35,5 @@ inline Spread spread(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return {values[values.size() / 2], values.front(), values.back()};
 }
-
-// Largest resident memory of this process so far, bytes.
-double peak_memory();
-std::string machine(); // processor's name
 
 } // namespace platen::bench

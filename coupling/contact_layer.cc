@@ -27,9 +27,9 @@ void check(const SurfaceContact &p, bool rotation) {
   require(p.particle_stiffness > 0, "surface contact: particle stiffness must be positive");
   require(p.tangential_ratio > 0, "surface contact: tangential stiffness ratio must be positive");
   require(p.friction_static >= 0, "surface contact: static friction must not be negative");
-  require(p.friction_dynamic >= 0, "surface contact: dynamic friction must not be negative");
+  require(p.dynamic() >= 0, "surface contact: dynamic friction must not be negative");
   using By = dem::Weakening::By;
-  require(p.weakening.by == By::nothing || p.friction_dynamic <= p.friction_static,
+  require(p.weakening.by == By::nothing || p.dynamic() <= p.friction_static,
           "surface contact: friction that weakens must not grow");
   require(p.weakening.by != By::slip || p.weakening.slip_length > 0,
           "surface contact: slip length must be positive");
@@ -69,7 +69,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   stiffness_ = 1 / (1 / parameters.particle_stiffness);
   for (const double r : particles.radius)
     smallest_radius_ = std::min(smallest_radius_, r);
-  const bool friction = parameters.friction_static > 0 || parameters.friction_dynamic > 0;
+  const bool friction = parameters.friction_static > 0 || parameters.dynamic() > 0;
   const bool tangential = friction || parameters.attachment == Attachment::glued;
   if (tangential || parameters.seat_modulus > 0) normal_ = &table_.add<Vector3>("normal", "1");
   if (tangential) {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/pi.h"
 #include "coupling/contact_layer.h"
 #include "coupling/transfer.h"
 #include "dem/laws/rotating_plane.h"
-#include "dem/parallel.h"
 
 namespace platen::coupling {
 
@@ -53,7 +53,7 @@ void ContactLayer::find_due_rows() {
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
   const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
-  dem::run_loops(dem::loop_of(prepare(particles, body), part));
+  run_loops(loop_of(prepare(particles, body), part));
   give_forces(particles, body);
 }
 
@@ -61,7 +61,7 @@ std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::Lo
   update_search(particles, body);
   search_.look(body.surface());
   find_due_rows();
-  return dem::number_of_blocks(due_.size(), rows_per_part);
+  return number_of_blocks(due_.size(), rows_per_part);
 }
 
 void ContactLayer::compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
@@ -96,7 +96,7 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
 // by row: rows that are passed over may differ from run to run, sums may not.
 void ContactLayer::give_forces(dem::Particles &particles, fem::LoadedSurface &body) {
-  dem::for_each(loads_.size(), [&](std::size_t k) {
+  for_each(loads_.size(), [&](std::size_t k) {
     const RowLoad &load = loads_[k];
     if (load.particle < 0) return;
     const std::size_t i = static_cast<std::size_t>(load.particle);

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "base/shortest_text.h"
 #include "dem/not_finite.h"
-#include "dem/parallel.h"
 
 namespace platen::coupling {
 namespace {
@@ -91,7 +91,7 @@ void Experiment::compute_forces() {
     const std::size_t b = static_cast<std::size_t>(after - first_part_.begin()) - 1;
     boundaries_[b]->compute_part(model.particles, step, p - first_part_[b]);
   };
-  model.compute_forces(time_step_, dem::loop_of(first_part_.back(), part));
+  model.compute_forces(time_step_, loop_of(first_part_.back(), part));
   apply_boundary_forces(step);
   finish_boundaries(step);
 }
@@ -99,7 +99,7 @@ void Experiment::compute_forces() {
 void Experiment::drift_boundaries(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
   const auto drift = [&](std::size_t b) { boundaries_[b]->drift(step, commands_[b]); };
-  dem::at_once(at_once_.size(), [&](std::size_t k) { drift(at_once_[k]); });
+  at_once(at_once_.size(), [&](std::size_t k) { drift(at_once_[k]); });
   for (const std::size_t b : in_turn_)
     drift(b);
 }
@@ -122,8 +122,7 @@ void Experiment::apply_boundary_forces(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   group_boundaries();
   for (const std::vector<std::size_t> &group : groups_)
-    dem::at_once(group.size(),
-                 [&](std::size_t k) { boundaries_[group[k]]->apply_forces(model.particles, step); });
+    at_once(group.size(), [&](std::size_t k) { boundaries_[group[k]]->apply_forces(model.particles, step); });
 }
 
 void Experiment::group_boundaries() {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/describe.h"
 #include "coupling/boundary.h"
 #include "coupling/errors.h"
 #include "coupling/program/program.h"
@@ -18,6 +19,14 @@ namespace platen::coupling {
 struct TimeStepSettings {
   double safety = 0.8;   // time step over the limit
   double fixed_step = 0; // s; 0: safety times the limit
+
+  static constexpr const char *name = "time_step";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p) {
+    v("safety", p.safety, "1", above_up_to(0, 1), "Time step over the stability limit.");
+    v("fixed_step", p.fixed_step, "s", at_least(0),
+      "0: Safety times the limit; a larger one than the limit is refused.");
+  }
 };
 
 class Experiment {

@@ -56,6 +56,7 @@ SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &
 
 PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &settings)
     : Experiment(specimen, settings.model, settings.time_step), settings_(settings) {
+  require_in_range();
   add_platens(specimen);
   facts_ = facts_of(specimen, settings.model, model);
   seat_platens(specimen);
@@ -64,6 +65,15 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   for (const MadeFor<Boundary> &make : settings_.boundaries)
     add(make(*this));
   begin(make_program());
+}
+
+void PlatenTest::require_in_range() const {
+  const LoadingSettings &loading = settings_.loading;
+  platen::require_in_range(settings_.platens);
+  if (settings_.platens.elastic) platen::require_in_range(*settings_.platens.elastic);
+  platen::require_in_range(loading);
+  if (loading.cell) platen::require_in_range(*loading.cell);
+  if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {
@@ -94,11 +104,13 @@ void PlatenTest::seat_platens(const dem::Specimen &specimen) {
 void PlatenTest::choose_rates() {
   LoadingSettings &loading = settings_.loading;
   const double transit = facts_.wave_transit;
-  if (loading.wave_transits > 0) {
+  if (std::isnan(loading.rate) && loading.wave_transits > 0) {
     if (transit == 0)
       throw BadSetup("loading.wave_transits", "needs bonds: they carry the wave. Allowed: a `loading.rate`.");
     loading.rate = 1e-3 * shape().height / (loading.wave_transits * transit);
   }
+  if (std::isnan(loading.rate)) loading.rate = 0;
+  if (std::isnan(loading.target_strain)) loading.target_strain = std::numeric_limits<double>::infinity();
   ramp_ = loading.ramp > 0 ? loading.ramp
           : bent()         ? periods_of_ramp * bending_period()
                            : transits_of_ramp * transit;
@@ -124,7 +136,7 @@ void PlatenTest::add_lateral(double bond) {
       throw BadSetup("loading.cell", std::string("cannot be: ") + e.what() + ".");
     }
   }
-  if (loading.wall_stiffness > 0)
+  if (loading.wall)
     wall_ =
         &add(std::make_unique<LateralWall>(model.particles, shape(), *ends_, loading.wall_stiffness * bond,
                                            loading.wall_layer * facts_.mean_radius));
@@ -164,7 +176,7 @@ std::unique_ptr<Program> PlatenTest::make_program() const {
     p.sides = sides();
     p.pressure = cell.pressure;
     p.ramp = cell_ramp_;
-    p.hold = cell.hold;
+    p.hold = loading.hold;
     p.area = nominal_area();
     p.lag_of_servo = servo_slowness_ * transits_ahead * facts_.wave_transit;
     p.servo = {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, loading.rate)};

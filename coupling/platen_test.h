@@ -2,7 +2,6 @@
 // what is measured of it.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,100 +11,10 @@
 #include "coupling/boundaries/lateral_wall.h"
 #include "coupling/boundaries/platen.h"
 #include "coupling/boundaries/skin_pressure.h"
-#include "coupling/boundaries/sleeve.h"
-#include "coupling/experiment.h"
+#include "coupling/platen_test_settings.h"
 #include "dem/measure/bending.h"
 
 namespace platen::coupling {
-
-enum class Ends { as_packed, ground };
-
-struct PlatenSide : dem::SurfaceFriction {
-  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/platen_mesh.h says
-};
-
-// Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
-// springs are then the particles' share alone: what the platen gives way is in its mesh.
-struct ElasticPlatens {
-  int degree = 1;
-  bool seat = false; // spherical, under the top platen's grip: turns freely about the middle of its face
-  fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
-  double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
-  int steps_per_solve = 20; // quasi-static: of the particles
-  double pad_thickness = 0; // m, of a sheet on the specimen's side that is part of the thickness; 0: none
-  fem::Material pad{};      // of that sheet, or of the second material of a given grid; modulus 0: none
-};
-
-struct PlatenSettings {
-  PlatenSide top, bottom;
-  std::optional<ElasticPlatens> elastic; // none: rigid
-  double stiffness_of_bond = 1;          // multiple of the mean bond's k_n A ...
-  double stiffness_absolute = 0;         // ... or N/m where positive
-  double tangential_ratio = 0.8;
-  double damping = 0.2;   // fraction of critical
-  double strip_width = 0; // m, of strips that press a disc or bend a bar; 0: as wide as the platens
-  double span = 0;        // m, between the middles of two lower strips that a bar along x is bent on; 0: none
-  double overhang = 1.2;  // platen half-width over the specimen's
-  double thickness = 0;   // m
-  int elements_across = 8;
-  fem::Material material{7830, 200e9, 0.3};
-  bool glued = false;
-};
-
-// A cell: pressure on the lateral surface and, while it rises and stands alone, the same stress on the
-// platens.
-struct CellSettings {
-  double pressure = 0; // Pa
-  double ramp = 0; // s, from none to all of it; 0: sixty wave transits of the height, more for slow servos
-  double hold = 0; // s, how long it stands alone at least
-  double path = 0; // 1, what the pressure gains per deviator of the axial stage; -1/3: constant mean stress
-  // Without a sleeve the pressure acts on the spheres of the skin; with one on its outer face.
-  dem::ConfinementArea area = dem::ConfinementArea::voronoi;
-  std::optional<SleeveSettings> sleeve;
-  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: by the pressure
-  double sleeve_seat_depth = 1; // mean radii: spheres no deeper lie flush with its inner face
-  bool alone = false;           // hydrostatic: the test is over when the pressure has stood for its time
-};
-
-struct LoadingSettings {
-  bool tension = false;
-  double rate = 0; // m/s, closure (opening) speed of the platens, each moving at half of it
-  double wave_transits =
-      0; // > 0: that speed at which a wave crosses the height so often in a closure by 0.1 %
-  double rate_multiplier = 1; // times that rate while the specimen is elastic (RateControl); needs bonds
-  double ramp = 0;            // s; 0: ten wave transits of the height
-  double target_strain = std::numeric_limits<double>::infinity(); // closure at which the test is over
-  double start_strain = 0; // that the run begins with, for what is expected of its length
-  bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
-  double top_stress = 0;                                 // Pa, pressing; reached smoothly over the ramp
-  double hold = std::numeric_limits<double>::infinity(); // s, how long that is held after the ramp
-  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell
-  std::optional<CellSettings> cell;
-  double wall_stiffness = 0; // multiple of the mean bond's; 0: no wall around the specimen
-  double wall_layer = 1;     // mean radii: deeper spheres are not seated on the wall
-  // Closure strains (since the end of a cell's own stage) at which the platens turn round until the axial
-  // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
-  std::vector<double> unload_at;
-  double unload_to = 0.1;
-};
-
-class PlatenTest;
-template <class Part>
-using MadeFor = std::function<std::unique_ptr<Part>(const PlatenTest &)>;
-
-struct PlatenTestSettings {
-  dem::ModelSettings model;
-  Ends ends = Ends::as_packed;
-  double end_layer = 1; // mean radii, for ground ends
-  bool seat = false;    // rocking springs of ground spheres
-  PlatenSettings platens;
-  LoadingSettings loading;
-  TimeStepSettings time_step;
-  // Of one's own: boundaries after those that the members above make, and stages in their place. They are
-  // made when platens and lateral boundaries are there.
-  std::vector<MadeFor<Boundary>> boundaries;
-  std::vector<MadeFor<Stage>> stages;
-};
 
 // What is known of the specimen before it is loaded.
 struct SpecimenFacts {
@@ -122,7 +31,7 @@ class PlatenTest : public Experiment, public Measures {
 public:
   static constexpr double surface_skin = 0.3; // margin of the surfaces' particle lists, in mean radii
 
-  // Throws BadSetup where the settings do not go together.
+  // Throws BadParameter where a setting is out of its range, BadSetup where they do not go together.
   PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &settings);
   void step() { advance(1); }
 
@@ -184,6 +93,7 @@ public:
   }
 
 private:
+  void require_in_range() const;
   void add_platens(const dem::Specimen &specimen);
   void seat_platens(const dem::Specimen &specimen);
   void add_lateral(double bond);

@@ -92,7 +92,7 @@ std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::
   std::vector<fem::Material> materials{p.material};
   if (given && fem::materials_of(given) > 1 && !(p.elastic->pad.young_modulus > 0))
     throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
-                                " physical volumes: the second needs `platens.elastic.pad`");
+                                " physical volumes: the second needs `platens.elastic.pad_modulus`");
   if (given && fem::materials_of(given) > 2)
     throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
                                 " physical volumes: at most two are known, platen and pad");
@@ -109,8 +109,8 @@ bool covers(const dem::Shape &shape, double x, double y) {
 
 double platen_stiffness(const dem::Model &model, const PlatenTestSettings &settings) {
   const PlatenSettings &p = settings.platens;
-  if (p.stiffness_absolute > 0) return p.stiffness_absolute;
-  return p.stiffness_of_bond * mean_bond_stiffness(model);
+  if (p.stiffness.kind == dem::Stiffness::Kind::absolute) return p.stiffness.value;
+  return p.stiffness.value * mean_bond_stiffness(model);
 }
 
 SurfaceContact contact_settings(const dem::Model &model, const dem::Specimen &s,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::coupling {
 
@@ -151,7 +151,7 @@ void SurfaceSearch::look(const SurfaceMesh &surface) {
   if (surface.only_shifted || looked_) return;
   moving_.resize(surface.faces.size());
   constexpr std::size_t faces_per_part = 32;
-  dem::for_each(
+  for_each(
       near_faces_.size(),
       [&](std::size_t k) {
         const int face = near_faces_[k];

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/parallel.h"
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/interface_kernel.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

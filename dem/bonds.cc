@@ -5,11 +5,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "base/pi.h"
 #include "dem/cell_grid.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/packing/specimen.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

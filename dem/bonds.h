@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/loop.h"
 #include "base/table.h"
 #include "dem/instruction_set.h"
 #include "dem/laws/bond_law.h"
-#include "dem/loop.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "dem/not_finite.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

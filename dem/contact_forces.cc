@@ -2,11 +2,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "dem/contacts.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
 #include "dem/mean_radius.h"
-#include "dem/parallel.h"
 #include "dem/phases.h"
 
 namespace platen::dem {

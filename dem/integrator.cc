@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/kernels/motion_kernel.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 

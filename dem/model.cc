@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/parallel.h"
 #include "dem/packing/specimen.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/loop.h"
 #include "dem/bonds.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
 #include "dem/integrator.h"
-#include "dem/loop.h"
 #include "dem/particles.h"
 #include "dem/phases.h"
 #include "dem/stable_step.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 #include "dem/particles.h"
 
 namespace platen::dem {

@@ -8,8 +8,8 @@
 
 #include <voro++/voro++.hh>
 
+#include "base/parallel.h"
 #include "dem/packing/point_grid.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

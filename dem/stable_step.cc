@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/random.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "base/parallel.h"
 #include "fem/hyperelastic_solid.h"
-#include "fem/loop.h"
 
 namespace platen::fem {
 namespace {
@@ -102,7 +102,7 @@ HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Vec
     }
     return First{};
   };
-  return part_sum<First>(mesh_.cells.size(), cell_grain, look).worst;
+  return ordered_sum<First>(mesh_.cells.size(), look, cell_grain).worst;
 }
 
 Vector3 HyperelasticSolid::cell_middle(int cell, const std::vector<Vector3> &displacement) const {

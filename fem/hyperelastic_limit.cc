@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "fem/hyperelastic_solid.h"
 #include "fem/largest_frequency.h"
-#include "fem/loop.h"
 
 namespace platen::fem {
 namespace {
@@ -61,7 +61,7 @@ double HyperelasticSolid::stable_step() const {
     }
     return largest;
   };
-  const double bound = part_sum<Largest>(mesh_.cells.size(), cell_grain, look).value;
+  const double bound = ordered_sum<Largest>(mesh_.cells.size(), look, cell_grain).value;
   if (!(bound > 0)) return std::numeric_limits<double>::infinity();
   BlockRows rows = stiffness_;
   assemble(cells, rows);

@@ -5,13 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/require.h"
-#include "fem/loop.h"
 
 namespace platen::fem {
 namespace {
 
-constexpr std::size_t cell_grain = 64, node_grain = 512; // per part of a loop: some tens of microseconds
+constexpr std::size_t cell_grain = 64; // per part of a loop: some tens of microseconds
 
 bool is_finite(const std::vector<Vector3> &values) {
   return std::all_of(values.begin(), values.end(), [](const Vector3 &p) {
@@ -149,7 +149,7 @@ void HyperelasticSolid::half_kick(double dt) {
         v = given[k];
       }
     }
-  const Works works = part_sum<Works>(velocity_.size(), node_grain, [&](std::size_t first, std::size_t last) {
+  const auto kick = [&](std::size_t first, std::size_t last) {
     Works sum;
     for (std::size_t n = first; n < last; ++n) {
       const Vector3 force = out_of_balance(n);
@@ -165,7 +165,8 @@ void HyperelasticSolid::half_kick(double dt) {
       }
     }
     return sum;
-  });
+  };
+  const Works works = ordered_sum<Works>(velocity_.size(), kick);
   lead_work_ += works.lead;
   damping_work_ += works.damping;
   for (std::size_t v = 0; v < surface_node_.size(); ++v)
@@ -180,10 +181,7 @@ bool HyperelasticSolid::can_drift(double dt) const {
 }
 
 void HyperelasticSolid::drift(double dt) {
-  for_each_part(next_.size(), node_grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n)
-      next_[n] = displacement_[n] + dt * velocity_[n];
-  });
+  for_each(next_.size(), [&](std::size_t n) { next_[n] = displacement_[n] + dt * velocity_[n]; });
   check(next_);
   pressure_work_ += acting_ == face_pressure_
                         ? pressure_work_to(next_, face_pressure_)
@@ -194,17 +192,17 @@ void HyperelasticSolid::drift(double dt) {
 
 // Each cell's forces go to a row of its own; nodes then add the rows that meet there, in order.
 void HyperelasticSolid::update_forces() {
-  for_each_part(mesh_.cells.size(), cell_grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t c = first; c < last; ++c)
-      cell_force_[c] = cell_force(material_.law, mesh_.cells[c], mesh_.gather(c, displacement_));
-  });
-  for_each_part(internal_.size(), node_grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) {
-      Vector3 sum{};
-      for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
-        sum = sum + cell_force_[mesh_.corner[k] / 8].force[mesh_.corner[k] % 8];
-      internal_[n] = sum;
-    }
+  for_each(
+      mesh_.cells.size(),
+      [&](std::size_t c) {
+        cell_force_[c] = cell_force(material_.law, mesh_.cells[c], mesh_.gather(c, displacement_));
+      },
+      cell_grain);
+  for_each(internal_.size(), [&](std::size_t n) {
+    Vector3 sum{};
+    for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
+      sum = sum + cell_force_[mesh_.corner[k] / 8].force[mesh_.corner[k] % 8];
+    internal_[n] = sum;
   });
   add_pressure_forces();
   acting_ = face_pressure_;

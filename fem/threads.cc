@@ -2,18 +2,30 @@
 
 #include <deal.II/base/multithread_info.h>
 
+#include <mutex>
+
 namespace platen::fem {
 
-void limit_threads(int threads) {
-  dealii::MultithreadInfo::set_thread_limit(threads > 0 ? static_cast<unsigned>(threads)
-                                                        : dealii::numbers::invalid_unsigned_int);
+namespace {
+
+// Bodies may be made on several threads at once.
+void count(int more) {
+  static std::mutex mutex;
+  static int alive = 0;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const int before = alive;
+  alive += more;
+  if (before == 0 || alive == 0) dealii::MultithreadInfo::set_thread_limit(alive == 0 ? 1 : 2);
 }
 
-NoCellReuse::NoCellReuse() : alone_(dealii::MultithreadInfo::n_threads() == 1) {
-  if (alone_) dealii::MultithreadInfo::set_thread_limit(2);
+} // namespace
+
+NoCellReuse::NoCellReuse() {
+  count(1);
 }
+
 NoCellReuse::~NoCellReuse() {
-  if (alone_) dealii::MultithreadInfo::set_thread_limit(1);
+  count(-1);
 }
 
 } // namespace platen::fem

@@ -1,23 +1,17 @@
-// Threads of the finite elements' library.
+// Threads of deal.II. Loops over cells and nodes use the pool of the process instead (base/parallel.h).
 #pragma once
 
 namespace platen::fem {
 
-// Loops over cells use at most `threads` threads from now on; 0: all that the process may have.
-void limit_threads(int threads);
-
-// deal.II copies the geometry of a cell from the one before where both are alike, but only on one thread, and
-// the last bits are others then. While one of these lives it does not, so that matrices do not depend on the
-// number of threads.
+// deal.II copies the geometry of a cell from the one before where both are alike, but only where it may have
+// one thread, and the last bits are others then. While any of these lives it may have two, so that matrices
+// do not depend on what a program allows it; afterwards one: a process has no second pool.
 class NoCellReuse {
 public:
   NoCellReuse();
   ~NoCellReuse();
   NoCellReuse(const NoCellReuse &) = delete;
   NoCellReuse &operator=(const NoCellReuse &) = delete;
-
-private:
-  bool alone_;
 };
 
 } // namespace platen::fem

@@ -20,7 +20,7 @@ BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double 
   BarEnd end;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (in_piece[i] && sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth) {
-      end.rows.push_back(static_cast<int>(i));
+      end.rows.push_back(i);
       end.z += p.reference_position[i].z;
     }
   if (end.rows.empty())
@@ -75,14 +75,12 @@ struct EndSums {
 };
 EndSums sums_of(const Particles &p, const BarEnd &end) {
   EndSums s;
-  for (const int row : end.rows) {
-    const std::size_t i = static_cast<std::size_t>(row);
+  for (const std::size_t i : end.rows) {
     s.weight += weight(p, i);
     s.middle += weight(p, i) * p.reference_position[i];
   }
   s.middle *= 1 / s.weight;
-  for (const int row : end.rows) {
-    const std::size_t i = static_cast<std::size_t>(row);
+  for (const std::size_t i : end.rows) {
     const Vector3 r = p.reference_position[i] - s.middle;
     s.turning += weight(p, i) * (r.x * r.x + r.y * r.y + own_inertia(p, i));
   }
@@ -123,16 +121,15 @@ BarGeometry measure_bar(const Particles &p, const dem::Bonds &bonds, const dem::
 void add_force(dem::StaticCase &load, const Particles &p, const BarEnd &end, const Vector3 &force) {
   load.force.resize(p.size());
   const EndSums s = sums_of(p, end);
-  for (const int row : end.rows)
-    load.force[static_cast<std::size_t>(row)] += weight(p, static_cast<std::size_t>(row)) / s.weight * force;
+  for (const std::size_t i : end.rows)
+    load.force[i] += weight(p, i) / s.weight * force;
 }
 
 void add_torque(dem::StaticCase &load, const Particles &p, const BarEnd &end, double torque) {
   load.force.resize(p.size());
   load.torque.resize(p.size());
   const EndSums s = sums_of(p, end);
-  for (const int row : end.rows) {
-    const std::size_t i = static_cast<std::size_t>(row);
+  for (const std::size_t i : end.rows) {
     const Vector3 r = p.reference_position[i] - s.middle;
     const double share = torque * weight(p, i) / s.turning;
     load.force[i] += share * Vector3{-r.y, r.x, 0};
@@ -144,11 +141,9 @@ EndMotion motion_of(const Particles &p, const BarEnd &end, const std::vector<Vec
                     const std::vector<Vector3> &turn) {
   const EndSums s = sums_of(p, end);
   EndMotion m;
-  for (const int row : end.rows)
-    m.moved +=
-        weight(p, static_cast<std::size_t>(row)) / s.weight * displacement[static_cast<std::size_t>(row)];
-  for (const int row : end.rows) {
-    const std::size_t i = static_cast<std::size_t>(row);
+  for (const std::size_t i : end.rows)
+    m.moved += weight(p, i) / s.weight * displacement[i];
+  for (const std::size_t i : end.rows) {
     const Vector3 r = p.reference_position[i] - s.middle, &u = displacement[i];
     m.twist += weight(p, i) / s.turning *
                (r.x * u.y - r.y * u.x + (turn.empty() ? 0 : own_inertia(p, i) * turn[i].z));
@@ -158,8 +153,7 @@ EndMotion motion_of(const Particles &p, const BarEnd &end, const std::vector<Vec
 
 EndMotion motion_of(const Particles &p, const BarEnd &end) {
   std::vector<Vector3> displacement(p.size()), turn(p.has_rotation() ? p.size() : 0);
-  for (const int row : end.rows) {
-    const std::size_t i = static_cast<std::size_t>(row);
+  for (const std::size_t i : end.rows) {
     displacement[i] = p.position[i] - p.reference_position[i];
     if (p.has_rotation()) {
       const Quaternion &q = (*p.orientation)[i];

@@ -14,7 +14,7 @@ namespace platen::apps {
 
 // The spheres of one end.
 struct BarEnd {
-  std::vector<int> rows;
+  std::vector<std::size_t> rows;
   double z = 0; // m, mean of their centres
 };
 

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
+#include "base/parallel.h"
 #include "dem/measure/spectrum.h"
-#include "dem/parallel.h"
 #include "dem/stable_step.h"
 
 namespace platen::apps {
@@ -25,21 +24,21 @@ constexpr double station = 2;
 // three passages, and on the way, where the reflected wave follows after one.
 constexpr double smoothing_at_end = 1.2, smoothing_on_the_way = 0.8;
 
-double mean_along_z(const Column<Vector3> &column, const std::vector<int> &rows) {
+double mean_along_z(const Column<Vector3> &column, const std::vector<std::size_t> &rows) {
   double sum = 0;
-  for (const int row : rows)
-    sum += column[static_cast<std::size_t>(row)].z;
+  for (const std::size_t row : rows)
+    sum += column[row].z;
   return sum / static_cast<double>(rows.size());
 }
 
 struct Station {
-  std::vector<int> rows;
+  std::vector<std::size_t> rows;
   double z = 0; // m, mean of the centres
   Station(const Particles &p, const BarGeometry &bar, double at) {
     const double reach = station * bar.mean_radius;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (bar.in_piece[i] && std::abs(p.reference_position[i].z - at) <= reach) {
-        rows.push_back(static_cast<int>(i));
+        rows.push_back(i);
         z += p.reference_position[i].z;
       }
     z /= static_cast<double>(rows.size());
@@ -60,22 +59,28 @@ public:
     model.end_step(0);
     initial_ = kinetic_energy(model.particles) + energy_shares(model.particles, *model.bonds).total();
   }
-  void step(double dt) {
-    model_.begin_step(dt);
-    model_.compute_forces(dt);
-    model_.end_step(dt);
-  }
   EndMotion end() const { return motion_of(model_.particles, bar_.high); }
-  // Of the samples that were given away.
-  double energy_residual() const { return residual_; }
-  bool give(const TakeSample &take) {
-    const BarSample s = sample();
-    if (initial_ > 0)
-      residual_ = std::max(residual_, std::abs(s.kinetic + s.energy.total() - initial_) / initial_);
-    return take(s);
+  // Calls after_step(whether a sample is due) at the start and after each step, and gives the samples away.
+  template <class AfterStep>
+  void go(const Clocking &clocking, const TakeSample &take, const AfterStep &after_step, Motion &result) {
+    for (;; ++result.steps) {
+      const bool due = result.steps % clocking.every == 0;
+      after_step(due);
+      if (due) result.stopped = !give(take, result);
+      if (result.stopped || result.steps == clocking.steps) return;
+      model_.begin_step(clocking.step);
+      model_.compute_forces(clocking.step);
+      model_.end_step(clocking.step);
+    }
   }
 
 private:
+  bool give(const TakeSample &take, Motion &result) const {
+    const BarSample s = sample();
+    const double change = std::abs(s.kinetic + s.energy.total() - initial_);
+    if (initial_ > 0) result.energy_residual = std::max(result.energy_residual, change / initial_);
+    return take(s);
+  }
   BarSample sample() const {
     const Particles &p = model_.particles;
     BarSample s;
@@ -95,16 +100,16 @@ private:
 
   Model &model_;
   const BarGeometry &bar_;
-  double initial_ = 0, residual_ = 0;
+  double initial_ = 0;
 
 public:
   const Station quarter, half;
 };
 
 void clamp(Particles &p, const BarEnd &end) {
-  for (const int row : end.rows) {
-    p.mass[static_cast<std::size_t>(row)] *= clamp_mass;
-    if (p.has_rotation()) (*p.inertia)[static_cast<std::size_t>(row)] *= clamp_mass;
+  for (const std::size_t row : end.rows) {
+    p.mass[row] *= clamp_mass;
+    if (p.has_rotation()) (*p.inertia)[row] *= clamp_mass;
   }
 }
 
@@ -121,20 +126,17 @@ BarTime bar_time_step(const Scene &scene, const Model &model) {
   dashpots.bonds = scene.model.bond_dashpot;
   const dem::StableStep limit =
       dem::stable_step(model.particles, model.bonds.get(), model.contacts.get(), {}, dashpots);
-  const double wanted = scene.integration.time_step;
-  const double step = scene.integration.safety * limit.limit;
+  const double wanted = scene.time_step.fixed_step;
+  const double step = scene.time_step.safety * limit.limit;
   if (wanted == 0) return {step, step / 3, limit.reason};
-  if (wanted > limit.limit) {
-    const std::string reason =
-        "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.";
-    if (scene.parameters) scene.parameters->refuse("Integration/Time step", reason);
-    throw InputError("Integration/Time step " + reason);
-  }
+  if (wanted > limit.limit)
+    refuse(scene, "Integration/Time step",
+           "is above the limit of this bar. Allowed: 0 ... " + shortest_text(limit.limit) + " s.");
   return {wanted, wanted, "as the scene sets it"};
 }
 
-Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
-                   double expected, const Clocking &clocking, const TakeSample &take) {
+Oscillation release(Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
+                    double expected, const Clocking &clocking, const TakeSample &take) {
   Particles &p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.position[i] = p.reference_position[i] + from.displacement[i];
@@ -143,48 +145,40 @@ Oscillation let_go(Model &model, const BarGeometry &bar, BarLoad load, const dem
   clamp(p, bar.low);
   Run run(model, bar);
   Oscillation result;
-  std::vector<double> swing{along(run.end(), load, bar.along_x)};
-  result.stopped = !run.give(take);
-  while (result.steps < clocking.steps && !result.stopped) {
-    run.step(clocking.step);
-    ++result.steps;
-    if (result.steps % clocking.every != 0) continue;
-    swing.push_back(along(run.end(), load, bar.along_x));
-    result.stopped = !run.give(take);
-  }
-  result.frequency = dem::main_frequency(swing, clocking.step * static_cast<double>(clocking.every),
+  std::vector<double> oscillation;
+  const auto keep = [&](bool due) {
+    if (due) oscillation.push_back(along(run.end(), load, bar.along_x));
+  };
+  run.go(clocking, take, keep, result);
+  result.frequency = dem::main_frequency(oscillation, clocking.step * static_cast<double>(clocking.every),
                                          0.5 * expected, 2 * expected);
-  result.energy_residual = run.energy_residual();
   return result;
 }
 
 Impact strike(Model &model, const BarGeometry &bar, double velocity, double speed, const Clocking &clocking,
               const TakeSample &take) {
   Particles &p = model.particles;
-  for (const int row : bar.high.rows)
-    p.velocity[static_cast<std::size_t>(row)] = {0, 0, -velocity};
+  for (const std::size_t row : bar.high.rows)
+    p.velocity[row] = {0, 0, -velocity};
   Run run(model, bar);
   std::vector<double> quarter{0}, half{0}, away{0};
   Impact result;
-  result.stopped = !run.give(take);
-  while (result.steps < clocking.steps && !result.stopped) {
-    run.step(clocking.step);
-    ++result.steps;
+  const auto keep = [&](bool) {
+    if (result.steps == 0) return; // at rest
     quarter.push_back(run.quarter.velocity(p));
     half.push_back(run.half.velocity(p));
     away.push_back(mean_along_z(p.velocity, bar.low.rows));
-    if (result.steps % clocking.every == 0) result.stopped = !run.give(take);
-  }
+  };
+  run.go(clocking, take, keep, result);
   const double passage = bar.length() / speed;
-  const auto time = [&](const std::vector<double> &velocities, double smoothing, double way) {
-    return dem::passing_time(velocities, clocking.step, smoothing * passage, way / speed);
+  const auto time = [&](const std::vector<double> &velocities, double smoothing, double distance) {
+    return dem::passing_time(velocities, clocking.step, smoothing * passage, distance / speed);
   };
   result.quarter_time = time(quarter, smoothing_on_the_way, bar.top - run.quarter.z);
   result.half_time = time(half, smoothing_on_the_way, bar.top - run.half.z);
   result.far_time = time(away, smoothing_at_end, bar.length());
   result.speed_quarter_to_half = (run.quarter.z - run.half.z) / (result.half_time - result.quarter_time);
   result.speed_end_to_end = bar.length() / result.far_time;
-  result.energy_residual = run.energy_residual();
   return result;
 }
 

@@ -1,4 +1,4 @@
-// The bar in motion: let go from a load, or struck.
+// The bar in motion: released from a load, or struck.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@ namespace platen::apps {
 
 // What is read of the bar in motion.
 struct BarSample {
-  double time = 0;                              // s, since it was let go or struck
+  double time = 0;                              // s, since it was released or struck
   EndMotion end;                                // of the free (struck) end
   double struck_velocity = 0, far_velocity = 0; // m/s along z, means of the two ends
   double quarter = 0, half = 0; // m along z, means at a quarter and half of the length from the struck end
   double kinetic = 0;           // J
-  double initial_energy = 0;    // J, kinetic and stored, when it was let go or struck
+  double initial_energy = 0;    // J, kinetic and stored, when it was released or struck
   dem::EnergyShares energy;     // J
   long broken_tension = 0, broken_shear = 0;
 };
@@ -25,15 +25,15 @@ struct BarSample {
 using TakeSample = std::function<bool(const BarSample &)>;
 
 struct BarTime {
-  double step = 0;      // s, of the swinging bar
-  double blow_step = 0; // s, of the struck bar
+  double step = 0;        // s, of the oscillating bar
+  double impact_step = 0; // s, of the struck bar
   std::string reason;
-  double of(BarLoad load) const { return load == BarLoad::impact ? blow_step : step; }
+  double of(BarLoad load) const { return load == BarLoad::impact ? impact_step : step; }
 };
 // Safety times the limit, or Integration/Time step, which must not exceed the limit (throws InputError).
-// Steps that follow from the limit are cut in three for the blow: it begins in one layer of spheres, so the
-// highest modes swing, whose energy a step near the limit does not tell (by 3 % at 0.8 of it; as the square
-// of the step).
+// Steps that follow from the limit are cut in three for the impact: it begins in one layer of spheres, so the
+// highest modes oscillate, whose energy a step near the limit does not tell (by 3 % at 0.8 of it; as the
+// square of the step).
 BarTime bar_time_step(const Scene &scene, const dem::Model &model);
 
 struct Clocking {
@@ -42,31 +42,30 @@ struct Clocking {
   long every = 1;  // steps from one sample to the next
 };
 
-struct Oscillation {
-  double frequency = 0;       // 1/s
+struct Motion {
   double energy_residual = 0; // largest change of kinetic and stored energy, over what was there at first
   long steps = 0;             // made
   bool stopped = false;
 };
+struct Oscillation : Motion {
+  double frequency = 0; // 1/s
+};
 // Swings freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
 // heavy that it stays. Its main frequency is looked for between half and twice `expected` (1/s). Leaves the
 // model in motion.
-Oscillation let_go(dem::Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
-                   double expected, const Clocking &clocking, const TakeSample &take);
+Oscillation release(dem::Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,
+                    double expected, const Clocking &clocking, const TakeSample &take);
 
-struct Impact {
+struct Impact : Motion {
   double quarter_time = 0, half_time = 0, far_time = 0; // s, of passage; NaN where there was none
   double speed_quarter_to_half = 0;                     // m/s
   double speed_end_to_end = 0;                          // m/s
-  double energy_residual = 0;
-  long steps = 0;
-  bool stopped = false;
 };
 // How long the bar has to be followed to tell its speed, in passages of the wave.
 constexpr double followed_passages = 2.4;
 // The free bar, its upper end struck: the spheres there move down at `velocity` (m/s) at time 0. Mean
 // velocities of the far end, and at a quarter and half of the length, tell when the pulse passes
-// (dem/measure/spectrum.h); those on the way are smoothed over a shorter time, for the reflected wave meets
+// (dem/measure/spectrum.h); those on its path are smoothed over a shorter time, for the reflected wave meets
 // them. With its reflection at the struck end the pulse starts at the end plane at time 0. `speed` (m/s) is a
 // first guess.
 Impact strike(dem::Model &model, const BarGeometry &bar, double velocity, double speed,

@@ -3,27 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <sstream>
 
-#include "apps/bar/history.h"
-#include "apps/bar/summary.h"
-#include "apps/io/csv_writer.h"
-#include "apps/io/file.h"
-#include "apps/io/folder_lock.h"
-#include "apps/io/output_folder.h"
+#include "apps/bar/bar_results.h"
 #include "apps/io/progress.h"
-#include "apps/io/run_log.h"
 #include "apps/io/stop_signal.h"
-#include "apps/run/expectations.h"
+#include "apps/run/app_output.h"
 #include "apps/run/model_setup.h"
 #include "apps/run/specimen_setup.h"
-#include "apps/scene/parameters.h"
-#include "apps/scene/version.h"
-#include "dem/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -48,24 +36,18 @@ long steps_between_samples(const Scene &scene, double step, double interval) {
 
 class BarRun {
 public:
-  BarRun(const CommandLine &command, const Scene &scene)
-      : command_(command),
-        scene_(scene),
-        paths_(command.output),
-        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
+  BarRun(const Scene &scene, AppOutput &output)
+      : scene_(scene),
+        output_(output),
         specimen_(make_specimen(scene)),
         settings_(model_settings(scene)),
         model_(specimen_, settings_) {}
 
   void measure();
   std::string description() const;
-  int carry_out(FolderUse use, const std::vector<std::filesystem::path> &inputs);
+  int carry_out();
 
 private:
-  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
-    if (scene_.parameters) scene_.parameters->refuse(path, reason);
-    throw InputError(path + " " + reason);
-  }
   void test_loads();
   void test_impact();
   bool dynamic() const { return scene_.bar_test.method != BarMethod::at_rest; }
@@ -75,26 +57,22 @@ private:
   long steps_of(BarLoad load) const;
   long steps_of_impact() const;
   bool take(const BarSample &sample, BarLoad load);
-  void finish(const dem::Model &model);
+  void finish(const dem::Model &model, const Motion &motion);
 
-  const CommandLine &command_;
   const Scene &scene_;
-  OutputPaths paths_;
-  RunLog log_;
+  AppOutput &output_;
   dem::Specimen specimen_;
   dem::ModelSettings settings_;
   dem::Model model_; // at rest
   BarResults results_;
   std::unique_ptr<CsvWriter> history_;
   std::unique_ptr<Progress> progress_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double setup_seconds_ = 0;
   long planned_ = 0;
   int signal_ = 0;
 };
 
 void BarRun::measure() {
-  if (model_.bonds->size() == 0) refuse("Bond/Gap", "bonds no two spheres of this specimen.");
+  if (model_.bonds->size() == 0) refuse(scene_, "Bond/Gap", "bonds no two spheres of this specimen.");
   BarResults &r = results_;
   r.particles = model_.particles.size();
   r.bonds = model_.bonds->size();
@@ -103,7 +81,7 @@ void BarRun::measure() {
                       scene_.bar_test.side == BarSide::x);
   r.pulled = pull_bar(model_, r.bar, specimen_.shape);
   if (!(r.pulled.axial_rigidity > 0))
-    refuse("Specimen/Height",
+    refuse(scene_, "Specimen/Height",
            "leaves too few spheres in the middle half of the bar to tell a strain, or the "
            "spheres do not hold together.");
   r.bulk = {none, none, none};
@@ -115,19 +93,19 @@ void BarRun::measure() {
 }
 
 long BarRun::steps_of(BarLoad load) const {
-  return static_cast<long>(std::ceil(scene_.bar_test.periods /
-                                     (frequency_of(results_.swinging_rod(true), load) * results_.time.step)));
+  return static_cast<long>(std::ceil(
+      scene_.bar_test.periods / (frequency_of(results_.oscillating_rod(true), load) * results_.time.step)));
 }
 
 long BarRun::steps_of_impact() const {
   return static_cast<long>(std::ceil(followed_passages * results_.bar.length() /
-                                     (results_.rod(false).wave_speed() * results_.time.blow_step)));
+                                     (results_.rod(false).wave_speed() * results_.time.impact_step)));
 }
 
 std::string BarRun::description() const {
   const BarResults &r = results_;
   const Section &b = r.bar.bounding;
-  std::string text = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+  std::string text = title_of(scene_);
   text += fmt::format("\n  {} spheres of mean radius {:.4g} mm, {} bonds, packing fraction {:.4f}\n",
                       r.particles, 1e3 * r.bar.mean_radius, r.bonds, r.packing_fraction);
   text += fmt::format("  length {:.4g} mm, ", 1e3 * r.bar.length());
@@ -155,7 +133,9 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
   return signal_ == 0;
 }
 
-void BarRun::finish(const dem::Model &model) {
+void BarRun::finish(const dem::Model &model, const Motion &motion) {
+  results_.steps += motion.steps;
+  results_.energy_residual = std::max(results_.energy_residual, motion.energy_residual);
   results_.broken_tension += model.broken_tension;
   results_.broken_shear += model.broken_shear;
   for (std::size_t k = 0; k < results_.stage_seconds.size(); ++k)
@@ -172,15 +152,13 @@ void BarRun::test_loads() {
     result.at_rest =
         load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
     if (dynamic()) {
-      dem::Model swinging(specimen_, settings_);
-      const double expected = frequency_of(results_.swinging_rod(true), load);
+      dem::Model oscillating(specimen_, settings_);
+      const double expected = frequency_of(results_.oscillating_rod(true), load);
       Clocking clocking{results_.time.step, steps_of(load), 1};
       clocking.every = steps_between_samples(scene_, clocking.step, 1 / (samples_per_period * expected));
-      result.swing = let_go(swinging, results_.bar, load, result.at_rest.state, expected, clocking,
-                            [&](const BarSample &s) { return take(s, load); });
-      results_.steps += result.swing->steps;
-      results_.energy_residual = std::max(results_.energy_residual, result.swing->energy_residual);
-      finish(swinging);
+      result.oscillation = release(oscillating, results_.bar, load, result.at_rest.state, expected, clocking,
+                                   [&](const BarSample &s) { return take(s, load); });
+      finish(oscillating, *result.oscillation);
     }
     result.at_rest.state.displacement.clear();
     result.at_rest.state.turn.clear();
@@ -193,51 +171,42 @@ void BarRun::test_impact() {
   dem::Model struck(specimen_, settings_);
   const double speed = results_.rod(false).wave_speed();
   results_.struck_velocity = scene_.bar_test.strain * speed;
-  Clocking clocking{results_.time.blow_step, steps_of_impact(), 1};
+  Clocking clocking{results_.time.impact_step, steps_of_impact(), 1};
   clocking.every = steps_between_samples(
       scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
   results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,
                            [&](const BarSample &s) { return take(s, BarLoad::impact); });
-  results_.steps += results_.impact->steps;
-  results_.energy_residual = std::max(results_.energy_residual, results_.impact->energy_residual);
-  finish(struck);
+  finish(struck, *results_.impact);
 }
 
-int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &inputs) {
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  };
+int BarRun::carry_out() {
   BarCosts costs;
-  costs.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
-  costs.setup_seconds = seconds();
+  costs.threads = output_.threads();
+  costs.setup_seconds = output_.seconds();
   catch_stop_signals();
-  std::unique_ptr<FolderLock> lock;
-  open_locked(lock, paths_.folder, use, inputs, log_);
-  log_.open(paths_.log(), false, {version_text(), command_.text, costs.threads});
-  log_.info("{}", description());
-  write_stream_aside(paths_.scene(),
-                     [&](std::ostream &out) { write_scene(scene_, paths_.folder.string(), out); });
-  history_ = std::make_unique<CsvWriter>(paths_.history(), bar_columns());
-  progress_ = std::make_unique<Progress>(log_);
+  output_.open();
+  output_.log.info("{}", description());
+  history_ = std::make_unique<CsvWriter>(output_.paths.history(), bar_columns());
+  progress_ = std::make_unique<Progress>(output_.log);
   if (scene_.bar_test.bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
   test_loads();
   test_impact();
   progress_.reset();
-  costs.seconds = seconds();
+  costs.seconds = output_.seconds();
   if (results_.broken_tension + results_.broken_shear > 0)
-    log_.warning(
+    output_.log.warning(
         "{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
         "test/Strain keeps it whole",
         results_.broken_tension + results_.broken_shear);
   const Json summary = summary_of(scene_, results_, costs, signal_ != 0 ? "stopped" : "done");
-  write_summary(paths_.summary(), summary);
-  log_.info("{}", report_of(results_));
+  const std::string report = report_of(results_);
   if (signal_ != 0) {
-    log_.info("stopped by a signal; a bar test keeps no checkpoint");
+    write_summary(output_.paths.summary(), summary);
+    output_.log.info("{}\nstopped by a signal; a bar test keeps no checkpoint", report);
     return exit_status_of_signal(signal_);
   }
-  log_.info("  {:.1f} s; results are in {}", costs.seconds, paths_.folder.string());
-  return tell_expectations(scene_, summary, log_);
+  return output_.finish(summary, fmt::format("{}\n  {:.1f} s; results are in {}", report, costs.seconds,
+                                             output_.paths.folder.string()));
 }
 
 } // namespace
@@ -245,18 +214,14 @@ int BarRun::carry_out(FolderUse use, const std::vector<std::filesystem::path> &i
 int run_bar(const CommandLine &command, const Scene &scene) {
   if (command.resume)
     throw InputError("command line: --resume: a bar test takes minutes and keeps no checkpoint; run it anew");
-  const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
-  std::vector<std::filesystem::path> inputs{command.scene};
-  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
-  if (!command.dry_run) check_output_folder(command.output, use, inputs);
-  const dem::ThreadLimit limit(command.threads);
-  BarRun run(command, scene);
+  AppOutput output(command, scene);
+  BarRun run(scene, output);
   run.measure();
   if (command.dry_run) {
     fmt::print("{}", run.description());
     return status_done;
   }
-  return run.carry_out(use, inputs);
+  return run.carry_out();
 }
 
 } // namespace platen::apps

@@ -3,9 +3,6 @@ set(PLATEN_BAR_SOURCES
   bar/bar.cc
   bar/bar_results.cc
   bar/dynamic_test.cc
-  bar/history.cc
-  bar/moduli.cc
   bar/run_bar.cc
   bar/static_test.cc
-  bar/strength_of_materials.cc
-  bar/summary.cc)
+  bar/strength_of_materials.cc)

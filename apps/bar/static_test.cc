@@ -1,7 +1,59 @@
 #include "apps/bar/static_test.h"
 
+#include <limits>
+
+#include "dem/stable_step.h"
+
 namespace platen::apps {
 namespace {
+
+constexpr double small_strain = 1e-4; // of the solves, which are linear
+
+double mean_axial_stiffness(const dem::Bonds &bonds) {
+  double sum = 0;
+  for (std::size_t row = 0; row < bonds.size(); ++row)
+    sum += bonds.stiffness(row).axial;
+  return sum / static_cast<double>(bonds.size());
+}
+
+// Spheres of an end moved along z by stiff springs, free to slide.
+void hold_along_axis(dem::StaticCase &load, const BarEnd &end, double stiffness, double moved) {
+  for (const std::size_t row : end.rows) {
+    dem::Support support;
+    support.spring.particle = static_cast<int>(row);
+    support.spring.normal = {0, 0, 1};
+    support.spring.normal_stiffness = stiffness;
+    support.moved = {0, 0, moved};
+    load.supports.push_back(support);
+  }
+}
+
+// Strain k of six: the three stretches, then the three shears.
+dem::Tensor unit_strain(std::size_t k) {
+  dem::Tensor e{};
+  if (k < 3) {
+    e[k][k] = small_strain;
+  } else {
+    const std::size_t a = k == 3 ? 1 : 0, b = k == 5 ? 1 : 2;
+    e[a][b] = e[b][a] = small_strain;
+  }
+  return e;
+}
+
+Vector3 product(const dem::Tensor &t, const Vector3 &x) {
+  return {t[0][0] * x.x + t[0][1] * x.y + t[0][2] * x.z, t[1][0] * x.x + t[1][1] * x.y + t[1][2] * x.z,
+          t[2][0] * x.x + t[2][1] * x.y + t[2][2] * x.z};
+}
+
+// The shape with `margin` taken off all round.
+dem::Region inside(const dem::Shape &shape, double margin) {
+  dem::Region region{shape, margin};
+  region.shape.height -= 2 * margin;
+  region.shape.radius -= margin;
+  region.shape.width_x -= 2 * margin;
+  region.shape.width_y -= 2 * margin;
+  return region;
+}
 
 Vector3 across(bool along_x) {
   return along_x ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
@@ -41,8 +93,8 @@ double frequency_of(const Rod &rod, BarLoad load) {
 StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
                     const dem::StaticSettings &settings) {
   dem::StaticCase at_rest;
-  for (const int row : bar.low.rows)
-    at_rest.led.push_back({row, {}, {}});
+  for (const std::size_t row : bar.low.rows)
+    at_rest.led.push_back({static_cast<int>(row), {}, {}});
   if (load == BarLoad::tension) add_force(at_rest, model.particles, bar.high, {0, 0, size});
   if (load == BarLoad::bending) add_force(at_rest, model.particles, bar.high, size * across(bar.along_x));
   if (load == BarLoad::torsion) add_torque(at_rest, model.particles, bar.high, size);
@@ -55,6 +107,46 @@ StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad loa
                   : load == BarLoad::bending ? dot(end.moved, across(bar.along_x))
                                              : end.twist;
   return test;
+}
+
+BarModuli pull_bar(const dem::Model &model, const BarGeometry &bar, const dem::Shape &shape) {
+  const double stiffness = 10 * mean_axial_stiffness(*model.bonds), stretch = small_strain * bar.length();
+  dem::StaticCase load;
+  hold_along_axis(load, bar.low, stiffness, 0);
+  hold_along_axis(load, bar.high, stiffness, stretch);
+  const dem::StaticState state = solve_static(model.particles, *model.bonds, load);
+  double force = 0;
+  for (const std::size_t row : bar.high.rows)
+    force += stiffness * (stretch - state.displacement[row].z);
+  dem::Region middle{shape, 0.25 * shape.height};
+  middle.shape.height *= 0.5;
+  const dem::Tensor strain = mean_strain(middle, model.particles, state.displacement, bar.in_piece);
+  return {force / strain[2][2], -0.5 * (strain[0][0] + strain[1][1]) / strain[2][2]};
+}
+
+dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const dem::Shape &shape) {
+  const double mean_radius = bar.mean_radius;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const dem::Region region = inside(shape, region_margin * mean_radius);
+  const bool round = shape.kind == dem::ShapeKind::cylinder;
+  const double least = mean_radius; // of the region's half-width
+  if (region.shape.height < 2 * least ||
+      (round ? region.shape.radius < least
+             : region.shape.width_x < 2 * least || region.shape.width_y < 2 * least))
+    return {none, none, none};
+  const dem::Particles &p = model.particles;
+  std::array<dem::Tensor, 6> strain, stress;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const dem::Tensor e = unit_strain(k);
+    dem::StaticCase load;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (wall_clearance(shape, p.reference_position[i]) - p.radius[i] <= skin_depth * mean_radius)
+        load.led.push_back({static_cast<int>(i), product(e, p.reference_position[i]), {}});
+    const dem::StaticState state = solve_static(p, *model.bonds, load);
+    strain[k] = mean_strain(region, p, state.displacement, bar.in_piece);
+    stress[k] = mean_stress(region, p, *model.bonds, state.displacement, state.turn);
+  }
+  return dem::isotropic_moduli(strain, stress);
 }
 
 } // namespace platen::apps

@@ -22,18 +22,10 @@ double clamped_free(double b, double r2, double s2) {
 
 } // namespace
 
-double Section::area() const {
-  return round ? pi * radius * radius : width_x * width_y;
-}
-
 double Section::second_moment(bool along_x) const {
   if (round) return 0.25 * pi * radius * radius * radius * radius;
   const double depth = along_x ? width_x : width_y, width = along_x ? width_y : width_x;
   return width * depth * depth * depth / 12;
-}
-
-double Section::polar_moment() const {
-  return second_moment(true) + second_moment(false);
 }
 
 double Section::torsion_constant() const {
@@ -45,45 +37,11 @@ double Section::torsion_constant() const {
   return a * b * b * b * (1.0 / 3 - 64 / std::pow(pi, 5) * (b / a) * sum);
 }
 
-double Section::skin(bool along_x) const {
-  return round ? radius : 0.5 * (along_x ? width_x : width_y);
-}
-
-double Section::shear_factor(double nu) const {
-  return round ? 6 * (1 + nu) / (7 + 6 * nu) : 10 * (1 + nu) / (12 + 11 * nu);
-}
-
 Section section_of_gyration(bool round, double xx, double yy) {
   if (round) return {true, std::sqrt(2 * (xx + yy)), 0, 0};
   return {false, 0, std::sqrt(12 * xx), std::sqrt(12 * yy)};
 }
 
-double Rod::bending_rigidity() const {
-  return axial_rigidity * section.second_moment(along_x) / section.area();
-}
-double Rod::shear_rigidity() const {
-  return section.shear_factor(poisson_ratio) * axial_rigidity / (2 * (1 + poisson_ratio));
-}
-double Rod::torsion_rigidity() const {
-  return axial_rigidity / (2 * (1 + poisson_ratio)) * section.torsion_constant() / section.area();
-}
-
-double Rod::stretch(double force) const {
-  return force * length / axial_rigidity;
-}
-double Rod::deflection(double force) const {
-  return force * length * length * length / (3 * bending_rigidity());
-}
-double Rod::deflection_with_shear(double force) const {
-  return deflection(force) + force * length / shear_rigidity();
-}
-double Rod::twist(double torque) const {
-  return torque * length / torsion_rigidity();
-}
-
-double Rod::axial_frequency() const {
-  return wave_speed() / (4 * length);
-}
 double Rod::bending_frequency() const {
   return first_root * first_root / (2 * pi * length * length) *
          std::sqrt(bending_rigidity() / mass_per_length);
@@ -102,12 +60,4 @@ double Rod::bending_frequency_with_shear() const {
   }
   return 0.5 * (low + high) / (2 * pi * l2) * std::sqrt(bending_rigidity() / mass_per_length);
 }
-double Rod::torsion_frequency() const {
-  const double inertia = mass_per_length * mass_section.polar_moment() / mass_section.area();
-  return std::sqrt(torsion_rigidity() / inertia) / (4 * length);
-}
-double Rod::wave_speed() const {
-  return std::sqrt(axial_rigidity / mass_per_length);
-}
-
 } // namespace platen::apps

@@ -1,6 +1,10 @@
 // A prismatic bar by strength of materials: what the tests of platen-bar are held against. SI units.
 #pragma once
 
+#include <cmath>
+
+#include "base/pi.h"
+
 namespace platen::apps {
 
 // Round, or rectangular. Second moments as the strength of a section and (mass) as its inertia.
@@ -9,14 +13,17 @@ struct Section {
   double radius = 0;               // m, round
   double width_x = 0, width_y = 0; // m, rectangular
 
-  double area() const;                      // m^2
+  double area() const { return round ? pi * radius * radius : width_x * width_y; } // m^2
   double second_moment(bool along_x) const; // m^4, of bending in the x direction, or in y
-  double polar_moment() const;              // m^4
+  double polar_moment() const { return second_moment(true) + second_moment(false); } // m^4
   // m^4: T = G J twist / length. Round: the polar moment; rectangular: Saint-Venant's series.
   double torsion_constant() const;
-  double skin(bool along_x) const; // m, from the axis to the skin
+  // m, from the axis to the skin
+  double skin(bool along_x) const { return round ? radius : 0.5 * (along_x ? width_x : width_y); }
   // Of shear in bending (Cowper 1966).
-  double shear_factor(double poisson_ratio) const;
+  double shear_factor(double nu) const {
+    return round ? 6 * (1 + nu) / (7 + 6 * nu) : 10 * (1 + nu) / (12 + 11 * nu);
+  }
 };
 // With the same mean squares of x and y as a section of mean squares xx and yy (m^2).
 Section section_of_gyration(bool round, double xx, double yy);
@@ -30,23 +37,37 @@ struct Rod {
   double mass_per_length = 0; // kg/m
   Section section;            // that carries forces
   Section mass_section;       // of inertia of rotation
-  bool along_x = true;        // the way in which it is bent
+  bool along_x = true;        // the direction in which it is bent
 
-  double bending_rigidity() const; // N m^2, E I
-  double shear_rigidity() const;   // N, kappa G A
-  double torsion_rigidity() const; // N m^2, G J
+  // E I, N m^2; kappa G A, N; G J, N m^2.
+  double bending_rigidity() const { return axial_rigidity * section.second_moment(along_x) / section.area(); }
+  double shear_rigidity() const {
+    return section.shear_factor(poisson_ratio) * axial_rigidity / (2 * (1 + poisson_ratio));
+  }
+  double torsion_rigidity() const {
+    return axial_rigidity / (2 * (1 + poisson_ratio)) * section.torsion_constant() / section.area();
+  }
 
-  double stretch(double force) const;               // m, of the free end under an axial force (N)
-  double deflection(double force) const;            // m, across; Euler and Bernoulli
-  double deflection_with_shear(double force) const; // m, Timoshenko
-  double twist(double torque) const;                // rad
+  // Of the free end: along under an axial force (N), across by Euler and Bernoulli and by Timoshenko, m; rad.
+  double stretch(double force) const { return force * length / axial_rigidity; }
+  double deflection(double force) const {
+    return force * length * length * length / (3 * bending_rigidity());
+  }
+  double deflection_with_shear(double force) const {
+    return deflection(force) + force * length / shear_rigidity();
+  }
+  double twist(double torque) const { return torque * length / torsion_rigidity(); }
 
+  // Of long axial waves, m/s.
+  double wave_speed() const { return std::sqrt(axial_rigidity / mass_per_length); }
   // Lowest frequencies, 1/s.
-  double axial_frequency() const;              // c / 4 l
-  double bending_frequency() const;            // Euler and Bernoulli
+  double axial_frequency() const { return wave_speed() / (4 * length); } // c / 4 l
+  double bending_frequency() const;                                      // Euler and Bernoulli
   double bending_frequency_with_shear() const; // Timoshenko, shear and inertia of rotation
-  double torsion_frequency() const;
-  double wave_speed() const; // m/s, of long axial waves
+  double torsion_frequency() const {
+    const double inertia = mass_per_length * mass_section.polar_moment() / mass_section.area();
+    return std::sqrt(torsion_rigidity() / inertia) / (4 * length);
+  }
 };
 
 } // namespace platen::apps

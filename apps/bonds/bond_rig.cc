@@ -17,16 +17,16 @@ namespace {
 constexpr double at_rest = 1e-8;     // imbalance over the largest load
 constexpr double round_off = 1e-15;  // of the force at a stretch of one radius: forces cannot be told closer
 constexpr long most_steps = 5000000; // until at rest
-constexpr int steps_between_looks = 20; // at the imbalance
-constexpr int steps_of_a_move = 40;     // in which a prescribed displacement is gone through
-constexpr double bonded_gap = 1e-9;     // of the radius: spheres touch, whatever Bond/Gap allows beyond that
-constexpr double base_clearance = 1e-6; // of the radius, between base spheres without a bond
+constexpr int steps_between_checks = 20; // at the imbalance
+constexpr int steps_of_a_move = 40;      // in which a prescribed displacement is gone through
+constexpr double bonded_gap = 1e-9;      // of the radius: spheres touch, whatever Bond/Gap allows beyond that
+constexpr double base_clearance = 1e-6;  // of the radius, between base spheres without a bond
+
+} // namespace
 
 bool is_pyramid(const Scene &scene) {
   return scene.pair_test.particles == 3;
 }
-
-} // namespace
 
 dem::Specimen touching_spheres(const Scene &scene) {
   const double r = scene.specimen.sphere_radius;
@@ -81,34 +81,30 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
 BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
     : scene_(scene),
       section_(section_of(rig_settings(scene, modulus, stiffness_ratio), scene.specimen.sphere_radius)),
-      rotation_(scene.model.rotation),
+      coordinates_(scene.model.rotation ? 6 : 3),
+      rolls_(is_pyramid(scene) && scene.pair_test.plate == PairPlate::rolling),
       model_(touching_spheres(scene), rig_settings(scene, modulus, stiffness_ratio)) {
   const std::size_t spheres = model_.particles.size();
   row_.resize(spheres);
   loads_.resize(spheres);
   for (std::size_t k = 0; k < spheres; ++k)
     row_[static_cast<std::size_t>(model_.particles.id[k])] = k;
-  held_.assign(spheres, {true, true, true, true, true, true});
+  fixed_.assign(spheres, {true, true, true, true, true, true});
   const auto set_free = [&](std::size_t sphere, std::initializer_list<std::size_t> coordinates) {
     for (const std::size_t c : coordinates)
-      held_[sphere][c] = false;
+      fixed_[sphere][c] = false;
   };
+  const PairPath path = scene.pair_test.path;
   if (is_pyramid(scene)) {
-    driven_ = 2;
     if (scene.pair_test.plate != PairPlate::sticking)
       for (const std::size_t base : {1u, 2u})
         set_free(base, {0, 4});
-  } else if (scene.pair_test.path == PairPath::shear) {
-    driven_ = 0;
+  } else if (path == PairPath::shear || path == PairPath::twisting) {
+    driven_ = path == PairPath::shear ? 0 : 5;
     set_free(0, {2});
-  } else if (scene.pair_test.path == PairPath::bending) {
+  } else if (path == PairPath::bending) {
     driven_ = 4;
     set_free(0, {0, 2});
-  } else if (scene.pair_test.path == PairPath::twisting) {
-    driven_ = 5;
-    set_free(0, {2});
-  } else {
-    driven_ = 2;
   }
   set_free(0, {driven_});
   bonds_at_start_ = static_cast<int>(model_.intact_bonds());
@@ -118,40 +114,42 @@ BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
 // Set at the start; made smaller where a contact that has closed is stiffer than what was there.
 void BondRig::check_time_step() {
   const dem::StableStep stable = model_.stable_step({}, 0);
-  const double wanted = scene_.integration.time_step, safe = scene_.integration.safety * stable.limit;
+  const double wanted = scene_.time_step.fixed_step, safe = scene_.time_step.safety * stable.limit;
   if (dt_ == 0 && wanted > stable.limit)
     scene_.parameters->refuse("Integration/Time step", fmt::format("is above the limit of {:.4g} s: {}.",
                                                                    stable.limit, stable.reason));
   if (dt_ == 0) {
     dt_ = wanted > 0 ? wanted : safe;
-    reason_ = wanted > 0 ? "as the scene sets it"
-                         : fmt::format("{} x {}", scene_.integration.safety, stable.reason);
+    reason_ =
+        wanted > 0 ? "as the scene sets it" : fmt::format("{} x {}", scene_.time_step.safety, stable.reason);
   }
   if (dt_ > stable.limit) dt_ = safe;
+}
+
+double &BondRig::speed(std::size_t sphere, std::size_t c) {
+  dem::Particles &p = model_.particles;
+  return (c < 3 ? p.velocity : *p.angular_velocity)[row_[sphere]][static_cast<int>(c % 3)];
+}
+
+double &BondRig::load(std::size_t sphere, std::size_t c) {
+  dem::Particles &p = model_.particles;
+  return (c < 3 ? p.force : *p.torque)[row_[sphere]][static_cast<int>(c % 3)];
 }
 
 // What bonds and contacts exert, as it stands after compute_forces: the rig has no weight, and its few
 // spheres are one block, so that nothing waits in ghosts.
 void BondRig::take_loads() {
-  const dem::Particles &p = model_.particles;
   for (std::size_t s = 0; s < row_.size(); ++s)
-    loads_[s] = {p.force[row_[s]], rotation_ ? (*p.torque)[row_[s]] : Vector3{}};
+    for (std::size_t c = 0; c < coordinates_; ++c)
+      loads_[s][c] = load(s, c);
 }
-
-namespace {
-
-double component(const Vector3 &linear, const Vector3 &angular, std::size_t coordinate) {
-  return coordinate < 3 ? linear[static_cast<int>(coordinate)] : angular[static_cast<int>(coordinate) - 3];
-}
-
-} // namespace
 
 // What the rig has to put on the driven coordinate to hold it.
 double BondRig::driven_load() const {
-  return 0.0 - component(loads_[0].force, loads_[0].torque, driven_);
+  return 0.0 - loads_[0][driven_];
 }
 
-double BondRig::driven_place() const {
+double BondRig::driven_displacement() const {
   const dem::Particles &p = model_.particles;
   const std::size_t i = row_[0];
   if (driven_ < 3) return (p.position[i] - p.reference_position[i])[static_cast<int>(driven_)];
@@ -160,50 +158,35 @@ double BondRig::driven_place() const {
 }
 
 // The plate's friction X at the foot of each base sphere, such that it rolls without slip: v_x = R w_y.
-void BondRig::roll(dem::Particles &p) const {
+void BondRig::roll() {
+  const dem::Particles &p = model_.particles;
   for (const std::size_t base : {1u, 2u}) {
     const std::size_t i = row_[base];
     const double r = p.radius[i], m = p.mass[i], inertia = (*p.inertia)[i];
-    const double friction =
-        (r * loads_[base].torque.y / inertia - loads_[base].force.x / m) / (1 / m + r * r / inertia);
-    p.force[i].x += friction;
-    (*p.torque)[i].y -= r * friction;
+    const double friction = (r * loads_[base][4] / inertia - loads_[base][0] / m) / (1 / m + r * r / inertia);
+    load(base, 0) += friction;
+    load(base, 4) -= r * friction;
   }
 }
 
-void BondRig::hold_coordinates() {
-  dem::Particles &p = model_.particles;
-  const auto set = [&](std::size_t sphere, std::size_t c, double speed) {
-    const std::size_t i = row_[sphere];
-    if (c < 3) {
-      p.velocity[i][static_cast<int>(c)] = speed;
-      p.force[i][static_cast<int>(c)] = 0;
-    } else if (rotation_) {
-      (*p.angular_velocity)[i][static_cast<int>(c) - 3] = speed;
-      (*p.torque)[i][static_cast<int>(c) - 3] = 0;
-    }
-  };
-  for (std::size_t s = 0; s < held_.size(); ++s)
-    for (std::size_t c = 0; c < 6; ++c)
-      if (held_[s][c]) set(s, c, 0);
-  if (!by_load_) set(0, driven_, drive_speed_);
+void BondRig::prescribe_coordinates() {
+  for (std::size_t s = 0; s < fixed_.size(); ++s)
+    for (std::size_t c = 0; c < coordinates_; ++c)
+      if (fixed_[s][c]) speed(s, c) = load(s, c) = 0;
+  if (by_load_) return;
+  speed(0, driven_) = drive_speed_;
+  load(0, driven_) = 0;
 }
 
 void BondRig::step() {
-  hold_coordinates();
+  prescribe_coordinates();
   model_.begin_step(dt_);
   model_.compute_forces(dt_);
   take_loads();
-  if (by_load_) {
-    dem::Particles &p = model_.particles;
-    if (driven_ < 3)
-      p.force[row_[0]][static_cast<int>(driven_)] += applied_;
-    else
-      (*p.torque)[row_[0]][static_cast<int>(driven_) - 3] += applied_;
-  }
-  if (is_pyramid(scene_) && scene_.pair_test.plate == PairPlate::rolling) roll(model_.particles);
+  if (by_load_) load(0, driven_) += applied_;
+  if (rolls_) roll();
   model_.end_step(dt_);
-  hold_coordinates();
+  prescribe_coordinates();
   ++steps_;
   const std::size_t touching = model_.contacts ? model_.contacts->touching_count() : 0;
   if (touching != touching_) check_time_step();
@@ -213,15 +196,14 @@ void BondRig::step() {
 // Largest load on a free coordinate, N; moments over the radius.
 double BondRig::imbalance() const {
   const double r = section_.sphere_radius;
-  const bool rolling = is_pyramid(scene_) && scene_.pair_test.plate == PairPlate::rolling;
   double largest = 0;
-  for (std::size_t s = 0; s < held_.size(); ++s)
-    for (std::size_t c = 0; c < (rotation_ ? 6u : 3u); ++c) {
-      if (held_[s][c] || (s == 0 && c == driven_ && !by_load_)) continue;
-      double load = component(loads_[s].force, loads_[s].torque, c);
+  for (std::size_t s = 0; s < fixed_.size(); ++s)
+    for (std::size_t c = 0; c < coordinates_; ++c) {
+      if (fixed_[s][c] || (s == 0 && c == driven_ && !by_load_)) continue;
+      double load = loads_[s][c];
       if (s == 0 && c == driven_) load += applied_;
       if (c > 2) load /= r;
-      if (rolling && s > 0) load = loads_[s].force.x + loads_[s].torque.y / r; // one coordinate, two parts
+      if (rolls_ && s > 0) load = loads_[s][0] + loads_[s][4] / r; // one coordinate, two parts
       largest = std::max(largest, std::abs(load));
     }
   return largest;
@@ -233,11 +215,11 @@ RigReading BondRig::settle() {
   for (long n = 1; n <= most_steps; ++n) {
     step();
     if (by_load_ && model_.intact_bonds() < intact) return read(); // nothing is left that could hold the load
-    if (n % steps_between_looks != 0) continue;
+    if (n % steps_between_checks != 0) continue;
     if (model_.intact_bonds() == 0 && touching_ == 0) { // nothing acts any more: where it is, it stays
       for (Vector3 &v : model_.particles.velocity)
         v = {};
-      if (rotation_)
+      if (coordinates_ > 3)
         for (Vector3 &w : *model_.particles.angular_velocity)
           w = {};
       return read();
@@ -262,7 +244,7 @@ RigReading BondRig::load_to(double load) {
 
 RigReading BondRig::move_to(double displacement) {
   by_load_ = false;
-  drive_speed_ = (displacement - driven_place()) / (steps_of_a_move * dt_);
+  drive_speed_ = (displacement - driven_displacement()) / (steps_of_a_move * dt_);
   for (int n = 0; n < steps_of_a_move; ++n)
     step();
   drive_speed_ = 0;
@@ -274,7 +256,7 @@ RigReading BondRig::read() const {
   RigReading r;
   const double load = by_load_ ? applied_ : driven_load();
   (driven_ < 3 ? r.force : r.moment) = load;
-  (driven_ < 3 ? r.displacement : r.rotation) = driven_place();
+  (driven_ < 3 ? r.displacement : r.rotation) = driven_displacement();
   r.intact = static_cast<int>(model_.intact_bonds());
   const dem::Bonds &b = *model_.bonds;
   for (std::size_t k = 0; k < b.size(); ++k) {

@@ -1,5 +1,5 @@
-// The testing machine of platen-bonds: two or three bonded spheres, held and driven along one coordinate,
-// brought to rest at every load by the explicit scheme with local damping.
+// The testing machine of platen-bonds: two or three bonded spheres, fixed but for what a test frees and
+// driven along one coordinate, brought to rest at every load by the explicit scheme with local damping.
 #pragma once
 
 #include <array>
@@ -25,6 +25,7 @@ struct RigReading {
   double utilisation() const { return tension_ratio > shear_ratio ? tension_ratio : shear_ratio; }
 };
 
+bool is_pyramid(const Scene &scene); // three spheres
 // Sphere 0 is driven. Two: sphere 1 below it. Three: on spheres 1 and 2 that lie on the plate.
 dem::Specimen touching_spheres(const Scene &scene);
 // The scene's, for one pair of bond modulus (Pa) and stiffness ratio.
@@ -51,30 +52,28 @@ public:
 
 private:
   // Coordinate of a sphere: 0, 1, 2 displacement along x, y, z; 3, 4, 5 rotation about them.
-  using Coordinates = std::array<bool, 6>;
-  struct Load {
-    Vector3 force, torque;
-  };
-
-  void hold_coordinates();
+  double &speed(std::size_t sphere, std::size_t coordinate);
+  double &load(std::size_t sphere, std::size_t coordinate);
+  void prescribe_coordinates();
   void step();
   RigReading settle();
   RigReading read() const;
   double imbalance() const;
   void take_loads();
   double driven_load() const;
-  double driven_place() const;
-  void roll(dem::Particles &particles) const;
+  double driven_displacement() const;
+  void roll();
   void check_time_step();
 
   const Scene &scene_;
   BondSection section_;
-  bool rotation_;
+  std::size_t coordinates_; // of a sphere; three without rotation
+  bool rolls_;              // the base spheres, on the plate
   dem::Model model_;
-  std::vector<std::size_t> row_; // of sphere 0 (driven), 1 and 2
-  std::vector<Load> loads_;      // of the same, by bonds and contacts, in the last step
-  std::vector<Coordinates> held_;
-  std::size_t driven_ = 0; // coordinate of sphere 0
+  std::vector<std::size_t> row_;             // of sphere 0 (driven), 1 and 2
+  std::vector<std::array<double, 6>> loads_; // of the same, by bonds and contacts, in the last step
+  std::vector<std::array<bool, 6>> fixed_;
+  std::size_t driven_ = 2; // coordinate of sphere 0
   double applied_ = 0, drive_speed_ = 0, scale_ = 0;
   bool by_load_ = true;
   double dt_ = 0;

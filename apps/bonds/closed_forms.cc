@@ -13,60 +13,23 @@ const double root3 = std::sqrt(3.0);
 
 } // namespace
 
-double BondSection::area() const {
-  return pi * bond_radius * bond_radius;
-}
-
-double BondSection::bending_stiffness() const {
-  return modulus / length() * area() * bond_radius * bond_radius / 4; // I = A R_b^2 / 4
-}
-
-double BondSection::shear_ratio() const {
-  return beam ? 3 * bond_radius * bond_radius / (length() * length()) : stiffness_ratio; // 12 I / (A l^2)
-}
-
-double BondSection::twisting_stiffness() const {
-  if (beam) return bending_stiffness() / (1 + poisson_ratio);                           // G I_o / l
-  return stiffness_ratio * modulus / length() * area() * bond_radius * bond_radius / 2; // J = A R_b^2 / 2
-}
-
 double pair_stiffness(const BondSection &bond, PairPath path) {
-  switch (path) {
-    case PairPath::shear:
-      return bond.shear_stiffness();
-    case PairPath::bending:
-      return bond.bending_stiffness();
-    case PairPath::twisting:
-      return bond.twisting_stiffness();
-    case PairPath::tension:
-    case PairPath::compression:
-    case PairPath::cyclic:
-    case PairPath::combined: // of bonds that remember alone: interface_forms.h
-      break;
-  }
+  if (path == PairPath::shear) return bond.shear_stiffness();
+  if (path == PairPath::bending) return bond.bending_stiffness();
+  if (path == PairPath::twisting) return bond.twisting_stiffness();
   return bond.axial_stiffness();
 }
 
 double pair_strength(const BondSection &bond, PairPath path) {
-  switch (path) {
-    case PairPath::shear: // spheres held upright bend a beam: at each end P l / 2
-      if (bond.beam)
-        return std::min(bond.shear_strength * bond.area(),
-                        bond.tensile_strength * bond.area() * bond.bond_radius /
-                            (2 * bond.moment_contribution * bond.length()));
-      return bond.shear_strength * bond.area();
-    case PairPath::bending: // sigma_c I / (beta R_b)
-      return bond.tensile_strength * bond.area() * bond.bond_radius / (4 * bond.moment_contribution);
-    case PairPath::twisting: // tau_c J / (beta R_b)
-      return bond.shear_strength * bond.area() * bond.bond_radius / (2 * bond.moment_contribution);
-    case PairPath::compression:
-      return std::numeric_limits<double>::infinity();
-    case PairPath::tension:
-    case PairPath::cyclic:
-    case PairPath::combined: // of bonds that remember alone: interface_forms.h
-      break;
-  }
-  return bond.tensile_strength * bond.area();
+  const double tension = bond.tensile_strength * bond.area(), shear = bond.shear_strength * bond.area();
+  if (path == PairPath::shear && bond.beam) // spheres held upright bend a beam: at each end P l / 2
+    return std::min(shear, tension * bond.bond_radius / (2 * bond.moment_contribution * bond.length()));
+  if (path == PairPath::shear) return shear;
+  if (path == PairPath::bending) // sigma_c I / (beta R_b)
+    return tension * bond.bond_radius / (4 * bond.moment_contribution);
+  if (path == PairPath::twisting) // tau_c J / (beta R_b)
+    return shear * bond.bond_radius / (2 * bond.moment_contribution);
+  return path == PairPath::compression ? std::numeric_limits<double>::infinity() : tension;
 }
 
 // Base sphere at (R, 0), top sphere at (0, sqrt(3) R); the base sphere moves out by u and rolls outwards by

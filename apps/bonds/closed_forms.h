@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/scene/scene.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 
@@ -17,12 +18,19 @@ struct BondSection {
   double moment_contribution = 1;
 
   double length() const { return 2 * sphere_radius; }                    // m
-  double area() const;                                                   // m^2
+  double area() const { return pi * bond_radius * bond_radius; }         // m^2
   double axial_stiffness() const { return modulus * area() / length(); } // k_n A, N/m
-  double shear_ratio() const;                                            // K_s / (k_n A)
+  double shear_ratio() const { // K_s / (k_n A); of a beam 12 I / (A l^2)
+    return beam ? 3 * bond_radius * bond_radius / (length() * length()) : stiffness_ratio;
+  }
   double shear_stiffness() const { return shear_ratio() * axial_stiffness(); }
-  double bending_stiffness() const;  // k_n I, N m
-  double twisting_stiffness() const; // k_s J, or G I_o / l of a beam; N m
+  double bending_stiffness() const { // k_n I, N m; I = A R_b^2 / 4
+    return modulus / length() * area() * bond_radius * bond_radius / 4;
+  }
+  double twisting_stiffness() const { // k_s J, N m; of a beam G I_o / l; J = A R_b^2 / 2
+    if (beam) return bending_stiffness() / (1 + poisson_ratio);
+    return stiffness_ratio * modulus / length() * area() * bond_radius * bond_radius / 2;
+  }
 };
 
 // Two spheres, the first held. Stiffness of the path (N/m; N m for bending and twisting).

@@ -16,14 +16,6 @@ double share(const SofteningByHand &of, double farthest) {
 
 } // namespace
 
-double SofteningByHand::end() const {
-  return limit() * (1 + softening);
-}
-
-double SofteningByHand::fracture_energy() const {
-  return 0.5 * strength * (end() - limit());
-}
-
 SofteningByHand InterfaceSection::tension() const {
   const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
   SofteningByHand s{dem::never_if_zero(p.tensile_strength), normal_stiffness(), p.softening_tension};
@@ -86,10 +78,6 @@ double InterfaceByHand::shear_damage() const {
   return share(section_.shear(pressure()), farthest_);
 }
 
-double InterfaceByHand::damage() const {
-  return std::max(tension_damage(), shear_damage());
-}
-
 // Shares of stress that cohesion holds at the present opening and slip, and what friction adds.
 InterfaceByHand::Stresses InterfaceByHand::stresses() const {
   Stresses s;
@@ -130,9 +118,9 @@ void InterfaceByHand::update() {
 std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
   const double opened = to.opening - at_.opening, slipped = to.slip - at_.slip;
   std::vector<double> shares;
-  const auto at = [&](double place, double from, double way) {
-    if (way == 0 || !std::isfinite(place)) return;
-    const double k = (place - from) / way;
+  const auto at = [&](double place, double from, double distance) {
+    if (distance == 0 || !std::isfinite(place)) return;
+    const double k = (place - from) / distance;
     if (k > 0 && k < 1) shares.push_back(k);
   };
   const auto opening = [&](double place) { at(place, at_.opening, opened); };

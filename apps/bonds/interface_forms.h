@@ -1,7 +1,9 @@
-// What an elasto-damage-plastic bond between two spheres does that are led, by hand: strengths, displacements
-// and fracture energies of theory 2.6 as straight lines, of which the law itself knows nothing.
+// What an elasto-damage-plastic bond between two spheres does that are moved from place to place, by hand:
+// strengths, displacements and fracture energies of theory 2.6 as straight lines, of which the law itself
+// knows nothing.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "dem/laws/elasto_damage_plastic.h"
@@ -14,9 +16,10 @@ struct SofteningByHand {
   double stiffness = 0; // Pa/m
   double softening = 0; // u_f / u_l - 1
 
-  double limit() const { return strength / stiffness; } // u_l, m, where damage begins
-  double end() const;                                   // u_f, m, where nothing is left
-  double fracture_energy() const;                       // J/m^2, area under the softening branch
+  double limit() const { return strength / stiffness; }    // u_l, m, where damage begins
+  double end() const { return limit() * (1 + softening); } // u_f, m, where nothing is left
+  // J/m^2, area under the softening branch.
+  double fracture_energy() const { return 0.5 * strength * (end() - limit()); }
 };
 
 struct InterfaceSection {
@@ -33,7 +36,7 @@ struct InterfaceSection {
   double closing_at(double stress) const;       // m, inverse of the same
 };
 
-// One bond on its way. Places are absolute; ways between them are straight and are to end at the kinks.
+// One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
 struct InterfacePlace {
   double opening = 0, slip = 0; // m
 };
@@ -47,7 +50,7 @@ public:
   // slip only under compression that stays.
   explicit InterfaceByHand(const InterfaceSection &section, bool combined = false, double slip_ratio = 0);
 
-  // Where on the way from here the lines bend, as shares of the way above 0 and below 1, ascending; on both
+  // Where on the path from here the lines bend, as shares of it above 0 and below 1, ascending; on both
   // sides of a failure.
   std::vector<double> kinks(const InterfacePlace &to) const;
   void go(const InterfacePlace &to);
@@ -55,7 +58,7 @@ public:
   double stored() const;                                 // J
   double work() const { return work_; }                  // J, area under the lines so far
   double dissipated() const { return work_ - stored(); } // J
-  double damage() const;                                 // of both directions the larger
+  double damage() const { return std::max(tension_damage(), shear_damage()); } // of both directions
 
 private:
   struct Used {

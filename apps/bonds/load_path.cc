@@ -7,7 +7,7 @@
 namespace platen::apps {
 namespace {
 
-// A load that is put on at once swings beyond itself, to twice its step where nothing damps it: a step takes
+// A load that is put on at once overshoots, to twice its step where nothing damps it: a step takes
 // up less than half of the strength that is left, but not less than the accuracy of the breaking load.
 constexpr double share_of_reserve = .4, finest_step = 2e-4;
 constexpr double first_step = 1e-3; // of the largest load, until a bond's utilisation tells how far it may go
@@ -45,8 +45,8 @@ private:
   void go_to(double goal) {
     while (at_ != goal && !over_) {
       const double further = std::abs(goal) > std::abs(at_) ? reach() : std::abs(goal - at_);
-      const double way = goal - at_;
-      const double next = std::abs(way) <= further ? goal : at_ + std::copysign(further, way);
+      const double left = goal - at_;
+      const double next = std::abs(left) <= further ? goal : at_ + std::copysign(further, left);
       const RigReading before = now_;
       now_ = by_load_ ? rig_.load_to(next * peak_) : rig_.move_to(next * peak_);
       at_ = next;
@@ -87,19 +87,9 @@ private:
 } // namespace
 
 std::vector<double> turning_points(const PairTest &test) {
-  switch (test.path) {
-    case PairPath::compression:
-      return {-1};
-    case PairPath::cyclic:
-      return test.particles == 3 ? std::vector<double>{-.5, 0, -1} : std::vector<double>{.5, 0, -.5, 0, 1};
-    case PairPath::tension:
-    case PairPath::shear:
-    case PairPath::bending:
-    case PairPath::twisting:
-    case PairPath::combined:
-      break;
-  }
-  return {1};
+  if (test.path == PairPath::compression) return {-1};
+  if (test.path != PairPath::cyclic) return {1};
+  return test.particles == 3 ? std::vector<double>{-.5, 0, -1} : std::vector<double>{.5, 0, -.5, 0, 1};
 }
 
 PathResult follow_path(BondRig &rig, const Scene &scene) {

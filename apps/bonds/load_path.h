@@ -1,4 +1,4 @@
-// The way that a bond test goes: up, and back where it is cyclic, in steps that grow small before a bond
+// The path that a bond test follows: up, and back where it is cyclic, in steps that grow small before a bond
 // breaks.
 #pragma once
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bonds/interface_path.h"
+#include "apps/bonds/interface_test.h"
 #include "apps/bonds/load_path.h"
 #include "apps/scene/command_line.h"
 
@@ -14,7 +14,7 @@ namespace platen::apps {
 struct BondRun {
   double modulus = 0, stiffness_ratio = 0; // Pa, 1
   PathResult path;
-  InterfaceResult led; // only of a bond that remembers
+  InterfaceResult interface; // only of a bond that remembers
   long steps = 0;
   double time_step = 0; // s
   std::string time_step_reason;
@@ -27,19 +27,13 @@ struct BondRun {
   // The same by closed forms: stiffness (N/m or N m), breaking load (N or N m; infinite, or NaN where none is
   // known) and strain ratio (three spheres, else NaN).
   double stiffness_by_hand = 0, strength_by_hand = 0, strain_ratio_by_hand = 0;
+
+  void add(const dem::Model &model, long steps_made); // what the model counts
 };
 
 // Runs every combination of the scene's moduli and stiffness ratios. Throws InputError where the scene asks
 // for what this test cannot do, NumericsError where the spheres do not come to rest.
 std::vector<BondRun> run_bond_tests(const Scene &scene);
-
-// Columns of bonds.csv that all bonds have.
-const std::vector<std::string> &bond_columns();
-
-// What the closed form gives for a row: displacement (m) or rotation (rad) under the row's load of two
-// spheres, the strain ratio of three; NaN once a bond has broken.
-double row_by_hand(const Scene &scene, const BondRun &run, const RigReading &row);
-double row_measured(const Scene &scene, const RigReading &row);
 
 // The whole app: output folder, bonds.csv, summary.json, log; returns the exit status.
 int run_bonds(const CommandLine &command, const Scene &scene);

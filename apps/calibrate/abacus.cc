@@ -1,23 +1,11 @@
-#include "apps/calibrate/abacus.h"
-
-#include "apps/calibrate/seeds.h"
-#include "apps/io/seed_statistics.h"
+#include "apps/calibrate/search.h"
 
 namespace platen::apps {
 namespace {
 
-const std::vector<std::string> columns{"seed",
-                                       "bond_modulus_pa",
-                                       "stiffness_ratio",
-                                       "radius_multiplier",
-                                       "bond_poisson",
-                                       "youngs_modulus_gauge_pa",
-                                       "youngs_modulus_platen_pa",
-                                       "poisson_ratio",
-                                       "voigt_modulus_pa",
-                                       "voigt_poisson",
-                                       "reuss_modulus_pa",
-                                       "reuss_poisson"};
+constexpr const char *columns =
+    "seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,youngs_modulus_gauge_pa,"
+    "youngs_modulus_platen_pa,poisson_ratio,voigt_modulus_pa,voigt_poisson,reuss_modulus_pa,reuss_poisson";
 
 std::vector<double> or_own(const std::vector<double> &list, double own) {
   return list.empty() ? std::vector<double>{own} : list;
@@ -55,7 +43,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     }
   const std::vector<TrialResult> results = trials(asked);
 
-  WholeTable table(paths.folder / "abacus.csv", columns);
+  WholeTable table(paths.folder / "abacus.csv", cells_of(columns));
   Json rows = Json::array();
   log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");

@@ -17,7 +17,7 @@ constexpr double known_weight = 1e6;
 constexpr double reach = 0.2;
 // Of the square of the step, beside the responses': of steps that do the same, the shortest.
 constexpr double shortness = 1e-4;
-// Knobs nearer than that are the same; NLopt is asked for more.
+// Parameters nearer than that are the same; NLopt is asked for more.
 constexpr double same = 1e-3, precision = 1e-7;
 
 struct Fit {
@@ -39,17 +39,18 @@ double sum_of_squares(const std::vector<double> &x, std::vector<double> &gradien
 
 } // namespace
 
-ResponseModel::ResponseModel(std::vector<Knob> knobs, Eigen::MatrixXd guess)
-    : knobs_(std::move(knobs)), guess_(std::move(guess)) {}
+ResponseModel::ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess)
+    : parameters_(std::move(parameters)), guess_(std::move(guess)) {}
 
-void ResponseModel::add(const Eigen::VectorXd &knobs, const Eigen::VectorXd &responses) {
-  tried_.push_back({knobs, responses});
+void ResponseModel::add(const Eigen::VectorXd &parameters, const Eigen::VectorXd &responses) {
+  tried_.push_back({parameters, responses});
 }
 
 Eigen::VectorXd ResponseModel::start() const {
-  Eigen::VectorXd x(knobs_.size());
-  for (std::size_t k = 0; k < knobs_.size(); ++k)
-    x[static_cast<Eigen::Index>(k)] = std::clamp(knobs_[k].start, knobs_[k].low, knobs_[k].high);
+  Eigen::VectorXd x(parameters_.size());
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    x[static_cast<Eigen::Index>(k)] =
+        std::clamp(parameters_[k].start, parameters_[k].low, parameters_[k].high);
   return x;
 }
 
@@ -63,17 +64,17 @@ std::size_t ResponseModel::best() const {
 // Least squares over the differences to the best trial, with the guess as one more observation (ridge).
 Eigen::MatrixXd ResponseModel::slopes() const {
   const Tried &from = tried_.at(best());
-  const auto size = static_cast<Eigen::Index>(knobs_.size());
+  const auto size = static_cast<Eigen::Index>(parameters_.size());
   Eigen::VectorXd weights(size);
   for (Eigen::Index k = 0; k < size; ++k)
-    weights[k] = knobs_[static_cast<std::size_t>(k)].known ? known_weight : guess_weight;
+    weights[k] = parameters_[static_cast<std::size_t>(k)].known ? known_weight : guess_weight;
   Eigen::MatrixXd left = weights.asDiagonal();
   Eigen::MatrixXd right = weights.asDiagonal() * guess_.transpose();
   for (const Tried &t : tried_) {
-    const Eigen::VectorXd d = t.knobs - from.knobs;
+    const Eigen::VectorXd d = t.parameters - from.parameters;
     double far = 0;
     for (Eigen::Index k = 0; k < size; ++k)
-      if (!knobs_[static_cast<std::size_t>(k)].known) far += d[k] * d[k];
+      if (!parameters_[static_cast<std::size_t>(k)].known) far += d[k] * d[k];
     const double weight = 1 / (1 + far / (reach * reach));
     left += weight * d * d.transpose();
     right += weight * d * (t.responses - from.responses).transpose();
@@ -83,11 +84,11 @@ Eigen::MatrixXd ResponseModel::slopes() const {
 
 std::optional<Eigen::VectorXd> ResponseModel::next() const {
   const Tried &from = tried_.at(best());
-  Fit fit{slopes(), from.knobs, from.responses};
-  std::vector<double> low, high, x(from.knobs.data(), from.knobs.data() + from.knobs.size());
-  for (std::size_t k = 0; k < knobs_.size(); ++k) {
-    low.push_back(std::max(knobs_[k].low, x[k] - knobs_[k].step));
-    high.push_back(std::min(knobs_[k].high, x[k] + knobs_[k].step));
+  Fit fit{slopes(), from.parameters, from.responses};
+  std::vector<double> low, high, x(from.parameters.data(), from.parameters.data() + from.parameters.size());
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    low.push_back(std::max(parameters_[k].low, x[k] - parameters_[k].step));
+    high.push_back(std::min(parameters_[k].high, x[k] + parameters_[k].step));
   }
   nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(x.size()));
   search.set_lower_bounds(low);
@@ -102,7 +103,7 @@ std::optional<Eigen::VectorXd> ResponseModel::next() const {
   }
   Eigen::VectorXd to = Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   for (const Tried &t : tried_)
-    if ((t.knobs - to).lpNorm<Eigen::Infinity>() < same) return std::nullopt;
+    if ((t.parameters - to).lpNorm<Eigen::Infinity>() < same) return std::nullopt;
   return to;
 }
 

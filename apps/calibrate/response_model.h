@@ -11,8 +11,8 @@
 
 namespace platen::apps {
 
-// What the search may turn, in units of which one is a large change.
-struct Knob {
+// What the search may change, in units of which one is a large change.
+struct SearchParameter {
   double start = 0, low = 0, high = 0;
   double step = 0;    // most between the best trial and the next
   bool known = false; // the guess is exact: trials do not change it
@@ -20,12 +20,12 @@ struct Knob {
 
 class ResponseModel {
 public:
-  // `guess`: change of each response (row) with each knob (column). Starts beyond the bounds are moved to
-  // them.
-  ResponseModel(std::vector<Knob> knobs, Eigen::MatrixXd guess);
+  // `guess`: change of each response (row) with each parameter (column). Starts beyond the bounds are moved
+  // to them.
+  ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess);
 
   // A trial and its responses: zero is what is wanted.
-  void add(const Eigen::VectorXd &knobs, const Eigen::VectorXd &responses);
+  void add(const Eigen::VectorXd &parameters, const Eigen::VectorXd &responses);
 
   Eigen::VectorXd start() const;
   // Where the model has its least sum of squares, a step about the best trial; nothing where that has been
@@ -36,9 +36,9 @@ public:
 
 private:
   struct Tried {
-    Eigen::VectorXd knobs, responses;
+    Eigen::VectorXd parameters, responses;
   };
-  std::vector<Knob> knobs_;
+  std::vector<SearchParameter> parameters_;
   Eigen::MatrixXd guess_;
   std::vector<Tried> tried_;
 };

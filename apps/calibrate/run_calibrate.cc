@@ -3,86 +3,29 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
-#include "apps/calibrate/abacus.h"
 #include "apps/calibrate/search.h"
-#include "apps/calibrate/trials.h"
 #include "apps/io/file.h"
-#include "apps/io/folder_lock.h"
 #include "apps/io/machine.h"
-#include "apps/io/output_folder.h"
 #include "apps/io/stop_signal.h"
-#include "apps/io/summary.h"
-#include "apps/run/expectations.h"
+#include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
-#include "base/clock.h"
 #include "base/pi.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
-
-std::string text_of(const Scene &scene, const std::filesystem::path &folder) {
-  std::ostringstream text;
-  write_scene(scene, folder.string(), text);
-  return text.str();
-}
-
-void require_same_scene(const Scene &scene, const OutputPaths &paths) {
-  std::ifstream file(paths.scene(), std::ios::binary);
-  std::ostringstream before;
-  before << file.rdbuf();
-  if (before.str() != text_of(scene, paths.folder))
-    throw InputError(
-        paths.scene().string() +
-        ": error: is another scene than the one given, or the folder holds no calibration; resume "
-        "with the scene as it was, or leave out --resume");
-}
 
 const char *word(CalibrateMode mode) {
   constexpr const char *words[] = {"bounds", "abacus", "search"};
   return words[static_cast<int>(mode)];
 }
 
-class Calibration {
-public:
-  Calibration(const CommandLine &command, const Scene &scene)
-      : command_(command),
-        scene_(scene),
-        paths_(command.output),
-        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)),
-        limit_(command.threads) {
-    fem::limit_threads(command.threads);
-  }
-
-  int run();
-
-private:
-  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
-  std::string description() const;
-  void open();
-  void tell_bounds(Trials &trials, Json &s);
-  void tell_found(const Found &found, Json &s);
-  void write_found(const Found &found);
-  Json head() const;
-
-  const CommandLine &command_;
-  const Scene &scene_;
-  Clock::time_point start_ = Clock::now();
-  OutputPaths paths_;
-  std::unique_ptr<FolderLock> lock_;
-  RunLog log_;
-  dem::ThreadLimit limit_;
-};
-
-std::string Calibration::description() const {
-  const Calibrate &c = scene_.calibrate;
-  std::string text = scene_.general.title.empty() ? scene_.name : scene_.general.title;
+std::string description(const Scene &scene) {
+  const Calibrate &c = scene.calibrate;
+  std::string text = title_of(scene);
   text += fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word(c.mode), c.seeds,
                       c.mode == CalibrateMode::search ? c.verification_seeds : 0);
   const auto say = [&](const char *what, double value, const char *unit, double factor) {
@@ -99,36 +42,10 @@ std::string Calibration::description() const {
   return text;
 }
 
-void Calibration::open() {
-  std::vector<std::filesystem::path> inputs{command_.scene};
-  if (!scene_.specimen.file.empty()) inputs.emplace_back(scene_.specimen.file);
-  if (command_.resume) {
-    lock_ = lock_of_run(paths_.folder, log_);
-    require_same_scene(scene_, paths_);
-  } else {
-    open_locked(lock_, paths_.folder, command_.overwrite ? FolderUse::overwrite : FolderUse::fresh, inputs,
-                log_);
-    write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
-  }
-  log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
-}
-
-Json Calibration::head() const {
-  Json s;
-  s["status"] = "done";
-  s["app"] = "platen-calibrate";
-  s["scene"] = scene_.general.title.empty() ? scene_.name : scene_.general.title;
-  s["version"] = version_line();
-  s["effects"] = effects_on(scene_);
-  s["mode"] = word(scene_.calibrate.mode);
-  s["threads"] = threads();
-  return s;
-}
-
-void Calibration::tell_bounds(Trials &trials, Json &s) {
-  const dem::Specimen &first = trials.packing(scene_.general.seed);
-  const dem::NetworkModuli b = bounds_of(scene_, first, choice_of(scene_));
-  log_.info(
+void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
+  const dem::Specimen &first = trials.packing(scene.general.seed);
+  const dem::NetworkModuli b = bounds_of(scene, first, choice_of(scene));
+  log.info(
       "  of the bonds alone, as the scene has them: E at most {:.5g} GPa (Voigt, nu {:.4f}), about {:.5g} "
       "GPa "
       "(Reuss, nu {:.4f})",
@@ -176,7 +93,7 @@ std::string table_of(const Scene &scene, const Found &f) {
   return text;
 }
 
-void Calibration::tell_found(const Found &f, Json &s) {
+void tell_found(const Scene &scene, const Found &f, RunLog &log, Json &s) {
   const BondChoice &c = f.choice;
   s["found"] = {{"bond_modulus_pa", c.modulus},
                 {"stiffness_ratio", c.stiffness_ratio},
@@ -196,20 +113,20 @@ void Calibration::tell_found(const Found &f, Json &s) {
   s["triaxial_strength_pa"] = judged.triaxial.mean();
   s["strength_trials"] = f.strength_trials;
   s["missed"] = f.missed;
-  log_.info(
+  log.info(
       "found: bond modulus {:.5g} GPa, stiffness ratio {:.5g}, radius multiplier {:.5g}, tensile strength "
       "{:.5g} "
       "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}, friction angle {:.4g} degree\n{}",
       1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi, table_of(scene_, f));
+      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi, table_of(scene, f));
   for (const std::string &line : f.missed)
-    log_.warning("{}", line);
+    log.warning("{}", line);
 }
 
-// The scene itself with what was found in it.
-void Calibration::write_found(const Found &f) {
+// found.prm: the scene itself with what was found in it.
+void write_found(const CommandLine &command, const Scene &scene, const Found &f, const AppOutput &output) {
   const BondChoice &c = f.choice;
-  std::vector<std::string> overrides = command_.overrides;
+  std::vector<std::string> overrides = command.overrides;
   const auto set = [&](const char *key, double value, const char *unit) {
     overrides.push_back(fmt::format("Bond/{} = {}{}", key, shortest_text(value), unit));
   };
@@ -219,57 +136,54 @@ void Calibration::write_found(const Found &f) {
   set("Tensile strength", c.tensile_strength, " Pa");
   set("Shear strength", c.shear_strength, " Pa");
   set("Moment contribution", c.moment_contribution, "");
-  if (c.friction_angle != scene_.bond.number("friction_angle"))
+  if (c.friction_angle != scene.bond.number("friction_angle"))
     set("Friction angle", c.friction_angle, " rad");
-  const Scene scene = read_scene(command_.scene, overrides, AppKind::calibrate);
-  std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", scene_.name,
-                                    version_line(), table_of(scene_, f));
+  const Scene found = read_scene(command.scene, overrides, AppKind::calibrate);
+  std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", found.name, version_line(),
+                                    table_of(scene, f));
   for (const std::string &line : f.missed)
     comment += line + "\n";
   std::string text;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);)
     text += "# " + line + "\n";
-  write_text_aside(paths_.folder / "found.prm", text + text_of(scene, paths_.folder));
-}
-
-int Calibration::run() {
-  const CalibrateMode mode = scene_.calibrate.mode;
-  if (command_.dry_run) {
-    fmt::print("{}", description());
-    return status_done;
-  }
-  catch_stop_signals();
-  open();
-  log_.info("{}", description());
-  Json s = head();
-  try {
-    Trials trials(scene_, paths_, command_.resume, threads(), log_);
-    tell_bounds(trials, s);
-    if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene_, paths_, trials, log_);
-    if (mode == CalibrateMode::search) {
-      const Found found = search(scene_, trials, log_);
-      tell_found(found, s);
-      write_found(found);
-    }
-    s["trials"] = trials.made();
-    s["failed_trials"] = trials.failed();
-  } catch (const Trials::Stopped &stopped) {
-    log_.info("stopped by a signal; go on with: platen-calibrate {} -o {} --resume", command_.scene,
-              command_.output);
-    return exit_status_of_signal(stopped.signal);
-  }
-  s["wall_seconds"] = seconds_since(start_);
-  s["peak_memory_bytes"] = peak_memory_bytes();
-  write_summary(paths_.summary(), s);
-  log_.info("results are in {}", paths_.folder.string());
-  return tell_expectations(scene_, s, log_);
+  write_text_aside(output.paths.folder / "found.prm", text + output.scene_text(found));
 }
 
 } // namespace
 
 int run_calibrate(const CommandLine &command, const Scene &scene) {
-  return Calibration(command, scene).run();
+  if (command.dry_run) {
+    fmt::print("{}", description(scene));
+    return status_done;
+  }
+  AppOutput output(command, scene);
+  catch_stop_signals();
+  output.open();
+  output.log.info("{}", description(scene));
+  const CalibrateMode mode = scene.calibrate.mode;
+  Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
+  s["mode"] = word(mode);
+  s["threads"] = output.threads();
+  try {
+    Trials trials(scene, output.paths, command.resume, output.log);
+    tell_bounds(scene, trials, output.log, s);
+    if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene, output.paths, trials, output.log);
+    if (mode == CalibrateMode::search) {
+      const Found found = search(scene, trials, output.log);
+      tell_found(scene, found, output.log, s);
+      write_found(command, scene, found, output);
+    }
+    s["trials"] = trials.made();
+    s["failed_trials"] = trials.failed();
+  } catch (const Trials::Stopped &stopped) {
+    output.log.info("stopped by a signal; go on with: platen-calibrate {} -o {} --resume", command.scene,
+                    command.output);
+    return exit_status_of_signal(stopped.signal);
+  }
+  s["wall_seconds"] = output.seconds();
+  s["peak_memory_bytes"] = peak_memory_bytes();
+  return output.finish(s, fmt::format("results are in {}", output.paths.folder.string()));
 }
 
 } // namespace platen::apps

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "apps/calibrate/seeds.h"
 #include "apps/calibrate/strengths.h"
 #include "base/pi.h"
 
@@ -33,7 +32,13 @@ public:
     if (wanted(c_.poisson_ratio)) find_poisson_ratio();
     if (wanted(c_.young_modulus)) find_modulus();
     const bool strengths = wanted(c_.compressive_strength) || wanted(c_.tensile_strength);
-    if (strengths) find_strengths();
+    if (strengths) {
+      const auto test = [&](const BondChoice &choice, int trial) { return strengths_of(choice, trial); };
+      const FoundStrengths found = search_strengths(scene_, found_.choice, test);
+      found_.choice = found.choice;
+      found_.strength_trials = found.trials;
+      found_.missed.insert(found_.missed.end(), found.missed.begin(), found.missed.end());
+    }
     found_.training = measure(found_.choice, seeds_, strengths);
     found_.unseen = measure(found_.choice, unseen_seeds(scene_), strengths);
     return found_;
@@ -42,13 +47,12 @@ public:
 private:
   bool beam() const { return scene_.bond.is<dem::CohesiveBeam>(); }
   Measured measure(const BondChoice &choice, const std::vector<unsigned long> &seeds, bool strengths);
-  double &poisson_knob(BondChoice &choice) const {
+  double &poisson_parameter(BondChoice &choice) const {
     return beam() ? choice.radius_multiplier : choice.stiffness_ratio;
   }
-  double poisson_at(double knob);
+  double poisson_at(double parameter);
   void find_poisson_ratio();
   void find_modulus();
-  void find_strengths();
   Strengths strengths_of(const BondChoice &choice, int trial);
 
   const Scene &scene_;
@@ -86,23 +90,23 @@ Measured Search::measure(const BondChoice &choice, const std::vector<unsigned lo
   return m;
 }
 
-double Search::poisson_at(double knob) {
+double Search::poisson_at(double parameter) {
   BondChoice choice = found_.choice;
-  poisson_knob(choice) = knob;
+  poisson_parameter(choice) = parameter;
   const Measured m = measure(choice, seeds_, false);
   if (m.poisson.count() == 0) throw NumericsError("no static solve came to an end; trials.csv says why");
-  log_.info("  {} {:.5g}: nu {:.5f}", beam() ? "radius multiplier" : "stiffness ratio", knob,
+  log_.info("  {} {:.5g}: nu {:.5f}", beam() ? "radius multiplier" : "stiffness ratio", parameter,
             m.poisson.mean());
   return m.poisson.mean();
 }
 
-// Poisson's ratio falls with either knob.
+// Poisson's ratio falls with either parameter.
 void Search::find_poisson_ratio() {
   const double a = beam() ? c_.multiplier_low : c_.ratio_low, b = beam() ? c_.multiplier_high : c_.ratio_high;
   const double fa = poisson_at(a) - c_.poisson_ratio, fb = poisson_at(b) - c_.poisson_ratio;
   double x = std::abs(fa) < std::abs(fb) ? a : b, off = std::min(std::abs(fa), std::abs(fb));
   if (fa * fb > 0) {
-    poisson_knob(found_.choice) = x;
+    poisson_parameter(found_.choice) = x;
     found_.missed.push_back(
         fmt::format("Poisson's ratio {:.4g} is out of reach: {} from {:.4g} to {:.4g} gives {:.4f} to "
                     "{:.4f}; the nearest is {:.4g}",
@@ -111,9 +115,9 @@ void Search::find_poisson_ratio() {
     return;
   }
   // Ends by the nearest ratio so far, not by the bracket.
-  const auto difference = [&](double knob) {
-    const double f = poisson_at(knob) - c_.poisson_ratio;
-    if (std::abs(f) < off) x = knob, off = std::abs(f);
+  const auto difference = [&](double parameter) {
+    const double f = poisson_at(parameter) - c_.poisson_ratio;
+    if (std::abs(f) < off) x = parameter, off = std::abs(f);
     return f;
   };
   if (off > poisson_tolerance) {
@@ -121,7 +125,7 @@ void Search::find_poisson_ratio() {
     boost::math::tools::toms748_solve(
         difference, a, b, fa, fb, [&](double, double) { return off <= poisson_tolerance; }, most);
   }
-  poisson_knob(found_.choice) = x;
+  poisson_parameter(found_.choice) = x;
 }
 
 // One step is exact where the platens' stiffness is a multiple of the bonds'.
@@ -154,15 +158,6 @@ Strengths Search::strengths_of(const BondChoice &choice, int trial) {
   text.pop_back();
   log_.info("{}", text);
   return {m.compressive.mean(), m.tensile.mean(), m.triaxial.mean()};
-}
-
-void Search::find_strengths() {
-  const FoundStrengths found =
-      search_strengths(scene_, found_.choice,
-                       [&](const BondChoice &choice, int trial) { return strengths_of(choice, trial); });
-  found_.choice = found.choice;
-  found_.strength_trials = found.trials;
-  found_.missed.insert(found_.missed.end(), found.missed.begin(), found.missed.end());
 }
 
 } // namespace

@@ -25,7 +25,7 @@ constexpr double ratio_unit = 2.5, moments_unit = 0.6, friction_unit = 1, one_st
 // Of the tensile strength, to which strengths are proportional: no bound that matters.
 constexpr double scale_step = 10;
 // Where the model begins: what was seen of a concrete of parallel bonds (scenes/parts/concrete.prm), changes
-// of the logarithm of a strength with each knob.
+// of the logarithm of a strength with each parameter.
 constexpr double compressive_by_ratio = 0.25, compressive_by_moments = -2.5, compressive_by_friction = 0.1;
 constexpr double triaxial_by_ratio = 0.5, triaxial_by_friction = 0.5;
 constexpr double largest_friction =
@@ -38,7 +38,7 @@ bool wanted(double value) {
 class Search {
 public:
   Search(const Scene &scene, const BondChoice &start)
-      : c_(scene.calibrate), may_(strength_knobs(scene)), start_(start) {
+      : c_(scene.calibrate), may_(strength_parameters(scene)), start_(start) {
     if (wanted(c_.compressive_strength)) responses_.push_back(compressive);
     if (wanted(c_.tensile_strength)) responses_.push_back(tensile);
     if (wanted(c_.triaxial_strength)) responses_.push_back(triaxial);
@@ -62,42 +62,43 @@ private:
   std::string story(const FoundStrengths &found, const Eigen::VectorXd &misses) const;
 
   const Calibrate &c_;
-  StrengthKnobs may_;
+  StrengthParameters may_;
   BondChoice start_;
   std::vector<Response> responses_;
 };
 
-// Knobs in the order of their columns.
+// Parameters in the order of their columns.
 ResponseModel Search::model() const {
-  std::vector<Knob> knobs;
+  std::vector<SearchParameter> parameters;
   std::vector<Eigen::Vector3d> slopes; // of each response
   const double own = std::log(start_.tensile_strength);
   // A pressure does not grow with the bonds: of a confined strength the rest does.
   const double share = std::min(1.0, c_.compressive_strength / c_.triaxial_strength);
-  knobs.push_back({own, own - scale_step, own + scale_step, scale_step, true});
+  parameters.push_back({own, own - scale_step, own + scale_step, scale_step, true});
   slopes.emplace_back(1, 1, wanted(share) ? share : 1);
   const double step = one_step;
   if (may_.shear) {
     const double u = ratio_unit, ratio = std::log(start_.shear_strength / start_.tensile_strength);
-    knobs.push_back(
+    parameters.push_back(
         {ratio / u, std::log(c_.strengths_low) / u, std::log(c_.strengths_high) / u, step, false});
     slopes.emplace_back(u * compressive_by_ratio, 0, u * triaxial_by_ratio);
   }
   if (may_.moments) {
     const double u = moments_unit, moments = start_.moment_contribution;
-    knobs.push_back({moments / u, c_.moments_low / u, moments / u, step, false});
+    parameters.push_back({moments / u, c_.moments_low / u, moments / u, step, false});
     slopes.emplace_back(u * compressive_by_moments, 0, u * compressive_by_moments);
   }
   if (may_.friction) {
     const double u = friction_unit;
-    knobs.push_back({start_.friction_angle / u, may_.friction_low / u, may_.friction_high / u, step, false});
+    parameters.push_back(
+        {start_.friction_angle / u, may_.friction_low / u, may_.friction_high / u, step, false});
     slopes.emplace_back(u * compressive_by_friction, 0, u * triaxial_by_friction);
   }
-  Eigen::MatrixXd guess(responses_.size(), knobs.size());
+  Eigen::MatrixXd guess(responses_.size(), parameters.size());
   for (Eigen::Index r = 0; r < guess.rows(); ++r)
     for (Eigen::Index k = 0; k < guess.cols(); ++k)
       guess(r, k) = slopes[static_cast<std::size_t>(k)][responses_[static_cast<std::size_t>(r)]];
-  return {knobs, guess};
+  return {parameters, guess};
 }
 
 BondChoice Search::choice(const Eigen::VectorXd &x) const {
@@ -177,10 +178,10 @@ std::string Search::story(const FoundStrengths &found, const Eigen::VectorXd &mi
 
 } // namespace
 
-StrengthKnobs strength_knobs(const Scene &scene) {
+StrengthParameters strength_parameters(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   const int goals = int(wanted(c.compressive_strength)) + int(wanted(c.tensile_strength));
-  StrengthKnobs to;
+  StrengthParameters to;
   to.shear = goals == 2;
   // Elasto-damage-plastic bonds have neither; without moments there is nothing to count.
   const std::optional<dem::BondParameters> bond = scene.bond.parameters();

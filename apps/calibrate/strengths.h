@@ -22,14 +22,14 @@ struct FoundStrengths {
   std::vector<std::string> missed; // what could not be reached, one line
 };
 
-// Which of the bond's own numbers the search may turn, the tensile strength always.
-struct StrengthKnobs {
+// Which of the bond's own numbers the search may change, the tensile strength always.
+struct StrengthParameters {
   bool shear = false, moments = false, friction = false; // ratio to the tensile strength, contribution, angle
   double friction_low = 0, friction_high = 0;            // rad
 };
-StrengthKnobs strength_knobs(const Scene &scene);
+StrengthParameters strength_parameters(const Scene &scene);
 
-// Knobs are the logarithms of the bond's tensile strength and of the shear strength over it, its moment
+// Parameters are the logarithms of the bond's tensile strength and of the shear strength over it, its moment
 // contribution and its friction angle, as far as what is wanted needs them; responses the logarithms of
 // measured over wanted strengths. Ends within Calibrate/Tolerance, after Calibrate/Most trials or where the
 // bounds allow nothing better. Throws NumericsError where no runs come to a peak.

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/run/member_names.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/parameters.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
 namespace {
 
-// Looks at the stress on the way to the largest strain, as many as platen-compress takes.
-constexpr double looks = 600;
+// Readings of the stress on the way to the largest strain, as many as platen-compress takes.
+constexpr double readings = 600;
 // A run is over when the stress has fallen to this share of its peak; moduli are secants at that of 40 %.
 constexpr double fallen = 0.8, modulus_share = 0.4;
 // A confined specimen may flow on: its peak counts if it lies before this share of the largest strain.
@@ -35,38 +35,30 @@ Scene chosen(const Scene &scene, const BondChoice &choice) {
   return s;
 }
 
-coupling::PlatenTest problem_of(const Scene &scene, const dem::Specimen &specimen) {
-  try {
-    return coupling::PlatenTest(specimen, problem_settings(scene));
-  } catch (const coupling::BadSetup &e) {
-    refuse(scene, e);
-  }
-}
-
 double tension_rate(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   if (!std::isnan(c.tension_rate)) return c.tension_rate;
   const double ratio = c.tensile_strength / c.compressive_strength;
-  return scene.loading.axial_rate * (std::isnan(ratio) ? 0.1 : ratio);
+  return scene.loading.rate * (std::isnan(ratio) ? 0.1 : ratio);
 }
 
-struct Look {
+struct Reading {
   double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
-  Look minus(const Look &o) const {
+  Reading minus(const Reading &o) const {
     return {stress - o.stress, strain_platen - o.strain_platen, axial - o.axial, lateral - o.lateral};
   }
 };
 
-// Linear between the looks on both sides of a share of the peak, before it.
-void add_moduli(const std::vector<Look> &all, double peak, TrialResult &result) {
+// Linear between the readings on both sides of a share of the peak, before it.
+void add_moduli(const std::vector<Reading> &all, double peak, TrialResult &result) {
   for (std::size_t k = 1; k < all.size(); ++k) {
-    const Look &a = all[k - 1], &b = all[k];
+    const Reading &a = all[k - 1], &b = all[k];
     if (b.stress < modulus_share * peak) continue;
     const double w = (modulus_share * peak - a.stress) / (b.stress - a.stress);
-    const auto at = [&](double Look::*value) { return (1 - w) * a.*value + w * b.*value; };
-    result.young_modulus = modulus_share * peak / at(&Look::axial);
-    result.platen_modulus = modulus_share * peak / at(&Look::strain_platen);
-    result.poisson_ratio = at(&Look::lateral) / at(&Look::axial);
+    const auto at = [&](double Reading::*value) { return (1 - w) * a.*value + w * b.*value; };
+    result.young_modulus = modulus_share * peak / at(&Reading::axial);
+    result.platen_modulus = modulus_share * peak / at(&Reading::strain_platen);
+    result.poisson_ratio = at(&Reading::lateral) / at(&Reading::axial);
     return;
   }
 }
@@ -75,8 +67,8 @@ void load_to_peak(coupling::PlatenTest &problem, TrialKind kind, double target, 
   const double sign = kind == TrialKind::tension ? -1 : 1;
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
   const double step_closes = problem.settings().loading.rate * problem.time_step() / problem.shape().height;
-  const long between = std::max(1L, std::lround(target / looks / step_closes));
-  const auto look = [&]() -> Look {
+  const long between = std::max(1L, std::lround(target / readings / step_closes));
+  const auto read = [&]() -> Reading {
     const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
     return {sign * 0.5 * (problem.stress_top() + problem.stress_bottom()), sign * problem.closure_strain(),
             -sign * strain.axial, sign * strain.lateral()};
@@ -84,14 +76,14 @@ void load_to_peak(coupling::PlatenTest &problem, TrialKind kind, double target, 
   while (!problem.axial_stage())
     problem.advance(between);
   const bool confined = problem.cell();
-  const Look start = confined ? look() : Look{};
-  std::vector<Look> all{{}};
+  const Reading start = confined ? read() : Reading{};
+  std::vector<Reading> all{{}};
   double peak = 0;
   while (all.back().strain_platen < target) {
     for (long made = 0; made < between;)
       made += problem.advance(between - made);
-    all.push_back(look().minus(start));
-    const Look &now = all.back();
+    all.push_back(read().minus(start));
+    const Reading &now = all.back();
     if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen;
     const bool broken = problem.model.broken_tension + problem.model.broken_shear > 0;
     if (broken && now.stress < fallen * peak) {
@@ -132,13 +124,13 @@ BondChoice choice_of(const Scene &scene) {
 TrialResult elastic_trial(const Scene &scene, const dem::Specimen &specimen, const BondChoice &choice) {
   TrialResult result;
   try {
-    coupling::PlatenTest problem = problem_of(chosen(scene, choice), specimen);
+    coupling::PlatenTest problem(specimen, problem_settings(chosen(scene, choice)));
     const coupling::StaticPress p = coupling::press_statically(problem, scene.calibrate.strain);
     result.young_modulus = p.youngs_modulus();
     result.platen_modulus = p.platen_modulus();
     result.poisson_ratio = p.poisson_ratio();
   } catch (const coupling::NumericsStopped &e) {
-    result.status = with_entries(e.what());
+    result.status = scene.parameters->with_entries(e.what());
   }
   return result;
 }
@@ -148,22 +140,22 @@ TrialResult strength_trial(const Scene &scene, const dem::Specimen &specimen, co
   Scene s = chosen(scene, choice);
   if (kind == TrialKind::tension) {
     s.loading.test = LoadingTest::tension;
-    s.platens.attachment = Attachment::glued;
-    s.loading.axial_rate = tension_rate(scene);
+    s.platens.glued = true;
+    s.loading.rate = tension_rate(scene);
     s.loading.target_strain *= tension_strain;
   } else {
     s.loading.test = LoadingTest::compression;
   }
   if (kind == TrialKind::triaxial) {
     s.loading.confinement = ConfinementKind::particles;
-    s.loading.confining_pressure = scene.calibrate.confining_pressure;
+    s.loading.cell->pressure = scene.calibrate.confining_pressure;
   }
   TrialResult result;
   try {
-    coupling::PlatenTest problem = problem_of(s, specimen);
+    coupling::PlatenTest problem(specimen, problem_settings(s));
     load_to_peak(problem, kind, s.loading.target_strain, result);
   } catch (const coupling::NumericsStopped &e) {
-    result.status = with_entries(e.what());
+    result.status = scene.parameters->with_entries(e.what());
   }
   return result;
 }

@@ -1,13 +1,12 @@
 #include "apps/calibrate/trials.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <condition_variable>
-#include <exception>
 #include <fstream>
 #include <mutex>
+#include <numeric>
 #include <sstream>
-#include <thread>
 
 #include "apps/io/numbers.h"
 #include "apps/io/specimen_csv.h"
@@ -15,45 +14,30 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/units.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
 
-const std::vector<std::string> columns{"test",
-                                       "seed",
-                                       "bond_modulus_pa",
-                                       "stiffness_ratio",
-                                       "radius_multiplier",
-                                       "bond_poisson",
-                                       "tensile_pa",
-                                       "shear_pa",
-                                       "moment_contribution",
-                                       "friction_angle_rad",
-                                       "status",
-                                       "youngs_modulus_gauge_pa",
-                                       "youngs_modulus_platen_pa",
-                                       "poisson_ratio",
-                                       "strength_pa",
-                                       "strain_at_peak"};
+constexpr const char *columns =
+    "test,seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,tensile_pa,shear_pa,"
+    "moment_contribution,friction_angle_rad,status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
+    "poisson_ratio,strength_pa,strain_at_peak";
 
 // What decides the result; elastic trials do not ask for strengths.
-std::string key_of(const Trial &t) {
+std::array<double, 8> numbers_of(const Trial &t) {
   const BondChoice &c = t.choice;
-  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
-  for (const double number : {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio})
-    key += "," + shortest_text(number);
-  if (t.kind == TrialKind::elastic) return key + ",0,0,0,0";
-  return key + "," + shortest_text(c.tensile_strength) + "," + shortest_text(c.shear_strength) + "," +
-         shortest_text(c.moment_contribution) + "," + shortest_text(c.friction_angle);
+  if (t.kind == TrialKind::elastic)
+    return {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio, 0, 0, 0, 0};
+  return {c.modulus,          c.stiffness_ratio, c.radius_multiplier,   c.poisson_ratio,
+          c.tensile_strength, c.shear_strength,  c.moment_contribution, c.friction_angle};
 }
 
-std::vector<std::string> cells_of(const std::string &line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');)
-    cells.push_back(cell);
-  return cells;
+std::string key_of(const Trial &t) {
+  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
+  for (const double number : numbers_of(t))
+    key += "," + shortest_text(number);
+  return key;
 }
 
 // Without what would break a row in two.
@@ -63,39 +47,45 @@ std::string one_cell(std::string text) {
   return text;
 }
 
-// work(k) for k of [0, count), on so many threads; what a piece throws is thrown here once all are done.
+// work(k) for k of [0, count), begun in this order, a thread for each: one thread is worth most to a whole
+// trial. A single one may have them all for its loops. After one that throws no other begins.
 template <class Work>
-void share_out(std::size_t count, int threads, const Work &work) {
+void in_order(std::size_t count, const Work &work) {
   std::atomic<std::size_t> next{0};
-  std::exception_ptr thrown;
-  std::mutex mutex;
-  const auto serve = [&] {
-    for (std::size_t k = next++; k < count; k = next++)
-      try {
-        work(k);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!thrown) thrown = std::current_exception();
-        next = count;
-      }
+  const auto part = [&](std::size_t) {
+    const std::size_t k = next++;
+    if (k >= count) return;
+    try {
+      work(k);
+    } catch (...) {
+      next = count;
+      throw;
+    }
   };
-  std::vector<std::thread> others;
-  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
-    others.emplace_back(serve);
-  serve();
-  for (std::thread &other : others)
-    other.join();
-  if (thrown) std::rethrow_exception(thrown);
+  run_loops(loop_of(count, part));
 }
 
 } // namespace
 
-Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log)
-    : scene_(scene), paths_(paths), threads_(threads), log_(log) {
+std::vector<unsigned long> training_seeds(const Scene &scene) {
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.seeds));
+  std::iota(seeds.begin(), seeds.end(), scene.general.seed);
+  return seeds;
+}
+
+std::vector<unsigned long> unseen_seeds(const Scene &scene) {
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.verification_seeds));
+  std::iota(seeds.begin(), seeds.end(),
+            scene.general.seed + static_cast<unsigned long>(scene.calibrate.seeds));
+  return seeds;
+}
+
+Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log)
+    : scene_(scene), paths_(paths), log_(log) {
   if (resume)
     read();
   else
-    table_.emplace(paths_.folder / "trials.csv", columns);
+    table_.emplace(paths_.folder / "trials.csv", cells_of(columns));
 }
 
 void Trials::read() {
@@ -110,31 +100,31 @@ void Trials::read() {
   std::istringstream lines(text.substr(0, end + 1));
   std::string line;
   std::getline(lines, line);
-  if (cells_of(line) != columns)
+  if (line != columns)
     throw InputError(path.string() + ":1: error: has other columns than this version writes");
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
     for (std::size_t k = 11; k < cells.size(); ++k)
       if (const auto value = number_of(cells[k])) values.push_back(*value);
-    if (cells.size() != columns.size() || values.size() != 5)
+    if (cells.size() != cells_of(columns).size() || values.size() != 5)
       throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
     std::string key = cells[0] + "," + cells[1];
     for (std::size_t k = 2; k < 10; ++k)
       key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
     known_[key] = {cells[10], values[0], values[1], values[2], values[3], values[4]};
   }
-  table_.emplace(path, columns, end + 1);
+  table_.emplace(path, cells_of(columns), end + 1);
 }
 
 void Trials::keep(const Trial &t, const TrialResult &r) {
-  const BondChoice &c = t.choice;
-  const bool elastic = t.kind == TrialKind::elastic;
   const std::string status = one_cell(r.status);
-  table_->row({word(t.kind), t.seed, c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio,
-               elastic ? 0.0 : c.tensile_strength, elastic ? 0.0 : c.shear_strength,
-               elastic ? 0.0 : c.moment_contribution, elastic ? 0.0 : c.friction_angle, status,
-               r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  std::vector<CsvCell> cells{word(t.kind), t.seed};
+  for (const double number : numbers_of(t))
+    cells.emplace_back(number);
+  cells.insert(cells.end(),
+               {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  table_->row(cells);
   known_[key_of(t)] = r;
   ++made_;
 }
@@ -153,7 +143,7 @@ void Trials::pack(const std::vector<unsigned long> &seeds) {
   const auto file_of = [&](unsigned long seed) {
     return paths_.folder / ("packing_" + std::to_string(seed) + ".csv");
   };
-  share_out(missing.size(), threads_, [&](std::size_t k) {
+  in_order(missing.size(), [&](std::size_t k) {
     std::error_code ignored;
     if (std::filesystem::exists(file_of(missing[k]), ignored)) {
       made[k] = read_specimen_csv(file_of(missing[k])).specimen;
@@ -191,18 +181,14 @@ std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
   std::vector<std::optional<TrialResult>> results(open.size());
   std::mutex mutex;
   std::size_t written = 0;
-  {
-    // One thread is worth most to a whole trial; a single one may have them all.
-    const dem::ThreadLimit limit(open.size() > 1 ? 1 : threads_);
-    share_out(open.size(), threads_, [&](std::size_t k) {
-      if (stop_requested() != 0) return;
-      TrialResult result = run(open[k]);
-      const std::lock_guard<std::mutex> lock(mutex);
-      results[k] = std::move(result);
-      for (; written < open.size() && results[written]; ++written)
-        keep(open[written], *results[written]);
-    });
-  }
+  in_order(open.size(), [&](std::size_t k) {
+    if (stop_requested() != 0) return;
+    TrialResult result = run(open[k]);
+    const std::lock_guard<std::mutex> lock(mutex);
+    results[k] = std::move(result);
+    for (; written < open.size() && results[written]; ++written)
+      keep(open[written], *results[written]);
+  });
   if (stop_requested() != 0) throw Stopped{stop_requested()};
   std::vector<TrialResult> all;
   for (const Trial &t : trials) {

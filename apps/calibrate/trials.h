@@ -20,11 +20,15 @@ struct Trial {
   BondChoice choice;
 };
 
+// Packings that a calibration is made on, and those that it is judged by.
+std::vector<unsigned long> training_seeds(const Scene &scene);
+std::vector<unsigned long> unseen_seeds(const Scene &scene);
+
 class Trials {
 public:
   // `resume`: trials.csv of the folder is read, rows that are whole count. Throws InputError where it is not
   // such a table.
-  Trials(const Scene &scene, const OutputPaths &paths, bool resume, int threads, RunLog &log);
+  Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log);
 
   // Results in the order of the trials. What trials.csv knows is taken from there; the rest runs, as many at
   // a time as there are threads, and is written in the order of the trials as soon as it and all before it
@@ -48,7 +52,6 @@ private:
 
   const Scene &scene_;
   OutputPaths paths_;
-  int threads_;
   RunLog &log_;
   std::map<unsigned long, dem::Specimen> packings_;
   std::map<std::string, TrialResult> known_;

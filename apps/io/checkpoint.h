@@ -1,7 +1,7 @@
 // A checkpoint file: a state (base/state.h) as named blocks of plain bytes, each with its type, its unit, its
 // length and a checksum, and a checksum over the whole file. Layout, native byte order:
 //   header   "PLATENCP", format version (4 bytes), byte order mark (4)
-//   block    lengths, type and checksum (checkpoint_format.h), name, unit, bytes; as many as there are
+//   block    lengths, type and checksum, name, unit, bytes; as many as there are
 //   trailer  "PLATENND", number of blocks, length of the file, XXH64 of all that stands before (8 each)
 // Values are stored byte for byte, so that a run goes on bitwise as if it had never stopped.
 #pragma once
@@ -20,7 +20,38 @@
 
 namespace platen::apps {
 
-class CheckpointHash; // running XXH64, defined in checkpoint_format.h
+constexpr char checkpoint_magic[9] = "PLATENCP", checkpoint_end[9] = "PLATENND"; // 8 bytes each in the file
+// Raised with every change of this layout; an older or newer file is refused, not guessed at.
+constexpr std::uint32_t checkpoint_version = 3;
+constexpr std::uint32_t checkpoint_byte_order = 0x01020304;
+
+struct CheckpointHeader { // 16 bytes
+  char magic[8];
+  std::uint32_t version, byte_order;
+};
+
+struct CheckpointBlockHeader { // 40 bytes, then the name, the unit and the bytes
+  std::uint32_t name_bytes, unit_bytes;
+  std::uint32_t kind;         // BlockType::Kind
+  std::uint32_t number_bytes; // of one number
+  std::uint32_t numbers;      // of one row
+  std::uint32_t reserved;     // 0
+  std::uint64_t bytes;
+  std::uint64_t checksum; // XXH64 of the bytes
+};
+
+struct CheckpointTrailer { // 32 bytes, the last of the file
+  char magic[8];
+  std::uint64_t blocks;
+  std::uint64_t file_bytes;
+  std::uint64_t checksum; // XXH64 of all bytes before this member
+};
+
+static_assert(sizeof(CheckpointHeader) == 16 && sizeof(CheckpointBlockHeader) == 40 &&
+                  sizeof(CheckpointTrailer) == 32,
+              "the layout is the file format");
+
+class CheckpointHash; // running XXH64
 
 // Writes blocks straight to the file, nothing is collected in memory. Failures throw OutputError; a file
 // without finish() is not a checkpoint. Use it through write_checkpoint (checkpoint_folder.h), which keeps

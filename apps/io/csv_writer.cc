@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
@@ -66,6 +67,14 @@ void CsvCell::append_to(std::string &line) const {
   } else {
     append_text(line, std::get<std::string_view>(value_));
   }
+}
+
+std::vector<std::string> cells_of(std::string_view line) {
+  std::vector<std::string> cells;
+  std::istringstream text{std::string(line)};
+  for (std::string cell; std::getline(text, cell, ',');)
+    cells.push_back(cell);
+  return cells;
 }
 
 CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns)

@@ -35,6 +35,9 @@ private:
   std::variant<double, long long, std::string_view> value_; // text is looked at, not kept
 };
 
+// The texts between the commas of a line without quotes: "time_s,stress_pa".
+std::vector<std::string> cells_of(std::string_view line);
+
 // Each row reaches the file before row() returns. Failures throw OutputError, and the row that failed is
 // taken off again, so that the file ends with a whole row.
 class CsvWriter {

@@ -1,7 +1,6 @@
 #include "apps/io/file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -70,12 +69,6 @@ bool OutputFile::try_truncate(std::uint64_t new_length) noexcept {
 
 void OutputFile::truncate(std::uint64_t new_length) {
   if (!try_truncate(new_length)) fail("cannot be shortened");
-}
-
-std::uint64_t OutputFile::length() const {
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) fail("cannot be examined");
-  return static_cast<std::uint64_t>(status.st_size);
 }
 
 void OutputFile::sync() {

@@ -28,7 +28,6 @@ public:
   void write(std::string_view text) { write(text.data(), text.size()); }
   void truncate(std::uint64_t length); // and goes on writing there
   bool try_truncate(std::uint64_t length) noexcept;
-  std::uint64_t length() const;
   void sync(); // returns when the disk has it
   void close();
 

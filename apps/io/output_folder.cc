@@ -1,13 +1,18 @@
 #include "apps/io/output_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <cerrno>
+#include <cstring>
 #include <regex>
+#include <thread>
 
 #include "apps/io/checkpoint_folder.h"
+#include "apps/io/run_log.h"
 
 namespace platen::apps {
 namespace {
@@ -15,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *frames_folder = "frames", *checkpoint_folder = "checkpoint";
+constexpr std::chrono::seconds patience_of_run{5};
+constexpr std::chrono::milliseconds glance{20}; // between two tries to lock
 
 // What the earlier run left, relative to the folder, in the order of names. Links count by their own name.
 std::vector<fs::path> outputs_in(const fs::path &folder) {
@@ -62,10 +69,6 @@ void check_inputs(const fs::path &folder, const std::vector<fs::path> &inputs) {
 
 std::string OutputPaths::frame_name(const std::string &series, int index) {
   return fmt::format("{}/{}_{:06}.vtu", frames_folder, series, index);
-}
-
-fs::path default_output_folder(const fs::path &scene_file) {
-  return fs::path("results") / scene_file.stem();
 }
 
 bool is_output_name(const fs::path &relative) {
@@ -117,6 +120,43 @@ void open_output_folder(const fs::path &folder, FolderUse use, const std::vector
   }
   for (const char *part : {frames_folder, checkpoint_folder})
     fs::remove(folder / part, error); // only where nothing of the user's is left in it
+}
+
+// Not closed on exec: what is started inherits the lock.
+FolderLock::FolderLock(const fs::path &folder, std::chrono::milliseconds patience,
+                       const std::function<void()> &tell_that_it_waits)
+    : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
+  if (file_ < 0) fail(folder, std::strerror(errno));
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (bool told = false; flock(file_, LOCK_EX | LOCK_NB) != 0; told = true) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return; // a file system without locks
+    if (std::chrono::steady_clock::now() > end) {
+      close(file_);
+      fail(folder,
+           "another run is at work in it; wait for it, stop it, or choose another folder with --output");
+    }
+    if (!told) tell_that_it_waits();
+    std::this_thread::sleep_for(glance);
+  }
+}
+
+FolderLock::~FolderLock() {
+  close(file_);
+}
+
+std::unique_ptr<FolderLock> lock_of_run(const fs::path &folder, RunLog &log) {
+  if (!fs::is_directory(folder)) return nullptr;
+  return std::make_unique<FolderLock>(folder, patience_of_run,
+                                      [&] { log.info("waits for a run at work in {}", folder.string()); });
+}
+
+void open_locked(std::unique_ptr<FolderLock> &lock, const fs::path &folder, FolderUse use,
+                 const std::vector<fs::path> &inputs, RunLog &log) {
+  check_output_folder(folder, use, inputs);
+  std::error_code told_below;
+  fs::create_directories(folder, told_below);
+  if (lock == nullptr) lock = lock_of_run(folder, log);
+  open_output_folder(folder, use, inputs); // what was there before the lock is looked at again
 }
 
 } // namespace platen::apps

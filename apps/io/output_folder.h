@@ -1,8 +1,11 @@
-// The folder that a run writes into: which names are the run's own, and what happens where a folder is in
-// use.
+// The folder that a run writes into: which names are the run's own, what happens where a folder is in use,
+// and how one run at a time has it.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,17 +34,12 @@ struct OutputPaths {
   std::filesystem::path runs() const { return folder / "runs"; }    // of a study: an output folder for each
   std::filesystem::path view() const { return folder / "view.py"; } // for ParaView
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
-  // series: specimen, bonds, platens, sleeve or contacts.
-  std::filesystem::path series(const std::string &series) const { return folder / (series + ".pvd"); }
   std::filesystem::path frame(const std::string &series, int index) const {
     return folder / frame_name(series, index);
   }
   // "frames/specimen_000012.vtu": relative to the folder, as a .pvd names it.
   static std::string frame_name(const std::string &series, int index);
 };
-
-// "results/NAME" for a scene NAME.prm.
-std::filesystem::path default_output_folder(const std::filesystem::path &scene_file);
 
 // Whether a path relative to an output folder is one that the apps write there (OutputPaths, frames,
 // checkpoints, and what a killed run left half written). All else is the user's and is never touched.
@@ -62,5 +60,32 @@ void check_output_folder(const std::filesystem::path &folder, FolderUse use,
 // nothing else. Throws FolderError.
 void open_output_folder(const std::filesystem::path &folder, FolderUse use,
                         const std::vector<std::filesystem::path> &inputs = {});
+
+// Held by this process and by every program that it starts from then on, until all of them have ended: the
+// runs of a study that was killed may still be writing their last checkpoints when it is taken up again. The
+// end of a process, however it comes, gives the folder free; nothing is left behind in it.
+class FolderLock {
+public:
+  // Waits for who holds the folder, after telling so once, for `patience` at most. Throws FolderError then,
+  // and where the folder cannot be opened. A file system without locks is not locked.
+  FolderLock(const std::filesystem::path &folder, std::chrono::milliseconds patience,
+             const std::function<void()> &tell_that_it_waits);
+  ~FolderLock();
+  FolderLock(const FolderLock &) = delete;
+  FolderLock &operator=(const FolderLock &) = delete;
+
+private:
+  int file_ = -1;
+};
+
+class RunLog;
+
+// For a run or a calibration, which waits five seconds, as one that was asked to end may need for its last
+// checkpoint; null where the folder is not there yet.
+std::unique_ptr<FolderLock> lock_of_run(const std::filesystem::path &folder, RunLog &log);
+
+// open_output_folder in a folder that `lock` holds from then on, where it does not yet.
+void open_locked(std::unique_ptr<FolderLock> &lock, const std::filesystem::path &folder, FolderUse use,
+                 const std::vector<std::filesystem::path> &inputs, RunLog &log);
 
 } // namespace platen::apps

@@ -7,6 +7,7 @@
 #include <vtkXMLUtilities.h>
 
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
@@ -17,26 +18,9 @@ namespace platen::apps {
 namespace {
 
 std::string escaped(const std::string &text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
+  std::ostringstream result;
+  vtkXMLUtilities::EncodeString(text.c_str(), VTK_ENCODING_NONE, result, VTK_ENCODING_NONE, 1);
+  return result.str();
 }
 
 // What is wrong with a file is said by what is thrown; VTK would print its own words besides.

@@ -33,7 +33,7 @@ RunLog::RunLog(Loudness loudness, std::ostream &output, std::ostream &errors)
 void RunLog::open(const std::filesystem::path &path, bool append, const RunHeader &header) {
   file_ = OutputFile(path, append ? OutputFile::Mode::append : OutputFile::Mode::replace);
   opened_ = true;
-  const std::string gap = append && file_.length() > 0 ? "\n" : "";
+  const std::string gap = append && std::filesystem::file_size(path) > 0 ? "\n" : "";
   write(gap + head(header) + std::exchange(early_, {}));
 }
 
@@ -42,7 +42,6 @@ void RunLog::say(Level level, const std::string &text) {
                             : level == Level::warning ? "warning: "
                                                       : "") +
                            text;
-  if (level == Level::warning) warnings_.push_back(text);
   print(level, line);
   if (level == Level::detail && loudness_ != Loudness::verbose) return;
   if (level == Level::error)

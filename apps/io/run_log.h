@@ -8,7 +8,6 @@
 #include <iosfwd>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "apps/io/file.h"
 
@@ -57,7 +56,6 @@ public:
   void record(const std::string &text) noexcept;
 
   Loudness loudness() const { return loudness_; }
-  const std::vector<std::string> &warnings() const { return warnings_; } // all so far, for the end of the run
   // Called before anything is printed: a progress line makes room.
   void before_printing(std::function<void()> make_room) { make_room_ = std::move(make_room); }
 
@@ -71,7 +69,6 @@ private:
   OutputFile file_;
   bool opened_ = false;
   std::string early_; // until the file is opened
-  std::vector<std::string> warnings_;
   std::function<void()> make_room_;
 };
 

@@ -2,15 +2,12 @@
 # VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem and the header apps/scene/errors.h.
 set(PLATEN_IO_SOURCES
   io/file.cc
-  io/id_list.cc
-  io/checkpoint_writer.cc
-  io/checkpoint_reader.cc
+  io/checkpoint.cc
   io/checkpoint_folder.cc
   io/csv_writer.cc
   io/vtu.cc
   io/pvd.cc
   io/output_folder.cc
-  io/folder_lock.cc
   io/summary.cc
   io/machine.cc
   io/run_log.cc

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -21,6 +22,7 @@ constexpr std::string_view header = "x_m,y_m,z_m,radius_m";
 constexpr const char *columns[] = {"x_m", "y_m", "z_m", "radius_m"};
 constexpr std::string_view shape_words = "# shape:";
 constexpr std::size_t write_bytes = 1 << 20; // of text collected before it is written
+constexpr std::size_t shown = 60;            // characters of a faulty line, which may be anything
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -45,6 +47,21 @@ struct Place {
     throw InputError(fmt::format("{}:{}: error: {}", file, line, what));
   }
 };
+
+// Calls take(line) for each line and keeps the place.
+template <class Take>
+void read_lines(const std::filesystem::path &path, Place &place, const Take &take) {
+  place.file = path.string();
+  std::error_code error;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, error))
+    throw InputError(place.file + ": error: cannot be read");
+  for (std::string whole; std::getline(stream, whole);) {
+    ++place.line;
+    take(std::string_view(whole));
+  }
+  if (stream.bad()) throw InputError(place.file + ": error: cannot be read to its end");
+}
 
 dem::Shape read_shape(std::string_view text, const Place &place) {
   std::istringstream words{std::string(text)};
@@ -113,21 +130,15 @@ void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &
 }
 
 SpecimenFile read_specimen_csv(const std::filesystem::path &path) {
-  Place place{path.string()};
-  std::error_code error;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, error))
-    throw InputError(path.string() + ": error: cannot be read");
+  Place place;
   SpecimenFile read;
   bool has_header = false;
-  for (std::string whole; std::getline(stream, whole);) {
-    ++place.line;
-    std::string_view line = whole;
+  read_lines(path, place, [&](std::string_view line) {
     if (place.line == 1 && line.substr(0, 3) == "\xef\xbb\xbf") line.remove_prefix(3);
     line = trimmed(line);
-    if (line.empty()) continue;
+    if (line.empty()) return;
     if (line.front() == '#') {
-      if (line.substr(0, shape_words.size()) != shape_words) continue;
+      if (line.substr(0, shape_words.size()) != shape_words) return;
       read.specimen.shape = read_shape(line.substr(shape_words.size()), place);
       read.states_shape = true;
     } else if (has_header) {
@@ -135,13 +146,33 @@ SpecimenFile read_specimen_csv(const std::filesystem::path &path) {
     } else if (line == header) {
       has_header = true;
     } else {
-      constexpr std::size_t shown = 60; // of a line that may be anything
       place.fail(fmt::format("\"{}\" is not the header line \"{}\"", line.substr(0, shown), header));
     }
-  }
-  if (stream.bad()) throw InputError(path.string() + ": error: cannot be read to its end");
+  });
   if (read.specimen.size() == 0) place.fail("the file holds no sphere");
   return read;
+}
+
+std::vector<int> read_id_list(const std::filesystem::path &path, std::size_t spheres) {
+  Place place;
+  std::vector<int> ids;
+  std::map<int, std::size_t> line_of;
+  read_lines(path, place, [&](std::string_view line) {
+    const std::string_view text = trimmed(line.substr(0, line.find('#')));
+    if (text.empty()) return;
+    int id = -1;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (failure != std::errc() || end != text.data() + text.size() || id < 0)
+      place.fail(
+          fmt::format("\"{}\" is no id. Allowed: a whole number, 0 or more, a line.", text.substr(0, shown)));
+    if (static_cast<std::size_t>(id) >= spheres)
+      place.fail(fmt::format("names sphere {}, but the specimen has {}. Allowed: 0 ... {}.", id, spheres,
+                             spheres - 1));
+    const auto [found, fresh] = line_of.try_emplace(id, place.line);
+    if (!fresh) place.fail(fmt::format("{} stands in line {} too.", id, found->second));
+    ids.push_back(id);
+  });
+  return ids;
 }
 
 } // namespace platen::apps

@@ -1,9 +1,12 @@
-// Specimens as text: one sphere a row, in full precision.
+// Text files that list spheres: specimens, one sphere a row in full precision, and lists of ids.
 //   # shape: cylinder radius_m=0.025 height_m=0.1          or: # shape: box width_x_m=... width_y_m=...
 //   height_m=... x_m,y_m,z_m,radius_m 0.001,-0.0024,0.0013,0.0012
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
+#include <vector>
 
 #include "dem/packing/specimen.h"
 
@@ -22,5 +25,11 @@ struct SpecimenFile {
 // another, a row has too few or too many values, a number is none or not finite, or a radius is not positive;
 // and where no sphere is there.
 SpecimenFile read_specimen_csv(const std::filesystem::path &path);
+
+// The numbers of the file in its order: whole, not negative, one a line; empty lines and what follows a "#"
+// are passed over. Throws InputError, naming file and line, where the file cannot be read, a line holds
+// something else, or a number comes twice, or is not below the number of spheres that there are.
+std::vector<int> read_id_list(const std::filesystem::path &path,
+                              std::size_t spheres = std::numeric_limits<std::size_t>::max());
 
 } // namespace platen::apps

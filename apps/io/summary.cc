@@ -11,14 +11,9 @@ void write_summary(const std::filesystem::path &path, const Json &summary) {
 }
 
 double number_in(const Json &summary, const std::string &key) {
-  if (const auto slash = key.find('/'); slash != std::string::npos) {
-    const auto object = summary.find(key.substr(0, slash));
-    if (object != summary.end() && object->is_object()) return number_in(*object, key.substr(slash + 1));
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const auto found = summary.find(key);
-  const bool measured = found != summary.end() && found->is_number();
-  return measured ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+  const Json::json_pointer place("/" + key);
+  const bool measured = summary.contains(place) && summary[place].is_number();
+  return measured ? summary[place].get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace platen::apps

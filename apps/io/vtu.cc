@@ -1,13 +1,12 @@
 #include "apps/io/vtu.h"
 
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
-#include <vtkFloatArray.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -26,20 +25,12 @@
 namespace platen::apps {
 namespace {
 
-// VTK arrays that look at the caller's values without a copy: they must live as long as the grid.
-vtkSmartPointer<vtkDataArray> view(const std::vector<double> &values) {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetArray(const_cast<double *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
-  return array;
-}
-vtkSmartPointer<vtkDataArray> view(const std::vector<float> &values) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetArray(const_cast<float *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
-  return array;
-}
-vtkSmartPointer<vtkDataArray> view(const std::vector<int> &values) {
-  auto array = vtkSmartPointer<vtkIntArray>::New();
-  array->SetArray(const_cast<int *>(values.data()), static_cast<vtkIdType>(values.size()), 1);
+// A VTK array on the caller's numbers without a copy: they must live as long as the grid.
+template <class Number>
+vtkSmartPointer<vtkDataArray> view(const Number *numbers, std::size_t count, int components) {
+  auto array = vtkSmartPointer<vtkAOSDataArrayTemplate<Number>>::New();
+  array->SetNumberOfComponents(components);
+  array->SetArray(const_cast<Number *>(numbers), static_cast<vtkIdType>(count), 1);
   return array;
 }
 
@@ -51,9 +42,7 @@ void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t 
             throw std::logic_error("field \"" + field.name + "\" has " + std::to_string(values.size()) +
                                    " values for " + std::to_string(rows) + " rows of " +
                                    std::to_string(field.components));
-          const auto array = view(values);
-          // The array was filled as one component; this only says how to read it.
-          array->SetNumberOfComponents(field.components);
+          const auto array = view(values.data(), values.size(), field.components);
           array->SetName(field.name.c_str());
           to->AddArray(array);
         },
@@ -62,14 +51,9 @@ void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t 
 
 void set_points(vtkUnstructuredGrid &grid, const std::vector<Vector3> &points) {
   static_assert(sizeof(Vector3) == 3 * sizeof(double), "points are passed on as plain numbers");
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  if (!points.empty())
-    coordinates->SetArray(const_cast<double *>(&points.front().x), static_cast<vtkIdType>(3 * points.size()),
-                          1);
   vtkNew<vtkPoints> vtk_points;
   vtk_points->SetDataTypeToDouble();
-  vtk_points->SetData(coordinates);
+  if (!points.empty()) vtk_points->SetData(view(&points.front().x, 3 * points.size(), 3));
   grid.SetPoints(vtk_points);
 }
 

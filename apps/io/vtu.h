@@ -19,16 +19,12 @@ namespace platen::apps {
 // symmetric tensor in VTK's order xx yy zz xy yz xz; 9: tensor by rows. Units are those of SI; tension is
 // positive.
 struct Field {
-  using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<int>>;
   std::string name;
   int components = 1;
-  Values values;
+  std::variant<std::vector<double>, std::vector<int>> values;
 
-  Field(std::string field_name, std::vector<double> v, int n = 1)
-      : name(std::move(field_name)), components(n), values(std::move(v)) {}
-  Field(std::string field_name, std::vector<float> v, int n = 1)
-      : name(std::move(field_name)), components(n), values(std::move(v)) {}
-  Field(std::string field_name, std::vector<int> v, int n = 1)
+  template <class Number>
+  Field(std::string field_name, std::vector<Number> v, int n = 1)
       : name(std::move(field_name)), components(n), values(std::move(v)) {}
   Field(std::string field_name, const std::vector<Vector3> &v);
 };

@@ -1,14 +1,17 @@
 #include "apps/report/chart.h"
 
+#include <fmt/format.h>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
 #include <vtkChartLegend.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlotArea.h>
+#include <vtkPlotHistogram2D.h>
 #include <vtkPlotPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -16,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace platen::apps::report {
@@ -24,41 +26,53 @@ namespace {
 
 constexpr int left_margin = 170, right_margin = 60, foot = 150, plot_width = 1370; // pixels
 
-vtkSmartPointer<vtkTable> table_of(const std::vector<double> &x, const std::vector<double> &y) {
-  vtkNew<vtkDoubleArray> xs, ys;
-  xs->SetName("x");
-  ys->SetName("y");
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (std::isfinite(x[k]) && std::isfinite(y[k])) {
-      xs->InsertNextValue(x[k]);
-      ys->InsertNextValue(y[k]);
-    }
+vtkSmartPointer<vtkTable> table_of(const std::vector<std::vector<double>> &columns) {
   auto table = vtkSmartPointer<vtkTable>::New();
-  table->AddColumn(xs);
-  table->AddColumn(ys);
+  for (const std::vector<double> &values : columns) {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(std::to_string(table->GetNumberOfColumns()).c_str());
+    for (const double value : values)
+      column->InsertNextValue(value);
+    table->AddColumn(column);
+  }
   return table;
+}
+
+vtkSmartPointer<vtkTable> table_of_finite(const std::vector<double> &x, const std::vector<double> &y) {
+  std::vector<std::vector<double>> columns(2);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (std::isfinite(x[k]) && std::isfinite(y[k])) columns[0].push_back(x[k]), columns[1].push_back(y[k]);
+  return table_of(columns);
+}
+
+void add_label(vtkPlot *plot, const std::string &label) {
+  plot->SetLabel(" " + label); // VTK leaves no gap after the stroke
+  plot->SetLegendVisibility(!label.empty());
 }
 
 // Ends of all curves and marks along one axis, a little air beyond them. Zero belongs into the picture: all
 // that is drawn here is a sum or a strain since the start.
-std::array<double, 2> range_of(const Chart &chart, std::vector<double> Curve::*values, double Mark::*place) {
+std::array<double, 2> range_of(const Chart &chart, std::size_t axis) {
   double low = 0, high = 0;
-  for (const Curve &curve : chart.curves)
-    for (std::size_t k = 0; k < curve.x.size(); ++k)
-      if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k])) {
-        low = std::min(low, (curve.*values)[k]);
-        high = std::max(high, (curve.*values)[k]);
-      }
-  for (const Mark &mark : chart.marks) {
-    low = std::min(low, mark.*place);
-    high = std::max(high, mark.*place);
+  for (const std::array<double, 2> &point : points_of(chart)) {
+    low = std::min(low, point[axis]);
+    high = std::max(high, point[axis]);
   }
   if (low == high) return {0, 1};
   const double air = 0.04 * (high - low);
   return {low < 0 ? low - air : 0, high > 0 ? high + air : 0};
 }
 
-void style_axis(vtkAxis *axis) {
+void set_ticks(vtkAxis *axis, std::array<double, 2> range, const std::vector<Tick> &ticks) {
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> words;
+  for (const Tick &tick : ticks) {
+    positions->InsertNextValue(tick.place);
+    words->InsertNextValue(tick.words);
+  }
+  axis->SetUnscaledRange(range[0], range[1]);
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetCustomTickPositions(positions, words);
   axis->SetTitle(""); // VTK would write it over the numbers; see add_axis_titles()
   set_letters(axis->GetLabelProperties(), small_size);
   axis->SetTickLength(8 * oversampling);
@@ -69,59 +83,39 @@ void style_axis(vtkAxis *axis) {
   axis->GetGridPen()->SetWidth(oversampling);
 }
 
-int digits_of(const std::vector<double> &ticks) {
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
-  return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-}
-
 void add_curve(vtkChartXY &chart, const Curve &curve) {
-  const auto table = table_of(curve.x, curve.y);
-  if (table->GetNumberOfRows() < 2) return;
+  const auto points = table_of_finite(curve.x, curve.y);
+  if (points->GetNumberOfRows() < 2) return;
   vtkPlot *plot = chart.AddPlot(vtkChart::LINE);
-  plot->SetInputData(table, 0, 1);
+  plot->SetInputData(points, 0, 1);
   plot->SetColor(curve.colour[0], curve.colour[1], curve.colour[2], 255);
   plot->SetWidth(static_cast<float>(oversampling * curve.width));
   plot->GetPen()->SetLineType(curve.stroke == Stroke::solid ? vtkPen::SOLID_LINE : vtkPen::DASH_LINE);
-  plot->SetLabel(" " + curve.label); // VTK leaves no gap after the stroke
-  plot->SetLegendVisibility(!curve.label.empty());
+  add_label(plot, curve.label);
 }
 
 void add_mark(vtkChartXY &chart, const Mark &mark) {
-  vtkPlot *plot = chart.AddPlot(vtkChart::POINTS);
-  // A plot of one point is not drawn by VTK; the same point twice is.
-  plot->SetInputData(table_of({mark.x, mark.x}, {mark.y, mark.y}), 0, 1);
-  plot->SetColor(mark.colour[0], mark.colour[1], mark.colour[2], 255);
+  vtkPlot *plot =
+      add_dots(chart, {mark.x}, {mark.y}, mark.colour,
+               mark.shape == MarkShape::circle ? vtkPlotPoints::CIRCLE : vtkPlotPoints::DIAMOND, 16);
   plot->SetWidth(7 * oversampling); // the legend's sign is 2.3 times as large
-  auto *points = vtkPlotPoints::SafeDownCast(plot);
-  points->SetMarkerStyle(mark.shape == MarkShape::circle ? vtkPlotPoints::CIRCLE : vtkPlotPoints::DIAMOND);
-  points->SetMarkerSize(16 * oversampling);
-  plot->SetLabel(" " + mark.label);
-  plot->SetLegendVisibility(!mark.label.empty());
+  add_label(plot, mark.label);
 }
 
 // From the x axis up, over the whole width; before the curves, which then lie on it.
 void add_band(vtkChartXY &item, const Chart &chart, std::array<double, 2> x, double floor) {
   if (!(chart.band_top > floor)) return;
   constexpr int stations = 5; // VTK fills nothing between two
-  vtkNew<vtkTable> table;
-  const auto add_column = [&](const char *name, double at_left, double at_right) {
-    vtkNew<vtkDoubleArray> column;
-    column->SetName(name);
-    for (int k = 0; k < stations; ++k)
-      column->InsertNextValue(at_left + (at_right - at_left) * k / (stations - 1));
-    table->AddColumn(column);
-  };
-  add_column("x", x[0], x[1]);
-  add_column("low", floor, floor);
-  add_column("high", chart.band_top, chart.band_top);
+  std::vector<double> places;
+  for (int k = 0; k < stations; ++k)
+    places.push_back(x[0] + (x[1] - x[0]) * k / (stations - 1));
   auto *area = vtkPlotArea::SafeDownCast(item.AddPlot(vtkChart::AREA));
-  area->SetInputData(table);
-  area->SetInputArray(0, "x");
-  area->SetInputArray(1, "low");
-  area->SetInputArray(2, "high");
+  area->SetInputData(table_of(
+      {places, std::vector<double>(stations, floor), std::vector<double>(stations, chart.band_top)}));
+  for (const int column : {0, 1, 2})
+    area->SetInputArray(column, std::to_string(column));
   area->SetColor(228, 228, 228, 255);
-  area->SetLabel(" " + chart.band_label);
-  area->SetLegendVisibility(!chart.band_label.empty());
+  add_label(area, chart.band_label);
 }
 
 // Width and height of the legend in pixels, from the count and length of its lines; on the large side.
@@ -155,25 +149,12 @@ void set_legend(vtkChartXY &chart, bool left) {
   legend->GetPen()->SetOpacity(0);
 }
 
-void set_decades(vtkAxis *axis, std::array<double, 2> range) {
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> words;
-  for (const Tick &tick : decade_ticks(range[0], range[1])) {
-    positions->InsertNextValue(tick.place);
-    words->InsertNextValue(tick.words);
-  }
-  axis->SetUnscaledRange(range[0], range[1]);
-  axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetCustomTickPositions(positions, words);
-  style_axis(axis);
-}
-
 vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea &area) {
   const bool decades = given_chart.scale == Scale::logarithmic;
   const Chart chart = decades ? in_decades(given_chart) : given_chart;
   const auto given = [](const std::array<double, 2> &range) { return range[0] != 0 || range[1] != 0; };
   const std::array<double, 2> x = given(chart.x_range) ? chart.x_range : x_range_of(chart),
-                              y = given(chart.y_range) ? chart.y_range : range_of(chart, &Curve::y, &Mark::y);
+                              y = given(chart.y_range) ? chart.y_range : range_of(chart, 1);
   const auto [legend_width, legend_height] = legend_size(chart);
   const LegendPlace place = place_legend(chart, x, y, legend_width / area.width, legend_height / area.height);
 
@@ -183,21 +164,42 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea 
     add_curve(*item, curve);
   for (const Mark &mark : chart.marks)
     add_mark(*item, mark);
-  if (decades) {
-    set_decades(item->GetAxis(vtkAxis::BOTTOM), x);
-    set_decades(item->GetAxis(vtkAxis::LEFT), {y[0], place.y_top});
-  } else {
-    set_axis(item->GetAxis(vtkAxis::BOTTOM), x, 8);
-    set_axis(item->GetAxis(vtkAxis::LEFT), {y[0], place.y_top}, area.height > 700 ? 8 : 5);
-  }
+  const std::array<double, 2> y_shown{y[0], place.y_top};
+  const auto set = [&](int axis, const std::array<double, 2> &range, int intervals) {
+    if (decades)
+      set_ticks(item->GetAxis(axis), range, decade_ticks(range[0], range[1]));
+    else
+      set_axis(item->GetAxis(axis), range, intervals);
+  };
+  set(vtkAxis::BOTTOM, x, 8);
+  set(vtkAxis::LEFT, y_shown, area.height > 700 ? 8 : 5);
   set_legend(*item, place.left);
   return item;
 }
 
 } // namespace
 
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double &value : values)
+    value *= factor;
+  return values;
+}
+
+std::vector<std::array<double, 2>> points_of(const Chart &chart) {
+  std::vector<std::array<double, 2>> points;
+  const auto add = [&points](double x, double y) {
+    if (std::isfinite(x) && std::isfinite(y)) points.push_back({x, y});
+  };
+  for (const Curve &curve : chart.curves)
+    for (std::size_t k = 0; k < curve.x.size(); ++k)
+      add(curve.x[k], curve.y[k]);
+  for (const Mark &mark : chart.marks)
+    add(mark.x, mark.y);
+  return points;
+}
+
 std::array<double, 2> x_range_of(const Chart &chart) {
-  return range_of(chart, &Curve::x, &Mark::x);
+  return range_of(chart, 0);
 }
 
 void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour) {
@@ -240,9 +242,7 @@ std::vector<Tick> decade_ticks(double low, double high) {
     for (const double factor : factors) {
       const double place = decade + std::log10(factor);
       if (place < low || place > high) continue;
-      char text[32];
-      std::snprintf(text, sizeof text, "%g", factor * std::pow(10, decade));
-      ticks.push_back({place, text});
+      ticks.push_back({place, fmt::format("{:g}", factor * std::pow(10, decade))});
     }
   return ticks;
 }
@@ -252,15 +252,10 @@ LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array
   const double span_x = x[1] - x[0], floor_y = y[1] - height * (y[1] - y[0]);
   double highest[] = {-std::numeric_limits<double>::infinity(),
                       -std::numeric_limits<double>::infinity()}; // right, left
-  const auto meet = [&](double px, double py) {
+  for (const auto &[px, py] : points_of(chart)) {
     if (px > x[1] - width * span_x) highest[0] = std::max(highest[0], py);
     if (px < x[0] + width * span_x) highest[1] = std::max(highest[1], py);
-  };
-  for (const Curve &curve : chart.curves)
-    for (std::size_t k = 0; k < curve.x.size(); ++k)
-      if (std::isfinite(curve.y[k])) meet(curve.x[k], curve.y[k]);
-  for (const Mark &mark : chart.marks)
-    meet(mark.x, mark.y);
+  }
 
   LegendPlace place{highest[1] < highest[0], y[1]};
   const double obstacle = std::min(highest[0], highest[1]);
@@ -278,20 +273,40 @@ vtkSmartPointer<vtkChartXY> frame_chart(const PlotArea &area) {
 }
 
 void set_axis(vtkAxis *axis, std::array<double, 2> range, int intervals, Sign sign) {
-  const std::vector<double> ticks = round_ticks(range[0], range[1], intervals);
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> words;
-  for (const double tick : ticks) {
-    if (tick < range[0] - 1e-9 || tick > range[1] + 1e-9) continue;
-    positions->InsertNextValue(tick);
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", digits_of(ticks), sign == Sign::dropped ? std::abs(tick) : tick);
-    words->InsertNextValue(text);
-  }
-  axis->SetUnscaledRange(range[0], range[1]);
-  axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetCustomTickPositions(positions, words);
-  style_axis(axis);
+  const std::vector<double> round = round_ticks(range[0], range[1], intervals);
+  const double step = round.size() > 1 ? round[1] - round[0] : 1;
+  const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  std::vector<Tick> ticks;
+  for (const double tick : round)
+    if (tick >= range[0] - 1e-9 && tick <= range[1] + 1e-9)
+      ticks.push_back({tick, fmt::format("{:.{}f}", sign == Sign::dropped ? std::abs(tick) : tick, digits)});
+  set_ticks(axis, range, ticks);
+}
+
+vtkPlot *add_dots(vtkChartXY &chart, std::vector<double> x, std::vector<double> y, Colour colour, int marker,
+                  float size) {
+  if (x.size() == 1) // VTK draws no plot of one point; of the same point twice it does
+    x.push_back(x[0]), y.push_back(y[0]);
+  vtkPlot *plot = chart.AddPlot(vtkChart::POINTS);
+  plot->SetInputData(table_of_finite(x, y), 0, 1);
+  plot->SetColor(colour[0], colour[1], colour[2], 255);
+  auto *points = vtkPlotPoints::SafeDownCast(plot);
+  points->SetMarkerStyle(marker);
+  points->SetMarkerSize(size * oversampling);
+  return plot;
+}
+
+vtkSmartPointer<vtkChartXY> image_chart(const PlotArea &area, vtkImageData *image,
+                                        vtkColorTransferFunction *ramp, std::array<double, 2> x,
+                                        std::array<double, 2> y, Sign sign) {
+  auto chart = frame_chart(area);
+  vtkNew<vtkPlotHistogram2D> plot;
+  plot->SetInputData(image);
+  plot->SetTransferFunction(ramp);
+  chart->AddPlot(plot);
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), x, 4, sign);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), y, 8);
+  return chart;
 }
 
 void add_axis_titles(Canvas &canvas, const PlotArea &area, const std::string &x_title,

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "apps/report/canvas.h"
-#include "apps/report/style.h"
+
+class vtkImageData;
 
 namespace platen::apps::report {
+
+constexpr double mm_per_m = 1e3, pa_per_mpa = 1e6; // of axes and colour bars
 
 enum class Stroke { solid, dashed };
 
@@ -48,6 +51,9 @@ struct Chart {
   std::string band_label;      // as above
 };
 
+// All values times a factor.
+std::vector<double> scaled(std::vector<double> values, double factor);
+
 // A bar of scatter from `low` to `high`, with caps of half a width in units of x; nothing where both are the
 // same.
 void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour);
@@ -64,6 +70,8 @@ struct Tick {
 };
 std::vector<Tick> decade_ticks(double low, double high);
 
+// All points of its curves and marks, but for those that are not finite.
+std::vector<std::array<double, 2>> points_of(const Chart &chart);
 // The x range that a chart takes from its curves and marks; holds zero.
 std::array<double, 2> x_range_of(const Chart &chart);
 
@@ -94,6 +102,13 @@ vtkSmartPointer<vtkChartXY> frame_chart(const PlotArea &area);
 enum class Sign { shown, dropped };
 // An axis over `range` with round ticks, about `intervals` of them.
 void set_axis(vtkAxis *axis, std::array<double, 2> range, int intervals, Sign sign = Sign::shown);
+// Dots of one colour, `size` pixels wide; `marker`: of vtkPlotPoints.
+vtkPlot *add_dots(vtkChartXY &chart, std::vector<double> x, std::vector<double> y, Colour colour, int marker,
+                  float size);
+// A chart of coloured cells in mm, one a pixel of the image. `sign`: of the numbers below.
+vtkSmartPointer<vtkChartXY> image_chart(const PlotArea &area, vtkImageData *image,
+                                        vtkColorTransferFunction *ramp, std::array<double, 2> x,
+                                        std::array<double, 2> y, Sign sign = Sign::shown);
 // The titles of its axes.
 void add_axis_titles(Canvas &canvas, const PlotArea &area, const std::string &x_title,
                      const std::string &y_title);

@@ -1,23 +1,23 @@
 #include "apps/report/cones.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/pi.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double degree = pi / 180;
-
-bool read_vector(const nlohmann::json &from, const char *key, std::array<double, 3> &to) {
+// Whether three numbers stand there.
+bool read_vector(const Json &from, const char *key, Position &to) {
   const auto found = from.find(key);
-  if (found == from.end() || !found->is_array() || found->size() != 3) return false;
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!(*found)[d].is_number()) return false;
-    to[d] = (*found)[d].get<double>();
-  }
+  const auto is_number = [](const Json &one) { return one.is_number(); };
+  if (found == from.end() || !found->is_array() || found->size() != 3 ||
+      !std::all_of(found->begin(), found->end(), is_number))
+    return false;
+  to = found->get<Position>();
   return true;
 }
 
@@ -28,8 +28,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-bool is_within(const FittedCone &cone, double x, double y, double z) {
-  const double wx = x - cone.apex[0], wy = y - cone.apex[1], wz = z - cone.apex[2];
+bool is_within(const FittedCone &cone, const Position &place) {
+  const double wx = place[0] - cone.apex[0], wy = place[1] - cone.apex[1], wz = place[2] - cone.apex[2];
   const double along = wx * cone.axis[0] + wy * cone.axis[1] + wz * cone.axis[2];
   return along > std::cos(cone.half_angle) * std::hypot(wx, wy, wz);
 }
@@ -79,24 +79,19 @@ std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd 
   return up;
 }
 
-std::array<double, 3> carried(const FittedCone &cone, const Spheres &spheres) {
-  std::array<std::vector<double>, 3> way;
-  for (std::size_t k = 0; k < spheres.size(); ++k) {
-    if (!is_within(cone, spheres.x0[k], spheres.y0[k], spheres.z0[k])) continue;
-    way[0].push_back(spheres.x[k] - spheres.x0[k]);
-    way[1].push_back(spheres.y[k] - spheres.y0[k]);
-    way[2].push_back(spheres.z[k] - spheres.z0[k]);
-  }
-  return {median(std::move(way[0])), median(std::move(way[1])), median(std::move(way[2]))};
+Position carried(const FittedCone &cone, const Spheres &spheres) {
+  std::array<std::vector<double>, 3> displacement;
+  for (std::size_t k = 0; k < spheres.size(); ++k)
+    if (is_within(cone, spheres.initial[k]))
+      for (std::size_t d = 0; d < 3; ++d)
+        displacement[d].push_back(spheres.position[k][d] - spheres.initial[k][d]);
+  return {median(displacement[0]), median(displacement[1]), median(displacement[2])};
 }
 
 std::string words_of(const FittedCone &cone) {
   if (cone.verdict == FittedCone::Verdict::not_measured) return "not measured";
   if (cone.verdict == FittedCone::Verdict::none) return "no cone";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.0f degrees (confidence %.2f)", cone.half_angle / degree,
-                cone.confidence);
-  return text;
+  return fmt::format("{:.0f} degrees (confidence {:.2f})", cone.half_angle / degree, cone.confidence);
 }
 
 } // namespace platen::apps::report

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/report/platen_contacts.h"
+#include "apps/report/platens.h"
 #include "apps/report/run_folder.h"
 
 namespace platen::apps::report {
+
+constexpr double degree = pi / 180;
 
 // What the summary says of one end at one time.
 struct FittedCone {
@@ -16,7 +18,7 @@ struct FittedCone {
   Verdict verdict = Verdict::not_measured;
   double half_angle = 0;        // rad
   double confidence = 0;        // 1
-  std::array<double, 3> apex{}; // m, in the specimen before the test
+  Position apex{};              // m, in the specimen before the test
   std::array<double, 3> axis{}; // 1, from the apex towards the platen
 };
 
@@ -32,7 +34,7 @@ std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd 
 
 // How far the spheres within the cone have gone: medians, so that crumbs which fell out of it do not count;
 // m. Zero without spheres.
-std::array<double, 3> carried(const FittedCone &cone, const Spheres &spheres);
+Position carried(const FittedCone &cone, const Spheres &spheres);
 
 // "55 degrees (confidence 0.68)", "no cone", "not measured".
 std::string words_of(const FittedCone &cone);

@@ -1,22 +1,19 @@
 // Broken bonds as discs in the half specimen, and their density over radius and height.
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkDoubleArray.h>
-#include <vtkFeatureEdges.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRegularPolygonSource.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/crack_density.h"
-#include "apps/report/heat_map.h"
-#include "apps/report/pictures.h"
+#include "apps/report/chart.h"
+#include "apps/report/cracks.h"
 #include "apps/report/specimen_view.h"
 #include "base/pi.h"
 
@@ -40,9 +37,9 @@ void add_discs(vtkRenderer *renderer, const std::vector<Disc> &discs, vtkScalars
   values->SetName("value");
   for (const Disc &shown : discs) {
     const Crack &crack = *shown.crack;
-    if (crack.place.y > 0) continue;
-    points->InsertNextPoint(crack.place.x, crack.place.y, crack.place.z);
-    normals->InsertNextTuple3(crack.nx, crack.ny, crack.nz);
+    if (crack.place[1] > 0) continue;
+    points->InsertNextPoint(crack.place.data());
+    normals->InsertNextTuple(crack.normal.data());
     sizes->InsertNextValue(std::sqrt(crack.area / pi));
     values->InsertNextValue(shown.value);
   }
@@ -75,70 +72,71 @@ void add_discs(vtkRenderer *renderer, const std::vector<Disc> &discs, vtkScalars
 }
 
 // The edges of the half specimen: its cut face and the rims behind it.
-void add_outline(vtkRenderer *renderer, const Extent &extent) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
-  const auto line = [&](const std::vector<std::array<double, 3>> &path) {
-    lines->InsertNextCell(static_cast<int>(path.size()));
-    for (const auto &point : path)
-      lines->InsertCellPoint(points->InsertNextPoint(point.data()));
-  };
+std::vector<Outline> outlines_of(const Extent &extent) {
   const double w = extent.half_width, d = extent.half_depth;
   constexpr int segments = 48;
+  std::vector<Outline> outlines;
   if (extent.form == Extent::Form::disc) {
     const double middle = 0.5 * (extent.bottom + extent.top), h = 0.5 * extent.height();
     for (const double y : {0.0, -d}) {
-      std::vector<std::array<double, 3>> rim;
+      Outline &rim = outlines.emplace_back();
       for (int k = 0; k <= 2 * segments; ++k)
         rim.push_back({w * std::cos(pi * k / segments), y, middle + h * std::sin(pi * k / segments)});
-      line(rim);
     }
-  } else {
-    for (const double z : {extent.bottom, extent.top}) {
-      std::vector<std::array<double, 3>> rim{{w, 0, z}};
-      const bool is_round = extent.form == Extent::Form::cylinder;
-      for (int k = 1; k < segments && is_round; ++k)
-        rim.push_back({w * std::cos(pi * k / segments), -w * std::sin(pi * k / segments), z});
-      if (!is_round) rim.insert(rim.end(), {{w, -d, z}, {-w, -d, z}});
-      rim.push_back({-w, 0, z});
-      rim.push_back({w, 0, z});
-      line(rim);
-    }
-    for (const double x : {-w, w})
-      line({{x, 0, extent.bottom}, {x, 0, extent.top}});
+    return outlines;
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(lines);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.3, 0.3, 0.3);
-  actor->GetProperty()->SetLineWidth(3 * oversampling);
-  actor->GetProperty()->LightingOff();
-  renderer->AddActor(actor);
+  for (const double z : {extent.bottom, extent.top}) {
+    Outline rim{{w, 0, z}};
+    const bool is_round = extent.form == Extent::Form::cylinder;
+    for (int k = 1; k < segments && is_round; ++k)
+      rim.push_back({w * std::cos(pi * k / segments), -w * std::sin(pi * k / segments), z});
+    if (!is_round) rim.insert(rim.end(), {{w, -d, z}, {-w, -d, z}});
+    rim.insert(rim.end(), {{-w, 0, z}, {w, 0, z}});
+    outlines.push_back(std::move(rim));
+  }
+  for (const double x : {-w, w})
+    outlines.push_back({{x, 0, extent.bottom}, {x, 0, extent.top}});
+  return outlines;
 }
 
 vtkSmartPointer<vtkColorTransferFunction> one_colour(Colour colour) {
   auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
   for (const double x : {0.0, 1.0})
-    function->AddRGBPoint(x, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+    add_colour(function, x, colour);
   return function;
 }
 
 // The k-th panel from the left.
-void add_panel(Canvas &canvas, int k, const std::vector<Disc> &discs, vtkScalarsToColors *colours,
-               const Extent &extent, const std::string &caption) {
-  constexpr int foot = 80;
-  const double width = canvas.width(), height = canvas.height();
-  const double left = k * panel_width / width, right = (k + 1) * panel_width / width;
-  vtkRenderer *renderer = canvas.add_renderer({left, foot / height, right, 1 - Canvas::head_height / height});
+void add_discs_panel(Canvas &canvas, int k, const std::vector<Disc> &discs, vtkScalarsToColors *colours,
+                     const Extent &extent, const std::string &which) {
+  vtkRenderer *renderer =
+      add_panel(canvas, k, panel_width, std::to_string(discs.size()) + which + " (both halves)");
   add_discs(renderer, discs, colours);
-  add_outline(renderer, extent);
+  add_lines(renderer, outlines_of(extent), 0.3, 3);
   light_cut(renderer);
   look_at_cut(canvas, renderer, extent, 0.06 * extent.height());
-  canvas.add_text(caption, 0.5 * (left + right), 0.5 * foot / height, text_size, 0.95 * (right - left));
+}
+
+// One pixel per cell, in mm; pixel borders are cell borders. Heights count from the lower end.
+vtkSmartPointer<vtkImageData> mirrored_image(const DensityMap &map, double factor) {
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(2 * map.columns, map.rows, 1);
+  image->SetOrigin(-map.radius * mm_per_m, 0, 0);
+  image->SetSpacing(map.radius * mm_per_m / map.columns, (map.top - map.bottom) * mm_per_m / map.rows, 1);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("density");
+  for (int row = 0; row < map.rows; ++row)
+    for (int k = -map.columns; k < map.columns; ++k)
+      values->InsertNextValue(map.at(k < 0 ? -k - 1 : k, row) * factor);
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+double largest(const DensityMap &map) {
+  double most = 0;
+  for (const double value : map.values)
+    if (std::isfinite(value)) most = std::max(most, value);
+  return most;
 }
 
 } // namespace
@@ -150,9 +148,9 @@ void draw_cracks(const Run &run, const Spheres &before_test, const std::filesyst
     std::vector<Disc> discs;
     for (const Crack &crack : cracks)
       if (crack.in_tension == in_tension) discs.push_back({&crack, 0});
-    add_panel(canvas, in_tension ? 0 : 1, discs, one_colour(in_tension ? colours::vermilion : colours::blue),
-              extent_of(before_test),
-              std::to_string(discs.size()) + (in_tension ? " in tension" : " in shear") + " (both halves)");
+    add_discs_panel(canvas, in_tension ? 0 : 1, discs,
+                    one_colour(in_tension ? colours::vermilion : colours::blue), extent_of(before_test),
+                    in_tension ? " in tension" : " in shear");
   }
   canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", half of the specimen");
   canvas.save(png);
@@ -173,8 +171,8 @@ void draw_crack_times(const Run &run, const Spheres &before_test, const std::fil
     std::vector<Disc> discs;
     for (const Crack &crack : cracks)
       if ((crack.time < peak) == before) discs.push_back({&crack, crack.time / peak});
-    add_panel(canvas, before ? 0 : 1, discs, ramp, extent_of(before_test),
-              std::to_string(discs.size()) + (before ? " before the peak" : " after it") + " (both halves)");
+    add_discs_panel(canvas, before ? 0 : 1, discs, ramp, extent_of(before_test),
+                    before ? " before the peak" : " after it");
   }
   add_colour_bar(canvas, colouring, 1 - double(bar_width) / canvas.width());
   canvas.add_head(run.title, "Bonds broken until " + run.pattern_words() + ", by time");
@@ -183,10 +181,34 @@ void draw_crack_times(const Run &run, const Spheres &before_test, const std::fil
 
 void draw_crack_density(const Run &run, const Spheres &before_test, const std::filesystem::path &png) {
   const std::vector<Crack> cracks = cracks_until(*run.cracks, run.pattern_time(), before_test);
-  std::vector<Place> bonds;
-  if (!run.bonds.empty()) bonds = bond_midpoints(run.bonds.frames.front());
-  save_heat_map(run.title, "Bonds broken until " + run.pattern_words(),
-                crack_density(cracks, bonds, extent_of(before_test)), png);
+  std::vector<Position> bonds;
+  if (!run.bonds.empty()) bonds = bond_midpoints(run.bonds.front());
+  const DensityMap map = crack_density(cracks, bonds, extent_of(before_test));
+
+  constexpr int plot_height = 1000, left = 170, right = 330, foot = 125, least_width = 1000;
+  constexpr double per_cm3 = 1e-6; // 1/m3 in 1/cm3
+  const double mm_radius = map.radius * mm_per_m, mm_height = (map.top - map.bottom) * mm_per_m;
+  const int plot_width = static_cast<int>(plot_height * 2 * mm_radius / mm_height);
+  const int spare = std::max(0, least_width - plot_width - left - right); // for the letters of the head
+  const int width = plot_width + left + right + spare, height = plot_height + Canvas::head_height + foot;
+
+  const double factor = map.is_share ? 1 : per_cm3, most = largest(map) * factor;
+  const Colouring colouring{Ramp::damage, round_ticks(0, map.is_share || most <= 0 ? 1 : most, 5),
+                            map.is_share ? "Share of\nbonds broken" : "Broken bonds\nper cm3"};
+  const auto ramp = colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back());
+  ramp->SetNanColor(1, 1, 1);
+
+  Canvas canvas(width, height);
+  const PlotArea area{left + 0.5 * spare, foot, static_cast<double>(plot_width), plot_height};
+  const auto chart = image_chart(area, mirrored_image(map, factor), ramp, {-mm_radius, mm_radius},
+                                 {0, mm_height}, Sign::dropped);
+  add_axis_titles(canvas, area,
+                  map.is_plane ? "Distance from the middle plane (mm)" : "Distance from the axis (mm)",
+                  "Height (mm)");
+  add_chart_scene(canvas, {chart});
+  add_colour_bar(canvas, colouring, 1 - (right - 60.0 + 0.5 * spare) / width);
+  canvas.add_head(run.title, "Bonds broken until " + run.pattern_words());
+  canvas.save(png);
 }
 
 } // namespace platen::apps::report

@@ -1,12 +1,12 @@
 #include "apps/report/csv.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 
+#include "apps/io/numbers.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -24,14 +24,6 @@ std::vector<std::string> fields_of(const std::string &line) {
     fields.push_back(trimmed(field));
   if (!line.empty() && line.back() == ',') fields.emplace_back();
   return fields;
-}
-
-double number_of(const std::string &field, const std::string &where) {
-  if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
-  char *end = nullptr;
-  const double value = std::strtod(field.c_str(), &end);
-  if (*end != '\0') throw InputError(where + "\"" + field + "\" is not a number");
-  return value;
 }
 
 // All whole lines; an unfinished last one is dropped.
@@ -59,28 +51,31 @@ CsvTable read_csv(const std::filesystem::path &file, const std::vector<std::stri
   if (lines.empty() || trimmed(lines[0]).empty()) throw InputError(file.string() + ": empty, no header line");
   const std::vector<std::string> header = fields_of(lines[0]);
 
+  const auto is_word = [&](const std::string &column) {
+    return std::find(word_columns.begin(), word_columns.end(), column) != word_columns.end();
+  };
   CsvTable table;
   table.file = file;
-  for (std::size_t number = 1; number < lines.size(); ++number) {
-    if (trimmed(lines[number]).empty()) continue;
-    const std::string where = file.string() + ":" + std::to_string(number + 1) + ": ";
-    const std::vector<std::string> fields = fields_of(lines[number]);
+  for (const std::string &column : header) // a table without rows still has its columns
+    is_word(column) ? table.words[column].clear() : table.numbers[column].clear();
+  for (std::size_t line = 1; line < lines.size(); ++line) {
+    if (trimmed(lines[line]).empty()) continue;
+    const std::string where = file.string() + ":" + std::to_string(line + 1) + ": ";
+    const std::vector<std::string> fields = fields_of(lines[line]);
     if (fields.size() != header.size())
       throw InputError(where + std::to_string(fields.size()) + " fields, but the header names " +
                        std::to_string(header.size()));
     for (std::size_t k = 0; k < header.size(); ++k) {
-      if (std::find(word_columns.begin(), word_columns.end(), header[k]) != word_columns.end())
+      const std::optional<double> number =
+          fields[k].empty() ? std::numeric_limits<double>::quiet_NaN() : number_of(fields[k]);
+      if (is_word(header[k]))
         table.words[header[k]].push_back(fields[k]);
+      else if (number)
+        table.numbers[header[k]].push_back(*number);
       else
-        table.numbers[header[k]].push_back(number_of(fields[k], where + header[k] + ": "));
+        throw InputError(where + header[k] + ": \"" + fields[k] + "\" is not a number");
     }
     ++table.rows;
-  }
-  for (const std::string &name : header) { // a table without rows still has its columns
-    if (std::find(word_columns.begin(), word_columns.end(), name) != word_columns.end())
-      table.words[name];
-    else
-      table.numbers[name];
   }
   return table;
 }

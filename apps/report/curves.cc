@@ -1,29 +1,19 @@
-// Stress-strain curves and the energy ledger.
+#include "apps/report/curves.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <string>
 
 #include "apps/report/chart.h"
-#include "apps/report/pictures.h"
 
 namespace platen::apps::report {
 namespace {
 
-constexpr double mm_per_m = 1e3, pa_per_mpa = 1e6;
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double &value : values)
-    value *= factor;
-  return values;
-}
-
 std::string peak_words(const Run &run) {
-  char text[96];
-  std::snprintf(text, sizeof text, "peak %.1f MPa at %.2f mm/m", run.moments.peak_stress / pa_per_mpa,
-                run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m);
-  return text;
+  return fmt::format("peak {:.1f} MPa at {:.2f} mm/m", run.moments.peak_stress / pa_per_mpa,
+                     run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m);
 }
 
 // With one run the kinds of strain have colours, with several the runs have; the lateral strain is told apart
@@ -139,6 +129,67 @@ void draw_energies(const Run &run, const std::filesystem::path &png) {
   chart.x_title = "Axial strain between platens (mm/m)";
   chart.y_title = "Energy (J)";
   save_charts(run.title, "Where the work of the platens went", {chart}, {900}, png);
+}
+
+MagnitudeCount count_of(const Run &run, Stage stage) {
+  const std::vector<double> &time = run.events->column("time_s"), &all = run.events->column("magnitude");
+  std::vector<double> magnitudes;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const bool before = time[k] < run.moments.peak_time;
+    if (before == (stage == Stage::before_peak) && !std::isnan(all[k])) magnitudes.push_back(all[k]);
+  }
+  std::sort(magnitudes.begin(), magnitudes.end());
+  MagnitudeCount count;
+  for (std::size_t k = 0; k < magnitudes.size(); ++k) {
+    count.magnitude.push_back(magnitudes[k]);
+    count.log_count.push_back(std::log10(static_cast<double>(magnitudes.size() - k)));
+  }
+  return count;
+}
+
+double FittedLine::log_count(double magnitude) const {
+  return std::log10(events) - b * (magnitude - limit);
+}
+
+FittedLine line_of(const Run &run, Stage stage) {
+  FittedLine line;
+  const std::string start = stage == Stage::before_peak ? "acoustic/b_before" : "acoustic/b_after";
+  line.b = number_in(run.summary, start);
+  line.error = number_in(run.summary, start + "_error");
+  line.limit = number_in(run.summary, start + "_limit");
+  line.events = number_in(run.summary, start + "_events");
+  line.is_there = !std::isnan(line.b + line.error + line.limit + line.events);
+  return line;
+}
+
+void draw_acoustic(const Run &run, const std::filesystem::path &png) {
+  Chart chart;
+  double low = 0, high = -100; // of all magnitudes
+  for (const Stage stage : {Stage::before_peak, Stage::after_peak}) {
+    const bool before = stage == Stage::before_peak;
+    const MagnitudeCount count = count_of(run, stage);
+    if (count.magnitude.empty()) continue;
+    low = std::min(low, count.magnitude.front());
+    high = std::max(high, count.magnitude.back());
+    const Colour colour = before ? colours::blue : colours::vermilion;
+    const std::string when = before ? "before the peak" : "after the peak";
+    chart.curves.push_back({std::to_string(count.magnitude.size()) + " events " + when, count.magnitude,
+                            count.log_count, colour, Stroke::solid, 4});
+    const FittedLine line = line_of(run, stage);
+    if (!line.is_there) continue;
+    const double end = line.limit + std::log10(line.events) / line.b; // where one event is left
+    chart.curves.push_back({fmt::format("b = {:.2f} +- {:.2f} {}", line.b, line.error, when),
+                            {line.limit, end},
+                            {line.log_count(line.limit), 0},
+                            colours::black,
+                            before ? Stroke::solid : Stroke::dashed,
+                            3});
+    high = std::max(high, end);
+  }
+  chart.x_range = {std::floor(2 * low) / 2, std::ceil(2 * high) / 2};
+  chart.x_title = "Magnitude M";
+  chart.y_title = "log10 of events of M and more";
+  save_charts(run.title, "Acoustic events by magnitude; black: the fitted b-values", {chart}, {800}, png);
 }
 
 } // namespace platen::apps::report

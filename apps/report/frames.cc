@@ -65,8 +65,8 @@ std::vector<double> point_field(vtkUnstructuredGrid &grid, const char *name, int
 
 } // namespace
 
-const Frame &FrameSeries::nearest(double time) const {
-  return *std::min_element(frames.begin(), frames.end(), [time](const Frame &a, const Frame &b) {
+const Frame &nearest(const FrameSeries &series, double time) {
+  return *std::min_element(series.begin(), series.end(), [time](const Frame &a, const Frame &b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
   });
 }
@@ -74,7 +74,6 @@ const Frame &FrameSeries::nearest(double time) const {
 FrameSeries read_pvd(const std::filesystem::path &file) {
   const SilencedVtk silenced;
   FrameSeries series;
-  series.file = file;
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
   vtkXMLDataElement *collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
@@ -92,7 +91,7 @@ FrameSeries read_pvd(const std::filesystem::path &file) {
     frame.parts.push_back(file.parent_path() / name);
   }
   for (auto &[time, frame] : by_time)
-    series.frames.push_back(std::move(frame));
+    series.push_back(std::move(frame));
   return series;
 }
 
@@ -105,12 +104,21 @@ vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points point
   return joined->GetOutput();
 }
 
+vtkDataArray &point_data(vtkUnstructuredGrid &grid, const char *name, int components, const Frame &frame) {
+  vtkDataArray *array = grid.GetPointData()->GetArray(name);
+  if (array == nullptr || array->GetNumberOfComponents() != components)
+    throw InputError(frame.parts.front().string() + ": no point data \"" + name + "\" of " +
+                     std::to_string(components) + " components");
+  return *array;
+}
+
 double Spheres::displacement(std::size_t k) const {
-  return std::hypot(x[k] - x0[k], y[k] - y0[k], z[k] - z0[k]);
+  const Position &a = position[k], &b = initial[k];
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 double Spheres::outward_displacement(std::size_t k) const {
-  return std::hypot(x[k], y[k]) - std::hypot(x0[k], y0[k]);
+  return std::hypot(position[k][0], position[k][1]) - std::hypot(initial[k][0], initial[k][1]);
 }
 
 double Spheres::damage(std::size_t k) const {
@@ -122,7 +130,6 @@ Spheres read_spheres(const Frame &frame) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
   const std::string where = frame.parts.front().string();
   Spheres spheres;
-  spheres.time = frame.time;
   spheres.radius = point_field(*grid, "radius", 0, 1, where);
   spheres.intact_bonds = point_field(*grid, "intact_bonds", 0, 1, where);
   spheres.broken_bonds = point_field(*grid, "broken_bonds", 0, 1, where);
@@ -131,34 +138,35 @@ Spheres read_spheres(const Frame &frame) {
   if (grid->GetPointData()->HasArray("fragment"))
     for (const double fragment : point_field(*grid, "fragment", 0, 1, where))
       spheres.fragment.push_back(static_cast<int>(fragment));
-  std::vector<double> *const now[] = {&spheres.x, &spheres.y, &spheres.z};
-  std::vector<double> *const before[] = {&spheres.x0, &spheres.y0, &spheres.z0};
-  for (int d = 0; d < 3; ++d) {
-    *before[d] = point_field(*grid, "displacement", d, 3, where);
-    now[d]->resize(before[d]->size());
-    for (std::size_t k = 0; k < now[d]->size(); ++k) {
-      (*now[d])[k] = grid->GetPoint(static_cast<vtkIdType>(k))[d];
-      (*before[d])[k] = (*now[d])[k] - (*before[d])[k];
-    }
+  spheres.position.resize(spheres.radius.size());
+  for (std::size_t k = 0; k < spheres.size(); ++k)
+    grid->GetPoint(static_cast<vtkIdType>(k), spheres.position[k].data());
+  spheres.initial = spheres.position;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::vector<double> displacement =
+        point_field(*grid, "displacement", static_cast<int>(d), 3, where);
+    for (std::size_t k = 0; k < spheres.size(); ++k)
+      spheres.initial[k][d] -= displacement[k];
   }
   return spheres;
 }
 
 Extent extent_of(const Spheres &spheres) {
   Extent extent;
-  extent.bottom = extent.top = spheres.size() > 0 ? spheres.z0[0] : 0;
+  extent.bottom = extent.top = spheres.size() > 0 ? spheres.initial[0][2] : 0;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const auto &[x, y, z] = spheres.initial[k];
     const double r = spheres.radius[k];
-    extent.half_width = std::max(extent.half_width, std::abs(spheres.x0[k]) + r);
-    extent.half_depth = std::max(extent.half_depth, std::abs(spheres.y0[k]) + r);
-    extent.bottom = std::min(extent.bottom, spheres.z0[k] - r);
-    extent.top = std::max(extent.top, spheres.z0[k] + r);
+    extent.half_width = std::max(extent.half_width, std::abs(x) + r);
+    extent.half_depth = std::max(extent.half_depth, std::abs(y) + r);
+    extent.bottom = std::min(extent.bottom, z - r);
+    extent.top = std::max(extent.top, z + r);
   }
   double round = 0, disc = 0; // of the spheres' skins: from the axis along z, and along y
-  const double middle = 0.5 * (extent.bottom + extent.top);
   for (std::size_t k = 0; k < spheres.size(); ++k) {
-    round = std::max(round, std::hypot(spheres.x0[k], spheres.y0[k]) + spheres.radius[k]);
-    disc = std::max(disc, std::hypot(spheres.x0[k], spheres.z0[k] - middle) + spheres.radius[k]);
+    const auto &[x, y, z] = spheres.initial[k];
+    round = std::max(round, std::hypot(x, y) + spheres.radius[k]);
+    disc = std::max(disc, std::hypot(x, z - 0.5 * (extent.bottom + extent.top)) + spheres.radius[k]);
   }
   // In a box the corners are filled: the reach is up to sqrt(2) half widths, in a circle it is one.
   constexpr double corner_reach = 1.15;

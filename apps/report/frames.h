@@ -4,9 +4,12 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "base/pi.h"
 
 namespace platen::apps::report {
 
@@ -15,13 +18,9 @@ struct Frame {
   std::vector<std::filesystem::path> parts; // files that are shown together
 };
 
-struct FrameSeries {
-  std::filesystem::path file; // the .pvd
-  std::vector<Frame> frames;  // by time
-  bool empty() const { return frames.empty(); }
-  // The frame whose time is nearest. The series must not be empty.
-  const Frame &nearest(double time) const;
-};
+using FrameSeries = std::vector<Frame>; // by time
+// The frame whose time is nearest. The series must not be empty.
+const Frame &nearest(const FrameSeries &series, double time);
 
 // Reads the list alone, not the frames. Throws InputError where the file is no .pvd or a frame is not there.
 FrameSeries read_pvd(const std::filesystem::path &file);
@@ -33,16 +32,21 @@ enum class Points { some, maybe_none };
 // without leave.
 vtkSmartPointer<vtkUnstructuredGrid> read_frame(const Frame &frame, Points points = Points::some);
 
+// A field of a frame's points. Throws InputError where there is none of so many components.
+vtkDataArray &point_data(vtkUnstructuredGrid &grid, const char *name, int components, const Frame &frame);
+
+using Position = std::array<double, 3>; // m
+
 // A frame of spheres as plain columns.
 struct Spheres {
-  double time = 0;                                // s
-  std::vector<double> x, y, z, radius;            // m, now
-  std::vector<double> x0, y0, z0;                 // m, before the test: position less displacement
+  std::vector<Position> position;                 // now
+  std::vector<Position> initial;                  // before the test: position less displacement
+  std::vector<double> radius;                     // m
   std::vector<double> intact_bonds, broken_bonds; // each counts for both its ends
   std::vector<long long> id;
   std::vector<int> fragment; // 0: the largest; empty where the frame does not tell
 
-  std::size_t size() const { return x.size(); }
+  std::size_t size() const { return position.size(); }
   double displacement(std::size_t k) const;         // m, size
   double outward_displacement(std::size_t k) const; // m, away from the axis x = y = 0, in the plane across it
   double damage(std::size_t k) const;               // broken share of the bonds; 0 for a sphere that had none

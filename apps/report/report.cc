@@ -1,37 +1,18 @@
 #include "apps/report/report.h"
 
 #include <algorithm>
-#include <functional>
-#include <ostream>
 
-#include "apps/report/comparison.h"
-#include "apps/report/costs.h"
-#include "apps/report/field_frame.h"
-#include "apps/report/html_page.h"
-#include "apps/report/pictures.h"
-#include "apps/scene/errors.h"
+#include "apps/report/bars.h"
+#include "apps/report/cracks.h"
+#include "apps/report/curves.h"
+#include "apps/report/fields.h"
+#include "apps/report/platens.h"
+#include "apps/report/specimen_view.h"
 
 namespace platen::apps::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Pictures as they come, under the headings of the page.
-class Album {
-public:
-  explicit Album(fs::path folder) : folder_(std::move(folder)) {}
-  void begin(const char *title) { sections_.push_back({title, {}}); }
-  void add(const char *name, const std::string &caption, const std::function<void(const fs::path &)> &draw) {
-    const fs::path file = folder_ / name;
-    draw(file);
-    sections_.back().pictures.push_back({file, caption});
-  }
-  const std::vector<Section> &sections() const { return sections_; }
-
-private:
-  fs::path folder_;
-  std::vector<Section> sections_;
-};
 
 void draw_comparison(const std::vector<Run> &runs, Album &album) {
   album.begin("Compared");
@@ -42,14 +23,14 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
   if (std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.specimen.empty(); })) return;
   album.add("comparison_displacement.png",
             "Half specimens at the end, coloured by outward displacement: what is dark stood still.",
-            [&](const fs::path &png) { draw_displacement_comparison(runs, png); });
+            [&](const fs::path &png) { draw_side_by_side(runs, Quantity::outward_displacement, png); });
   album.add("comparison_damage.png",
             "Half specimens coloured by the share of each sphere's bonds that is broken: grey is sound.",
-            [&](const fs::path &png) { draw_damage_comparison(runs, png); });
+            [&](const fs::path &png) { draw_side_by_side(runs, Quantity::damage, png); });
   if (std::any_of(runs.begin(), runs.end(), tells_fragments))
     album.add("comparison_fragments.png",
               "Pieces at the end, and the cones fitted to what is sound at each platen.",
-              [&](const fs::path &png) { draw_fragments_comparison(runs, png); });
+              [&](const fs::path &png) { draw_side_by_side(runs, Quantity::pieces, png); });
 }
 
 void draw_curves(const Run &run, Album &album) {
@@ -70,19 +51,19 @@ void draw_specimen(const Run &run, const Extent &extent, Album &album) {
   album.add(
       "specimen_outside.png",
       "From outside, coloured by how far each sphere has gone: before the test, near the peak, at the end.",
-      [&](const fs::path &png) { draw_outside(run, extent, png); });
+      [&](const fs::path &png) { draw_three_moments(run, extent, true, png); });
   album.add("specimen_inside.png", "The same, cut in half.",
-            [&](const fs::path &png) { draw_inside(run, extent, png); });
+            [&](const fs::path &png) { draw_three_moments(run, extent, false, png); });
   album.add(
       "outward_displacement.png",
       "Half specimen coloured by outward displacement: cones stay dark, what they wedge aside is light.",
-      [&](const fs::path &png) { draw_outward_displacement(run, extent, png); });
+      [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::outward_displacement, png); });
   album.add("damage.png",
             "Half specimen coloured by the share of each sphere's bonds that is broken: grey is sound.",
-            [&](const fs::path &png) { draw_damage(run, extent, png); });
+            [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::damage, png); });
   if (tells_fragments(run))
     album.add("fragments.png", fragments_caption(run),
-              [&](const fs::path &png) { draw_fragments(run, extent, png); });
+              [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::pieces, png); });
 }
 
 void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, Album &album) {
@@ -130,16 +111,10 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
             [&](const fs::path &png) { draw_stick_and_slip(run, extent, png); });
 }
 
-void draw_where_time_went(const Run &run, Album &album) {
-  if (costs_of(run).empty()) return;
-  album.begin("Where the seconds went");
-  album.add("seconds.png", machine_words(run), [&](const fs::path &png) { draw_costs(run, png); });
-}
-
 void draw_one_run(const Run &run, Album &album) {
   draw_curves(run, album);
   if (run.specimen.empty()) return;
-  const Spheres before_test = read_spheres(run.specimen.frames.front());
+  const Spheres before_test = read_spheres(run.specimen.front());
   const Extent extent = extent_of(before_test);
   draw_specimen(run, extent, album);
   draw_all_cracks(run, before_test, extent.is_plane(), album);
@@ -149,23 +124,25 @@ void draw_one_run(const Run &run, Album &album) {
 } // namespace
 
 void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ostream &out) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(folder.string() + ": cannot be made: " + error.message());
-  for (const Run &run : runs)
-    for (const std::string &remark : run.remarks)
-      out << run.name << ": " << remark << '\n';
-
   Album album(folder);
+  std::vector<std::string> remarks;
+  for (const Run &run : runs) {
+    if (const auto version = run.summary.find("version");
+        version != run.summary.end() && version->is_string())
+      remarks.push_back(run.name + ": " + version->get<std::string>());
+    for (const std::string &remark : run.remarks) {
+      remarks.push_back(run.name + ": " + remark);
+      out << remarks.back() << '\n';
+    }
+  }
   if (runs.size() > 1) draw_comparison(runs, album);
   draw_one_run(runs.front(), album);
-  draw_where_time_went(runs.front(), album);
-  const TableOfFigures figures = table_of_figures(runs);
-  write_html(runs, figures, album.sections(), folder / "report.html");
-  for (const Section &section : album.sections())
-    for (const Picture &picture : section.pictures)
-      out << "drawn: " << picture.file.string() << '\n';
-  out << "page: " << (folder / "report.html").string() << "\n\n" << as_text(figures);
+  if (!costs_of(runs.front()).empty()) {
+    album.begin("Where the seconds went");
+    album.add("seconds.png", machine_words(runs.front()),
+              [&](const fs::path &png) { draw_costs(runs.front(), png); });
+  }
+  album.finish(runs.front().title, table_of_figures(runs), remarks, out);
 }
 
 } // namespace platen::apps::report

@@ -1,13 +1,60 @@
-// A report on one output folder, or on several compared.
+// A report: pictures under headings and a table of figures, on one page that needs no other file and no
+// network.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "apps/report/run_folder.h"
 
 namespace platen::apps::report {
+
+struct TableOfFigures {
+  std::vector<std::string> header; // first the figure's title, then one column a run, then the gains
+  std::vector<std::vector<std::string>> rows; // as many fields as the header; "-" for what was not measured
+};
+
+// The figures of the summaries; with several runs also what the first gains over each other one (its figure
+// divided by theirs).
+TableOfFigures table_of_figures(const std::vector<Run> &runs);
+
+// The table in columns, one line a row, each line ended.
+std::string as_text(const TableOfFigures &table);
+
+// Text that stands in HTML for `text`.
+std::string escaped(const std::string &text);
+
+class Album {
+public:
+  // Makes the folder where it is not there. Throws OutputError.
+  explicit Album(std::filesystem::path folder);
+  void begin(const std::string &heading) { sections_.push_back({heading, {}}); } // empty: without a heading
+  // Draws a picture into the folder; the caption tells what to see in it.
+  void add(const std::string &name, const std::string &caption,
+           const std::function<void(const std::filesystem::path &)> &draw);
+  std::size_t size() const; // pictures
+  // Writes report.html (title, list of sections, figures, remarks, pictures held in the page itself) and
+  // prints the pictures, the page and the figures. Throws OutputError.
+  void finish(const std::string &title, const TableOfFigures &figures,
+              const std::vector<std::string> &remarks, std::ostream &out) const;
+
+private:
+  struct Picture {
+    std::filesystem::path file; // PNG
+    std::string caption;
+  };
+  struct Section {
+    std::string heading;
+    std::vector<Picture> pictures; // without any the section is left out
+    std::string anchor() const;
+    std::string html() const;
+  };
+  std::filesystem::path folder_;
+  std::vector<Section> sections_;
+};
 
 // Draws all pictures that the first run's files allow into `folder` (made where it is not there), with more
 // than one run also the comparison; puts them and the figures on the page report.html there; prints what was

@@ -1,8 +1,8 @@
 #include "apps/report/run_folder.h"
 
-#include <algorithm>
+#include <cmath>
 #include <fstream>
-#include <sstream>
+#include <regex>
 
 #include "apps/scene/errors.h"
 
@@ -11,37 +11,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Where the stress has fallen to this share of the peak, the crack pattern is judged: later the ends are
+// eaten too.
+constexpr double post_peak_share = 0.8;
+
 // Title in the section Scene of a .prm; empty where there is none.
 std::string scene_title(const fs::path &scene) {
+  static const std::regex form(R"(\s*(subsection\b|end\b|set\s+Title\s*=)\s*([^#]*?)\s*(#.*)?)");
   std::ifstream stream(scene);
   std::vector<std::string> sections;
+  std::smatch found;
   for (std::string line; std::getline(stream, line);) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string first, second, rest;
-    words >> first;
-    if (first == "subsection") {
-      std::getline(words >> std::ws, second);
-      sections.push_back(second.substr(0, second.find_last_not_of(" \t\r") + 1));
-    } else if (first == "end" && !sections.empty()) {
+    if (!std::regex_match(line, found, form)) continue;
+    if (found[1] == "subsection")
+      sections.push_back(found[2]);
+    else if (found[1] != "end" && sections == std::vector<std::string>{"Scene"})
+      return found[2];
+    else if (found[1] == "end" && !sections.empty())
       sections.pop_back();
-    } else if (first == "set" && sections == std::vector<std::string>{"Scene"}) {
-      words >> second;
-      std::getline(words >> std::ws, rest);
-      if (second == "Title" && rest.rfind('=', 0) == 0) {
-        const auto begin = rest.find_first_not_of(" \t", 1);
-        return begin == std::string::npos ? ""
-                                          : rest.substr(begin, rest.find_last_not_of(" \t\r") - begin + 1);
-      }
-    }
   }
   return "";
 }
 
-nlohmann::json read_summary(const fs::path &file) {
+Json read_summary(const fs::path &file) {
   std::ifstream stream(file);
   try {
-    return nlohmann::json::parse(stream);
-  } catch (const nlohmann::json::exception &error) {
+    return Json::parse(stream);
+  } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   }
 }
@@ -58,6 +54,41 @@ FrameSeries optional_series(Run &run, const char *name, const std::string &conse
 }
 
 } // namespace
+
+std::vector<double> axial_stress(const CsvTable &history) {
+  const std::vector<double> &top = history.column("axial_stress_top_pa");
+  const std::vector<double> &bottom = history.column("axial_stress_bottom_pa");
+  std::vector<double> stress(top.size());
+  for (std::size_t k = 0; k < stress.size(); ++k)
+    stress[k] = 0.5 * (top[k] + bottom[k]);
+  return stress;
+}
+
+Moments moments_of(const CsvTable &history) {
+  const std::vector<double> stress = axial_stress(history);
+  const std::vector<double> &time = history.column("time_s");
+  Moments moments;
+  bool found = false;
+  for (std::size_t k = 0; k < stress.size(); ++k)
+    if (std::isfinite(stress[k]) && (!found || std::abs(stress[k]) > std::abs(moments.peak_stress))) {
+      moments.peak_row = k;
+      moments.peak_stress = stress[k];
+      found = true;
+    }
+  if (!found) throw InputError(history.file.string() + ": no sample with an axial stress");
+  moments.peak_time = time[moments.peak_row];
+  moments.end_time = time.back();
+
+  const double size = std::abs(moments.peak_stress), fallen = post_peak_share * size;
+  const double sign = moments.peak_stress < 0 ? -1 : 1;
+  for (std::size_t k = moments.peak_row + 1; k < stress.size(); ++k) {
+    const double before = sign * stress[k - 1], now = sign * stress[k];
+    if (now > fallen || before <= fallen) continue;
+    moments.post_peak_time = time[k - 1] + (time[k] - time[k - 1]) * (before - fallen) / (before - now);
+    break;
+  }
+  return moments;
+}
 
 std::string Run::pattern_words() const {
   return moments.post_peak_time ? "the fall to 0.8 of the peak" : "the end";

@@ -1,17 +1,32 @@
-// An output folder of a run, read as far as a report needs it.
+// An output folder of a run, read as far as a report needs it, and the moments of the test: the peak, the
+// fall to 0.8 of it, the end.
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/io/summary.h"
 #include "apps/report/csv.h"
 #include "apps/report/frames.h"
-#include "apps/report/moments.h"
 
 namespace platen::apps::report {
+
+struct Moments {
+  std::size_t peak_row = 0;             // row of the history
+  double peak_stress = 0;               // Pa, mean of both platens; negative for a tension test
+  double peak_time = 0;                 // s
+  std::optional<double> post_peak_time; // s; nothing where the stress never fell so far
+  double end_time = 0;                  // s
+};
+
+// Mean of the stresses at both platens, Pa, one per row of the history; compression positive.
+std::vector<double> axial_stress(const CsvTable &history);
+
+// The peak is the largest stress by size, so that a tension test has one too. Time of the fall is
+// interpolated between samples. Throws InputError where the history has no row or no finite stress.
+Moments moments_of(const CsvTable &history);
 
 struct Run {
   std::filesystem::path folder;
@@ -19,7 +34,7 @@ struct Run {
   std::string title; // Scene / Title; the name where the scene gives none
   CsvTable history;
   Moments moments;
-  nlohmann::json summary;                         // null where the run wrote none
+  Json summary;                                   // null where the run wrote none
   std::optional<CsvTable> cracks;                 // "mode" as words
   std::optional<CsvTable> events;                 // acoustic ones
   FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none

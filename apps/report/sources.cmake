@@ -5,38 +5,25 @@
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
-  report/accuracy_report.cc
-  report/accuracy_results.cc
-  report/acoustic.cc
+  report/accuracy_study.cc
   report/bars.cc
   report/canvas.cc
   report/chart.cc
-  report/comparison.cc
   report/cones.cc
-  report/cost_picture.cc
-  report/costs.cc
-  report/crack_density.cc
   report/crack_pictures.cc
-  report/crack_rose_picture.cc
+  report/cracks.cc
   report/csv.cc
   report/curves.cc
   report/display.cc
-  report/field_files.cc
-  report/field_frame.cc
-  report/fragment_pictures.cc
+  report/fields.cc
   report/frames.cc
-  report/heat_map.cc
-  report/html_page.cc
-  report/moments.cc
-  report/platen_contacts.cc
-  report/platen_pictures.cc
+  report/page.cc
+  report/platen_study.cc
+  report/platens.cc
   report/report.cc
   report/run_folder.cc
   report/specimen_pictures.cc
   report/specimen_view.cc
-  report/stress_pictures.cc
-  report/study_curves.cc
-  report/study_report.cc
-  report/study_results.cc
   report/state_listing.cc
-  report/style.cc)
+  report/stress_flow.cc
+  report/study_curves.cc)

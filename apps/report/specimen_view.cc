@@ -26,7 +26,7 @@ namespace platen::apps::report {
 namespace {
 
 constexpr double rise = 0.12; // tangent of the angle from which the cut is seen, about 7 degrees from above
-constexpr int panel_width = 760, picture_height = 1240, bar_width = 260, caption_height = 80;
+constexpr int panel_width = 760, picture_height = 1240, bar_width = 260;
 
 std::vector<std::size_t> shown(const CutView &view) {
   if (!view.is_whole) return kept_half(view.spheres);
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPolyData> spheres_as_points(const CutView &view) {
   radius->SetName("radius");
   value->SetName("value");
   for (const std::size_t k : shown(view)) {
-    points->InsertNextPoint(view.spheres.x[k], view.spheres.y[k], view.spheres.z[k]);
+    points->InsertNextPoint(view.spheres.position[k].data());
     radius->InsertNextValue(static_cast<float>(view.spheres.radius[k]));
     value->InsertNextValue(view.values[k]);
   }
@@ -74,31 +74,17 @@ void add_spheres(vtkRenderer *renderer, const CutView &view, vtkScalarsToColors 
   renderer->AddActor(actor);
 }
 
-// A black line on a white one, so that it shows on every colour.
-void add_line(vtkRenderer *renderer, const Outline &outline, double nearer) {
-  vtkNew<vtkPoints> points;
-  for (const auto &p : outline) // along the line of sight: its picture stays where it is
-    points->InsertNextPoint(p[0], p[1] + nearer, p[2] + rise * nearer);
-  vtkNew<vtkCellArray> line;
-  line->InsertNextCell(static_cast<int>(outline.size()));
-  for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
-    line->InsertCellPoint(k);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(line);
-  for (const bool upper : {false, true}) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetResolveCoincidentTopologyToPolygonOffset();
-    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, upper ? -8 : 0);
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    const double grey = upper ? 0 : 1;
-    actor->GetProperty()->SetColor(grey, grey, grey);
-    actor->GetProperty()->SetLineWidth(static_cast<float>((upper ? 5 : 10) * oversampling));
-    actor->GetProperty()->LightingOff();
-    renderer->AddActor(actor);
-  }
+// Black lines on white ones, so that they show on every colour, moved towards the eye along the line of
+// sight: their picture stays where it is.
+void add_outlines(vtkRenderer *renderer, std::vector<Outline> outlines, double nearer) {
+  if (outlines.empty()) return;
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset(); // of all mappers from here on
+  for (Outline &outline : outlines)
+    for (Position &place : outline)
+      place[1] += nearer, place[2] += rise * nearer;
+  add_lines(renderer, outlines, 1, 10);
+  vtkPolyDataMapper *upper = add_lines(renderer, outlines, 0, 5);
+  upper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -8);
 }
 
 } // namespace
@@ -106,7 +92,7 @@ void add_line(vtkRenderer *renderer, const Outline &outline, double nearer) {
 std::vector<std::size_t> kept_half(const Spheres &spheres) {
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < spheres.size(); ++k)
-    if (spheres.y0[k] <= 0) rows.push_back(k);
+    if (spheres.initial[k][1] <= 0) rows.push_back(k);
   return rows;
 }
 
@@ -119,6 +105,14 @@ std::vector<double> ticks_for(const std::vector<CutView> &views) {
   const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), place, all.end());
   return round_ticks(0, *place > 0 ? *place : 1, 5);
+}
+
+vtkRenderer *add_panel(Canvas &canvas, int k, int panel_width, const std::string &caption) {
+  constexpr int foot = 80;
+  const double width = canvas.width(), height = canvas.height();
+  const double left = k * panel_width / width, right = (k + 1) * panel_width / width;
+  canvas.add_text(caption, 0.5 * (left + right), 0.5 * foot / height, text_size, 0.95 * (right - left));
+  return canvas.add_renderer({left, foot / height, right, 1 - Canvas::head_height / height});
 }
 
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right) {
@@ -151,6 +145,29 @@ void look_at_cut(const Canvas &canvas, vtkRenderer *renderer, const Extent &exte
                for_width = (extent.half_width + margin) / canvas.aspect(renderer);
   renderer->GetActiveCamera()->SetParallelScale(std::max(for_height, for_width));
   renderer->ResetCameraClippingRange();
+}
+
+vtkPolyDataMapper *add_lines(vtkRenderer *renderer, const std::vector<Outline> &lines, double grey,
+                             float width) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const Outline &line : lines) {
+    cells->InsertNextCell(static_cast<int>(line.size()));
+    for (const Position &place : line)
+      cells->InsertCellPoint(points->InsertNextPoint(place.data()));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(grey, grey, grey);
+  actor->GetProperty()->SetLineWidth(width * oversampling);
+  actor->GetProperty()->LightingOff();
+  renderer->AddActor(actor);
+  return mapper;
 }
 
 void light_cut(vtkRenderer *renderer) {
@@ -196,22 +213,16 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
   Canvas canvas(width, picture_height);
   const auto colours = colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back());
   for (std::size_t k = 0; k < views.size(); ++k) {
-    const double left = static_cast<double>(k) * panel_width / width,
-                 right = left + double(panel_width) / width;
-    vtkRenderer *renderer = canvas.add_renderer({left, double(caption_height) / picture_height, right,
-                                                 1 - double(Canvas::head_height) / picture_height});
+    vtkRenderer *renderer = add_panel(canvas, static_cast<int>(k), panel_width, views[k].caption);
     add_spheres(renderer, views[k], colours);
     if (views[k].platens) add_platens(renderer, views[k].platens, views[k].is_whole);
     light_cut(renderer);
-    for (const Outline &outline : views[k].outlines)
-      add_line(renderer, outline, 2 * extent.half_depth);
+    add_outlines(renderer, views[k].outlines, 2 * extent.half_depth);
     look_at_cut(canvas, renderer, extent, 0.12 * extent.height());
     for (const Note &note : views[k].notes) {
       const auto [x, y] = canvas.on_window(renderer, note.place);
       canvas.add_text(note.text, x, y, small_size);
     }
-    canvas.add_text(views[k].caption, 0.5 * (left + right), 0.5 * caption_height / picture_height, text_size,
-                    0.95 * (right - left));
   }
   add_colour_bar(canvas, colouring, 1 - double(bar_width) / width);
   canvas.add_head(title, subtitle);

@@ -1,4 +1,4 @@
-// The specimen cut in half along its axis, seen from the side that was taken away.
+// The specimen, whole or cut in half along its axis, seen from the side that was taken away.
 #pragma once
 
 #include <vtkUnstructuredGrid.h>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "apps/report/canvas.h"
-#include "apps/report/frames.h"
-#include "apps/report/style.h"
+#include "apps/report/run_folder.h"
+
+class vtkPolyDataMapper;
 
 namespace platen::apps::report {
 
@@ -18,10 +19,10 @@ namespace platen::apps::report {
 // sphere does not come and go as it moves.
 std::vector<std::size_t> kept_half(const Spheres &spheres);
 
-using Outline = std::vector<std::array<double, 3>>; // m, a line over the cut, in front of all spheres
+using Outline = std::vector<Position>; // a line over the cut, in front of all spheres
 
-struct Note {                  // letters centred on a place
-  std::array<double, 3> place; // m
+struct Note { // letters centred on a place
+  Position place;
   std::string text;
 };
 
@@ -50,13 +51,38 @@ std::vector<double> ticks_for(const std::vector<CutView> &views);
 void save_cut_views(const std::string &title, const std::string &subtitle, const std::vector<CutView> &views,
                     const Extent &extent, const Colouring &colouring, const std::filesystem::path &png);
 
+// What the spheres of a picture are coloured by. Pieces: those of 30 and more spheres that bonds hold
+// together, with the cones that were fitted; the frames must tell fragments.
+enum class Quantity { outward_displacement, displacement, damage, pieces };
+
+// The specimen before the test, at the peak and at the end, coloured by how far each sphere has gone: from
+// outside, or cut in half.
+void draw_three_moments(const Run &run, const Extent &extent, bool whole, const std::filesystem::path &png);
+// The half specimen when the stress has fallen to 0.8 of the peak (where it did) and at the end. `extent` is
+// the specimen's before the test.
+void draw_pattern_and_end(const Run &run, const Extent &extent, Quantity quantity,
+                          const std::filesystem::path &png);
+// Several runs in one scale, damage at their Run::pattern_time(), all else at their ends: that is when each
+// shows the most. Runs without frames, or that do not tell the quantity, are left out; one must be there.
+void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const std::filesystem::path &png);
+
+// Whether the frames of the run say which piece each sphere is of.
+bool tells_fragments(const Run &run);
+// What to see in the picture of the pieces, with the cones in words.
+std::string fragments_caption(const Run &run);
+
 // Pieces that other pictures use too.
 
+// The k-th panel from the left, `panel_width` pixels wide, below the head; its caption under it.
+vtkRenderer *add_panel(Canvas &canvas, int k, int panel_width, const std::string &caption);
 // A parallel view from +y, a little from above, that holds the extent and what lies up to `margin` (m) around
 // it.
 void look_at_cut(const Canvas &canvas, vtkRenderer *renderer, const Extent &extent, double margin);
 // A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` (fractions).
 void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
+// Lines without light, `width` pixels wide; grey: 0 black, 1 white. The mapper may be set further.
+vtkPolyDataMapper *add_lines(vtkRenderer *renderer, const std::vector<Outline> &lines, double grey,
+                             float width);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
 // The platens in grey, all of them or the half y < 0.

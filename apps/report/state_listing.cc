@@ -32,17 +32,10 @@ std::string rows_text(const StoredBlock &block) {
 }
 
 std::string kind_text(const BlockType &type) {
-  switch (type.kind) {
-    case BlockType::Kind::floating:
-      return fmt::format("float{}", 8 * type.bytes);
-    case BlockType::Kind::signed_integer:
-      return fmt::format("int{}", 8 * type.bytes);
-    case BlockType::Kind::unsigned_integer:
-      return fmt::format("uint{}", 8 * type.bytes);
-    case BlockType::Kind::text:
-      break;
-  }
-  return "text";
+  constexpr const char *kinds[] = {"", "int", "uint", "float"}; // as BlockType::Kind
+  return type.kind == BlockType::Kind::text
+             ? "text"
+             : fmt::format("{}{}", kinds[static_cast<std::size_t>(type.kind)], 8 * type.bytes);
 }
 
 std::string block_line(const CheckpointReader &reader, const std::string &name, std::size_t width) {

@@ -1,11 +1,12 @@
 // Strength against the friction of platens and against slenderness, with the laboratory's points.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "apps/report/chart.h"
-#include "apps/report/study_pictures.h"
+#include "apps/report/platen_study.h"
 
 namespace platen::apps::report {
 namespace {
@@ -19,9 +20,7 @@ constexpr double gain_step = 0.1;  // ratios are drawn between multiples of this
 constexpr const char *gain = "gain over free ends", *relative = "strength over that at slenderness 2";
 
 std::string height_words(double slenderness) {
-  char text[48];
-  std::snprintf(text, sizeof text, "height/width %.3g", slenderness);
-  return text;
+  return fmt::format("height/width {:.3g}", slenderness);
 }
 
 struct Point {
@@ -29,7 +28,17 @@ struct Point {
   Spread y;
 };
 
-// Points joined in the order of x, with bars of scatter; `span` is the length of the x axis.
+// The strength and, below it, one of its ratios over the same quantity.
+struct Figure {
+  const StudyResults &study;
+  const std::vector<std::size_t> &cases;
+  double StudiedCase::*x;
+  const char *effect;
+  double span; // of the x axis
+  Chart strength, ratio;
+};
+
+// Points joined in the order of x, with bars of scatter.
 void add_points(Chart &chart, std::vector<Point> points, const std::string &label, Colour colour,
                 double span) {
   std::sort(points.begin(), points.end(), [](const Point &a, const Point &b) { return a.x < b.x; });
@@ -43,23 +52,55 @@ void add_points(Chart &chart, std::vector<Point> points, const std::string &labe
   chart.curves.push_back(std::move(joined));
 }
 
-void add_laboratory(Chart &chart, double x, const Spread &y, const std::string &label, Colour colour,
-                    double span) {
-  add_bar(chart, x, y.low, y.high, half_cap * span, colour);
-  chart.marks.push_back({x, y.mean, label, colour, MarkShape::diamond});
+// Both curves of the cases that may be taken; whether there are ratios. Where they are taken over, they are
+// one.
+template <class May>
+bool add_curves(Figure &figure, const std::string &label, Colour colour, const May &may) {
+  std::vector<Point> strengths, ratios;
+  const StudiedCase *reference = nullptr;
+  for (const std::size_t k : figure.cases) {
+    const StudiedCase &one = figure.study.cases[k];
+    if (one.without_peak > 0 || !may(one)) continue;
+    strengths.push_back({one.*figure.x, one.strength});
+    const StudiedRatio *found = figure.study.ratio_of(k, figure.effect);
+    if (found == nullptr) continue;
+    ratios.push_back({one.*figure.x, found->ratio});
+    reference = &figure.study.cases[found->over];
+  }
+  add_points(figure.strength, strengths, label, colour, figure.span);
+  if (reference == nullptr) return false;
+  ratios.push_back({reference->*figure.x, {1, 1, 1}});
+  add_points(figure.ratio, ratios, label, colour, figure.span);
+  return true;
 }
 
-// Between round ratios around all that is drawn, one among them.
+void add_laboratory(Figure &figure, double x, const Spread &y, const std::string &label, Colour colour) {
+  add_bar(figure.ratio, x, y.low, y.high, half_cap * figure.span, colour);
+  figure.ratio.marks.push_back({x, y.mean, label, colour, MarkShape::diamond});
+}
+
+// The ratio between round values around all that is drawn, one among them.
 void set_ratio_range(Chart &chart) {
   double low = 1, high = 1;
-  const auto hold = [&](double y) { low = std::min(low, y), high = std::max(high, y); };
-  for (const Curve &curve : chart.curves)
-    for (const double y : curve.y)
-      hold(y);
-  for (const Mark &mark : chart.marks)
-    hold(mark.y);
+  for (const auto &[x, y] : points_of(chart))
+    low = std::min(low, y), high = std::max(high, y);
   chart.y_range = {gain_step * (std::floor(low / gain_step + nearly) - 1),
                    gain_step * (std::ceil(high / gain_step - nearly) + 1)};
+}
+
+// At one x axis.
+void save(Figure &figure, const std::string &subtitle, const std::string &x_title,
+          const std::string &ratio_title, const std::filesystem::path &png) {
+  figure.strength.x_title = figure.ratio.x_title = x_title;
+  figure.strength.y_title = "Strength (MPa)";
+  figure.ratio.y_title = ratio_title;
+  std::vector<Chart> charts{figure.strength};
+  if (!figure.ratio.curves.empty()) {
+    set_ratio_range(figure.ratio);
+    charts.front().x_range = figure.ratio.x_range = x_range_of(figure.ratio);
+    charts.push_back(figure.ratio);
+  }
+  save_charts(figure.study.title, subtitle, charts, std::vector<int>(charts.size(), 700), png);
 }
 
 std::vector<double> slendernesses_of(const StudyResults &study, const std::vector<std::size_t> &cases) {
@@ -81,96 +122,44 @@ std::vector<std::string> surfaces_of(const StudyResults &study, const std::vecto
 
 void draw_friction(const StudyResults &study, const std::vector<std::size_t> &cases,
                    const std::filesystem::path &png) {
-  Chart strength, gains;
-  double span = dry_steel;
+  Figure figure{study, cases, &StudiedCase::friction, gain, dry_steel, {}, {}};
   for (const std::size_t k : cases)
-    if (study.cases[k].plain) span = std::max(span, study.cases[k].friction);
-  std::size_t colour = 0;
+    if (study.cases[k].plain) figure.span = std::max(figure.span, study.cases[k].friction);
+  std::size_t count = 0;
   for (const double slenderness : slendernesses_of(study, cases)) {
-    std::vector<Point> strengths, ratios;
-    const StudiedCase *free_ends = nullptr;
-    for (const std::size_t k : cases) {
-      const StudiedCase &one = study.cases[k];
-      if (!one.plain || one.without_peak > 0 || one.slenderness != slenderness) continue;
-      strengths.push_back({one.friction, one.strength});
-      const StudiedRatio *ratio = study.ratio_of(k, gain);
-      if (ratio == nullptr) continue;
-      ratios.push_back({one.friction, ratio->ratio});
-      free_ends = &study.cases[ratio->over];
-    }
-    const Colour own = run_colour(colour++);
-    const std::string words = height_words(slenderness);
-    add_points(strength, strengths, words, own, span);
-    if (ratios.empty()) continue;
-    if (free_ends != nullptr) ratios.push_back({free_ends->friction, {1, 1, 1}});
-    add_points(gains, ratios, words, own, span);
+    const Colour colour = run_colour(count++);
+    const auto may = [&](const StudiedCase &one) { return one.plain && one.slenderness == slenderness; };
+    if (!add_curves(figure, height_words(slenderness), colour, may)) continue;
     for (const LaboratoryPoint &p : study.laboratory)
       if (p.effect == gain && std::abs(p.slenderness - slenderness) <= about * slenderness)
-        add_laboratory(gains, dry_steel + aside * span, p.ratio,
-                       height_words(p.slenderness) + ", " + p.source, own, span);
+        add_laboratory(figure, dry_steel + aside * figure.span, p.ratio,
+                       height_words(p.slenderness) + ", " + p.source, colour);
   }
-  strength.x_title = gains.x_title = "Coefficient of friction of the platens";
-  strength.y_title = "Strength (MPa)";
-  gains.y_title = "Gain over free ends";
-  std::vector<Chart> charts{strength};
-  std::vector<int> heights{700};
-  if (!gains.curves.empty()) {
-    set_ratio_range(gains);
-    gains.x_range = x_range_of(gains);
-    charts.front().x_range = gains.x_range; // one above the other
-    charts.push_back(gains);
-    heights.push_back(700);
-  }
-  save_charts(study.title, "Strength against the friction of the platens", charts, heights, png);
+  save(figure, "Strength against the friction of the platens", "Coefficient of friction of the platens",
+       "Gain over free ends", png);
 }
 
 void draw_slenderness(const StudyResults &study, const std::vector<std::size_t> &cases,
                       const std::filesystem::path &png) {
-  Chart strength, ratio;
-  const std::vector<double> heights_drawn = slendernesses_of(study, cases);
-  const double span = heights_drawn.back();
-  std::size_t colour = 0;
-  for (const std::string &surface : surfaces_of(study, cases)) {
-    std::vector<Point> strengths, ratios;
-    for (const std::size_t k : cases) {
-      const StudiedCase &one = study.cases[k];
-      if (one.without_peak > 0 || one.surface != surface) continue;
-      strengths.push_back({one.slenderness, one.strength});
-      if (const StudiedRatio *found = study.ratio_of(k, relative))
-        ratios.push_back({one.slenderness, found->ratio});
-    }
-    const Colour own = run_colour(colour++);
-    add_points(strength, strengths, surface, own, span);
-    if (ratios.empty()) continue;
-    ratios.push_back({2, {1, 1, 1}});
-    add_points(ratio, ratios, surface, own, span);
+  const std::vector<double> heights = slendernesses_of(study, cases);
+  const double span = heights.back();
+  Figure figure{study, cases, &StudiedCase::slenderness, relative, span, {}, {}};
+  std::size_t count = 0;
+  for (const std::string &surface : surfaces_of(study, cases))
+    add_curves(figure, surface, run_colour(count++),
+               [&](const StudiedCase &one) { return one.surface == surface; });
+  std::set<std::string> named;
+  for (const LaboratoryPoint &p : study.laboratory) {
+    if (figure.ratio.curves.empty() || p.effect != relative ||
+        p.slenderness < (1 - about) * heights.front() || p.slenderness > (1 + about) * span)
+      continue;
+    const std::string words = (p.free_ends ? "Teflon, " : "steel, ") + p.source;
+    const bool band = p.ratio.low < p.ratio.high;
+    add_laboratory(figure, p.slenderness + (band ? (p.free_ends ? -aside : aside) * span : 0.0), p.ratio,
+                   named.insert(words).second ? words : "",
+                   !band ? colours::black : (p.free_ends ? colours::orange : colours::grey));
   }
-  if (!ratio.curves.empty()) {
-    std::set<std::string> named;
-    for (const LaboratoryPoint &p : study.laboratory) {
-      if (p.effect != relative || p.slenderness < (1 - about) * heights_drawn.front() ||
-          p.slenderness > (1 + about) * span)
-        continue;
-      const std::string words = (p.free_ends ? "Teflon, " : "steel, ") + p.source;
-      const bool band = p.ratio.low < p.ratio.high;
-      add_laboratory(ratio, p.slenderness + (band ? (p.free_ends ? -aside : aside) * span : 0.0), p.ratio,
-                     named.insert(words).second ? words : "",
-                     !band ? colours::black : (p.free_ends ? colours::orange : colours::grey), span);
-    }
-    set_ratio_range(ratio);
-  }
-  strength.x_title = ratio.x_title = "Height over width";
-  strength.y_title = "Strength (MPa)";
-  ratio.y_title = "Strength over that at 2";
-  std::vector<Chart> charts{strength};
-  std::vector<int> heights{700};
-  if (!ratio.curves.empty()) {
-    ratio.x_range = x_range_of(ratio);
-    charts.front().x_range = ratio.x_range;
-    charts.push_back(ratio);
-    heights.push_back(700);
-  }
-  save_charts(study.title, "Strength against slenderness", charts, heights, png);
+  save(figure, "Strength against slenderness", "Height over width", "Strength over that at 2", png);
 }
 
 } // namespace platen::apps::report

@@ -1,5 +1,4 @@
 #include "apps/run/compression.h"
-#include "apps/run/member_names.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,12 +9,13 @@
 #include "apps/run/expectations.h"
 #include "apps/run/quasi_static.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/parameters.h"
 
 namespace platen::apps {
 
 RunCosts CompressionRun::costs() const {
   RunCosts c;
-  c.threads = command_.threads > 0 ? command_.threads : dem::hardware_threads();
+  c.threads = loop_threads();
   c.wall_seconds = earlier_seconds_ + seconds_since(start_);
   c.setup_seconds = setup_seconds_;
   c.steps_here = test_->steps() - first_step_;
@@ -48,7 +48,8 @@ void CompressionRun::loop() {
 
 int CompressionRun::run() {
   if (command_.dry_run) {
-    fmt::print("{}{}", description(), cost_estimate(*test_, expected_steps_));
+    fmt::print("{}{}", description(),
+               scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
     return status_done;
   }
   log_.info("{}", description());
@@ -59,7 +60,7 @@ int CompressionRun::run() {
     save_summary("failed");
     std::error_code ignored;
     const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);
-    throw NumericsError(fmt::format("{}\n{}", with_entries(e.what()),
+    throw NumericsError(fmt::format("{}\n{}", scene_.parameters->with_entries(e.what()),
                                     kept ? "the last checkpoint is in " + paths_.checkpoints().string()
                                          : "no checkpoint had been written"));
   }

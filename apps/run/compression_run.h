@@ -6,7 +6,6 @@
 #include <string>
 
 #include "apps/io/csv_writer.h"
-#include "apps/io/folder_lock.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/progress.h"
 #include "apps/io/run_log.h"
@@ -17,8 +16,8 @@
 #include "apps/scene/command_line.h"
 #include "apps/scene/scene.h"
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "coupling/platen_test.h"
-#include "dem/parallel.h"
 
 namespace platen::apps {
 
@@ -65,7 +64,7 @@ private:
   OutputPaths paths_;
   std::unique_ptr<FolderLock> lock_;
   RunLog log_;
-  dem::ThreadLimit threads_;
+  ThreadLimit threads_;
   std::unique_ptr<coupling::PlatenTest> test_;
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there

@@ -10,7 +10,6 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
-#include "apps/run/member_names.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
@@ -18,7 +17,6 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 #include "coupling/static_press.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -57,10 +55,7 @@ void require_same_scene(const Scene &scene, const OutputPaths &paths) {
 // The specimen as the app presses it.
 dem::Specimen placed(const Scene &scene, Pressed pressed) {
   const dem::Specimen made = make_specimen(scene);
-  const auto refuse = [&](const std::string &reason) {
-    if (scene.parameters) scene.parameters->refuse("Specimen/File", reason);
-    throw InputError("Specimen/File " + reason);
-  };
+  const auto refuse = [&](const std::string &reason) { apps::refuse(scene, "Specimen/File", reason); };
   if (pressed == Pressed::across_axis) {
     if (made.shape.kind == dem::ShapeKind::box)
       refuse("states a box, which cannot be laid on its rim. Allowed: a cylinder, a disc.");
@@ -92,13 +87,12 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       log_(loudness(command)),
       threads_(command.threads),
       results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
-  fem::limit_threads(command.threads);
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
   std::vector<std::filesystem::path> inputs{command.scene};
   if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
   for (const std::string &file :
-       {scene.phases.file, scene.platens.top.mesh_file, scene.platens.bottom.mesh_file})
+       {scene.phases.file, scene.platens.top_face.mesh_file, scene.platens.bottom_face.mesh_file})
     if (!file.empty()) inputs.emplace_back(file);
   if (!command.dry_run) {
     check_output_folder(paths_.folder, use, inputs);
@@ -108,15 +102,11 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen =
       command.resume && !command.dry_run ? resumed(scene, paths_) : placed(scene, pressed);
-  try {
-    coupling::PlatenTestSettings settings = problem_settings(scene);
-    if (command.resume && !command.dry_run) settings.model.instruction_set = instruction_set_of_checkpoint();
-    test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
-    sampler_ = std::make_unique<Sampler>(*test_);
-    if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
-  } catch (const coupling::BadSetup &e) {
-    refuse(scene, e);
-  }
+  coupling::PlatenTestSettings settings = problem_settings(scene);
+  if (command.resume && !command.dry_run) settings.model.instruction_set = instruction_set_of_checkpoint();
+  test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
+  sampler_ = std::make_unique<Sampler>(*test_);
+  if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());
   setup_seconds_ = seconds_since(start_);
   if (command.dry_run) return;

@@ -1,5 +1,4 @@
 #include "apps/run/estimate.h"
-#include "apps/run/member_names.h"
 #include "base/clock.h"
 
 #include <fmt/format.h>
@@ -26,7 +25,7 @@ std::string cost_estimate(coupling::PlatenTest &problem, double steps) {
     for (; trials < most_trials && seconds < trial_seconds; seconds = seconds_since(start))
       trials += problem.advance(at_a_time);
   } catch (const coupling::NumericsStopped &e) {
-    return fmt::format("  estimate: none, it stops within the first steps: {}\n", with_entries(e.what()));
+    return fmt::format("  estimate: none, it stops within the first steps: {}\n", e.what());
   }
   const double step = seconds / static_cast<double>(trials);
   return fmt::format(

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/io/id_list.h"
+#include "apps/io/specimen_csv.h"
 
 namespace platen::apps {
 namespace {

@@ -1,4 +1,5 @@
 set(PLATEN_RUN_SOURCES
+  run/app_output.cc
   run/at_peak.cc
   run/compression.cc
   run/compression_files.cc
@@ -9,7 +10,6 @@ set(PLATEN_RUN_SOURCES
   run/failure_summary.cc
   run/fields.cc
   run/history.cc
-  run/member_names.cc
   run/model_setup.cc
   run/pack.cc
   run/problem_setup.cc

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/id_list.h"
 #include "apps/io/machine.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/scene/parameters.h"
@@ -21,11 +20,6 @@ namespace {
 constexpr double file_wall_tolerance = 0.01;
 // Relative difference of lengths that the scene and the specimen file both state.
 constexpr double same_length = 1e-6;
-
-[[noreturn]] void refuse(const Scene &scene, const std::string &path, const std::string &reason) {
-  if (scene.parameters) scene.parameters->refuse(path, reason);
-  throw InputError(path + " " + reason);
-}
 
 dem::RadiusDistribution radii(const SpecimenSection &specimen) {
   const double mean = specimen.sphere_radius;

@@ -58,7 +58,7 @@ void SceneCheck::calibrate() const {
   if (app_ != AppKind::calibrate) return;
   const Calibrate &c = scene_.calibrate;
   if (!scene_.bond.bonded()) refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
-  if (scene_.platens.top_control == PlatenControl::stress)
+  if (scene_.loading.servo)
     refuse("Platens/Top/Control", "is not for calibration: platens are moved. Allowed: motion.");
   const auto ascending = [&](double low, double high, const std::string &path) {
     if (low >= high)
@@ -92,7 +92,7 @@ void SceneCheck::calibrate() const {
            "has nothing to search for. Allowed: bounds, abacus, or a wanted Young modulus, Poisson ratio or "
            "strength.");
   if (!strengths) return;
-  need("Loading/Axial rate", scene_.loading.axial_rate, "the platens have to move.");
+  need("Loading/Axial rate", scene_.loading.rate, "the platens have to move.");
   if (scene_.bond.number("tensile_strength") == 0)
     refuse("Bond/Tensile strength", "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
   if (scene_.bond.number("shear_strength") == 0)

@@ -7,7 +7,9 @@
 
 namespace platen::apps {
 
-void SceneCheck::friction(const std::string &name, const PlatenSide &side) const {
+using By = dem::Weakening::By;
+
+void SceneCheck::friction(const std::string &name, const dem::SurfaceFriction &side) const {
   if (side.friction_dynamic <= side.friction_static) return;
   const std::string own = "Platens/" + name + "/Friction dynamic", common = "Platens/Friction dynamic";
   const std::string blamed = parameters_.at(own).changed() ? own : common;
@@ -16,12 +18,12 @@ void SceneCheck::friction(const std::string &name, const PlatenSide &side) const
                      shortest_text(side.friction_static) + ".");
 }
 
-void SceneCheck::weakening(const std::string &name, const PlatenSide &side) const {
-  if (side.friction_law == FrictionLaw::constant) return;
-  const bool by_slip = side.friction_law == FrictionLaw::slip_weakening;
+void SceneCheck::weakening(const std::string &name, const dem::SurfaceFriction &side) const {
+  if (side.weakening.by == By::nothing) return;
+  const bool by_slip = side.weakening.by == By::slip;
   const std::string own = "Platens/" + name + "/Friction law",
                     blamed = parameters_.at(own).changed() ? own : "Platens/Friction law";
-  if (!given(by_slip ? side.slip_length : side.slip_velocity))
+  if (!given(by_slip ? side.weakening.slip_length : side.weakening.slip_velocity))
     refuse(blamed, std::string("needs Platens/Slip ") + (by_slip ? "length > 0 m." : "velocity > 0 m/s."));
   if (side.friction_dynamic == side.friction_static)
     refuse(blamed, "has nothing to fall to. Allowed: a Friction dynamic below the static one, " +
@@ -35,18 +37,17 @@ void SceneCheck::platens() const {
   friction("Bottom", platens.bottom);
   weakening("Top", platens.top);
   weakening("Bottom", platens.bottom);
-  const bool tension = scene_.loading.test == LoadingTest::tension,
-             glued = platens.attachment == Attachment::glued;
-  if (loads() && tension && !glued)
+  const bool tension = scene_.loading.test == LoadingTest::tension, stress = scene_.loading.servo;
+  if (loads() && tension && !platens.glued)
     refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
-  const bool stress = platens.top_control == PlatenControl::stress;
-  if (stress && platens.top_stress == 0) refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
+  if (stress && scene_.loading.top_stress == 0)
+    refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
   if (stress && scene_.loading.ramp == 0)
     refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
-  if (loads() && platens.kind == PlatenKind::deformable) deformable_platens();
-  if (platens.kind == PlatenKind::rigid && platens.top_seat == PlatenSeat::spherical)
+  if (loads() && platens.deformable) deformable_platens();
+  if (!platens.deformable && platens.elastic->seat)
     refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
   if (loads()) meshes();
 }
@@ -56,17 +57,17 @@ void SceneCheck::surfaces() const {
   const Platens &platens = scene_.platens;
   const bool rubber = platens.surface == SurfaceKind::rubber_sheet,
              brush = platens.surface == SurfaceKind::brush;
-  if ((rubber || brush) && platens.kind == PlatenKind::rigid)
+  if ((rubber || brush) && !platens.deformable)
     refuse("Platens/Surface", "yields, but Platens/Kind = rigid. Allowed: deformable.");
-  if (rubber && platens.pad_thickness == 0)
+  if (rubber && platens.elastic->pad_thickness == 0)
     refuse("Platens/Surface",
            "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
            "density, which have no defaults.");
-  if (brush && (platens.top.mesh_file.empty() || platens.bottom.mesh_file.empty()))
+  if (brush && (platens.top_face.mesh_file.empty() || platens.bottom_face.mesh_file.empty()))
     refuse("Platens/Surface",
            "needs the brushes: Platens/Top/Mesh file and Platens/Bottom/Mesh file, as "
            "scripts/brush_platen.py writes them.");
-  if (platens.surface == SurfaceKind::glued && platens.attachment != Attachment::glued)
+  if (platens.surface == SurfaceKind::glued && !platens.glued)
     refuse("Platens/Surface", "ties the ends, but Platens/Attachment = contact. Allowed: glued.");
 }
 
@@ -75,32 +76,21 @@ void SceneCheck::deformable_platens() const {
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
   if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
   if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
-  if (scene_.platens.top_control == PlatenControl::stress) refuse_kind("needs Platens/Top/Control = motion.");
-  if (scene_.platens.attachment == Attachment::glued) refuse_kind("needs Platens/Attachment = contact.");
+  if (scene_.loading.servo) refuse_kind("needs Platens/Top/Control = motion.");
+  if (scene_.platens.glued) refuse_kind("needs Platens/Attachment = contact.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
     refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
-  pads();
-}
-
-// A mesh may bring a second material of its own.
-void SceneCheck::pads() const {
-  const Platens &platens = scene_.platens;
-  const bool meshed = !platens.top.mesh_file.empty() || !platens.bottom.mesh_file.empty();
-  const bool wanted = platens.pad_thickness > 0;
-  if (wanted && platens.pad_thickness >= platens.thickness)
+  const double pad = scene_.platens.elastic->pad_thickness;
+  if (pad > 0 && pad >= scene_.platens.thickness)
     refuse("Platens/Pad thickness", "leaves nothing of the platen. Allowed: 0 ... " +
-                                        shortest_text(platens.thickness) + " m, Platens/Thickness.");
-  if (!wanted && !(meshed && given(platens.pad_modulus))) return;
-  need("Platens/Pad modulus", platens.pad_modulus, "the pad has to have one.");
-  need("Platens/Pad Poisson ratio", platens.pad_poisson_ratio, "the pad has to have one.");
-  need("Platens/Pad density", platens.pad_density, "the pad has to have one.");
+                                        shortest_text(scene_.platens.thickness) + " m, Platens/Thickness.");
 }
 
 void SceneCheck::meshes() const {
   for (const bool top : {true, false}) {
-    const std::string &file = (top ? scene_.platens.top : scene_.platens.bottom).mesh_file;
+    const std::string &file = (top ? scene_.platens.top_face : scene_.platens.bottom_face).mesh_file;
     const char *path = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
     if (file.empty()) continue;
     readable(path, file, "");
@@ -110,13 +100,8 @@ void SceneCheck::meshes() const {
 }
 
 void SceneCheck::loading() const {
-  const Loading &loading = scene_.loading;
-  const bool crossed = (app_ == AppKind::compress || app_ == AppKind::study) &&
-                       given(loading.wave_crossings) && !given(loading.axial_rate);
-  if (loads() && app_ != AppKind::calibrate && !loading.hydrostatic() && !crossed)
-    need("Loading/Axial rate", loading.axial_rate, "the platens have to move.");
-  if (crossed) wave_crossings();
-  if (loading.hurry > 1 && !scene_.bond.bonded())
+  if (Situation{scene_, parameters_, app_}.crossed()) wave_crossings();
+  if (scene_.loading.rate_multiplier > 1 && !scene_.bond.bonded())
     refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
 }
 
@@ -142,8 +127,7 @@ void SceneCheck::start() const {
     refuse_start("needs Loading/Test = compression: the solve presses. Allowed: 0.");
   if (loading.confinement != ConfinementKind::none)
     refuse_start("does not go with Loading/Confinement. Allowed: 0.");
-  if (scene_.platens.top_control == PlatenControl::stress)
-    refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
+  if (scene_.loading.servo) refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
   if (!scene_.bond.bonded()) refuse_start("needs bonds to solve for. Allowed: 0.");
   if (scene_.bond.remembers())
     refuse_start(
@@ -180,8 +164,8 @@ void SceneCheck::bending() const {
   need("Platens/Span", platens.span, "a bar needs its supports.");
   if (platens.strip_width == 0)
     refuse("Platens/Strip width", "is not set: a bar is bent by strips. Allowed: > 0 m.");
-  if (platens.attachment == Attachment::glued) refuse("Platens/Attachment", with + "contact.");
-  if (platens.top_control == PlatenControl::stress) refuse("Platens/Top/Control", with + "motion.");
+  if (platens.glued) refuse("Platens/Attachment", with + "contact.");
+  if (scene_.loading.servo) refuse("Platens/Top/Control", with + "motion.");
   if (scene_.loading.confinement != ConfinementKind::none) refuse("Loading/Confinement", with + "none.");
   if (!scene_.bond.bonded())
     refuse("Effects/Bond", "leaves a heap of grains, no bar to bend. Allowed: any other.");
@@ -195,7 +179,7 @@ void SceneCheck::cycles() const {
   if (loading.unload_at.back() >= loading.target_strain)
     refuse("Loading/Unload at",
            "goes beyond Loading/Target strain = " + parameters_.at("Loading/Target strain").text + ".");
-  if (loading.hydrostatic() || scene_.platens.top_control == PlatenControl::stress)
+  if (loading.hydrostatic() || scene_.loading.servo)
     refuse("Loading/Unload at", "needs platens that are driven by motion.");
 }
 
@@ -205,21 +189,21 @@ void SceneCheck::cell() const {
     refuse("Loading/Servo gain", "is too slow to hold anything. Allowed: 0, or 0.1 ... 10.");
   if (loading.walled() && loading.confinement != ConfinementKind::none)
     refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
-  if (loading.hydrostatic() && !loading.cell())
+  if (loading.hydrostatic() && !loading.confined())
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
-  if (!loading.cell()) return;
-  if (loads() && !(loading.confining_pressure > 0))
+  if (!loading.confined()) return;
+  if (loads() && !(loading.cell->pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
   if (loads() && !scene_.bond.bonded())
     refuse("Loading/Confinement",
            "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
-  if (scene_.platens.top_control == PlatenControl::stress)
+  if (scene_.loading.servo)
     refuse("Platens/Top/Control",
            "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
            "Allowed: motion.");
   if (!loading.sleeved()) return;
-  if (scene_.platens.top_seat == PlatenSeat::spherical)
+  if (scene_.platens.elastic->seat)
     refuse("Platens/Top/Seat",
            "does not go with Loading/Confinement = sleeve, whose rims do not turn. Allowed: fixed.");
   if (app_ != AppKind::compress && app_ != AppKind::study)
@@ -228,9 +212,9 @@ void SceneCheck::cell() const {
     refuse("Loading/Confinement", "goes around a cylinder. Allowed: none, particles.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse("Integration/Scheme", "does not go with Loading/Confinement = sleeve. Allowed: velocity verlet.");
-  if (scene_.sleeve.mass_scaling > 0 && scene_.sleeve.mass_scaling < 1)
+  if (loading.cell->sleeve->mass_scaling > 0 && loading.cell->sleeve->mass_scaling < 1)
     refuse("Sleeve/Mass scaling", "makes the sleeve lighter. Allowed: 0, or 1 and more.");
-  if (scene_.sleeve.elements_around > 0 && scene_.sleeve.elements_around < 8)
+  if (loading.cell->sleeve->elements_around > 0 && loading.cell->sleeve->elements_around < 8)
     refuse("Sleeve/Elements around", "is too few for a tube. Allowed: 0, or 8 and more.");
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/scene/scene.h"
+
 namespace platen::apps {
 namespace {
 
@@ -26,6 +28,16 @@ std::string joined(const std::vector<std::string> &words) {
 
 } // namespace
 
+bool Situation::loads() const {
+  return app == AppKind::compress || app == AppKind::brazilian || app == AppKind::calibrate ||
+         app == AppKind::study;
+}
+
+bool Situation::crossed() const {
+  return (app == AppKind::compress || app == AppKind::study) && given(scene.loading.wave_transits) &&
+         !given(scene.loading.rate);
+}
+
 bool has_word(const Parameters &parameters, const std::string &path, const std::vector<std::string> &words) {
   return std::find(words.begin(), words.end(), tidy(parameters.at(path).text)) != words.end();
 }
@@ -45,9 +57,9 @@ Declared &Declared::unless(const std::string &path, const std::vector<std::strin
   return *this;
 }
 
-Declared &Declared::only_if(std::function<bool(const Scene &)> holds, const std::string &otherwise) {
+Declared &Declared::only_if(std::function<bool(const Situation &)> holds, const std::string &otherwise) {
   entry().idle.push_back(
-      [holds = std::move(holds), otherwise](const Situation &s) { return holds(s.scene) ? "" : otherwise; });
+      [holds = std::move(holds), otherwise](const Situation &s) { return holds(s) ? "" : otherwise; });
   return *this;
 }
 
@@ -64,6 +76,11 @@ Declared &Declared::needed_if(std::function<std::string(const Situation &)> why)
   return *this;
 }
 
+Declared &Declared::says(const std::string &documentation) {
+  entry().documentation = documentation;
+  return *this;
+}
+
 Declared &Declared::told(const std::string &text) {
   std::string &sentence = entry().documentation;
   const auto ends = [&](const std::string &with) {
@@ -76,8 +93,8 @@ Declared &Declared::told(const std::string &text) {
   return *this;
 }
 
-Declared &Declared::member(const std::string &owner, const std::string &name) {
-  entry().members.push_back(owner + ": " + name);
+Declared &Declared::member(const std::string &path) {
+  entry().members.push_back(path);
   return *this;
 }
 

@@ -2,6 +2,7 @@
 // have no effect, and the refusals of those that are missing.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,12 +14,20 @@ namespace platen::apps {
 struct Scene;
 enum class AppKind;
 
-// What is looked at when a scene has been read.
+// What is checked when a scene has been read.
 struct Situation {
   const Scene &scene;
   const Parameters &parameters;
   AppKind app;
+
+  operator const Scene &() const { return scene; }
+  bool loads() const;   // the app presses a specimen
+  bool crossed() const; // Loading/Wave crossings sets the rate
 };
+
+inline bool given(double value) {
+  return !std::isnan(value);
+}
 
 class Declared {
 public:
@@ -29,15 +38,17 @@ public:
   Declared &only_if(const std::string &path, const std::vector<std::string> &words);
   // It has none where another entry has one of these words.
   Declared &unless(const std::string &path, const std::vector<std::string> &words);
-  Declared &only_if(std::function<bool(const Scene &)> holds, const std::string &otherwise);
+  Declared &only_if(std::function<bool(const Situation &)> holds, const std::string &otherwise);
   // It must be given where another entry has one of these words.
   Declared &needed_if(const std::string &path, const std::vector<std::string> &words);
   // It must be given where `why`, a sentence, is not "".
   Declared &needed_if(std::function<std::string(const Situation &)> why);
+  // Takes the place of the documentation.
+  Declared &says(const std::string &documentation);
   // Ends the documentation with " (text).".
   Declared &told(const std::string &text);
   // The member of the library's struct that it sets.
-  Declared &member(const std::string &owner, const std::string &name);
+  Declared &member(const std::string &path); // "loading.ramp"
 
 private:
   Entry &entry() const { return parameters_.declared(path_); }

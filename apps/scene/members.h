@@ -25,6 +25,10 @@ inline Declared declare(Section &section, const std::string &key, std::vector<do
                         const Range &range, const char *sentence) {
   return section.list(key, to, unit, range, sentence);
 }
+inline Declared declare(Section &section, const std::string &key, int &to, const Range &range,
+                        const char *sentence) {
+  return section.integer(key, to, range.low, range.high, sentence);
+}
 template <class Enum>
 Declared declare(Section &section, const std::string &key, Enum &to, const Words<Enum> &words,
                  const char *sentence) {
@@ -45,7 +49,8 @@ template <class Described>
 void declare_member(Section &section, Described &of, const std::string &member, const std::string &key) {
   Described::describe(
       [&](const char *name, auto &to, const auto &...about) {
-        if (name == member) declare(section, key, to, about...).member(Described::name, member);
+        if (name == member)
+          declare(section, key, to, about...).member(std::string(Described::name) + "." + member);
       },
       of);
 }
@@ -81,6 +86,22 @@ Range range_of(const std::string &member) {
       of);
   if (found == nullptr) throw std::logic_error(std::string(Described::name) + " has no number " + member);
   return range;
+}
+
+// The words that a member may be. Throws std::logic_error where none of that name has words.
+template <class Described, class Enum>
+Words<Enum> words_of(const std::string &member) {
+  Words<Enum> words;
+  Described of;
+  Described::describe(
+      [&](const char *name, const auto & /*value*/, const auto &...about) {
+        if constexpr (std::is_same_v<std::decay_t<std::tuple_element_t<0, std::tuple<decltype(about)...>>>,
+                                     Words<Enum>>)
+          if (name == member) words = std::get<0>(std::tie(about...));
+      },
+      of);
+  if (words.empty()) throw std::logic_error(std::string(Described::name) + " has no word " + member);
+  return words;
 }
 
 // A list of the names of what is described.

@@ -277,11 +277,27 @@ void Parameters::refuse(const std::string &path, const std::string &reason) cons
 }
 
 void Parameters::refuse(const BadParameter &error) const {
-  const std::string member = error.owner + ": " + error.member;
+  const std::string member = error.owner + "." + error.member, entry = entry_of(member);
+  if (entry == member) throw error;
+  refuse(entry, error.reason);
+}
+
+std::string Parameters::entry_of(const std::string &member) const {
   for (const Entry &entry : entries_)
     if (std::find(entry.members.begin(), entry.members.end(), member) != entry.members.end())
-      refuse(entry.path, error.reason);
-  throw error;
+      return entry.path;
+  return member;
+}
+
+std::string Parameters::with_entries(const std::string &message) const {
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t open = message.find('`', at), close = message.find('`', open + 1);
+    if (open == std::string::npos || close == std::string::npos) return text + message.substr(at);
+    text += message.substr(at, open - at) + entry_of(message.substr(open + 1, close - open - 1));
+    at = close + 1;
+  }
+  return text;
 }
 
 void Parameters::release() {

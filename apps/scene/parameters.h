@@ -33,7 +33,7 @@ struct Entry {
   std::function<void(const std::string &)> read;
   // Why it has no effect, and why it must be given; "" where neither is so (apps/scene/declared.h).
   std::vector<std::function<std::string(const Situation &)>> idle, needed;
-  std::vector<std::string> members; // of the library's structs that it sets, "BondLayout: modulus"
+  std::vector<std::string> members; // of the library's structs that it sets, "BondLayout.modulus"
 
   std::string text; // as used
   Origin origin;    // of text
@@ -78,6 +78,11 @@ public:
   [[noreturn]] void refuse(const std::string &path, const std::string &reason) const;
   // The same for a member of a struct of the library; throws `error` itself where no entry sets it.
   [[noreturn]] void refuse(const BadParameter &error) const;
+  // The entry that sets a member of the library's settings, "Loading/Ramp" for "loading.ramp"; the member
+  // itself where none does.
+  std::string entry_of(const std::string &member) const;
+  // With every member in backquotes replaced by its entry.
+  std::string with_entries(const std::string &message) const;
 
   // The scene file, for messages about entries that it does not set.
   void set_source(const std::string &path) { source_ = path; }

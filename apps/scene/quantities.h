@@ -1,13 +1,9 @@
 // Values of a scene that a number alone does not state.
 #pragma once
 
-#include <limits>
-
 #include "dem/laws/contact_settings.h"
 
 namespace platen::apps {
-
-constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 // How often: a count of steps, a time (simulated seconds; wall clock for checkpoints), or none of both.
 struct Interval {

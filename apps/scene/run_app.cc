@@ -40,6 +40,8 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
     return body(line, scene);
   } catch (const BadParameter &error) { // of the library, which knows no file
     scene.parameters->refuse(error);
+  } catch (const coupling::BadSetup &error) {
+    refuse(scene, scene.parameters->entry_of(error.member()), scene.parameters->with_entries(error.reason()));
   }
 }
 

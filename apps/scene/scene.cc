@@ -16,13 +16,17 @@ void inherit(Scene &scene, Parameters &parameters) {
   supply_quality(parameters, scene.general.quality);
   supply_surfaces(parameters, scene.platens);
   Platens &platens = scene.platens;
-  for (PlatenSide *side : {&platens.top, &platens.bottom}) {
-    if (std::isnan(side->friction_static)) side->friction_static = platens.friction_static;
-    if (std::isnan(side->friction_dynamic)) side->friction_dynamic = platens.friction_dynamic;
-    if (std::isnan(side->friction_dynamic)) side->friction_dynamic = side->friction_static;
-    if (side->friction_law == FrictionLaw::common) side->friction_law = platens.friction_law;
-    if (std::isnan(side->slip_length)) side->slip_length = platens.slip_length;
-    if (std::isnan(side->slip_velocity)) side->slip_velocity = platens.slip_velocity;
+  const auto take = [](double &own, double common) { own = std::isnan(own) ? common : own; };
+  for (const bool top : {true, false}) {
+    dem::SurfaceFriction &side = top ? platens.top : platens.bottom;
+    const dem::SurfaceFriction &both = platens.both;
+    take(side.friction_static, both.friction_static);
+    take(side.friction_dynamic, both.friction_dynamic);
+    side.friction_dynamic = side.dynamic();
+    if (has_word(parameters, top ? "Platens/Top/Friction law" : "Platens/Bottom/Friction law", {"common"}))
+      side.weakening.by = both.weakening.by;
+    take(side.weakening.slip_length, both.weakening.slip_length);
+    take(side.weakening.slip_velocity, both.weakening.slip_velocity);
   }
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
@@ -32,8 +36,8 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
-  scene.platens.top.mesh_file = resolved_path(parameters.at("Platens/Top/Mesh file"));
-  scene.platens.bottom.mesh_file = resolved_path(parameters.at("Platens/Bottom/Mesh file"));
+  scene.platens.top_face.mesh_file = resolved_path(parameters.at("Platens/Top/Mesh file"));
+  scene.platens.bottom_face.mesh_file = resolved_path(parameters.at("Platens/Bottom/Mesh file"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
 }
@@ -68,6 +72,11 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   check_scene(scene, parameters, app);
   keep(scene, parameters);
   return scene;
+}
+
+void refuse(const Scene &scene, const std::string &entry, const std::string &reason) {
+  if (scene.parameters && scene.parameters->find(entry)) scene.parameters->refuse(entry, reason);
+  throw InputError("error: " + entry + " " + reason);
 }
 
 void write_scene(const Scene &scene, const std::string &folder, std::ostream &out) {

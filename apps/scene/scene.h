@@ -64,9 +64,8 @@ struct Scene {
   PhasesSection phases;
   dem::ContactSettings contact; // and of Material
   Platens platens;
-  Sleeve sleeve;
   Loading loading;
-  Integration integration;
+  coupling::TimeStepSettings time_step;
   Output output;
   Checkpoint checkpoint;
   std::vector<Expectation> expect; // only those that the scene gives
@@ -84,6 +83,9 @@ Scene default_scene();
 // Reads `path` (.prm or .json), applies overrides ("Section/Key = value", in order), converts and checks all.
 // Throws InputError with one message: file, line, key, value, what is allowed.
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app);
+
+// Throws InputError on behalf of an entry, with the place where it was set: "case.prm:14: error: ...".
+[[noreturn]] void refuse(const Scene &scene, const std::string &entry, const std::string &reason);
 
 // All parameters as used, defaults included, as a .prm that reads back to the same numbers bit for bit; paths
 // of files are written so that they hold from `folder`, where the text will lie.

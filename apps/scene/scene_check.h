@@ -1,17 +1,12 @@
 // The checks of a scene, section by section; each throws InputError for the first contradiction.
 #pragma once
 
-#include <cmath>
 #include <string>
 
 #include "apps/scene/declared.h"
 #include "apps/scene/scene.h"
 
 namespace platen::apps {
-
-inline bool given(double value) {
-  return !std::isnan(value);
-}
 
 class SceneCheck {
 public:
@@ -42,10 +37,7 @@ public:
 
 private:
   bool packs() const { return app_ != AppKind::bonds && app_ != AppKind::report; }
-  bool loads() const {
-    return app_ == AppKind::compress || app_ == AppKind::brazilian || app_ == AppKind::calibrate ||
-           app_ == AppKind::study;
-  }
+  bool loads() const { return Situation{scene_, parameters_, app_}.loads(); }
   [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
     parameters_.refuse(path, reason);
   }
@@ -57,14 +49,11 @@ private:
   void spheres_fit() const;
   void surfaces() const;
   void deformable_platens() const;
-  void pads() const;
   void meshes() const;
-  void friction(const std::string &name, const PlatenSide &side) const;
-  void weakening(const std::string &name, const PlatenSide &side) const;
+  void friction(const std::string &name, const dem::SurfaceFriction &side) const;
+  void weakening(const std::string &name, const dem::SurfaceFriction &side) const;
   void note(const std::string &path, const std::string &why);
   void notes_of_declarations();
-  void friction_notes();
-  void loading_notes();
   void bar_notes();
   void pair_notes();
 

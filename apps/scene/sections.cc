@@ -22,18 +22,19 @@ void declare_general(Parameters &parameters, General &general) {
           " Errors and costs: docs/accuracy.md. The size of the spheres stays the scene's.");
 }
 
-void declare_integration(Parameters &parameters, Integration &integration, dem::ModelSettings &model) {
+void declare_integration(Parameters &parameters, coupling::TimeStepSettings &time_step,
+                         dem::ModelSettings &model) {
   Section section(parameters, "Integration");
   Members of(section, model);
+  Members step(section, time_step);
   of("scheme");
   of("dissipation").only_if("Integration/Scheme", {"tchamwa wielgosz"});
-  section.number("Safety", integration.safety, above_up_to(0, 1), "Time step over the stability limit.");
+  step("safety");
   of("mass_scaling");
   of("local_damping", "Damping");
   of("damping_form")
       .only_if([](const Scene &s) { return s.model.local_damping > 0; }, "Integration/Damping = 0");
-  section.quantity("Time step", integration.time_step, "s", at_least(0),
-                   "0: Safety times the limit; a larger one than the limit is refused.");
+  step("fixed_step", "Time step");
   section.word<dem::InstructionSet>(
       "Instruction set", model.instruction_set,
       {{"best", dem::best_instruction_set()}, {"baseline", dem::InstructionSet::baseline}},
@@ -69,10 +70,10 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_bond(parameters, scene.bond, scene.model);
   declare_phases(parameters, scene.phases);
   declare_contact(parameters, scene.contact);
-  declare_platens(parameters, scene.platens);
-  declare_sleeve(parameters, scene.sleeve);
+  declare_platens(parameters, scene.platens, scene.loading);
+  declare_sleeve(parameters, *scene.loading.cell);
   declare_loading(parameters, scene.loading);
-  declare_integration(parameters, scene.integration, scene.model);
+  declare_integration(parameters, scene.time_step, scene.model);
   declare_output(parameters, scene.output, scene.checkpoint);
   declare_expect(parameters, scene.expect);
   declare_pair_test(parameters, scene.pair_test);

@@ -15,10 +15,11 @@ void declare_effects(Parameters &parameters, Scene &scene);
 void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model);
 void declare_phases(Parameters &parameters, PhasesSection &phases);
 void declare_contact(Parameters &parameters, dem::ContactSettings &contact);
-void declare_platens(Parameters &parameters, Platens &platens);
-void declare_sleeve(Parameters &parameters, Sleeve &sleeve);
+void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading);
+void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell);
 void declare_loading(Parameters &parameters, Loading &loading);
-void declare_integration(Parameters &parameters, Integration &integration, dem::ModelSettings &model);
+void declare_integration(Parameters &parameters, coupling::TimeStepSettings &time_step,
+                         dem::ModelSettings &model);
 void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
 void declare_pair_test(Parameters &parameters, PairTest &pair);

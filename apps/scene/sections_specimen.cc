@@ -20,7 +20,8 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   section.quantity("Height", specimen.height, "m", above(0), "Extent along z.");
   section.quantity("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
   section.quantity("Width y", specimen.width_y, "m", above(0), "Width of a box or rectangular bar along y.");
-  section.quantity("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.");
+  section.quantity("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.")
+      .member("specimen.radius");
   section.number("Radius spread", specimen.radius_spread, between(0, 1.5),
                  "Kappa, largest minus smallest radius over the mean (Radius distribution = uniform).");
   section.word<RadiusKind>(
@@ -41,15 +42,18 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                              {"file", PackingKind::file}},
                             "How the spheres are placed; file takes them from File.");
   section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
-  section.word<dem::EndPreparation>(
-      "Ends", specimen.ends,
-      {{"as packed", dem::EndPreparation::as_packed}, {"ground", dem::EndPreparation::ground}},
-      "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
-      "seated flush, as if sawn.");
+  section
+      .word<dem::EndPreparation>(
+          "Ends", specimen.ends,
+          {{"as packed", dem::EndPreparation::as_packed}, {"ground", dem::EndPreparation::ground}},
+          "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
+          "seated flush, as if sawn.")
+      .member("ends");
   section
       .number("End layer", specimen.end_layer, between(0.05, 10),
               "Depth of the ground layer in mean sphere radii; it decides the strength below 1.")
-      .unless("Specimen/Ends", {"as packed"});
+      .unless("Specimen/Ends", {"as packed"})
+      .member("end_layer");
   section.flag("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
 }
 

@@ -85,23 +85,25 @@ std::string surface_documentation() {
 }
 
 std::string text_of(const Platens &platens) {
-  const auto kind = [&](const PlatenSide &side) {
-    return side.surface == SurfaceKind::common ? platens.surface : side.surface;
+  using By = dem::Weakening::By;
+  const auto kind = [&](const Face &face) {
+    return face.surface == SurfaceKind::common ? platens.surface : face.surface;
   };
-  const auto told = [&](const PlatenSide &side) {
-    std::string text = surface(kind(side)).word + ", friction " + shortest_text(side.friction_static) +
+  const auto told = [&](const Face &face, const dem::SurfaceFriction &side) {
+    std::string text = surface(kind(face)).word + ", friction " + shortest_text(side.friction_static) +
                        " static, " + shortest_text(side.friction_dynamic) + " dynamic";
-    if (side.friction_law == FrictionLaw::slip_weakening)
-      text += ", slip weakening over " + shortest_text(side.slip_length) + " m";
-    if (side.friction_law == FrictionLaw::velocity_weakening)
-      text += ", velocity weakening over " + shortest_text(side.slip_velocity) + " m/s";
-    return platens.attachment == Attachment::glued ? std::string("glued") : text;
+    if (side.weakening.by == By::slip)
+      text += ", slip weakening over " + shortest_text(side.weakening.slip_length) + " m";
+    if (side.weakening.by == By::velocity)
+      text += ", velocity weakening over " + shortest_text(side.weakening.slip_velocity) + " m/s";
+    return platens.glued ? std::string("glued") : text;
   };
-  const std::string top = told(platens.top), bottom = told(platens.bottom);
+  const std::string top = told(platens.top_face, platens.top),
+                    bottom = told(platens.bottom_face, platens.bottom);
   std::string text = top == bottom ? "  platens: " + top + "\n"
                                    : "  top platen: " + top + "\n  bottom platen: " + bottom + "\n";
   for (const Surface &one : surfaces())
-    if (!one.entries.empty() && (one.kind == kind(platens.top) || one.kind == kind(platens.bottom)))
+    if (!one.entries.empty() && (one.kind == kind(platens.top_face) || one.kind == kind(platens.bottom_face)))
       text += "    " + documentation(one) + "\n";
   return text;
 }
@@ -113,8 +115,8 @@ void supply_surfaces(Parameters &parameters, const Platens &platens) {
     for (const auto &[key, text] : surface(kind).entries)
       parameters.supply(section + "/" + key, text, word);
   };
-  supply("Platens/Top", platens.top.surface);
-  supply("Platens/Bottom", platens.bottom.surface);
+  supply("Platens/Top", platens.top_face.surface);
+  supply("Platens/Bottom", platens.bottom_face.surface);
   supply("Platens", platens.surface);
 }
 

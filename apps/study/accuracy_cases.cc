@@ -1,23 +1,21 @@
-#include "apps/study/accuracy_cases.h"
-
+// Cases of the study of accuracy.
 #include <cctype>
 #include <cmath>
 #include <functional>
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
-#include "apps/study/entries.h"
+#include "apps/study/cases.h"
 
 namespace platen::apps {
 namespace {
 
-constexpr double peak_fall = 0.8; // of the peak: below it a run is known to have peaked
 constexpr const char *base = "base";
 
 enum class Finer { smaller, larger };
 
 // An entry that is a number, and the list that varies it.
-struct NumberKnob {
+struct NumberParameter {
   const char *name, *entry, *list, *unit, *column; // column: of study.csv
   Finer finer;
   std::vector<double> Study::*values;
@@ -26,28 +24,27 @@ struct NumberKnob {
 };
 
 bool deformable(const Scene &s) {
-  return s.platens.kind == PlatenKind::deformable;
+  return s.platens.deformable;
 }
 
 std::string needs_limit(const Scene &s) {
-  return s.integration.time_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
-                                     : "";
+  return s.time_step.fixed_step > 0 ? "has no effect: Integration/Time step is set. Allowed: Time step = 0."
+                                    : "";
 }
 
 std::string needs_motion(const Scene &s) {
-  return s.platens.top_control == PlatenControl::stress ? "needs platens that are driven by motion." : "";
+  return s.loading.servo ? "needs platens that are driven by motion." : "";
 }
 
 std::string needs_no_rate(const Scene &s) {
-  return std::isnan(s.loading.axial_rate) ? "" : "has no effect: Loading/Axial rate is set.";
+  return std::isnan(s.loading.rate) ? "" : "has no effect: Loading/Axial rate is set.";
 }
 
 // Heavier specimens carry slower waves, for which the platens would wait.
 std::string needs_rate(const Scene &s) {
-  return std::isnan(s.loading.axial_rate)
-             ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
-               "an Axial rate."
-             : "";
+  return std::isnan(s.loading.rate) ? "gains nothing where Loading/Wave crossings sets the speed. Allowed: "
+                                      "an Axial rate."
+                                    : "";
 }
 
 std::string needs_packing(const Scene &s) {
@@ -58,13 +55,13 @@ std::string needs_packing(const Scene &s) {
 
 std::string needs_plates(const Scene &s) {
   if (!deformable(s)) return "needs Platens/Kind = deformable.";
-  return s.platens.top.mesh_file.empty() || s.platens.bottom.mesh_file.empty()
+  return s.platens.top_face.mesh_file.empty() || s.platens.bottom_face.mesh_file.empty()
              ? ""
              : "has no effect: both platens have a Mesh file.";
 }
 
 std::string needs_solves(const Scene &s) {
-  return deformable(s) && s.platens.motion == PlatenMotion::quasi_static
+  return deformable(s) && s.platens.elastic->motion == fem::ElasticMotion::quasi_static
              ? ""
              : "needs Platens/Kind = deformable and Motion = quasi-static.";
 }
@@ -73,16 +70,16 @@ std::string needs_sleeve(const Scene &s) {
   return s.loading.sleeved() ? "" : "needs Loading/Confinement = sleeve.";
 }
 
-const NumberKnob number_knobs[] = {
+const NumberParameter number_parameters[] = {
     {"safety", "Integration/Safety", "Study/Safety list", "", "safety", Finer::smaller, &Study::safeties,
-     [](const Scene &s) { return s.integration.safety; }, needs_limit},
+     [](const Scene &s) { return s.time_step.safety; }, needs_limit},
     {"axial rate", "Loading/Axial rate", "Study/Axial rate list", "m/s", "axial_rate_m_s", Finer::smaller,
-     &Study::axial_rates, [](const Scene &s) { return s.loading.axial_rate; }, needs_motion},
+     &Study::axial_rates, [](const Scene &s) { return s.loading.rate; }, needs_motion},
     {"wave crossings", "Loading/Wave crossings", "Study/Wave crossings list", "", "wave_crossings",
-     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_crossings; },
+     Finer::larger, &Study::wave_crossings, [](const Scene &s) { return s.loading.wave_transits; },
      needs_no_rate},
     {"hurry", "Loading/Hurry", "Study/Hurry list", "", "hurry", Finer::smaller, &Study::hurries,
-     [](const Scene &s) { return s.loading.hurry; }, needs_motion},
+     [](const Scene &s) { return s.loading.rate_multiplier; }, needs_motion},
     {"mass scaling", "Integration/Mass scaling", "Study/Mass scaling list", "", "mass_scaling",
      Finer::smaller, &Study::mass_scalings, [](const Scene &s) { return s.model.mass_scaling; }, needs_rate},
     {"sphere radius", "Specimen/Sphere radius", "Study/Sphere radius list", "m", "sphere_radius_m",
@@ -93,13 +90,14 @@ const NumberKnob number_knobs[] = {
      needs_plates},
     {"steps per solve", "Platens/Steps per solve", "Study/Steps per solve list", "", "steps_per_solve",
      Finer::smaller, &Study::steps_per_solve,
-     [](const Scene &s) { return static_cast<double>(s.platens.steps_per_solve); }, needs_solves},
+     [](const Scene &s) { return static_cast<double>(s.platens.elastic->steps_per_solve); }, needs_solves},
     {"sleeve mesh", "Sleeve/Elements around", "Study/Sleeve mesh list", "", "sleeve_elements_around",
      Finer::larger, &Study::sleeve_elements,
-     [](const Scene &s) { return static_cast<double>(s.sleeve.elements_around); }, needs_sleeve},
+     [](const Scene &s) { return static_cast<double>(s.loading.cell->sleeve->elements_around); },
+     needs_sleeve},
     {"sleeve mass scaling", "Sleeve/Mass scaling", "Study/Sleeve mass scaling list", "",
      "sleeve_mass_scaling", Finer::smaller, &Study::sleeve_mass_scalings,
-     [](const Scene &s) { return s.sleeve.mass_scaling; }, needs_sleeve}};
+     [](const Scene &s) { return s.loading.cell->sleeve->mass_scaling; }, needs_sleeve}};
 
 // Letters and digits in lower case, one underscore for each run of anything else.
 std::string as_name(const std::string &words) {
@@ -112,38 +110,30 @@ std::string as_name(const std::string &words) {
   return name;
 }
 
-// The case of that name, added where it is not there yet.
-std::size_t place_of(StudyPlan &plan, const StudyCase &one) {
-  add(plan, one);
-  const auto found = std::find_if(plan.cases.begin(), plan.cases.end(),
-                                  [&](const StudyCase &other) { return other.name == one.name; });
-  return static_cast<std::size_t>(found - plan.cases.begin());
-}
-
-void check_list(const Scene &scene, const NumberKnob &knob, const std::vector<double> &values) {
-  const auto refuse = [&](const std::string &why) { scene.parameters->refuse(knob.list, why); };
-  if (const std::string why = knob.refused(scene); !why.empty()) refuse(why);
+void check_list(const Scene &scene, const NumberParameter &parameter, const std::vector<double> &values) {
+  const auto refuse = [&](const std::string &why) { scene.parameters->refuse(parameter.list, why); };
+  if (const std::string why = parameter.refused(scene); !why.empty()) refuse(why);
   if (values.size() < 2)
     refuse("has nothing to compare: the last value is the reference of the others. Allowed: two or more.");
-  const bool falls = knob.finer == Finer::smaller;
+  const bool falls = parameter.finer == Finer::smaller;
   if (!std::is_sorted(values.begin(), values.end(),
                       [&](double a, double b) { return falls ? a > b : a < b; }))
     refuse(std::string("does not go from coarse to fine. Allowed: ") + (falls ? "falling" : "rising") +
            " values; the last is the reference.");
 }
 
-void add_numbers(StudyPlan &plan, const Scene &scene, const NumberKnob &from) {
+void add_numbers(StudyPlan &plan, const Scene &scene, const NumberParameter &from) {
   const std::vector<double> &values = scene.study.*from.values;
   if (values.empty()) return;
   check_list(scene, from, values);
-  Knob knob{from.name, from.entry, from.unit, true, {}};
+  StudiedParameter parameter{from.name, from.entry, from.unit, true, {}};
   for (const double value : values) {
     StudyCase one{base, {}, {}};
     if (value != from.own(scene))
       one = {as_name(from.name) + "_" + in_name(value), {}, {set(from.entry, value, from.unit)}};
-    knob.values.push_back({in_name(value), value, place_of(plan, one)});
+    parameter.values.push_back({in_name(value), value, add(plan, one)});
   }
-  plan.knobs.push_back(std::move(knob));
+  plan.parameters.push_back(std::move(parameter));
 }
 
 void check_qualities(const Scene &scene) {
@@ -164,14 +154,14 @@ void check_qualities(const Scene &scene) {
 void add_qualities(StudyPlan &plan, const Scene &scene) {
   if (scene.study.qualities.empty()) return;
   check_qualities(scene);
-  Knob knob{"quality", "Scene/Quality", "", true, {}};
+  StudiedParameter parameter{"quality", "Scene/Quality", "", true, {}};
   for (const Quality kind : scene.study.qualities) {
     const std::string word = quality(kind).word;
     StudyCase one{base, {}, {}};
     if (kind != scene.general.quality) one = {"quality_" + word, {}, {"Scene/Quality = " + word}};
-    knob.values.push_back({word, not_given, place_of(plan, one)});
+    parameter.values.push_back({word, not_given, add(plan, one)});
   }
-  plan.knobs.push_back(std::move(knob));
+  plan.parameters.push_back(std::move(parameter));
 }
 
 void check_change(const Scene &scene, const std::string &path, const std::string &value) {
@@ -185,15 +175,15 @@ void check_change(const Scene &scene, const std::string &path, const std::string
 
 void add_changes(StudyPlan &plan, const Scene &scene) {
   if (scene.study.changes.empty()) return;
-  Knob knob{"effects", "", "", false, {}};
+  StudiedParameter parameter{"effects", "", "", false, {}};
   for (const std::string &change : scene.study.changes) {
     const std::string between = " = ";
     const std::size_t sign = change.find(between);
     check_change(scene, change.substr(0, sign), change.substr(sign + between.size()));
-    knob.values.push_back({change, not_given, place_of(plan, {as_name(change), {}, {change}})});
+    parameter.values.push_back({change, not_given, add(plan, {as_name(change), {}, {change}})});
   }
-  knob.values.push_back({"the scene as it is", not_given, place_of(plan, {base, {}, {}})});
-  plan.knobs.push_back(std::move(knob));
+  parameter.values.push_back({"the scene as it is", not_given, add(plan, {base, {}, {}})});
+  plan.parameters.push_back(std::move(parameter));
 }
 
 } // namespace
@@ -201,30 +191,28 @@ void add_changes(StudyPlan &plan, const Scene &scene) {
 StudyPlan plan_accuracy(const Scene &scene) {
   if (scene.loading.hydrostatic())
     scene.parameters->refuse("Loading/Test", "has no strength to be accurate. Allowed: any other.");
-  if (scene.loading.stop_at_residual >= peak_fall)
-    scene.parameters->refuse("Loading/Stop at residual",
-                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
+  require_fall(scene);
   StudyPlan plan;
-  for (const NumberKnob &knob : number_knobs) {
-    plan.varied.emplace_back(knob.column);
-    add_numbers(plan, scene, knob);
+  for (const NumberParameter &parameter : number_parameters) {
+    plan.varied.emplace_back(parameter.column);
+    add_numbers(plan, scene, parameter);
   }
   add_qualities(plan, scene);
   add_changes(plan, scene);
-  if (!plan.knobs.empty()) return plan;
+  if (!plan.parameters.empty()) return plan;
   std::string others;
-  for (const NumberKnob &knob : number_knobs)
-    others += std::string(others.empty() ? "" : ", ") + (knob.list + std::string("Study/").size());
+  for (const NumberParameter &parameter : number_parameters)
+    others += std::string(others.empty() ? "" : ", ") + (parameter.list + std::string("Study/").size());
   scene.parameters->refuse("Study/Safety list",
                            "is not set, nor is any other list of a study of accuracy: nothing is varied. "
                            "Allowed: at least one of " +
                                others + ", Quality list, Effects list.");
 }
 
-void label_knobs(StudyCase &of, const Scene &led_to) {
+void label_parameters(StudyCase &of, const Scene &led_to) {
   of.labels.clear();
-  for (const NumberKnob &knob : number_knobs)
-    of.labels.push_back(knob.refused(led_to).empty() ? knob.own(led_to) : not_given);
+  for (const NumberParameter &parameter : number_parameters)
+    of.labels.push_back(parameter.refused(led_to).empty() ? parameter.own(led_to) : not_given);
 }
 
 } // namespace platen::apps

@@ -1,11 +1,10 @@
 #include "apps/study/cases.h"
 
+#include <algorithm>
+
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
-#include "apps/study/accuracy_cases.h"
-#include "apps/study/entries.h"
-#include "apps/study/platen_cases.h"
 
 namespace platen::apps {
 namespace {
@@ -81,7 +80,7 @@ StudyPlan plan_rate(const Scene &scene) {
   if (scene.study.axial_rates.empty())
     scene.parameters->refuse("Study/Axial rate list",
                              "is not set: nothing is varied. Allowed: speeds with commas between them.");
-  if (scene.loading.hydrostatic() || scene.platens.top_control == PlatenControl::stress)
+  if (scene.loading.hydrostatic() || scene.loading.servo)
     scene.parameters->refuse("Study/Axial rate list", "needs platens that are driven by motion.");
   StudyPlan plan;
   plan.varied = {"axial_rate_m_s"};
@@ -90,48 +89,53 @@ StudyPlan plan_rate(const Scene &scene) {
   return plan;
 }
 
-StudyPlan plan_of(StudyKind kind, const Scene &scene) {
-  switch (kind) {
-    case StudyKind::friction:
-      return plan_friction(scene);
-    case StudyKind::slenderness:
-      return plan_slenderness(scene);
-    case StudyKind::packing:
-      return plan_packing(scene);
-    case StudyKind::rate:
-      return plan_rate(scene);
-    case StudyKind::accuracy:
-      return plan_accuracy(scene);
-    case StudyKind::size:
-      break;
-  }
-  return plan_size(scene);
+struct KindOfStudy {
+  const char *word;
+  StudyPlan (*plan)(const Scene &);
+};
+
+// As StudyKind.
+constexpr KindOfStudy kinds[] = {{"friction", plan_friction}, {"slenderness", plan_slenderness},
+                                 {"size", plan_size},         {"packing", plan_packing},
+                                 {"rate", plan_rate},         {"accuracy", plan_accuracy}};
+
+const KindOfStudy &row_of(StudyKind kind) {
+  return kinds[static_cast<std::size_t>(kind)];
 }
 
 } // namespace
 
 const char *word(StudyKind kind) {
-  switch (kind) {
-    case StudyKind::friction:
-      return "friction";
-    case StudyKind::slenderness:
-      return "slenderness";
-    case StudyKind::packing:
-      return "packing";
-    case StudyKind::rate:
-      return "rate";
-    case StudyKind::accuracy:
-      return "accuracy";
-    case StudyKind::size:
-      break;
-  }
-  return "size";
+  return row_of(kind).word;
 }
 
-const std::vector<StudyKind> &known_study_kinds() {
-  static const std::vector<StudyKind> kinds{StudyKind::friction, StudyKind::slenderness, StudyKind::size,
-                                            StudyKind::packing,  StudyKind::rate,        StudyKind::accuracy};
-  return kinds;
+std::vector<std::string> study_kinds() {
+  std::vector<std::string> words;
+  for (const KindOfStudy &kind : kinds)
+    words.emplace_back(kind.word);
+  return words;
+}
+
+StudyKind study_kind(const std::string &word) {
+  const std::vector<std::string> words = study_kinds();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<StudyKind>(found - words.begin());
+  throw InputError("command line: error: KIND = " + word + " is not known. Allowed: " + joined(words) + ".");
+}
+
+std::size_t add(StudyPlan &plan, StudyCase one) {
+  const auto found = std::find_if(plan.cases.begin(), plan.cases.end(),
+                                  [&](const StudyCase &other) { return other.name == one.name; });
+  const auto place = static_cast<std::size_t>(found - plan.cases.begin());
+  if (found == plan.cases.end()) plan.cases.push_back(std::move(one));
+  return place;
+}
+
+void require_fall(const Scene &scene) {
+  constexpr double peak_fall = 0.8; // of the peak: where damage is measured (middle_damage)
+  if (scene.loading.stop_at_residual >= peak_fall)
+    scene.parameters->refuse("Loading/Stop at residual",
+                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
 }
 
 std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
@@ -143,7 +147,7 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
 }
 
 StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
-  StudyPlan plan = plan_of(kind, scene);
+  StudyPlan plan = row_of(kind).plan(scene);
   plan.kind = kind;
   for (int k = 0; k < scene.study.seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
@@ -152,7 +156,7 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
       const Scene led_to =
           read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
       if (of_platens(kind)) label_platens(one, led_to);
-      if (kind == StudyKind::accuracy) label_knobs(one, led_to);
+      if (kind == StudyKind::accuracy) label_parameters(one, led_to);
     } catch (const InputError &error) {
       throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
                        ", which cannot be run:\n" + error.what());

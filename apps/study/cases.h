@@ -1,10 +1,13 @@
 // What a study runs: cases, each a set of entries that differ from the scene, and seeds.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
 #include "apps/scene/scene.h"
+#include "apps/scene/units.h"
 
 namespace platen::apps {
 
@@ -22,7 +25,7 @@ struct StudyCase {
 };
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.
-struct Knob {
+struct StudiedParameter {
   struct Value {
     std::string text;        // "0.9", "Effects/Rotation = off"
     double number;           // SI; NaN where it is none
@@ -39,12 +42,13 @@ struct StudyPlan {
   std::vector<std::string> varied; // columns that tell the cases apart
   std::vector<StudyCase> cases;    // in the order in which they run; no two the same
   std::vector<unsigned long> seeds;
-  std::vector<Knob> knobs = {}; // study of accuracy
+  std::vector<StudiedParameter> parameters = {}; // study of accuracy
 };
 
 const char *word(StudyKind kind);
-// The kinds that this version has.
-const std::vector<StudyKind> &known_study_kinds();
+// The words of all kinds, and the kind of a word. Throws InputError for any other.
+std::vector<std::string> study_kinds();
+StudyKind study_kind(const std::string &word);
 
 // Throws InputError where the scene leaves a kind nothing to vary, or where a case is a scene that
 // platen-compress would refuse; `overrides` are those of the command line.
@@ -53,5 +57,48 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
 // All that makes one run of a case from the scene: the command line's, the case's and the seed.
 std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
                                       const std::vector<std::string> &overrides);
+
+// Cases of the studies of platens: what faces the specimen, and how slender it is. Platens x slendernesses x
+// sphere radii x pressures of the scene's section Study; a list that is empty leaves what the scene has. A
+// specimen of another height is packed anew with the same recipe, spheres, width and seed, and pressed at the
+// same speed: so many wave crossings to the same strain, whatever the height. Throw InputError where there is
+// nothing to vary or the scene contradicts it.
+StudyPlan plan_friction(const Scene &scene);
+StudyPlan plan_slenderness(const Scene &scene); // one kind of platens
+// Fills StudyCase::surface and labels from the scene that the case leads to.
+void label_platens(StudyCase &of, const Scene &led_to);
+
+// Cases of the study of accuracy: what trades accuracy for time, one thing at a time. A case for each value
+// of each list of the section Study that such a study knows, all else as the scene has it; what the scene has
+// itself is one case, `base`, whichever lists hold it. Lists go from coarse to fine, their last value is the
+// reference of the others; that of Study/Effects list is the scene as it is. Throws InputError where nothing
+// is varied, a list goes the wrong way, or the scene contradicts it.
+StudyPlan plan_accuracy(const Scene &scene);
+// Fills StudyCase::labels from the scene that the case leads to.
+void label_parameters(StudyCase &of, const Scene &led_to);
+
+// What the plans of several kinds need.
+
+// Its place in the plan; what two lists lead to is one case, which runs once.
+std::size_t add(StudyPlan &plan, StudyCase one);
+// Throws InputError where a run may end before its stress has fallen to 0.8 of the peak, where damage is
+// measured and from where on a run is known to have peaked.
+void require_fall(const Scene &scene);
+
+// "Section/Key = value unit".
+inline std::string set(const std::string &path, double value, const std::string &unit) {
+  return path + " = " + shortest_text(value) + (unit.empty() ? "" : " " + unit);
+}
+
+// For a name: without the last bit that a unit's conversion may leave (0.9 mm is 0.0009000000000000001 m).
+inline std::string in_name(double value) {
+  return fmt::format("{:.12g}", value);
+}
+
+// The list, or the one value that the scene has.
+template <class Value>
+std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
+  return list.empty() ? std::vector<Value>{own} : list;
+}
 
 } // namespace platen::apps

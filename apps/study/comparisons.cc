@@ -11,6 +11,9 @@
 namespace platen::apps {
 namespace {
 
+// Slenderness of the prisms that cubes are compared with.
+constexpr double laboratory_prism = 2.39; // Hughes and Bahramian 1967: 244 mm x 102 mm
+
 constexpr double free_friction = 0.05; // and below: sheets of Teflon
 constexpr double steel_friction = 0.3; // and above: the strength of cubes hardly depends on it
 constexpr double nearly = 1e-9;        // of a slenderness, for the round-off of heights
@@ -24,11 +27,67 @@ bool equal(double a, double b) {
   return std::abs(a - b) <= nearly * std::abs(b);
 }
 
+// Strengths of four mixes, MPa: cubes of 102 mm and prisms of 102 mm x 244 mm, between platens and with free
+// ends.
+struct Mix {
+  double cube, prism, cube_free, prism_free;
+};
+constexpr Mix mixes[] = {{59, 41, 37, 37}, {100, 68, 68, 66}, {41, 34, 34, 31}, {90, 66, 64, 61}};
+constexpr const char *hughes = "Hughes and Bahramian 1967, four mixes";
+
+LaboratoryFigure of_mixes(PlatenEffect effect, bool free_ends, double slenderness, double Mix::*strength,
+                          double Mix::*reference) {
+  LaboratoryFigure figure{effect, free_ends, slenderness, 0, INFINITY, -INFINITY, hughes};
+  for (const Mix &mix : mixes) {
+    const double ratio = mix.*strength / (mix.*reference);
+    figure.mean += ratio / std::size(mixes);
+    figure.low = std::min(figure.low, ratio);
+    figure.high = std::max(figure.high, ratio);
+  }
+  return figure;
+}
+
+// Factors that reduce a short core's strength to that at 2; concrete of 14 to 41 MPa.
+LaboratoryFigure of_astm(double slenderness, double factor) {
+  const double ratio = 1 / factor;
+  return {PlatenEffect::relative_strength, false, slenderness, ratio, ratio, ratio, "ASTM C42"};
+}
+
+LaboratoryFigure of_rilem(bool teflon, double slenderness, double low, double high) {
+  return {PlatenEffect::relative_strength,
+          teflon,
+          slenderness,
+          0.5 * (low + high),
+          low,
+          high,
+          "RILEM TC 148-SSC (van Mier et al. 1997), from memory"};
+}
+
+std::vector<LaboratoryFigure> all_figures() {
+  constexpr bool free_ends = true, steel = false;
+  return {of_mixes(PlatenEffect::gain, steel, 1, &Mix::cube, &Mix::cube_free),
+          of_mixes(PlatenEffect::gain, steel, laboratory_prism, &Mix::prism, &Mix::prism_free),
+          of_mixes(PlatenEffect::cube_over_prism, steel, 1, &Mix::cube, &Mix::prism),
+          of_mixes(PlatenEffect::cube_over_prism, free_ends, 1, &Mix::cube_free, &Mix::prism_free),
+          of_astm(1, 0.87),
+          of_astm(1.25, 0.93),
+          of_astm(1.5, 0.96),
+          of_astm(1.75, 0.98),
+          of_rilem(steel, 0.5, 1.5, 2.0),
+          of_rilem(steel, 1, 1.1, 1.4),
+          of_rilem(steel, 4, 0.95, 1.0),
+          of_rilem(free_ends, 0.5, 0.95, 1.1),
+          of_rilem(free_ends, 1, 0.95, 1.1),
+          of_rilem(free_ends, 4, 0.95, 1.1)};
+}
+
 class Comparing {
 public:
   Comparing(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths)
       : plan_(plan), strengths_(strengths) {}
-  std::vector<Comparison> all();
+  // What case k is compared with.
+  void add_all(std::size_t k);
+  std::vector<Comparison> comparisons;
 
 private:
   double friction(std::size_t k) const { return label(plan_, k, "friction_static"); }
@@ -36,70 +95,57 @@ private:
   bool alike(std::size_t a, std::size_t b, const char *column) const {
     return equal(label(plan_, a, column), label(plan_, b, column));
   }
-  bool same_grains(std::size_t a, std::size_t b) const {
-    return alike(a, b, "sphere_radius_m") && alike(a, b, "confining_pressure_pa");
-  }
   bool same_platens(std::size_t a, std::size_t b) const {
     return plan_.cases[a].surface == plan_.cases[b].surface;
   }
-  // The best of all cases that may be compared with k; nothing where there is none.
-  template <class May, class Better>
-  std::optional<std::size_t> partner(std::size_t k, const May &may, const Better &better) const;
-  void add(PlatenEffect effect, std::size_t of, std::size_t over);
+
+  // Compares with the case of the same grains and pressure that may be taken and has the least rank; of
+  // several with the first.
+  template <class May, class Rank>
+  void add(PlatenEffect effect, std::size_t k, const May &may, const Rank &rank) {
+    std::optional<std::size_t> best;
+    for (std::size_t other = 0; other < plan_.cases.size(); ++other)
+      if (other != k && alike(k, other, "sphere_radius_m") && alike(k, other, "confining_pressure_pa") &&
+          may(other) && (!best || rank(other) < rank(*best)))
+        best = other;
+    if (best) add(effect, k, *best);
+  }
+
+  void add(PlatenEffect effect, std::size_t of, std::size_t over) {
+    Comparison comparison{effect, of, over, {}, nullptr};
+    for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed)
+      comparison.ratio.add(strengths_[of][seed] / strengths_[over][seed]);
+    const std::string &faces = plan_.cases[of].surface;
+    const bool free_ends = friction(of) <= free_friction,
+               steel = friction(of) >= steel_friction && faces != surface(SurfaceKind::rubber_sheet).word &&
+                       faces != surface(SurfaceKind::brush).word;
+    if (label(plan_, of, "confining_pressure_pa") == 0 && (free_ends || steel))
+      comparison.laboratory = laboratory_figure(effect, free_ends, slenderness(of));
+    comparisons.push_back(std::move(comparison));
+  }
 
   const StudyPlan &plan_;
   const std::vector<std::vector<double>> &strengths_;
-  std::vector<Comparison> comparisons_;
 };
 
-template <class May, class Better>
-std::optional<std::size_t> Comparing::partner(std::size_t k, const May &may, const Better &better) const {
-  std::optional<std::size_t> best;
-  for (std::size_t other = 0; other < plan_.cases.size(); ++other)
-    if (other != k && same_grains(k, other) && may(other) && (!best || better(other, *best))) best = other;
-  return best;
-}
-
-void Comparing::add(PlatenEffect effect, std::size_t of, std::size_t over) {
-  Comparison comparison{effect, of, over, {}, nullptr};
-  for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed)
-    comparison.ratio.add(strengths_[of][seed] / strengths_[over][seed]);
-  const std::string &faces = plan_.cases[of].surface;
-  const bool free_ends = friction(of) <= free_friction,
-             steel = friction(of) >= steel_friction && faces != surface(SurfaceKind::rubber_sheet).word &&
-                     faces != surface(SurfaceKind::brush).word;
-  const bool bare = label(plan_, of, "confining_pressure_pa") == 0;
-  if (bare && (free_ends || steel))
-    comparison.laboratory = laboratory_figure(effect, free_ends, slenderness(of));
-  comparisons_.push_back(std::move(comparison));
-}
-
-std::vector<Comparison> Comparing::all() {
-  const auto any = [](std::size_t, std::size_t) { return false; };
-  for (std::size_t k = 0; k < plan_.cases.size(); ++k) {
-    const auto free_ends = partner(
-        k,
-        [&](std::size_t other) {
-          return alike(k, other, "slenderness") && friction(other) <= free_friction &&
-                 !(friction(other) >= friction(k));
-        },
-        [&](std::size_t a, std::size_t b) { return friction(a) < friction(b); });
-    if (free_ends) add(PlatenEffect::gain, k, *free_ends);
-    if (equal(slenderness(k), 2)) continue;
-    const auto two = partner(
-        k, [&](std::size_t other) { return same_platens(k, other) && equal(slenderness(other), 2); }, any);
-    if (two) add(PlatenEffect::relative_strength, k, *two);
-    if (!equal(slenderness(k), 1)) continue;
-    const auto from_prism = [&](std::size_t other) {
-      return std::abs(slenderness(other) - laboratory_prism);
-    };
-    const auto prism = partner(
-        k,
-        [&](std::size_t other) { return same_platens(k, other) && slenderness(other) >= 2 * (1 - nearly); },
-        [&](std::size_t a, std::size_t b) { return from_prism(a) < from_prism(b); });
-    if (prism) add(PlatenEffect::cube_over_prism, k, *prism);
-  }
-  return std::move(comparisons_);
+void Comparing::add_all(std::size_t k) {
+  add(
+      PlatenEffect::gain, k,
+      [&](std::size_t other) {
+        return alike(k, other, "slenderness") && friction(other) <= free_friction &&
+               !(friction(other) >= friction(k));
+      },
+      [&](std::size_t other) { return friction(other); });
+  if (equal(slenderness(k), 2)) return;
+  add(
+      PlatenEffect::relative_strength, k,
+      [&](std::size_t other) { return same_platens(k, other) && equal(slenderness(other), 2); },
+      [](std::size_t) { return 0; });
+  if (!equal(slenderness(k), 1)) return;
+  add(
+      PlatenEffect::cube_over_prism, k,
+      [&](std::size_t other) { return same_platens(k, other) && slenderness(other) >= 2 * (1 - nearly); },
+      [&](std::size_t other) { return std::abs(slenderness(other) - laboratory_prism); });
 }
 
 std::string words(const LaboratoryFigure &f) {
@@ -109,12 +155,36 @@ std::string words(const LaboratoryFigure &f) {
 
 } // namespace
 
-std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths) {
-  return Comparing(plan, strengths).all();
+const char *word(PlatenEffect effect) {
+  constexpr const char *words[] = {"gain over free ends", "strength over that at slenderness 2",
+                                   "cube over prism"};
+  return words[static_cast<std::size_t>(effect)];
 }
 
-Json json_of(const LaboratoryFigure &figure) {
-  return {{"effect", word(figure.effect)},
+const std::vector<LaboratoryFigure> &laboratory_figures() {
+  static const std::vector<LaboratoryFigure> figures = all_figures();
+  return figures;
+}
+
+const LaboratoryFigure *laboratory_figure(PlatenEffect effect, bool free_ends, double slenderness) {
+  constexpr double about = 0.05; // of the slenderness: a specimen of 2.4 stands beside one of 2.39
+  const auto found =
+      std::find_if(laboratory_figures().begin(), laboratory_figures().end(), [&](const LaboratoryFigure &f) {
+        return f.effect == effect && f.free_ends == free_ends &&
+               std::abs(f.slenderness - slenderness) <= about * f.slenderness;
+      });
+  return found == laboratory_figures().end() ? nullptr : &*found;
+}
+
+std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths) {
+  Comparing comparing(plan, strengths);
+  for (std::size_t k = 0; k < plan.cases.size(); ++k)
+    comparing.add_all(k);
+  return std::move(comparing.comparisons);
+}
+
+void to_json(Json &json, const LaboratoryFigure &figure) {
+  json = {{"effect", word(figure.effect)},
           {"platens", figure.free_ends ? "free ends" : "steel"},
           {"slenderness", figure.slenderness},
           {"mean", figure.mean},
@@ -123,20 +193,13 @@ Json json_of(const LaboratoryFigure &figure) {
           {"source", figure.source}};
 }
 
-Json json_of(const std::vector<LaboratoryFigure> &figures) {
-  Json all = Json::array();
-  for (const LaboratoryFigure &figure : figures)
-    all.push_back(json_of(figure));
-  return all;
-}
-
 Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) {
   Json all = Json::array();
   for (const Comparison &c : comparisons) {
     Json one{{"effect", word(c.effect)},         {"case", plan.cases[c.of].name},
              {"over", plan.cases[c.over].name},  {"mean", c.ratio.mean()},
              {"deviation", c.ratio.deviation()}, {"runs", c.ratio.count()}};
-    one["laboratory"] = c.laboratory == nullptr ? Json() : json_of(*c.laboratory);
+    one["laboratory"] = c.laboratory == nullptr ? Json() : Json(*c.laboratory);
     all.push_back(std::move(one));
   }
   return all;
@@ -157,10 +220,9 @@ std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &compar
   for (const Comparison &c : comparisons) {
     text += fmt::format("  {:<35}  {:<{}} / {:<{}}  ", word(c.effect), specimen(c.of), widths[0],
                         specimen(c.over), widths[1]);
-    if (c.laboratory == nullptr)
-      text += text_of(c.ratio, 1) + '\n';
-    else
-      text += fmt::format("{:<16}  laboratory {}\n", text_of(c.ratio, 1), words(*c.laboratory));
+    text += c.laboratory == nullptr
+                ? text_of(c.ratio, 1) + '\n'
+                : fmt::format("{:<16}  laboratory {}\n", text_of(c.ratio, 1), words(*c.laboratory));
   }
   return text;
 }

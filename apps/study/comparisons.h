@@ -8,9 +8,29 @@
 #include "apps/io/seed_statistics.h"
 #include "apps/io/summary.h"
 #include "apps/study/cases.h"
-#include "apps/study/laboratory.h"
 
 namespace platen::apps {
+
+enum class PlatenEffect {
+  gain,              // strength over that between free ends, at one slenderness
+  relative_strength, // strength over that at height over width 2, between the same platens
+  cube_over_prism    // strength at height over width 1 over that of a prism, between the same platens
+};
+
+const char *word(PlatenEffect effect);
+
+struct LaboratoryFigure {
+  PlatenEffect effect;
+  bool free_ends;         // of ends that are free to spread, else of steel platens
+  double slenderness;     // height over width; of the cube where cube over prism
+  double mean, low, high; // 1; equal where one number is given
+  std::string source;     // author, year; "from memory" where nobody has looked it up since
+};
+
+const std::vector<LaboratoryFigure> &laboratory_figures();
+
+// The figure for the same effect and ends at about this slenderness; null where there is none.
+const LaboratoryFigure *laboratory_figure(PlatenEffect effect, bool free_ends, double slenderness);
 
 struct Comparison {
   PlatenEffect effect;
@@ -25,8 +45,8 @@ struct Comparison {
 std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths);
 
 // For study.json; repeats to the byte.
+void to_json(Json &json, const LaboratoryFigure &figure);
 Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons);
-Json json_of(const std::vector<LaboratoryFigure> &figures);
 // For the screen; "" of nothing.
 std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons);
 

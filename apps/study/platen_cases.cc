@@ -1,5 +1,4 @@
-#include "apps/study/platen_cases.h"
-
+// Cases of the studies of platens.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,12 +7,10 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/surfaces.h"
 #include "apps/scene/values.h"
-#include "apps/study/entries.h"
+#include "apps/study/cases.h"
 
 namespace platen::apps {
 namespace {
-
-constexpr double peak_fall = 0.8; // of the peak: where damage is measured (middle_damage)
 
 double width(const SpecimenSection &s) {
   return s.shape == SpecimenShape::box ? std::min(s.width_x, s.width_y) : 2 * s.radius; // m
@@ -27,9 +24,7 @@ std::string with_underscores(std::string words) {
 void check_test(const Scene &scene) {
   if (scene.loading.test != LoadingTest::compression)
     scene.parameters->refuse("Loading/Test", "is no test that platens end. Allowed: compression.");
-  if (scene.loading.stop_at_residual >= peak_fall)
-    scene.parameters->refuse("Loading/Stop at residual",
-                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
+  require_fall(scene);
 }
 
 void check_surfaces(const Scene &scene) {
@@ -101,7 +96,7 @@ void set_height(const Scene &scene, double slenderness, StudyCase &one) {
   one.name += (one.name.empty() ? "slenderness_" : "_slenderness_") + in_name(slenderness);
   one.overrides.push_back(set("Specimen/Height", height, "m"));
   // Where it would grow with the specimen, the platen stays as thick as the scene's.
-  if (scene.platens.kind == PlatenKind::deformable && !scene.parameters->at("Platens/Thickness").changed())
+  if (scene.platens.deformable && !scene.parameters->at("Platens/Thickness").changed())
     one.overrides.push_back(set("Platens/Thickness", scene.platens.thickness, "m"));
 }
 
@@ -140,10 +135,6 @@ StudyPlan plan_platens(const Scene &scene) {
 
 } // namespace
 
-double slenderness(const SpecimenSection &specimen) {
-  return rounded(specimen.height / width(specimen));
-}
-
 StudyPlan plan_friction(const Scene &scene) {
   if (scene.study.surfaces.empty())
     scene.parameters->refuse("Study/Surface list",
@@ -169,16 +160,16 @@ void label_platens(StudyCase &of, const Scene &led_to) {
   const Platens &p = led_to.platens;
   const bool alike = p.top.friction_static == p.bottom.friction_static &&
                      p.top.friction_dynamic == p.bottom.friction_dynamic,
-             slides = alike && p.attachment == Attachment::contact, known = p.surface != SurfaceKind::custom;
+             slides = alike && !p.glued, known = p.surface != SurfaceKind::custom;
   of.surface = known    ? surface(p.surface).word
                : slides ? "friction " + in_name(p.top.friction_static)
                         : surface(p.surface).word;
   of.labels = {slides ? p.top.friction_static : not_given,
                slides ? p.top.friction_dynamic : not_given,
-               slenderness(led_to.specimen),
+               rounded(led_to.specimen.height / width(led_to.specimen)),
                led_to.specimen.height,
                led_to.specimen.sphere_radius,
-               led_to.loading.cell() ? led_to.loading.confining_pressure : 0.0};
+               led_to.loading.confined() ? led_to.loading.cell->pressure : 0.0};
 }
 
 } // namespace platen::apps

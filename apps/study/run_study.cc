@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "apps/io/file.h"
-#include "apps/io/folder_lock.h"
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
@@ -27,7 +26,7 @@
 #include "apps/study/runs.h"
 #include "apps/study/tables.h"
 #include "base/clock.h"
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
@@ -50,21 +49,12 @@ std::string text_of(const Scene &scene, const fs::path &folder) {
   return text.str();
 }
 
-StudyKind kind_of(const std::string &given) {
-  std::vector<std::string> words;
-  for (const StudyKind kind : known_study_kinds()) {
-    if (given == word(kind)) return kind;
-    words.emplace_back(word(kind));
-  }
-  throw InputError("command line: error: KIND = " + given + " is not known. Allowed: " + joined(words) + ".");
-}
-
 class StudyApp {
 public:
   StudyApp(const CommandLine &command, const Scene &scene)
       : command_(command),
         scene_(scene),
-        plan_(plan_study(kind_of(command.kind), scene, command.overrides)),
+        plan_(plan_study(study_kind(command.kind), scene, command.overrides)),
         paths_(command.output),
         runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads())),
         log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)) {}
@@ -72,7 +62,7 @@ public:
   int run();
 
 private:
-  int threads() const { return command_.threads > 0 ? command_.threads : dem::hardware_threads(); }
+  int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
   std::string description() const;
   int tell_costs() const;
   void open();
@@ -102,12 +92,9 @@ std::string StudyApp::description() const {
                   scene_.general.title.empty() ? scene_.name : scene_.general.title, word(plan_.kind),
                   plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(),
                   std::min<std::size_t>(runs_.size(), static_cast<std::size_t>(threads())));
-  for (const StudyCase &one : plan_.cases) {
-    text += "  " + one.name + ":";
-    for (const std::string &entry : one.overrides)
-      text += (&entry == &one.overrides.front() ? " " : ", ") + entry;
-    text += '\n';
-  }
+  for (const StudyCase &one : plan_.cases)
+    text += fmt::format("  {}:{}{}\n", one.name, one.overrides.empty() ? "" : " ",
+                        fmt::join(one.overrides, ", "));
   return text;
 }
 
@@ -208,12 +195,12 @@ std::string StudyApp::compare(const StudyTables &tables, Json &study) const {
   if (of_platens(plan_.kind)) {
     const std::vector<Comparison> comparisons = tables.comparisons();
     study["comparisons"] = json_of(plan_, comparisons);
-    study["laboratory"] = json_of(laboratory_figures());
+    study["laboratory"] = laboratory_figures();
     return text_of(plan_, comparisons);
   }
   if (plan_.kind != StudyKind::accuracy) return "";
   accuracy_.write_rows(paths_.accuracy());
-  const std::vector<KnobErrors> errors = accuracy_.errors();
+  const std::vector<ParameterErrors> errors = accuracy_.errors();
   study["accuracy"] = json_of(plan_, errors);
   study["costs"] = costs_of(plan_, errors);
   return text_of(plan_, errors);
@@ -271,13 +258,6 @@ int StudyApp::run() {
 }
 
 } // namespace
-
-std::vector<std::string> study_kinds() {
-  std::vector<std::string> words;
-  for (const StudyKind kind : known_study_kinds())
-    words.emplace_back(word(kind));
-  return words;
-}
 
 int run_study(const CommandLine &command, const Scene &scene) {
   return StudyApp(command, scene).run();

@@ -52,9 +52,9 @@ struct Active {
   bool resumes;
 };
 
-class Crew {
+class Processes {
 public:
-  Crew(const std::vector<StudyRun> &runs, std::size_t at_a_time, RunLog &log)
+  Processes(const std::vector<StudyRun> &runs, std::size_t at_a_time, RunLog &log)
       : runs_(runs), at_a_time_(at_a_time), log_(log), outcomes_(runs.size()) {}
 
   void work(const std::function<void(std::size_t, const RunOutcome &)> &keep);
@@ -75,7 +75,7 @@ private:
   int signal_ = 0; // that was passed on
 };
 
-void Crew::pass_on_signal() {
+void Processes::pass_on_signal() {
   if (signal_ != 0) return;
   signal_ = stop_requested();
   if (signal_ == 0) return;
@@ -83,7 +83,7 @@ void Crew::pass_on_signal() {
     one.process.send(signal_);
 }
 
-void Crew::start(std::size_t k, bool may_resume) {
+void Processes::start(std::size_t k, bool may_resume) {
   const StudyRun &run = runs_[k];
   const bool resumes = may_resume && has_checkpoint(run.folder);
   std::vector<std::string> command = run.command;
@@ -95,7 +95,7 @@ void Crew::start(std::size_t k, bool may_resume) {
   active_.push_back({k, Process(command), resumes});
 }
 
-void Crew::start_more() {
+void Processes::start_more() {
   while (signal_ == 0 && next_ < runs_.size() && active_.size() < at_a_time_) {
     const std::size_t k = next_++;
     if (std::optional<Json> summary = summary_of_done(runs_[k].folder))
@@ -105,7 +105,7 @@ void Crew::start_more() {
   }
 }
 
-void Crew::ended(Active &one) {
+void Processes::ended(Active &one) {
   const StudyRun &run = runs_[one.run];
   const int status = one.process.status();
   if (std::optional<Json> summary = summary_of_done(run.folder)) {
@@ -127,7 +127,7 @@ void Crew::ended(Active &one) {
   }
 }
 
-void Crew::look() {
+void Processes::look() {
   for (auto one = active_.begin(); one != active_.end();) {
     if (one->process.running()) {
       ++one;
@@ -138,7 +138,7 @@ void Crew::look() {
   }
 }
 
-void Crew::work(const std::function<void(std::size_t, const RunOutcome &)> &keep) {
+void Processes::work(const std::function<void(std::size_t, const RunOutcome &)> &keep) {
   std::size_t kept = 0;
   while (true) {
     pass_on_signal();
@@ -189,7 +189,7 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
 
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
                const std::function<void(std::size_t, const RunOutcome &)> &keep) {
-  Crew(runs, static_cast<std::size_t>(at_a_time), log).work(keep);
+  Processes(runs, static_cast<std::size_t>(at_a_time), log).work(keep);
 }
 
 } // namespace platen::apps

@@ -2,10 +2,8 @@
 set(PLATEN_STUDY_SOURCES
   study/accuracy.cc
   study/accuracy_cases.cc
-  study/accuracy_text.cc
   study/cases.cc
   study/comparisons.cc
-  study/laboratory.cc
   study/platen_cases.cc
   study/process.cc
   study/run_study.cc

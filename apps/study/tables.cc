@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace platen::apps {
 namespace {
@@ -58,28 +59,23 @@ Json json_of(const SeedStatistics &s) {
   return {{"mean", s.mean()}, {"deviation", s.deviation()}, {"runs", s.count()}};
 }
 
-// How a varied column is shown.
+// How a column is shown.
 struct Shown {
   const char *column, *head;
   double unit;
 };
-constexpr Shown shown[] = {{"friction_static", "friction", 1},
-                           {"slenderness", "height/width", 1},
-                           {"confining_pressure_pa", "cell, MPa", 1e6},
-                           {"sphere_radius_m", "sphere, mm", 1e-3},
-                           {"height_m", "height, mm", 1e-3},
-                           {"radius_m", "radius, mm", 1e-3},
-                           {"gap_over_radius", "gap/R", 1},
-                           {"gap_m", "gap, mm", 1e-3},
-                           {"radius_multiplier", "multiplier", 1},
-                           {"radius_spread", "spread", 1},
-                           {"axial_rate_m_s", "rate, m/s", 1}};
-
-struct Column {
-  const char *key, *head;
-  double unit;
-};
-constexpr Column printed[] = {{"particles", "spheres", 1},
+constexpr Shown varied[] = {{"friction_static", "friction", 1},
+                            {"slenderness", "height/width", 1},
+                            {"confining_pressure_pa", "cell, MPa", 1e6},
+                            {"sphere_radius_m", "sphere, mm", 1e-3},
+                            {"height_m", "height, mm", 1e-3},
+                            {"radius_m", "radius, mm", 1e-3},
+                            {"gap_over_radius", "gap/R", 1},
+                            {"gap_m", "gap, mm", 1e-3},
+                            {"radius_multiplier", "multiplier", 1},
+                            {"radius_spread", "spread", 1},
+                            {"axial_rate_m_s", "rate, m/s", 1}};
+constexpr Shown measured[] = {{"particles", "spheres", 1},
                               {"packing_fraction", "packing", 1},
                               {"coordination_number", "neighbours", 1},
                               {"strength_pa", "strength, MPa", 1e6},
@@ -87,6 +83,29 @@ constexpr Column printed[] = {{"particles", "spheres", 1},
                               {"youngs_modulus_gauge_pa", "E, GPa", 1e9},
                               {"poisson_ratio", "nu", 1},
                               {"kinetic_to_internal_max", "kinetic", 1}};
+
+struct Label {
+  const Shown *shown;
+  std::size_t place; // in the case
+};
+
+// Those that any case has; where cases have names, those that differ.
+std::vector<Label> labels_of(const StudyPlan &plan, bool named) {
+  std::vector<Label> labels;
+  for (std::size_t k = 0; k < plan.varied.size(); ++k) {
+    const auto any = [&](const auto &holds) {
+      return std::any_of(plan.cases.begin(), plan.cases.end(),
+                         [&](const StudyCase &of) { return holds(of.labels[k]); });
+    };
+    const auto *found = std::find_if(std::begin(varied), std::end(varied),
+                                     [&](const Shown &one) { return plan.varied[k] == one.column; });
+    const double first = plan.cases.front().labels[k];
+    if (found != std::end(varied) && any([](double value) { return !std::isnan(value); }) &&
+        (!named || any([&](double value) { return value != first; })))
+      labels.push_back({found, k});
+  }
+  return labels;
+}
 
 } // namespace
 
@@ -146,10 +165,8 @@ bool StudyTables::peaked(const Json &summary) {
 }
 
 int StudyTables::failed() const {
-  int sum = 0;
-  for (const OfCase &of : cases_)
-    sum += of.failed;
-  return sum;
+  return std::accumulate(cases_.begin(), cases_.end(), 0,
+                         [](int sum, const OfCase &of) { return sum + of.failed; });
 }
 
 const SeedStatistics &StudyTables::figure(const OfCase &of, const std::string &key) const {
@@ -186,40 +203,27 @@ std::vector<Comparison> StudyTables::comparisons() const {
 
 std::string StudyTables::text() const {
   const bool accuracy = plan_.kind == StudyKind::accuracy, named = of_platens(plan_.kind) || accuracy;
-  std::vector<const Shown *> labels;
-  std::vector<std::size_t> places; // of a label in the case
-  for (std::size_t k = 0; k < plan_.varied.size(); ++k) {
-    const bool any = std::any_of(plan_.cases.begin(), plan_.cases.end(),
-                                 [&](const StudyCase &c) { return !std::isnan(c.labels[k]); });
-    const auto *found = std::find_if(std::begin(shown), std::end(shown),
-                                     [&](const Shown &s) { return plan_.varied[k] == s.column; });
-    const bool varies = std::any_of(plan_.cases.begin(), plan_.cases.end(), [&](const StudyCase &c) {
-      return c.labels[k] != plan_.cases.front().labels[k];
-    });
-    if (!any || found == std::end(shown) || (named && !varies)) continue;
-    labels.push_back(found);
-    places.push_back(k);
-  }
+  const std::vector<Label> labels = labels_of(plan_, named);
   std::vector<std::vector<std::string>> rows(1);
   if (named) rows[0].emplace_back(accuracy ? "case" : "platens");
-  for (const Shown *label : labels)
-    rows[0].emplace_back(label->head);
+  for (const Label &label : labels)
+    rows[0].emplace_back(label.shown->head);
   rows[0].emplace_back("runs");
-  for (const Column &column : printed)
+  for (const Shown &column : measured)
     rows[0].emplace_back(column.head);
   rows[0].insert(rows[0].end(), {"seconds", "MB"});
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const OfCase &of = cases_[c];
     std::vector<std::string> row;
     if (named) row.push_back(accuracy ? plan_.cases[c].name : plan_.cases[c].surface);
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-      const double value = plan_.cases[c].labels[places[k]] / labels[k]->unit;
+    for (const Label &label : labels) {
+      const double value = plan_.cases[c].labels[label.place] / label.shown->unit;
       row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
     }
     row.push_back(of.failed == 0 ? std::to_string(of.runs)
                                  : fmt::format("{} of {}", of.runs - of.failed, of.runs));
-    for (const Column &column : printed)
-      row.push_back(text_of(figure(of, column.key), column.unit));
+    for (const Shown &column : measured)
+      row.push_back(text_of(figure(of, column.column), column.unit));
     row.push_back(text_of(of.seconds, 1));
     row.push_back(of.bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * of.bytes.mean()) : "-");
     rows.push_back(std::move(row));

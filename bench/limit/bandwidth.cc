@@ -4,19 +4,17 @@
 #include <memory>
 #include <stdexcept>
 
-#include "limit/crew.h"
+#include "base/parallel.h"
 
 namespace platen::bench {
 
 std::vector<double> triad_bandwidth(int threads, std::size_t elements, int repeats) {
   // Not initialised here: each thread touches its share first, so that the memory is near it.
   const std::unique_ptr<double[]> a(new double[elements]), b(new double[elements]), c(new double[elements]);
-  Crew crew(threads);
+  const ThreadLimit limit(threads);
+  const std::size_t shares = static_cast<std::size_t>(threads);
   const auto each_share = [&](const auto &body) {
-    crew.run([&](int thread) {
-      const std::size_t t = static_cast<std::size_t>(thread), n = static_cast<std::size_t>(threads);
-      body(t * elements / n, (t + 1) * elements / n);
-    });
+    at_once(shares, [&](std::size_t k) { body(k * elements / shares, (k + 1) * elements / shares); });
   };
   each_share([&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "limit/bond_forces.h"
-#include "limit/crew.h"
-#include "limit/kernels.h"
+#include "limit/parts.h"
 
 namespace platen::bench {
 
@@ -39,8 +39,7 @@ double bond_energy(const BondBlock &b, const Pose *poses, int l) {
 } // namespace
 
 struct IdealisedLoop::State {
-  Crew crew;
-  std::vector<Part> parts;
+  std::vector<Part> parts; // one for each thread
   std::size_t particles, bonds;
   double mass, inertia, time_step; // kg, kg m^2, s
   // Made here, but first touched by the thread that owns the rows, so that the memory is near it.
@@ -56,12 +55,15 @@ struct IdealisedLoop::State {
   void place(const Part &part, const Network &network);
   void push();
   void collect_ghosts(const Part &part);
-  void step(Part &part);
+  template <class Work>
+  void for_each_part(const Work &work) {
+    const ThreadLimit limit(static_cast<int>(parts.size()));
+    at_once(parts.size(), [&](std::size_t k) { work(parts[k]); });
+  }
 };
 
 IdealisedLoop::State::State(const Network &network, int threads)
-    : crew(threads),
-      parts(cut(network, threads)),
+    : parts(cut(network, threads)),
       particles(network.position.size()),
       bonds(network.first.size()),
       poses(new Pose[particles]),
@@ -77,8 +79,7 @@ IdealisedLoop::State::State(const Network &network, int threads)
   // rotation.
   const double stiffness = bond_modulus * pi * r / 2;
   time_step = share_of_safe_step * 2.0 / std::sqrt(2.0 * 2.0 * 14.0 * stiffness / mass);
-  crew.run([&](int thread) {
-    Part &part = parts[static_cast<std::size_t>(thread)];
+  for_each_part([&](Part &part) {
     fill(part, network);
     place(part, network);
   });
@@ -122,23 +123,19 @@ void IdealisedLoop::State::collect_ghosts(const Part &part) {
   }
 }
 
-void IdealisedLoop::State::step(Part &part) {
-  add_bond_forces(part, columns());
-  crew.meet();
-  collect_ghosts(part);
-  integrate(part, columns(), time_step);
-  crew.meet();
-}
-
 IdealisedLoop::IdealisedLoop(const Network &network, int threads) : state_(new State(network, threads)) {}
 IdealisedLoop::~IdealisedLoop() = default;
 
 double IdealisedLoop::run(int steps) {
   const auto start = std::chrono::steady_clock::now();
-  state_->crew.run([&](int thread) {
-    for (int k = 0; k < steps; ++k)
-      state_->step(state_->parts[static_cast<std::size_t>(thread)]);
-  });
+  State &s = *state_;
+  for (int k = 0; k < steps; ++k) {
+    s.for_each_part([&](Part &part) { add_bond_forces(part, s.columns()); });
+    s.for_each_part([&](const Part &part) {
+      s.collect_ghosts(part);
+      integrate(part, s.columns(), s.time_step);
+    });
+  }
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

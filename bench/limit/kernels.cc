@@ -1,4 +1,4 @@
-#include "limit/kernels.h"
+#include "limit/parts.h"
 
 #include <cstddef>
 

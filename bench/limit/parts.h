@@ -1,5 +1,5 @@
 // How the idealised loop lays its network out: rows of particles, blocks of four bonds, and one part per
-// thread.
+// thread; and the two loops of its step.
 #pragma once
 
 #include <array>
@@ -59,5 +59,22 @@ struct Part {
 std::vector<Part> cut(const Network &network, int count);
 // Adds the bonds. To be called by the part's own thread, so that the memory is near it.
 void fill(Part &part, const Network &network);
+
+// The step itself, and nothing else of it, is in kernels.cc, which alone is compiled with this machine's own
+// instructions, which the product never is.
+
+// Pointers to the columns, by row.
+struct Columns {
+  Pose *poses;
+  Load *loads;         // what the bonds add to
+  const Load *applied; // what the loads are reset to
+  Motion *motions;
+  const Increments *increments;
+};
+
+// Gather, compute, scatter: adds the part's bonds to loads and to the part's ghosts.
+void add_bond_forces(Part &part, const Columns &columns);
+// Kick and drift of the part's rows; resets their loads.
+void integrate(const Part &part, const Columns &columns, double time_step);
 
 } // namespace platen::bench

@@ -84,8 +84,8 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const E
 }
 
 void Sleeve::build(const dem::Particles &particles) {
-  fem::Rubber rubber = settings_.rubber;
-  rubber.density *= mass_scaling();
+  const fem::Rubber rubber{settings_.density * mass_scaling(),
+                           fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,
                                                     std::vector<int>{fem::inner_tag});
   contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);

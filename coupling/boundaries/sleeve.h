@@ -17,20 +17,55 @@
 namespace platen::coupling {
 
 struct SleeveSettings {
-  double thickness = 3e-3; // m
-  fem::Rubber rubber{1100, fem::NeoHookean{0.5e6, 5e8}};
+  double thickness = 3e-3;       // m
+  double young_modulus = 1.5e6;  // Pa, of the unstrained rubber
+  double poisson_ratio = 0.4995; // 1
+  double density = 1100;         // kg/m^3
   // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
   int elements_around = 0, elements_along = 0, elements_through = 1;
   bool bonded_rims = true; // to the platens' rims; else they slide along them
   // Of the sleeve alone, whose inertia hardly counts. 0: what makes it cheap, once the time step of the
   // particles is known; 1 until then.
-  double mass_scaling = 1;
-  double mass_damping = 0; // 1/s, rate at which its velocities die away
-  double safety = 0.5;     // interval over its limit
-  int most_steps = 200;    // of the particles in an interval
-  double seat_depth = 0;   // m: particles no deeper lie flush with its inner face; 0: none is seated
-  SurfaceContact contact;  // of its inner face with the particles
+  double mass_scaling = 0;
+  double mass_damping = 1000; // 1/s, rate at which its velocities die away
+  double safety = 0.5;        // interval over its limit
+  int most_steps = 200;       // of the particles in an interval
+  double seat_depth = 0;      // m: particles no deeper lie flush with its inner face; 0: none is seated
+  SurfaceContact contact = of_rubber(); // of its inner face with the particles
+
+  static SurfaceContact of_rubber() {
+    SurfaceContact contact;
+    contact.friction_static = 0.5;
+    contact.damping = 0.2;
+    return contact;
+  }
+
+  static constexpr const char *name = "sleeve";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
 };
+
+template <class Visitor, class Self>
+void SleeveSettings::describe(Visitor &&v, Self &p) {
+  v("thickness", p.thickness, "m", above(0), "Wall of the rubber sleeve (Confinement = sleeve).");
+  v("young_modulus", p.young_modulus, "Pa", above(0), "Young modulus of the unstrained rubber.");
+  v("poisson_ratio", p.poisson_ratio, "1", from_to_below(0, 0.5),
+    "Poisson ratio of the unstrained rubber: the nearer to one half, the less the pressure squeezes it and "
+    "the shorter its steps.");
+  v("density", p.density, "kg/m3", above(0), "Density of the rubber.");
+  v("bonded_rims", p.bonded_rims, Words<bool>{{"bonded", true}, {"sliding", false}},
+    "How the ends go with the platens: held on all sides, or along the axis alone.");
+  v("elements_around", p.elements_around, between(0, 10000),
+    "Finite elements around the sleeve, and along it as wide; 0: five mean radii wide. Faces have to bridge "
+    "the gaps between the spheres of the skin.");
+  v("elements_through", p.elements_through, between(1, 20), "The same through its wall.");
+  v("friction", p.contact.friction_static, "1", between(0, 5), "Coefficient of friction of grains on it.");
+  v("contact_damping", p.contact.damping, "1", between(0, 1),
+    "Fraction of critical damping of grains on it.");
+  v("mass_damping", p.mass_damping, "1", at_least(0), "Rate at which its own velocities die away, 1/s.");
+  v("mass_scaling", p.mass_scaling, "1", at_least(0),
+    "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps.");
+}
 
 // Motion of the ends and pressure for the next interval: rims go where platens are, on the velocities that
 // these have now.

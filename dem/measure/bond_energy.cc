@@ -1,6 +1,6 @@
 #include "dem/measure/bond_energy.h"
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::dem {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "dem/measure/bond_energy.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 
 namespace platen::dem::statics {
 

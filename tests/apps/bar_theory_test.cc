@@ -125,7 +125,7 @@ protected:
     const double step = .1 * limit();
     const Clocking clocking{step, static_cast<long>(12 / (expected * step)), 20};
     const Oscillation o =
-        let_go(model, bar, load, test.state, expected, clocking, [](const BarSample &) { return true; });
+        release(model, bar, load, test.state, expected, clocking, [](const BarSample &) { return true; });
     EXPECT_LT(o.energy_residual, 1e-2);
     return o.frequency;
   }
@@ -230,8 +230,8 @@ TEST_F(Chain, does_not_notice_a_loose_sphere) {
 TEST_F(Chain, stops_when_it_is_told_to) {
   const StaticTest test = load_bar(model, bar, BarLoad::tension, 1);
   int samples = 0;
-  const Oscillation o = let_go(model, bar, BarLoad::tension, test.state, 1e3, {limit(), 1000, 5},
-                               [&](const BarSample &) { return ++samples < 3; });
+  const Oscillation o = release(model, bar, BarLoad::tension, test.state, 1e3, {limit(), 1000, 5},
+                                [&](const BarSample &) { return ++samples < 3; });
   EXPECT_TRUE(o.stopped);
   EXPECT_EQ(o.steps, 10);
 }

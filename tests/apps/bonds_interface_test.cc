@@ -25,7 +25,7 @@ BondRun run_pair(const Words &overrides) {
 }
 
 const InterfaceRow &last(const BondRun &run) {
-  return run.led.rows.back();
+  return run.interface.rows.back();
 }
 
 // The row at a place on the driven way, the first one.
@@ -41,7 +41,7 @@ double force_at(const BondRun &run, double displacement, std::size_t from = 0) {
 }
 
 void expect_by_hand(const BondRun &run) {
-  EXPECT_LT(run.led.largest_difference(), close);
+  EXPECT_LT(run.interface.largest_difference(), close);
   const InterfaceReading &m = last(run).measured;
   EXPECT_NEAR(m.dissipated, last(run).dissipated_by_hand, close * m.work);
   EXPECT_NEAR(m.work, m.stored + m.dissipated, close * m.work);
@@ -59,7 +59,7 @@ TEST(bonds_interface, tension_softens_to_its_end_and_takes_the_energy_of_the_tri
     const double whole = .5 * 5e6 * 1.2 * limit * area;
     EXPECT_NEAR(last(run).measured.dissipated, whole, close * whole);
     EXPECT_NEAR(last(run).measured.work, whole, close * whole);
-    EXPECT_NEAR(run.led.fracture_energy, .5 * 5e6 * .2 * limit, 2 * close * 5e6 * limit);
+    EXPECT_NEAR(run.interface.fracture_energy, .5 * 5e6 * .2 * limit, 2 * close * 5e6 * limit);
     EXPECT_EQ(last(run).measured.stored, 0);
     expect_by_hand(run);
   }
@@ -69,8 +69,8 @@ TEST(bonds_interface, a_given_fracture_energy_is_what_it_takes) {
   for (const char *radius : {"Specimen/Sphere radius = 1 mm", "Specimen/Sphere radius = 0.25 mm"}) {
     const BondRun run =
         run_pair({radius, "Bond/Fracture energy tension = 4", "Pair test/Displacement = 3 um"});
-    EXPECT_NEAR(run.led.fracture_energy, 4, close * 4) << radius;
-    EXPECT_NEAR(run.led.fracture_energy_by_hand, 4, 1e-12 * 4);
+    EXPECT_NEAR(run.interface.fracture_energy, 4, close * 4) << radius;
+    EXPECT_NEAR(run.interface.fracture_energy_by_hand, 4, 1e-12 * 4);
     expect_by_hand(run);
   }
 }
@@ -82,11 +82,11 @@ TEST(bonds_interface, damaged_tension_unloads_by_the_secant_and_comes_back) {
                                 "0.1 um, 0.5 um"});
   const std::size_t turn = row_at(run, 1.1 * limit);
   EXPECT_NEAR(run.path.rows[turn].force, 2.5e6 * area, 1e-5 * 5e6 * area); // half of the softening
-  EXPECT_NEAR(run.led.rows[turn].measured.tension_damage, .5, 1e-6);
+  EXPECT_NEAR(run.interface.rows[turn].measured.tension_damage, .5, 1e-6);
   const std::size_t low = row_at(run, .1e-6, turn);
   EXPECT_NEAR(run.path.rows[low].force / .1e-6, 2.5e6 * area / (1.1 * limit), 1e-5 * kn * area);
-  EXPECT_NEAR(run.led.rows[low].measured.dissipated, run.led.rows[turn].measured.dissipated,
-              close * run.led.rows[turn].measured.dissipated);
+  EXPECT_NEAR(run.interface.rows[low].measured.dissipated, run.interface.rows[turn].measured.dissipated,
+              close * run.interface.rows[turn].measured.dissipated);
   const std::size_t again = row_at(run, 1.1 * limit, low);
   EXPECT_NEAR(run.path.rows[again].force, run.path.rows[turn].force, 1e-5 * 5e6 * area);
   const double whole = .5 * 5e6 * 1.2 * limit * area;
@@ -166,7 +166,7 @@ TEST(bonds_interface, damaged_shear_unloads_by_its_secant_and_its_friction) {
 TEST(bonds_interface, pure_shear_takes_the_energy_of_its_triangle) {
   const BondRun run = run_pair(
       {"Pair test/Path = shear", "Pair test/Displacement = 6 um", "Bond/Fracture energy shear = 25"});
-  EXPECT_NEAR(run.led.fracture_energy, 25, close * 25);
+  EXPECT_NEAR(run.interface.fracture_energy, 25, close * 25);
   EXPECT_NEAR(last(run).measured.dissipated, area * (25 + .5 * 16e6 * 16e6 / ks), close * area * 50);
   EXPECT_EQ(run.path.rows.back().force, 0);
   expect_by_hand(run);

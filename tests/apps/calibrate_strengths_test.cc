@@ -160,7 +160,7 @@ TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
   EXPECT_GT(with.choice.friction_angle, 5 * degree);
   EXPECT_LE(with.choice.friction_angle, 40 * degree);
   scene.bond.law = static_cast<int>(dem::BondLaws::place<dem::ElastoDamagePlastic>()); // has none
-  EXPECT_FALSE(strength_knobs(scene).friction);
+  EXPECT_FALSE(strength_parameters(scene).friction);
 }
 
 TEST(StrengthSearch, what_is_out_of_reach_is_told_after_few_trials) {
@@ -222,7 +222,7 @@ TEST(ResponseModel, keeps_to_bounds_and_to_a_step) {
   model.add(model.start(), Eigen::VectorXd::Constant(1, 5.0));
   EXPECT_NEAR((*model.next())[0], 0.7, 1e-6); // a step towards less
   model.add(Eigen::VectorXd::Constant(1, 0.7), Eigen::VectorXd::Constant(1, 6.0));
-  EXPECT_FALSE(model.next()); // the response falls with the knob, which is at its bound
+  EXPECT_FALSE(model.next()); // the response falls with the parameter, which is at its bound
 }
 
 TEST(ResponseModel, leaves_known_slopes_as_they_are) {

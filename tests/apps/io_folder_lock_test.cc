@@ -1,4 +1,4 @@
-#include "apps/io/folder_lock.h"
+#include "apps/io/output_folder.h"
 
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 #include "apps/io/errors.h"
-#include "apps/io/id_list.h"
+#include "apps/io/specimen_csv.h"
 #include "io_folder.h"
 
 namespace platen::apps {

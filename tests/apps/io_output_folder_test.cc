@@ -23,12 +23,12 @@ protected:
     for (const fs::path &file :
          {paths.scene(), paths.history(), paths.cracks(), paths.summary(), paths.log(), paths.specimen_csv(),
           paths.specimen_vtu(), paths.directions(), paths.study(), paths.study_json(), paths.costs(),
-          paths.view(), paths.series("fields"), output_ / "frames" / "fields_000003.vti",
+          paths.view(), output_ / "fields.pvd", output_ / "frames" / "fields_000003.vti",
           paths.checkpoints() / "step_000000000007.platen",
           paths.checkpoints() / "step_000000000008.part.platen"})
       put(file, "run");
     for (const char *series : {"specimen", "bonds", "platens", "sleeve", "contacts"}) {
-      put(paths.series(series), "run");
+      put(output_ / (std::string(series) + ".pvd"), "run");
       put(paths.frame(series, 0), "run");
       put(paths.frame(series, 1234567), "run");
     }
@@ -37,8 +37,7 @@ protected:
   }
 };
 
-TEST_F(OutputFolder, is_named_after_the_scene) {
-  EXPECT_EQ(default_output_folder("scenes/ucs marble.prm"), fs::path("results/ucs marble"));
+TEST_F(OutputFolder, numbers_its_frames) {
   EXPECT_EQ(OutputPaths::frame_name("bonds", 12), "frames/bonds_000012.vtu");
 }
 

@@ -45,32 +45,25 @@ TEST_F(Vtu, particles_read_back_to_the_same_bits) {
   const std::vector<Vector3> points = random_points(n);
   std::vector<double> radius(n), stress(9 * n);
   std::vector<int> broken(n);
-  std::vector<float> damage(n);
   for (std::size_t k = 0; k < n; ++k) {
     radius[k] = 1e-3 / static_cast<double>(k + 1);
     broken[k] = static_cast<int>(k % 7) - 1;
-    damage[k] = static_cast<float>(k) / 3;
     for (std::size_t c = 0; c < 9; ++c)
       stress[9 * k + c] = -1e6 * static_cast<double>(k) + static_cast<double>(c);
   }
   write_points(path_, 0.125, points,
-               {{"radius", radius},
-                {"velocity", points},
-                {"broken_bonds", broken},
-                {"damage", damage},
-                {"stress", stress, 9}});
+               {{"radius", radius}, {"velocity", points}, {"broken_bonds", broken}, {"stress", stress, 9}});
   vtkUnstructuredGrid *grid = read();
   ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(n));
   ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(n));
   EXPECT_EQ(grid->GetCellType(static_cast<vtkIdType>(n) - 1), VTK_VERTEX);
   vtkPointData *data = grid->GetPointData();
-  ASSERT_EQ(data->GetNumberOfArrays(), 5);
+  ASSERT_EQ(data->GetNumberOfArrays(), 4);
   const auto value = [&](const char *name, std::size_t k, int c) {
     return data->GetArray(name)->GetComponent(static_cast<vtkIdType>(k), c);
   };
   EXPECT_EQ(data->GetArray("stress")->GetNumberOfComponents(), 9);
   EXPECT_EQ(data->GetArray("broken_bonds")->GetDataType(), VTK_INT);
-  EXPECT_EQ(data->GetArray("damage")->GetDataType(), VTK_FLOAT);
   for (std::size_t k = 0; k < n; ++k) {
     double p[3];
     grid->GetPoint(static_cast<vtkIdType>(k), p);
@@ -80,7 +73,6 @@ TEST_F(Vtu, particles_read_back_to_the_same_bits) {
     }
     ASSERT_EQ(value("radius", k, 0), radius[k]);
     ASSERT_EQ(value("broken_bonds", k, 0), broken[k]);
-    ASSERT_EQ(value("damage", k, 0), damage[k]);
     for (int c = 0; c < 9; ++c)
       ASSERT_EQ(value("stress", k, c), stress[9 * k + static_cast<std::size_t>(c)]);
   }

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/accuracy_results.h"
+#include "apps/report/accuracy_study.h"
 #include "apps/report/chart.h"
 #include "apps/report_folder.h"
 #include "apps/scene/errors.h"
@@ -27,7 +27,7 @@ Json value_of(const std::string &text, double error) {
   return one;
 }
 
-Json knob_of(const std::string &name, bool ordered, const std::vector<Json> &values) {
+Json parameter_of(const std::string &name, bool ordered, const std::vector<Json> &values) {
   return {{"knob", name},
           {"unit", ordered ? "m/s" : ""},
           {"ordered", ordered},
@@ -44,16 +44,16 @@ Json price(double within, const Json &value, const Json &seconds) {
 Json example() {
   Json study{{"kind", "accuracy"}, {"status", "done"}, {"runs", 15}, {"failed_runs", 0}};
   study["accuracy"] = {
-      knob_of("axial rate", true, {value_of("0.2", -0.1), value_of("0.1", 0.02), value_of("0.05", 0)}),
-      knob_of("effects", false,
-              {value_of("Effects/Rotation = off", 0.5), value_of("the scene as it is", 0)})};
+      parameter_of("axial rate", true, {value_of("0.2", -0.1), value_of("0.1", 0.02), value_of("0.05", 0)}),
+      parameter_of("effects", false,
+                   {value_of("Effects/Rotation = off", 0.5), value_of("the scene as it is", 0)})};
   Json seconds = Json::array();
-  for (const auto &[knob, value, mean] : {std::tuple{"axial rate", "0.2", 1.0},
-                                          {"axial rate", "0.1", 2.0},
-                                          {"axial rate", "0.05", 4.0},
-                                          {"effects", "Effects/Rotation = off", 2.5},
-                                          {"effects", "the scene as it is", 4.0}})
-    seconds.push_back({{"knob", knob}, {"value", value}, {"mean", mean}});
+  for (const auto &[parameter, value, mean] : {std::tuple{"axial rate", "0.2", 1.0},
+                                               {"axial rate", "0.1", 2.0},
+                                               {"axial rate", "0.05", 4.0},
+                                               {"effects", "Effects/Rotation = off", 2.5},
+                                               {"effects", "the scene as it is", 4.0}})
+    seconds.push_back({{"knob", parameter}, {"value", value}, {"mean", mean}});
   study["costs"] = {{"wall_seconds", seconds},
                     {"prices", {price(0.05, "0.1", 2.0), price(0.01, nullptr, nullptr)}}};
   return study;

@@ -1,4 +1,4 @@
-#include "apps/report/acoustic.h"
+#include "apps/report/curves.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,8 @@
-#include "apps/report/comparison.h"
+#include "apps/report/report.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
-
-#include "apps/report/html_page.h"
 
 namespace platen::apps::report {
 namespace {

@@ -48,15 +48,15 @@ TEST(ReportCones, it_is_carried_by_the_most_of_its_spheres) {
   const FittedCone cone = upright(0.7, {0, 0, 0.05}, -1);
   Spheres spheres;
   const auto add = [&spheres](double x, double z, double moved) {
-    spheres.x0.push_back(x), spheres.y0.push_back(0), spheres.z0.push_back(z);
-    spheres.x.push_back(x + moved), spheres.y.push_back(0), spheres.z.push_back(z + 2 * moved);
+    spheres.initial.push_back({x, 0, z});
+    spheres.position.push_back({x + moved, 0, z + 2 * moved});
   };
   for (int k = 0; k < 9; ++k)
     add(0.001 * k, 0.01, k == 0 ? 0.03 : 0.001); // one has fallen out
   for (int k = 0; k < 20; ++k)
     add(0.001 * k, 0.08, -0.01); // not of the cone
   for (auto *column : {&spheres.radius, &spheres.intact_bonds, &spheres.broken_bonds})
-    column->resize(spheres.x.size(), 0.001);
+    column->resize(spheres.size(), 0.001);
   const auto moved = carried(cone, spheres);
   EXPECT_NEAR(moved[0], 0.001, 1e-12);
   EXPECT_NEAR(moved[1], 0, 1e-12);

@@ -1,4 +1,4 @@
-#include "apps/report/costs.h"
+#include "apps/report/bars.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/report/crack_density.h"
+#include "apps/report/cracks.h"
 #include "base/pi.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(ReportCrackDensity, a_disc_counts_by_the_distance_from_its_loaded_diameter)
 }
 
 TEST(ReportCrackDensity, the_share_is_one_where_all_bonds_broke_and_unknown_where_there_are_few) {
-  std::vector<Place> bonds(20, {0.001, 0, 0.001});
+  std::vector<Position> bonds(20, {0.001, 0, 0.001});
   bonds.insert(bonds.end(), 10, {0.001, 0, 0.099});
   bonds.push_back({0.024, 0, 0.05}); // alone in its cell
   std::vector<Crack> cracks(20);
@@ -80,7 +80,7 @@ TEST(ReportCrackDensity, only_cracks_up_to_the_time_count_and_lie_where_their_sp
   const TestFolder folder;
   write_example(folder.path(), {});
   const CsvTable table = read_csv(folder / "cracks.csv", {"mode"});
-  const Spheres before = read_spheres(read_pvd(folder / "specimen.pvd").frames.front());
+  const Spheres before = read_spheres(read_pvd(folder / "specimen.pvd").front());
   EXPECT_TRUE(cracks_until(table, example_peak_time, before).empty());
   std::vector<Crack> cracks = cracks_until(table, example_fall_time, before);
   EXPECT_EQ(cracks.size(), table.rows);
@@ -90,15 +90,15 @@ TEST(ReportCrackDensity, only_cracks_up_to_the_time_count_and_lie_where_their_sp
   shifted.numbers["z_m"].assign(table.rows, 7.0);
   cracks = cracks_until(shifted, example_fall_time, before);
   for (const Crack &crack : cracks)
-    EXPECT_LT(crack.place.z, 0.1);
-  EXPECT_EQ(cracks_until(shifted, example_fall_time, Spheres{}).front().place.z, 7.0);
+    EXPECT_LT(crack.place[2], 0.1);
+  EXPECT_EQ(cracks_until(shifted, example_fall_time, Spheres{}).front().place[2], 7.0);
 }
 
 TEST(ReportCrackDensity, no_cell_of_a_real_folder_has_more_breaks_than_bonds) {
   const TestFolder folder;
   write_example(folder.path(), {});
-  const Spheres before = read_spheres(read_pvd(folder / "specimen.pvd").frames.front());
-  const std::vector<Place> bonds = bond_midpoints(read_pvd(folder / "bonds.pvd").frames.front());
+  const Spheres before = read_spheres(read_pvd(folder / "specimen.pvd").front());
+  const std::vector<Position> bonds = bond_midpoints(read_pvd(folder / "bonds.pvd").front());
   const auto cracks = cracks_until(read_csv(folder / "cracks.csv", {"mode"}), example_end_time, before);
   const DensityMap map = crack_density(cracks, bonds, extent_of(before));
   double middle = 0, ends = 0;

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/report/field_files.h"
-#include "apps/report/field_frame.h"
+#include "apps/report/fields.h"
 #include "apps/report_folder.h"
 #include "apps/scene/errors.h"
 
@@ -129,10 +128,10 @@ TEST(ReportFields, files_for_paraview_stand_beside_the_frames) {
   const report::Run run = one_sphere(folder / "run", 0);
   EXPECT_EQ(write_fields(run), folder / "run" / "fields.pvd");
   const FrameSeries series = read_pvd(folder / "run" / "fields.pvd");
-  ASSERT_EQ(series.frames.size(), 1u);
-  EXPECT_EQ(series.frames[0].time, 1);
-  EXPECT_EQ(series.frames[0].parts[0].filename(), "fields_000000.vti");
-  EXPECT_TRUE(std::filesystem::exists(series.frames[0].parts[0]));
+  ASSERT_EQ(series.size(), 1u);
+  EXPECT_EQ(series[0].time, 1);
+  EXPECT_EQ(series[0].parts[0].filename(), "fields_000000.vti");
+  EXPECT_TRUE(std::filesystem::exists(series[0].parts[0]));
 }
 
 TEST(ReportFields, a_run_that_does_not_say_how_dense_it_is_tells_no_stress) {

@@ -1,4 +1,4 @@
-#include "apps/report/moments.h"
+#include "apps/report/run_folder.h"
 
 #include <gtest/gtest.h>
 

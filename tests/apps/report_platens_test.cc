@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/report/platen_contacts.h"
+#include "apps/report/platens.h"
 #include "apps/report/run_folder.h"
 #include "apps/report_example.h"
 #include "apps/report_folder.h"
@@ -17,7 +17,7 @@ TEST(ReportPlatens, profiles_are_those_of_a_known_traction_and_leave_out_the_sle
   const report::Run run = read_run(folder / "run");
   EXPECT_EQ(run.moments.peak_time, example_peak_time);
   for (const PlatenEnd end : {PlatenEnd::bottom, PlatenEnd::top}) {
-    const PlatenContacts contacts = contacts_with(end, run.contacts.nearest(example_peak_time));
+    const PlatenContacts contacts = contacts_with(end, nearest(run.contacts, example_peak_time));
     ASSERT_EQ(contacts.size(), 2000u);
     EXPECT_NEAR(contacts.sliding_share(), 1 - example_sticking_share, 1e-3);
     const RingProfile profile = profile_of(contacts, example.radius, 5);

@@ -65,25 +65,25 @@ TEST(ReportReading, the_nearest_frame_is_taken) {
   const TestFolder folder;
   write_example(folder.path(), {});
   const FrameSeries series = read_pvd(folder / "specimen.pvd");
-  ASSERT_EQ(series.frames.size(), 4u);
-  EXPECT_EQ(series.nearest(1.2).time, example_peak_time);
-  EXPECT_EQ(series.nearest(1.3).time, example_fall_time);
-  EXPECT_EQ(series.nearest(99).time, example_end_time);
+  ASSERT_EQ(series.size(), 4u);
+  EXPECT_EQ(nearest(series, 1.2).time, example_peak_time);
+  EXPECT_EQ(nearest(series, 1.3).time, example_fall_time);
+  EXPECT_EQ(nearest(series, 99).time, example_end_time);
 }
 
 TEST(ReportReading, spheres_come_back_with_their_places_before_the_test) {
   const TestFolder folder;
   write_example(folder.path(), {});
   const FrameSeries series = read_pvd(folder / "specimen.pvd");
-  const Spheres before = read_spheres(series.frames.front()), after = read_spheres(series.frames.back());
+  const Spheres before = read_spheres(series.front()), after = read_spheres(series.back());
   ASSERT_EQ(before.size(), after.size());
   ASSERT_GT(before.size(), 1000u);
   double largest_move = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
-    EXPECT_NEAR(after.x0[k], before.x[k], 1e-8); // points are single precision: 1e-7 of 0.1 m
-    EXPECT_NEAR(after.z0[k], before.z[k], 1e-8);
+    for (const std::size_t d : {0, 2}) // points are single precision: 1e-7 of 0.1 m
+      EXPECT_NEAR(after.initial[k][d], before.position[k][d], 1e-8);
     EXPECT_EQ(after.id[k], before.id[k]);
-    largest_move = std::max(largest_move, before.z[k] - after.z[k]);
+    largest_move = std::max(largest_move, before.position[k][2] - after.position[k][2]);
   }
   EXPECT_NEAR(largest_move, 0.0025 * 2 * 0.1,
               0.05 * 0.0005); // the uppermost sphere nearly follows the platen
@@ -97,12 +97,12 @@ TEST(ReportReading, a_cut_off_frame_is_refused_by_name) {
     const auto kept = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
     folder.write("specimen_2.vtu", whole.substr(0, kept));
     const FrameSeries series = read_pvd(folder / "specimen.pvd");
-    EXPECT_TRUE(holds(complaint([&] { read_spheres(series.nearest(example_fall_time)); }), "specimen_2.vtu"))
+    EXPECT_TRUE(holds(complaint([&] { read_spheres(nearest(series, example_fall_time)); }), "specimen_2.vtu"))
         << share;
   }
   std::filesystem::remove(folder / "specimen_2.vtu");
   const FrameSeries series = read_pvd(folder / "specimen.pvd");
-  EXPECT_TRUE(holds(complaint([&] { read_spheres(series.nearest(example_fall_time)); }), "missing"));
+  EXPECT_TRUE(holds(complaint([&] { read_spheres(nearest(series, example_fall_time)); }), "missing"));
 }
 
 TEST(ReportReading, a_damaged_list_or_summary_is_refused_by_name) {

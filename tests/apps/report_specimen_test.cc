@@ -9,8 +9,8 @@ namespace {
 
 // One sphere at p0 before the test and at p now.
 void add_sphere(Spheres &spheres, const std::array<double, 3> &p0, const std::array<double, 3> &p) {
-  spheres.x0.push_back(p0[0]), spheres.y0.push_back(p0[1]), spheres.z0.push_back(p0[2]);
-  spheres.x.push_back(p[0]), spheres.y.push_back(p[1]), spheres.z.push_back(p[2]);
+  spheres.initial.push_back(p0);
+  spheres.position.push_back(p);
   spheres.radius.push_back(0.001);
   spheres.intact_bonds.push_back(0);
   spheres.broken_bonds.push_back(0);

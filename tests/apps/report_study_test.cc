@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/chart.h"
-#include "apps/report/study_results.h"
+#include "apps/report/platen_study.h"
 #include "apps/report_folder.h"
 #include "apps/scene/errors.h"
 

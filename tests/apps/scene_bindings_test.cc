@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "apps/run/model_setup.h"
+#include "apps/run/problem_setup.h"
 #include "apps/scene/members.h"
 #include "dem/laws/normal_contact.h"
 
@@ -114,6 +116,131 @@ TEST(SceneBindings, a_refusal_of_the_library_is_told_by_file_line_and_key) {
             "command line, --set 1: error: Bond/Modulus = 5 GPa is too soft.");
   EXPECT_EQ(told({"CohesiveBeam", "tensile_strength", "0", "is none."}).find(good), 0u);
   EXPECT_THROW(scene.parameters->refuse(BadParameter("Nobody", "modulus", "", "is wrong.")), BadParameter);
+}
+
+// Every number and flag by its name; words, stiffnesses and gaps as they compare.
+struct Values {
+  std::map<std::string, double> of;
+  template <class Member, class... About>
+  void operator()(const char *name, const Member &value, const About &...) {
+    if constexpr (std::is_arithmetic_v<Member> || std::is_enum_v<Member>)
+      of[name] = static_cast<double>(value);
+  }
+};
+
+template <class Described>
+void expect_same(const Described &scene, const Described &library, const std::vector<std::string> &but = {}) {
+  Values a, b;
+  Described::describe(a, scene);
+  Described::describe(b, library);
+  EXPECT_GT(a.of.size(), 1u);
+  for (const auto &[name, value] : a.of) {
+    const bool differs = std::find(but.begin(), but.end(), name) != but.end();
+    const bool same = value == b.of.at(name) || (std::isnan(value) && std::isnan(b.of.at(name)));
+    EXPECT_EQ(same, !differs) << Described::name << "." << name << ": scene " << value << ", library "
+                              << b.of.at(name);
+  }
+}
+
+TEST(SceneBindings, a_default_of_platens_sleeve_and_loading_is_stated_once) {
+  const coupling::PlatenTestSettings library;
+  const coupling::PlatenTestSettings plain = problem_settings(scene_with({}));
+  // The file states an axial rate; a scene ends by itself, a program of one's own where it likes.
+  expect_same<coupling::LoadingSettings>(plain.loading, library.loading, {"rate", "target_strain"});
+  // A tenth of the specimen.
+  expect_same<coupling::PlatenSettings>(plain.platens, library.platens, {"thickness"});
+  expect_same(plain.time_step, library.time_step);
+  const coupling::PlatenTestSettings held = problem_settings(scene_with(
+      {"Platens/Kind = deformable", "Loading/Confinement = sleeve", "Loading/Confining pressure = 2 MPa",
+       "Specimen/Shape = cylinder", "Specimen/Radius = 50 mm"}));
+  expect_same(*held.platens.elastic, coupling::ElasticPlatens());
+  expect_same(*held.loading.cell, coupling::CellSettings(), {"pressure"});
+  expect_same(*held.loading.cell->sleeve, coupling::SleeveSettings());
+  EXPECT_FALSE(plain.platens.elastic || plain.loading.cell || plain.loading.wall);
+}
+
+TEST(SceneBindings, what_platens_sleeve_and_loading_say_arrives) {
+  const coupling::PlatenTestSettings told =
+      problem_settings(scene_with({"Platens/Kind = deformable",
+                                   "Platens/Top/Friction static = 0.4",
+                                   "Platens/Friction dynamic = 0.2",
+                                   "Platens/Bottom/Friction law = slip weakening",
+                                   "Platens/Slip length = 1 mm",
+                                   "Platens/Degree = 2",
+                                   "Platens/Pad thickness = 0.5 mm",
+                                   "Platens/Pad modulus = 3 MPa",
+                                   "Platens/Pad Poisson ratio = 0.4",
+                                   "Platens/Pad density = 1200 kg/m3",
+                                   "Platens/Young modulus = 70 GPa",
+                                   "Platens/Motion = quasi-static",
+                                   "Platens/Stiffness = 4e5 N/m",
+                                   "Loading/Confinement = sleeve",
+                                   "Loading/Confining pressure = 2 MPa",
+                                   "Loading/Pressure path = 0.5",
+                                   "Loading/Confinement area = sphere",
+                                   "Loading/Hold = 1 ms",
+                                   "Sleeve/Rims = sliding",
+                                   "Sleeve/Modulus = 2 MPa",
+                                   "Sleeve/Friction = 0.1",
+                                   "Sleeve/Seat depth = 2",
+                                   "Loading/Unload at = 0.001, 0.002",
+                                   "Loading/Hurry = 4",
+                                   "Integration/Safety = 0.3",
+                                   "Specimen/Shape = cylinder",
+                                   "Specimen/Radius = 50 mm",
+                                   "Specimen/Ends = ground"}));
+  EXPECT_EQ(told.platens.top.friction_static, 0.4);
+  EXPECT_EQ(told.platens.bottom.friction_static, 0.3);
+  EXPECT_EQ(told.platens.top.dynamic(), 0.2);
+  EXPECT_EQ(told.platens.top.weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(told.platens.bottom.weakening.by, dem::Weakening::By::slip);
+  EXPECT_EQ(told.platens.bottom.weakening.slip_length, 1e-3);
+  EXPECT_EQ(told.platens.elastic->degree, 2);
+  EXPECT_EQ(told.platens.elastic->motion, fem::ElasticMotion::quasi_static);
+  EXPECT_EQ(told.platens.elastic->pad_thickness, 0.5e-3);
+  EXPECT_EQ(told.platens.elastic->pad.young_modulus, 3e6);
+  EXPECT_EQ(told.platens.elastic->pad.density, 1200);
+  EXPECT_EQ(told.platens.material.young_modulus, 70e9);
+  EXPECT_EQ(told.platens.stiffness.kind, Stiffness::Kind::absolute);
+  EXPECT_EQ(told.loading.cell->pressure, 2e6);
+  EXPECT_EQ(told.loading.cell->path, 0.5);
+  EXPECT_EQ(told.loading.cell->area, dem::ConfinementArea::sphere);
+  EXPECT_EQ(told.loading.hold, 1e-3);
+  EXPECT_FALSE(told.loading.cell->sleeve->bonded_rims);
+  EXPECT_EQ(told.loading.cell->sleeve->young_modulus, 2e6);
+  EXPECT_EQ(told.loading.cell->sleeve->contact.friction_static, 0.1);
+  EXPECT_EQ(told.loading.cell->sleeve->contact.dynamic(), 0.1);
+  EXPECT_EQ(told.loading.cell->sleeve_seat_depth, 2);
+  EXPECT_EQ(told.loading.unload_at, (std::vector<double>{0.001, 0.002}));
+  EXPECT_EQ(told.loading.rate_multiplier, 4);
+  EXPECT_EQ(told.time_step.safety, 0.3);
+  EXPECT_EQ(told.ends, dem::EndPreparation::ground);
+}
+
+TEST(SceneBindings, members_that_the_library_names_are_told_as_entries) {
+  const Scene scene = scene_with({});
+  for (const auto &[member, entry] :
+       std::map<std::string, std::string>{{"ends", "Specimen/Ends"},
+                                          {"end_layer", "Specimen/End layer"},
+                                          {"specimen.radius", "Specimen/Sphere radius"},
+                                          {"platens.strip_width", "Platens/Strip width"},
+                                          {"platens.span", "Platens/Span"},
+                                          {"platens.elements_across", "Platens/Elements across"},
+                                          {"platens.top.grid", "Platens/Top/Mesh file"},
+                                          {"platens.bottom.grid", "Platens/Bottom/Mesh file"},
+                                          {"platens.elastic.pad_modulus", "Platens/Pad modulus"},
+                                          {"loading.rate", "Loading/Axial rate"},
+                                          {"loading.wave_transits", "Loading/Wave crossings"},
+                                          {"loading.rate_multiplier", "Loading/Hurry"},
+                                          {"loading.start_strain", "Loading/Start strain"},
+                                          {"loading.cell", "Loading/Confinement"},
+                                          {"loading.cell.ramp", "Loading/Confining ramp"},
+                                          {"sleeve.elements_around", "Sleeve/Elements around"},
+                                          {"time_step.safety", "Integration/Safety"},
+                                          {"time_step.fixed_step", "Integration/Time step"}})
+    EXPECT_EQ(scene.parameters->entry_of(member), entry);
+  EXPECT_EQ(scene.parameters->with_entries("a larger `end_layer`, or `nothing known`; `open"),
+            "a larger Specimen/End layer, or nothing known; `open");
 }
 
 } // namespace

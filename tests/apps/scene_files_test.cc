@@ -111,7 +111,7 @@ TEST_F(SceneFiles, numbers_come_out_in_si) {
   EXPECT_EQ(scene.specimen.ends, dem::EndPreparation::ground);
   EXPECT_DOUBLE_EQ(scene.bond.number("tensile_strength"), 8.9e6);
   EXPECT_DOUBLE_EQ(scene.bond.number("friction_angle"), 0.78539816339744831);
-  EXPECT_DOUBLE_EQ(scene.loading.axial_rate, 0.1);
+  EXPECT_DOUBLE_EQ(scene.loading.rate, 0.1);
   EXPECT_EQ(scene.output.every.kind, Interval::Kind::time);
   EXPECT_DOUBLE_EQ(scene.output.every.value, 1e-4);
   ASSERT_EQ(scene.expect.size(), 2u);

@@ -66,7 +66,7 @@ TEST(Surfaces, the_figures_are_those_of_their_sources) {
   EXPECT_EQ(friction("teflon"), 0.03);    // EN 1337-2, the least
   EXPECT_EQ(friction("grease"), 0.0048);  // Bocklenberg et al. 2016
   EXPECT_EQ(friction("custom"), 0.3);     // the default of Friction static
-  EXPECT_EQ(scene_with({"Platens/Surface = glued"}).platens.attachment, Attachment::glued);
+  EXPECT_EQ(scene_with({"Platens/Surface = glued"}).platens.glued, true);
 }
 
 TEST(Surfaces, the_nearer_figure_wins) {
@@ -83,15 +83,15 @@ TEST(Surfaces, the_nearer_figure_wins) {
                             .platens;
   EXPECT_EQ(mixed.top.friction_static, 0.0048);
   EXPECT_EQ(mixed.top.friction_dynamic, 0.0048);
-  EXPECT_EQ(mixed.top.friction_law, FrictionLaw::constant); // nothing of the common law
-  EXPECT_EQ(mixed.bottom.friction_law, FrictionLaw::slip_weakening);
-  EXPECT_EQ(mixed.bottom.slip_length, 0.002);
+  EXPECT_EQ(mixed.top.weakening.by, dem::Weakening::By::nothing); // nothing of the common law
+  EXPECT_EQ(mixed.bottom.weakening.by, dem::Weakening::By::slip);
+  EXPECT_EQ(mixed.bottom.weakening.slip_length, 0.002);
 
   const Platens kept = scene_with({"Platens/Surface = dry steel", "Platens/Friction law = velocity weakening",
                                    "Platens/Friction dynamic = 0.2", "Platens/Slip velocity = 1 mm/s"})
                            .platens;
-  EXPECT_EQ(kept.top.friction_law, FrictionLaw::velocity_weakening);
-  EXPECT_EQ(kept.top.slip_velocity, 0.001);
+  EXPECT_EQ(kept.top.weakening.by, dem::Weakening::By::velocity);
+  EXPECT_EQ(kept.top.weakening.slip_velocity, 0.001);
 }
 
 // A word on the command line, or in a file that includes another, is nearer than figures of the scene there.

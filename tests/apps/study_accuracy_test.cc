@@ -37,10 +37,10 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
   EXPECT_EQ(names_of(plan),
             (std::vector<std::string>{"safety_0.9", "base", "safety_0.2", "axial_rate_0.6",
                                       "sphere_radius_0.0014", "effects_rotation_off", "bond_damping_0.1"}));
-  ASSERT_EQ(plan.knobs.size(), 4u);
+  ASSERT_EQ(plan.parameters.size(), 4u);
   const auto cases_of = [&](std::size_t k) {
     std::vector<std::size_t> cases;
-    for (const Knob::Value &value : plan.knobs[k].values)
+    for (const StudiedParameter::Value &value : plan.parameters[k].values)
       cases.push_back(value.of_case);
     return cases;
   };
@@ -59,8 +59,8 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
   EXPECT_EQ(plan.cases[3].labels[5], 0.002);
   for (const std::size_t k : {2u, 6u, 9u})
     EXPECT_TRUE(std::isnan(plan.cases[3].labels[k])); // not what decides in this scene
-  EXPECT_TRUE(plan.knobs[0].ordered);
-  EXPECT_FALSE(plan.knobs[3].ordered);
+  EXPECT_TRUE(plan.parameters[0].ordered);
+  EXPECT_FALSE(plan.parameters[3].ordered);
 }
 
 TEST(AccuracyPlan, meshes_and_solves_of_bodies_are_varied_where_there_are_bodies) {
@@ -86,8 +86,8 @@ TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entri
             (std::vector<std::string>{"base", "wave_crossings_240", "quality_fast", "quality_reference"}));
   const Scene fast =
       read_scene(test_scene("study.prm"), overrides_of(plan.cases[2], 3, open), AppKind::compress);
-  EXPECT_EQ(fast.integration.safety, 0.95);
-  EXPECT_EQ(fast.loading.wave_crossings, 30);
+  EXPECT_EQ(fast.time_step.safety, 0.95);
+  EXPECT_EQ(fast.loading.wave_transits, 30);
 }
 
 TEST(AccuracyPlan, what_cannot_be_compared_is_refused) {
@@ -123,7 +123,7 @@ TEST(AccuracyPlan, what_cannot_be_compared_is_refused) {
           "has no strength to be accurate");
 }
 
-// A plan of one knob with five values and two seeds, and runs made up for it.
+// A plan of one parameter with five values and two seeds, and runs made up for it.
 class MadeUp : public ::testing::Test {
 protected:
   StudyPlan plan_ = plan_with(without_radii({"Study/Safety list = 0.9, 0.8, 0.4, 0.2, 0.1"}));
@@ -150,7 +150,7 @@ TEST_F(MadeUp, errors_are_taken_seed_by_seed_and_the_scatter_is_that_of_the_refe
   for (std::size_t k = 1; k < 4; ++k)
     add(k, 0, 40e6, 2), add(k, 1, std::nan(""), 2);
   add(4, 0, 40e6, 8), add(4, 1, 50e6, 8);
-  const KnobErrors of = accuracy_.errors().at(0);
+  const ParameterErrors of = accuracy_.errors().at(0);
   EXPECT_NEAR(of.values[0].of(Measure::strength).mean(), 0.15, 1e-12); // +10 % and +20 %
   EXPECT_NEAR(of.values[0].of(Measure::strength).root_mean_square(), std::sqrt(0.025), 1e-12);
   EXPECT_NEAR(of.values[0].of(Measure::broken_bonds).mean(), -0.05, 1e-12);
@@ -167,7 +167,7 @@ TEST_F(MadeUp, what_a_coarse_value_hits_by_chance_is_no_accuracy) {
   for (std::size_t k = 0; k < 5; ++k)
     for (std::size_t seed = 0; seed < 2; ++seed)
       add(k, seed, strengths[k], seconds[k]);
-  const KnobErrors of = accuracy_.errors().at(0);
+  const ParameterErrors of = accuracy_.errors().at(0);
   EXPECT_EQ(cheapest_within(of, Measure::strength, 0.05), 0u);
   EXPECT_EQ(cheapest_within(of, Measure::strength, 0.01), 2u); // not 0.9, which is within 0.25 %
   EXPECT_EQ(cheapest_within(of, Measure::strength, 0.003), 3u);
@@ -188,7 +188,7 @@ TEST_F(MadeUp, a_value_that_failed_on_a_seed_is_not_known_to_be_accurate) {
     add(k, 0, 40e6, 8 - static_cast<double>(k));
     add(k, 1, k == 2 ? std::nan("") : 41e6, 8 - static_cast<double>(k));
   }
-  const KnobErrors of = accuracy_.errors().at(0);
+  const ParameterErrors of = accuracy_.errors().at(0);
   EXPECT_EQ(cheapest_within(of, Measure::strength, 0.01), 3u);
   EXPECT_EQ(cheapest_within(of, Measure::broken_bonds, 0.01), 3u); // all are; that one is the cheapest
 }

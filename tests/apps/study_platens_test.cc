@@ -89,14 +89,14 @@ TEST(PlatenStudyPlan, a_word_takes_back_what_the_scene_says_of_friction_and_cust
   const StudyPlan plan = plan_with(entries);
   const auto platens = [&](std::size_t k) { return led_to(plan, k, entries).platens; };
   EXPECT_EQ(platens(0).top.friction_static, 0.4);
-  EXPECT_EQ(platens(0).top.friction_law, FrictionLaw::slip_weakening);
+  EXPECT_EQ(platens(0).top.weakening.by, dem::Weakening::By::slip);
   EXPECT_EQ(platens(1).top.friction_static, 0.57);
   EXPECT_EQ(platens(1).top.friction_dynamic, 0.57);
-  EXPECT_EQ(platens(1).top.friction_law, FrictionLaw::constant);
-  EXPECT_EQ(platens(1).attachment, Attachment::contact);
+  EXPECT_EQ(platens(1).top.weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(platens(1).glued, false);
   EXPECT_EQ(platens(2).top.friction_dynamic, 0.1);
-  EXPECT_EQ(platens(2).top.friction_law, FrictionLaw::constant);
-  EXPECT_EQ(platens(3).attachment, Attachment::glued);
+  EXPECT_EQ(platens(2).top.weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(platens(3).glued, true);
   EXPECT_TRUE(std::isnan(plan.cases[3].labels[0])); // glue has no coefficient
 }
 
@@ -111,7 +111,7 @@ TEST(PlatenStudyPlan, sphere_radii_and_pressures_multiply_the_cases) {
   EXPECT_EQ(led_to(plan, 0, entries).loading.confinement, ConfinementKind::none);
   EXPECT_EQ(plan.cases[0].labels.back(), 0);
   EXPECT_EQ(plan.cases[7].name, "friction_0.3_sphere_radius_0.0014_pressure_1000000");
-  EXPECT_DOUBLE_EQ(led_to(plan, 7, entries).loading.confining_pressure, 1e6);
+  EXPECT_DOUBLE_EQ(led_to(plan, 7, entries).loading.cell->pressure, 1e6);
   EXPECT_DOUBLE_EQ(plan.cases[7].labels[4], 0.0014);
 }
 

@@ -87,7 +87,7 @@ TEST(cell, the_axial_stage_starts_from_the_pressure_and_keeps_it) {
 
 TEST(cell, a_stiff_wall_takes_nu_over_one_minus_nu_of_the_axial_stress) {
   PlatenTestSettings settings = lubricated();
-  settings.loading.wall_stiffness = 10;
+  settings.loading.wall = true;
   settings.loading.wall_layer = 1;
   PlatenTest problem(cylinder(), settings);
   const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());

@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
+#include "base/parallel.h"
 #include "base/pi.h"
-#include "dem/parallel.h"
 #include "sphere_scene.h"
 #include "tests/measured.h"
 #include "tests/same_state.h"
@@ -187,10 +187,10 @@ TEST(contact_history, a_checkpoint_goes_on_to_the_same_bit) {
 TEST(contact_history, threads_do_not_show) {
   const auto one = heap(0.3 * sphere_radius, 5000), four = heap(0.3 * sphere_radius, 5000);
   {
-    const dem::ThreadLimit limit(1);
+    const ThreadLimit limit(1);
     run(*one, 60);
   }
-  const dem::ThreadLimit limit(4);
+  const ThreadLimit limit(4);
   run(*four, 60);
   EXPECT_GT(one->layer.history().size(), 2048u); // more than one block of rows
   expect_same(*one, *four);

@@ -258,7 +258,9 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
   EXPECT_NE(refusal(c).find("particle stiffness"), std::string::npos);
   c = frictional(-0.1, 0.3);
   EXPECT_NE(refusal(c).find("static friction"), std::string::npos);
-  c = frictional(0.3, std::nan(""));
+  EXPECT_EQ(refusal(frictional(0.3, std::nan(""))), ""); // not given: the static one
+  EXPECT_EQ(frictional(0.3, std::nan("")).dynamic(), 0.3);
+  c = frictional(0.3, -0.1);
   EXPECT_NE(refusal(c).find("dynamic friction"), std::string::npos);
   c = frictional(0.3, 0.3), c.damping = -1;
   EXPECT_NE(refusal(c).find("damping"), std::string::npos);

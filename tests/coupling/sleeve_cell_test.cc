@@ -4,11 +4,10 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/same_state.h"
 
@@ -23,11 +22,10 @@ const dem::Specimen &cylinder() {
 SleeveSettings butyl(bool bonded) {
   SleeveSettings s;
   s.thickness = 2e-3;
-  s.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
+  s.poisson_ratio = 0.4995;
+  s.mass_scaling = 1;
   s.bonded_rims = bonded;
   s.mass_damping = 1000;
-  s.contact.friction_static = s.contact.friction_dynamic = 0.5;
-  s.contact.damping = 0.2;
   return s;
 }
 
@@ -160,8 +158,7 @@ TEST(sleeve_cell, its_rims_stay_with_the_platens) {
 
 TEST(sleeve_cell, threads_change_no_bit) {
   const auto state = [](int threads) {
-    const dem::ThreadLimit limit(threads);
-    fem::limit_threads(threads);
+    const ThreadLimit limit(threads);
     PlatenTest problem(cylinder(), in_cell(5e6, true));
     problem.advance(300);
     return state_of(problem);

@@ -9,8 +9,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/random.h"
-#include "dem/parallel.h"
 #include "tests/dem/dual.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/static_solve.h"

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <set>
 
+#include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
-#include "dem/parallel.h"
 
 namespace platen::dem {
 namespace {

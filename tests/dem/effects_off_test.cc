@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/random.h"
-#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/instructions.h"
 #include "tests/measured.h"

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/motion_kernel.h"
-#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

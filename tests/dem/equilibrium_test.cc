@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/measure/moduli.h"
-#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/sparse_equilibrium.h"
 

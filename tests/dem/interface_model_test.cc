@@ -5,8 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/random.h"
-#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

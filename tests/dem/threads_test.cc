@@ -7,8 +7,8 @@
 #include <fstream>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/random.h"
-#include "dem/parallel.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

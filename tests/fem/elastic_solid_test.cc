@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fem/threads.h"
+#include "base/parallel.h"
 #include "tests/fem/elastic_plate.h"
 #include "tests/same_state.h"
 
@@ -80,7 +80,7 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
 TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
   std::vector<State> ends;
   for (const int threads : {1, 2, 4}) {
-    limit_threads(threads);
+    const ThreadLimit limit(threads);
     ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {steel}, Grip{}, {2});
     put(solid, uneven_loads(solid, 1e4));
     const double dt = 2 * solid.stable_step();
@@ -88,7 +88,6 @@ TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
       solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
     ends.push_back(state_of(solid));
   }
-  limit_threads(0);
   EXPECT_TRUE(same_state(ends[0], ends[1]));
   EXPECT_TRUE(same_state(ends[0], ends[2]));
 }

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "fem/threads.h"
+#include "base/parallel.h"
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/same_state.h"
 
@@ -38,13 +38,12 @@ TEST(hyperelastic_solid, the_number_of_threads_changes_no_bit) {
   State state[2];
   double energy[2], limit[2];
   for (const int threads : {1, 2}) {
-    limit_threads(threads);
+    const ThreadLimit held(threads);
     HyperelasticSolid solid = held_sleeve(2e4);
     limit[threads - 1] = solid.stable_step();
     step(solid, 0.5 * limit[threads - 1], 50);
     state[threads - 1] = state_of(solid), energy[threads - 1] = solid.internal_energy();
   }
-  limit_threads(0);
   EXPECT_TRUE(same_state(state[0], state[1]));
   EXPECT_EQ(energy[0], energy[1]);
   EXPECT_EQ(limit[0], limit[1]);

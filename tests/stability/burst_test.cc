@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "dem/parallel.h"
+#include "base/parallel.h"
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 

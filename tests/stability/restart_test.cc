@@ -11,9 +11,8 @@
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/run/run_state.h"
+#include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/parallel.h"
-#include "fem/threads.h"
 #include "tests/apps/io_folder.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/measured.h"
@@ -79,9 +78,11 @@ void choose(PlatenTestSettings &s, Held held) {
   s.loading.cell->ramp = 2e-5;
   coupling::SleeveSettings v;
   v.thickness = 1.5e-3;
-  v.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
+  v.poisson_ratio = 0.4995;
+  v.mass_scaling = 1;
   v.mass_damping = 1000;
-  v.contact.friction_static = v.contact.friction_dynamic = 0.3;
+  v.contact.friction_static = 0.3;
+  v.contact.damping = 0;
   s.loading.cell->sleeve = v;
 }
 
@@ -98,17 +99,6 @@ PlatenTestSettings settings_of(Law law, Held held) {
   choose(s, held);
   return s;
 }
-
-class Threads {
-public:
-  explicit Threads(int count) : loops_(count) { fem::limit_threads(count); }
-  ~Threads() { fem::limit_threads(0); }
-  Threads(const Threads &) = delete;
-  Threads &operator=(const Threads &) = delete;
-
-private:
-  dem::ThreadLimit loops_;
-};
 
 long broken(const PlatenTest &p) {
   return p.model.broken_tension + p.model.broken_shear;
@@ -177,7 +167,7 @@ protected:
     const long at = life.at[moment];
     std::string expected, stopped;
     {
-      const Threads threads(first);
+      const ThreadLimit threads(first);
       PlatenTest whole(specimen(), settings);
       advance_to(whole, at);
       expect_moment(whole, life, moment);
@@ -188,7 +178,7 @@ protected:
     }
     int count = 0;
     for (const int next : then) {
-      const Threads threads(next);
+      const ThreadLimit threads(next);
       const std::filesystem::path file = folder_ / "stopped.platen";
       testing::put(file, stopped);
       PlatenTest resumed(specimen(), settings);

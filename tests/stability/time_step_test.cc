@@ -35,7 +35,7 @@ PlatenTestSettings pressed_hard(double contact_over_bond) {
   PlatenTestSettings s = elastic_settings(0.5);
   s.model.local_damping = 0;
   s.platens.damping = 0;
-  s.platens.stiffness_of_bond = contact_over_bond;
+  s.platens.stiffness.value = contact_over_bond;
   s.platens.thickness = 4e-3;
   s.platens.elements_across = 4;
   s.loading.rate = 0.5;
@@ -199,8 +199,9 @@ Outcome run_in_sleeve(double share, long steps, double mass_scaling = 1e4, doubl
   s.loading.cell->pressure = 5e6;
   SleeveSettings sleeve;
   sleeve.thickness = 2e-3;
-  sleeve.rubber = {1100, fem::NeoHookean::from_young(1.5e6, 0.4995)};
-  sleeve.contact.friction_static = sleeve.contact.friction_dynamic = 0.5;
+  sleeve.poisson_ratio = 0.4995;
+  sleeve.mass_scaling = 1;
+  sleeve.mass_damping = sleeve.contact.damping = 0;
   sleeve.safety = sleeve_safety;
   s.loading.cell->sleeve = sleeve;
   PlatenTest problem(small_cylinder(), s);

@@ -1,10 +1,11 @@
 // Checkpoints: as they come, or (first byte odd) with checksums made to hold, so that what lies behind them
 // is reached as well. All that opens is read out by every way that there is.
+#include <xxhash.h>
+
 #include <cstdint>
 #include <cstring>
 
 #include "apps/io/checkpoint.h"
-#include "apps/io/checkpoint_format.h"
 #include "base/vector3.h"
 #include "memory_file.h"
 

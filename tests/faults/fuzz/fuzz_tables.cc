@@ -2,7 +2,6 @@
 // chooses.
 #include <cstdint>
 
-#include "apps/io/id_list.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/report/csv.h"
 #include "apps/scene/errors.h"

@@ -1,0 +1,58 @@
+// What platen-bar found, side by side with strength of materials, and how it is told: rows of history.csv,
+// summary.json and the screen.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/bar/dynamic_test.h"
+#include "apps/bar/static_test.h"
+#include "apps/io/csv_writer.h"
+#include "apps/io/summary.h"
+
+namespace platen::apps {
+
+// One load: tension, bending or torsion.
+struct LoadResult {
+  BarLoad load = BarLoad::tension;
+  StaticTest at_rest; // always solved, for the bar is released from there
+  bool keeps_static = false;
+  std::optional<Oscillation> oscillation;
+};
+
+struct BarResults {
+  std::size_t particles = 0, bonds = 0;
+  double packing_fraction = 0; // spheres over the shape's volume
+  BarGeometry bar;
+  BarModuli pulled;
+  dem::Moduli bulk;
+  BarTime time;
+  std::vector<LoadResult> loads;
+  std::optional<Impact> impact;
+  double struck_velocity = 0; // m/s
+  long steps = 0, broken_tension = 0, broken_shear = 0;
+  double energy_residual = 0; // largest of an oscillation or impact, over its energy
+  std::array<double, dem::stage_count> stage_seconds{};
+
+  // With the measured axial rigidity and Poisson ratio, on the bounding section or the effective one.
+  Rod rod(bool effective) const;
+  Rod oscillating_rod(bool effective) const; // from the middle of the clamped spheres to the end plane
+};
+
+// The common columns, of which a bar without platens fills some, and its own.
+std::vector<std::string> bar_columns();
+// With a ledger: energies are kept; without it their columns are NaN.
+std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger);
+
+struct BarCosts {
+  int threads = 1;
+  double seconds = 0, setup_seconds = 0; // s
+};
+Json summary_of(const Scene &scene, const BarResults &results, const BarCosts &costs,
+                const std::string &status);
+// For the screen and the log.
+std::string report_of(const BarResults &results);
+
+} // namespace platen::apps

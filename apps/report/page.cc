@@ -1,0 +1,230 @@
+#include "apps/report/report.h"
+
+#include <fmt/format.h>
+#include <vtkBase64Utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <ostream>
+
+#include "apps/io/file.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+struct Figure {
+  const char *title;
+  std::vector<const char *> keys; // the largest of them; a member of an object after "/"
+  double factor;                  // from SI to the unit in the title
+  int digits;
+  bool only_if_measured; // no row where no run has it
+};
+
+const std::vector<Figure> figures = {
+    {"strength (MPa)", {"strength_pa"}, 1e-6, 2, false},
+    {"strain at peak, platens (mm/m)", {"strain_at_peak_platen"}, 1e3, 3, false},
+    {"strain at peak, gauge (mm/m)", {"strain_at_peak_gauge"}, 1e3, 3, false},
+    {"Young's modulus, gauge (GPa)", {"youngs_modulus_gauge_pa"}, 1e-9, 2, false},
+    {"Young's modulus, platens (GPa)", {"youngs_modulus_platen_pa"}, 1e-9, 2, false},
+    {"Poisson's ratio", {"poisson_ratio"}, 1, 3, false},
+    {"tensile strength (MPa)", {"tensile_strength_pa"}, 1e-6, 2, true},
+    {"bonds broken in tension", {"broken_tension"}, 1, 0, false},
+    {"bonds broken in shear", {"broken_shear"}, 1, 0, false},
+    {"damage of the worse end", {"end_damage_top", "end_damage_bottom"}, 1, 3, false},
+    {"damage of the middle", {"middle_damage"}, 1, 3, false},
+    {"spread of the ends", {"end_spread"}, 1, 3, false},
+    {"barrel at peak", {"barrel_at_peak"}, 1, 3, false},
+    {"half-angle of the top cone (degrees)", {"cone_top/half_angle_deg"}, 1, 1, true},
+    {"half-angle of the bottom cone", {"cone_bottom/half_angle_deg"}, 1, 1, true},
+    {"top cone at the end", {"final_cone_top/half_angle_deg"}, 1, 1, true},
+    {"bottom cone at the end", {"final_cone_bottom/half_angle_deg"}, 1, 1, true},
+    {"b-value before the peak", {"acoustic/b_before"}, 1, 2, true},
+    {"b-value after the peak", {"acoustic/b_after"}, 1, 2, true},
+};
+
+// NaN where the run did not measure it.
+double value_of(const Run &run, const Figure &figure) {
+  double largest = std::nan("");
+  for (const char *key : figure.keys)
+    largest = std::fmax(largest, number_in(run.summary, key) * figure.factor);
+  return largest;
+}
+
+std::string fixed(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits);
+}
+
+std::vector<std::string> row_of(const Figure &figure, const std::vector<double> &values) {
+  std::vector<std::string> row{figure.title};
+  for (const double value : values)
+    row.push_back(fixed(value, figure.digits));
+  for (std::size_t k = 1; k < values.size(); ++k)
+    row.push_back(values[k] == 0 ? "-" : fixed(values[0] / values[k], 3));
+  return row;
+}
+
+// Words of the summaries; no gain. Nothing where no run has them.
+std::vector<std::string> row_of_words(const char *title, const char *key, const std::vector<Run> &runs) {
+  std::vector<std::string> row{title};
+  bool told = false;
+  for (const Run &run : runs) {
+    const auto found = run.summary.find(key);
+    const bool here = found != run.summary.end() && found->is_string();
+    row.push_back(here ? found->get<std::string>() : "-");
+    told = told || here;
+  }
+  row.resize(2 * runs.size(), "-");
+  return told ? row : std::vector<std::string>{};
+}
+
+constexpr const char *style_sheet = R"(<style>
+body { font-family: sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #111; background: #fff; }
+table { border-collapse: collapse; } td, th { padding: 0.2rem 1rem; border-bottom: 1px solid #ccc; text-align: right; }
+td:first-child, th:first-child { text-align: left; padding-left: 0; }
+h2 { margin-top: 3rem; border-bottom: 2px solid #0072b2; } nav { margin: 1rem 0; } a { color: #0072b2; }
+figure { margin: 1.5rem 0 2.5rem; } img { max-width: 100%; } figcaption { margin-top: 0.5rem; color: #333; }
+</style>
+)";
+
+std::string base64_of(const std::filesystem::path &file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream || bytes.empty()) throw OutputError(file.string() + ": cannot be read back");
+  std::vector<unsigned char> text(bytes.size() / 3 * 4 + 8);
+  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char *>(bytes.data()),
+                                                 bytes.size(), text.data());
+  return {text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length)};
+}
+
+std::string html_row(const std::vector<std::string> &fields, const std::string &kind) {
+  std::string row = "<tr>";
+  for (const std::string &field : fields)
+    row.append("<").append(kind).append(">").append(escaped(field)).append("</").append(kind).append(">");
+  return row + "</tr>\n";
+}
+
+} // namespace
+
+TableOfFigures table_of_figures(const std::vector<Run> &runs) {
+  TableOfFigures table;
+  table.header = {"figure"};
+  for (const Run &run : runs)
+    table.header.push_back(run.name);
+  for (std::size_t k = 1; k < runs.size(); ++k)
+    table.header.push_back(runs[0].name + " / " + runs[k].name);
+
+  for (const Figure &figure : figures) {
+    std::vector<double> values;
+    for (const Run &run : runs)
+      values.push_back(value_of(run, figure));
+    const bool measured = std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
+    if (measured || !figure.only_if_measured) table.rows.push_back(row_of(figure, values));
+  }
+  for (const auto &[title, key] :
+       {std::pair{"pattern", "pattern"}, std::pair{"pattern at the end", "final_pattern"}})
+    if (std::vector<std::string> row = row_of_words(title, key, runs); !row.empty())
+      table.rows.push_back(std::move(row));
+  return table;
+}
+
+std::string as_text(const TableOfFigures &table) {
+  std::vector<std::vector<std::string>> lines{table.header};
+  lines.insert(lines.end(), table.rows.begin(), table.rows.end());
+  std::vector<std::size_t> widths(table.header.size());
+  for (const auto &line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k)
+      widths[k] = std::max(widths[k], line[k].size());
+  std::string text;
+  for (const auto &line : lines) {
+    for (std::size_t k = 0; k < line.size(); ++k) { // by bytes, as the widths: fmt would count letters
+      const std::string gap(widths[k] - line[k].size(), ' ');
+      text += k == 0 ? line[k] + gap : "  " + gap + line[k];
+    }
+    text += '\n';
+    if (&line == &lines.front())
+      text += std::string(std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1)), '-') + '\n';
+  }
+  return text;
+}
+
+std::string escaped(const std::string &text) {
+  static const std::map<char, const char *> entities = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string html;
+  for (const char letter : text)
+    if (const auto entity = entities.find(letter); entity != entities.end())
+      html += entity->second;
+    else
+      html += letter;
+  return html;
+}
+
+Album::Album(std::filesystem::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw OutputError(folder_.string() + ": cannot be made: " + error.message());
+}
+
+void Album::add(const std::string &name, const std::string &caption,
+                const std::function<void(const std::filesystem::path &)> &draw) {
+  draw(folder_ / name);
+  sections_.back().pictures.push_back({folder_ / name, caption});
+}
+
+std::size_t Album::size() const {
+  std::size_t count = 0;
+  for (const Section &section : sections_)
+    count += section.pictures.size();
+  return count;
+}
+
+std::string Album::Section::anchor() const {
+  std::string anchor = escaped(heading);
+  std::replace(anchor.begin(), anchor.end(), ' ', '-');
+  return anchor;
+}
+
+std::string Album::Section::html() const {
+  std::string html;
+  if (!pictures.empty() && !heading.empty())
+    html = fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(), escaped(heading));
+  for (const Picture &picture : pictures)
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+        "<figcaption>{0}</figcaption></figure>\n",
+        escaped(picture.caption), base64_of(picture.file));
+  return html;
+}
+
+void Album::finish(const std::string &title, const TableOfFigures &figures,
+                   const std::vector<std::string> &remarks, std::ostream &out) const {
+  std::string links, sections, rows = html_row(figures.header, "th"), list;
+  for (const Section &section : sections_) {
+    if (!section.pictures.empty() && !section.heading.empty())
+      links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "<nav>" : " &middot; ",
+                           section.anchor(), escaped(section.heading));
+    sections += section.html();
+  }
+  if (!links.empty()) links += "</nav>\n";
+  for (const auto &row : figures.rows)
+    rows += html_row(row, "td");
+  for (const std::string &remark : remarks)
+    list += "<li>" + escaped(remark) + "</li>\n";
+  const std::filesystem::path html = folder_ / "report.html";
+  write_text_aside(
+      html, fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                        "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{2}<table>\n{3}</table>\n"
+                        "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
+                        escaped(title), style_sheet, links, rows, list, sections));
+  for (const Section &section : sections_)
+    for (const Picture &picture : section.pictures)
+      out << "drawn: " << picture.file.string() << '\n';
+  out << "page: " << html.string() << "\n\n" << as_text(figures);
+}
+
+} // namespace platen::apps::report

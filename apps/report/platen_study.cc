@@ -1,0 +1,236 @@
+#include "apps/report/platen_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <ostream>
+#include <set>
+#include <stdexcept>
+
+#include "apps/report/chart.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char *effects[] = {"gain over free ends", "strength over that at slenderness 2",
+                                   "cube over prism"};
+
+Spread over_seeds(const Json &statistics, double unit) {
+  const double mean = number_or_nan(statistics.at("mean")) / unit,
+               deviation = number_or_nan(statistics.at("deviation")) / unit,
+               half = std::isnan(deviation) ? 0 : deviation;
+  return {mean, mean - half, mean + half};
+}
+
+std::string words(const Spread &s, int digits) {
+  if (std::isnan(s.mean)) return "-";
+  return s.high > s.low ? fmt::format("{:.{}f} +- {:.{}f}", s.mean, digits, s.high - s.mean, digits)
+                        : fmt::format("{:.{}f}", s.mean, digits);
+}
+
+StudiedCase case_of(const Json &from) {
+  StudiedCase one;
+  one.name = from.at("name");
+  one.surface = from.at("surface");
+  one.friction = number_or_nan(from.at("friction_static"));
+  one.slenderness = number_or_nan(from.at("slenderness"));
+  one.sphere_radius = number_or_nan(from.at("sphere_radius_m"));
+  one.pressure = number_or_nan(from.at("confining_pressure_pa"));
+  one.strength = over_seeds(from.at("strength_pa"), pa_per_mpa);
+  one.without_peak = from.at("without_peak");
+  one.runs = from.at("strength_pa").at("runs");
+  one.plain = one.surface != "brush" && one.surface != "rubber sheet" && !std::isnan(one.friction);
+  return one;
+}
+
+std::string laboratory_words(const Json &from) {
+  if (from.is_null()) return "-";
+  const double mean = number_or_nan(from.at("mean")), low = number_or_nan(from.at("low")),
+               high = number_or_nan(from.at("high"));
+  return fmt::format("{:.2f}", mean) + (low < high ? fmt::format(" ({:.2f} to {:.2f})", low, high) : "");
+}
+
+// Whose figures stand in the table, a line each.
+std::vector<std::string> sources_in(const Json &comparisons) {
+  std::vector<std::string> lines;
+  for (const Json &one : comparisons) {
+    const Json &figure = one.at("laboratory");
+    if (figure.is_null()) continue;
+    const std::string line = "laboratory, " + one.at("effect").get<std::string>() + ", " +
+                             figure.at("platens").get<std::string>() + ": " +
+                             figure.at("source").get<std::string>();
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
+StudyResults results_of(const Json &study, const std::string &title) {
+  StudyResults results;
+  results.title = title;
+  for (const Json &one : study.at("cases"))
+    results.cases.push_back(case_of(one));
+  const auto place = [&](const std::string &name) {
+    const auto found = std::find_if(results.cases.begin(), results.cases.end(),
+                                    [&](const StudiedCase &one) { return one.name == name; });
+    if (found == results.cases.end()) throw std::out_of_range("no case " + name);
+    return static_cast<std::size_t>(found - results.cases.begin());
+  };
+  for (const Json &one : study.at("comparisons"))
+    results.ratios.push_back({one.at("effect"), place(one.at("case")), place(one.at("over")),
+                              over_seeds(one, 1), laboratory_words(one.at("laboratory"))});
+  for (const Json &one : study.at("laboratory"))
+    results.laboratory.push_back(
+        {one.at("effect"),
+         one.at("source"),
+         one.at("platens") == "free ends",
+         number_or_nan(one.at("slenderness")),
+         {number_or_nan(one.at("mean")), number_or_nan(one.at("low")), number_or_nan(one.at("high"))}});
+  for (const StudiedCase &one : results.cases)
+    if (one.without_peak > 0)
+      results.remarks.push_back(
+          fmt::format("{}, height/width {:.3g}: {} of {} runs bore ever more up to the target strain: no "
+                      "strength is drawn",
+                      one.surface, one.slenderness, one.without_peak, one.runs));
+  for (const std::string &line : sources_in(study.at("comparisons")))
+    results.remarks.push_back(line);
+  add_failed_runs(study, results.remarks);
+  return results;
+}
+
+// Cases that differ in platens and slenderness alone, by sphere radius and pressure.
+std::map<std::pair<double, double>, std::vector<std::size_t>> groups_of(const StudyResults &study) {
+  std::map<std::pair<double, double>, std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < study.cases.size(); ++k)
+    groups[{study.cases[k].sphere_radius, study.cases[k].pressure}].push_back(k);
+  return groups;
+}
+
+} // namespace
+
+const StudiedRatio *StudyResults::ratio_of(std::size_t of, const std::string &effect) const {
+  const auto found = std::find_if(ratios.begin(), ratios.end(), [&](const StudiedRatio &one) {
+    return one.of == of && one.effect == effect;
+  });
+  return found == ratios.end() ? nullptr : &*found;
+}
+
+bool holds_study(const fs::path &folder) {
+  return fs::exists(folder / "study.json");
+}
+
+std::string title_of_study(const fs::path &folder) {
+  std::ifstream stream(folder / "summary.json");
+  const Json summary = Json::parse(stream, nullptr, false);
+  if (summary.is_object()) return summary.value("scene", folder.filename().string());
+  return folder.filename().string();
+}
+
+Json finished_study(const fs::path &folder) {
+  const fs::path file = folder / "study.json";
+  std::ifstream stream(file);
+  Json study = Json::parse(stream, nullptr, false);
+  if (!study.is_object()) throw InputError(file.string() + ": cannot be read as JSON");
+  if (study.value("status", "") == "running")
+    throw InputError(file.string() + ": the study has not ended; go on with it by platen-study " +
+                     study.value("kind", "") + " --resume");
+  return study;
+}
+
+void add_failed_runs(const Json &study, std::vector<std::string> &remarks) {
+  if (const int failed = study.at("failed_runs"), runs = study.at("runs"); failed > 0)
+    remarks.push_back(fmt::format("{} of {} runs failed and count in no mean", failed, runs));
+}
+
+double number_or_nan(const Json &value) {
+  return value.is_number() ? value.get<double>() : std::nan("");
+}
+
+StudyResults read_study(const fs::path &folder) {
+  const fs::path file = folder / "study.json";
+  const Json study = finished_study(folder);
+  const std::string kind = study.value("kind", "");
+  if (kind != "friction" && kind != "slenderness")
+    throw InputError(file.string() + ": is of a study of " + (kind.empty() ? "nothing" : kind) +
+                     "; pictures are drawn of studies of friction, slenderness and accuracy, and of single "
+                     "runs (" +
+                     (folder / "runs").string() + ")");
+  try {
+    return results_of(study, title_of_study(folder));
+  } catch (const Json::exception &error) {
+    throw InputError(file.string() + ": " + error.what());
+  } catch (const std::out_of_range &error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+TableOfFigures table_of_study(const StudyResults &study) {
+  TableOfFigures table;
+  const auto varies = [&](double StudiedCase::*of) {
+    return std::any_of(study.cases.begin(), study.cases.end(),
+                       [&](const StudiedCase &one) { return one.*of != study.cases.front().*of; });
+  };
+  const bool radii = varies(&StudiedCase::sphere_radius), pressures = varies(&StudiedCase::pressure);
+  table.header = {"platens", "height/width"};
+  if (radii) table.header.emplace_back("sphere (mm)");
+  if (pressures) table.header.emplace_back("cell (MPa)");
+  table.header.insert(table.header.end(), {"runs", "strength (MPa)"});
+  for (const char *effect : effects)
+    table.header.insert(table.header.end(), {effect, "laboratory"});
+  for (std::size_t k = 0; k < study.cases.size(); ++k) {
+    const StudiedCase &one = study.cases[k];
+    std::vector<std::string> row{one.surface, fmt::format("{:.3g}", one.slenderness)};
+    if (radii) row.push_back(fmt::format("{:.3g}", 1e3 * one.sphere_radius));
+    if (pressures) row.push_back(fmt::format("{:.3g}", one.pressure / pa_per_mpa));
+    row.push_back(std::to_string(one.runs));
+    row.push_back((one.without_peak > 0 ? "> " : "") + words(one.strength, 1));
+    for (const char *effect : effects) {
+      const StudiedRatio *ratio = study.ratio_of(k, effect);
+      row.push_back(ratio == nullptr ? "-" : words(ratio->ratio, 3));
+      row.push_back(ratio == nullptr ? "-" : ratio->laboratory);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+void write_study_report(const StudyResults &study, const fs::path &folder, std::ostream &out) {
+  Album album(folder);
+  album.begin("");
+  const auto groups = groups_of(study);
+  for (const auto &[group, cases] : groups) {
+    std::set<double> frictions, slendernesses;
+    for (const std::size_t k : cases) {
+      if (study.cases[k].plain) frictions.insert(study.cases[k].friction);
+      slendernesses.insert(study.cases[k].slenderness);
+    }
+    const std::string number = album.size() == 0 ? "" : fmt::format("_{}", album.size()),
+                      which = groups.size() == 1
+                                  ? ""
+                                  : fmt::format(" Spheres of {:.3g} mm, cell pressure {:.3g} MPa.",
+                                                1e3 * group.first, 1e-6 * group.second);
+    if (frictions.size() > 1)
+      album.add("strength_friction" + number + ".png",
+                "Strength against the friction of the platens, and its gain over free ends; bars: "
+                "standard deviation over the seeds, range of the laboratory." +
+                    which,
+                [&, &of = cases](const fs::path &png) { draw_friction(study, of, png); });
+    if (slendernesses.size() > 1)
+      album.add("strength_slenderness" + number + ".png",
+                "Strength against height over width, and its ratio to that at 2; bars: standard "
+                "deviation over the seeds, range of the laboratory." +
+                    which,
+                [&, &of = cases](const fs::path &png) { draw_slenderness(study, of, png); });
+  }
+  std::vector<std::string> remarks = study.remarks;
+  if (album.size() == 0) remarks.push_back("one friction and one slenderness: there is no curve to draw");
+  for (const std::string &remark : remarks)
+    out << remark << '\n';
+  album.finish(study.title, table_of_study(study), remarks, out);
+}
+
+} // namespace platen::apps::report

@@ -1,0 +1,117 @@
+#include "apps/run/app_output.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "apps/io/file.h"
+#include "apps/io/machine.h"
+#include "apps/run/expectations.h"
+#include "apps/scene/version.h"
+
+namespace platen::apps {
+namespace {
+
+Loudness loudness_of(const CommandLine &command) {
+  return command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal);
+}
+
+void clear(Json &summary, std::initializer_list<const char *> keys) {
+  for (const char *unmeasured : keys)
+    summary[unmeasured] = TestFigures::none;
+}
+
+} // namespace
+
+std::string title_of(const Scene &scene) {
+  return scene.general.title.empty() ? scene.name : scene.general.title;
+}
+
+AppOutput::AppOutput(const CommandLine &command, const Scene &scene)
+    : paths(command.output),
+      log(loudness_of(command)),
+      command_(command),
+      scene_(scene),
+      inputs_{command.scene},
+      use_(command.overwrite ? FolderUse::overwrite : FolderUse::fresh),
+      limit_(command.threads) {
+  if (!scene.specimen.file.empty()) inputs_.emplace_back(scene.specimen.file);
+  if (!command.dry_run && !command.resume) check_output_folder(paths.folder, use_, inputs_);
+}
+
+double AppOutput::seconds() const {
+  return seconds_since(start_);
+}
+
+std::string AppOutput::scene_text(const Scene &scene) const {
+  std::ostringstream text;
+  write_scene(scene, paths.folder.string(), text);
+  return text.str();
+}
+
+void AppOutput::require_same_scene() const {
+  std::ifstream file(paths.scene(), std::ios::binary);
+  std::ostringstream before;
+  before << file.rdbuf();
+  if (before.str() != scene_text(scene_))
+    throw InputError(
+        paths.scene().string() +
+        ": error: is another scene than the one given, or the folder holds no calibration; resume "
+        "with the scene as it was, or leave out --resume");
+}
+
+void AppOutput::open() {
+  if (command_.resume) {
+    lock_ = lock_of_run(paths.folder, log);
+    require_same_scene();
+  } else {
+    open_locked(lock_, paths.folder, use_, inputs_, log);
+    write_text_aside(paths.scene(), scene_text(scene_));
+  }
+  log.open(paths.log(), command_.resume, {version_text(), command_.text, threads()});
+}
+
+int AppOutput::finish(const Json &summary, const std::string &report) {
+  write_summary(paths.summary(), summary);
+  log.info("{}", report);
+  return tell_expectations(scene_, summary, log);
+}
+
+Json summary_head(const Scene &scene, const std::string &app, const std::string &status,
+                  const std::vector<std::string> &effects) {
+  Json s;
+  s["status"] = status;
+  s["app"] = app;
+  s["scene"] = title_of(scene);
+  s["version"] = version_line();
+  s["effects"] = effects;
+  return s;
+}
+
+void add_figures(Json &s, const TestFigures &f) {
+  const double particles = static_cast<double>(f.particles);
+  s["particles"] = f.particles;
+  s["bonds"] = f.bonds;
+  s["coordination_number"] = 2.0 * static_cast<double>(f.bonds) / particles;
+  s["packing_fraction"] = f.packing_fraction;
+  s["steps"] = f.steps;
+  s["time_step_s"] = f.time_step;
+  s["time_step_reason"] = f.time_step_reason;
+  s["threads"] = f.threads;
+  s["wall_seconds"] = f.wall_seconds;
+  s["setup_seconds"] = f.setup_seconds;
+  s["particle_steps_per_second"] = particles * static_cast<double>(f.steps) / f.wall_seconds;
+  for (std::size_t k = 0; k < f.stage_seconds.size(); ++k)
+    s["stage_seconds"][dem::stage_names[k]] = f.stage_seconds[k];
+  s["peak_memory_bytes"] = peak_memory_bytes();
+  clear(s, {"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge"});
+  s["youngs_modulus_gauge_pa"] = f.youngs_modulus;
+  clear(s, {"youngs_modulus_platen_pa"});
+  s["poisson_ratio"] = f.poisson_ratio;
+  s["broken_tension"] = f.broken_tension;
+  s["broken_shear"] = f.broken_shear;
+  s["energy_residual_relative"] = f.energy_residual;
+  clear(s, {"kinetic_to_internal_max", "end_damage_top", "end_damage_bottom", "middle_damage", "end_spread",
+            "barrel_at_peak", "fragments", "cone_top", "cone_bottom"});
+}
+
+} // namespace platen::apps

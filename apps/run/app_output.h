@@ -1,0 +1,76 @@
+// What an app opens before its work and completes after it: output folder, log, scene.prm and summary.json.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/io/output_folder.h"
+#include "apps/io/run_log.h"
+#include "apps/io/summary.h"
+#include "apps/scene/command_line.h"
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "dem/model.h"
+
+namespace platen::apps {
+
+// The scene's title, or its file's name.
+std::string title_of(const Scene &scene);
+
+class AppOutput {
+public:
+  // Takes the time and the threads; nothing is written yet. Throws FolderError where the run, other than a
+  // dry or a resumed one, must not write there.
+  AppOutput(const CommandLine &command, const Scene &scene);
+
+  // Locks and opens the folder, and leaves scene.prm and the head of run.log. A resumed run only goes on with
+  // its log; throws InputError where the folder was begun with another scene.
+  void open();
+  // Writes summary.json, says `report`, and checks what the scene expects; returns the exit status.
+  int finish(const Json &summary, const std::string &report);
+
+  int threads() const { return loop_threads(); }
+  double seconds() const; // since the start
+  std::string scene_text(const Scene &scene) const;
+
+  const OutputPaths paths;
+  RunLog log;
+
+private:
+  void require_same_scene() const;
+
+  const CommandLine &command_;
+  const Scene &scene_;
+  std::vector<std::filesystem::path> inputs_;
+  FolderUse use_;
+  Clock::time_point start_ = Clock::now();
+  ThreadLimit limit_;
+  std::unique_ptr<FolderLock> lock_;
+};
+
+// Figures that tests without platens share with those between platens, SI; NaN: not measured.
+struct TestFigures {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::size_t particles = 0, bonds = 0;
+  double packing_fraction = none;
+  long steps = 0;
+  double time_step = none; // s
+  std::string time_step_reason;
+  int threads = 1;
+  double wall_seconds = 0, setup_seconds = none;
+  std::array<double, dem::stage_count> stage_seconds{};
+  double youngs_modulus = none, poisson_ratio = none; // Pa, 1
+  long broken_tension = 0, broken_shear = 0;
+  double energy_residual = none; // over the energy
+};
+
+// The keys that every summary begins with.
+Json summary_head(const Scene &scene, const std::string &app, const std::string &status,
+                  const std::vector<std::string> &effects);
+// Under the keys and in the order of a test between platens; what only platens measure is null.
+void add_figures(Json &summary, const TestFigures &figures);
+
+} // namespace platen::apps

@@ -1,0 +1,159 @@
+#include "base/thread_pool.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace platen {
+
+namespace {
+
+// Some hundred microseconds: longer than what a step does between two loops, short beside what is done
+// between steps.
+constexpr int checks_before_sleep = 4000;
+// Parts of other loops last for minutes: their caller wakes up this often once it has given its core away as
+// many times as no step needs.
+constexpr int yields_before_sleep = 4000;
+constexpr std::chrono::microseconds long_wait{100};
+
+thread_local bool inside_part = false;
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+} // namespace
+
+ThreadPool::~ThreadPool() {
+  resize(1);
+}
+
+void ThreadPool::run(const Loop &first, const Loop &second, int threads) {
+  if (first.parts + second.parts < 2 || threads < 2 || inside_part || !in_use_.try_lock()) {
+    for (const Loop *loop : {&first, &second})
+      for (std::size_t part = 0; part < loop->parts; ++part)
+        loop->call(loop->body, part);
+    return;
+  }
+  const std::lock_guard<std::mutex> until_done(in_use_, std::adopt_lock);
+  if (shares_.size() != static_cast<std::size_t>(threads)) resize(threads);
+  loops_ = {first, second};
+  divide_parts();
+  thrown_ = nullptr;
+  open_call();
+  inside_part = true;
+  do_parts(0);
+  inside_part = false;
+  close_call();
+  if (thrown_) std::rethrow_exception(thrown_);
+}
+
+// With more threads than cores, to check is to keep others from their work.
+void ThreadPool::resize(int threads) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  called_.notify_all();
+  for (std::thread &thread : threads_)
+    thread.join();
+  threads_.clear();
+  stopping_ = false;
+  const std::size_t size = static_cast<std::size_t>(threads);
+  checks_ = size <= std::thread::hardware_concurrency() ? checks_before_sleep : 0;
+  shares_ = std::vector<Shares>(size);
+  for (std::size_t k = 1; k < size; ++k)
+    threads_.emplace_back([this, k] { serve(k); });
+}
+
+void ThreadPool::divide_parts() {
+  const std::size_t size = shares_.size();
+  for (std::size_t loop = 0; loop < loops_.size(); ++loop)
+    for (std::size_t k = 0; k < size; ++k) {
+      Share &share = shares_[k][loop];
+      share.next.store(k * loops_[loop].parts / size, std::memory_order_relaxed);
+      share.end = (k + 1) * loops_[loop].parts / size;
+    }
+}
+
+// Either a thread that goes to sleep sees the call, or the caller sees that it sleeps: both write before they
+// read, in the one order of all such accesses.
+void ThreadPool::open_call() {
+  if (++calls_ == 0) ++calls_;
+  open_call_.store(calls_);
+  if (sleeping_.load() == 0) return;
+  { const std::lock_guard<std::mutex> lock(mutex_); }
+  called_.notify_all();
+}
+
+// A thread counts itself in before it checks whether the call is still open, so that none is at work, or will
+// be, once it is closed and all have counted themselves out.
+void ThreadPool::close_call() {
+  open_call_.store(0);
+  for (int checks = 0; joined_.load() != 0; ++checks)
+    if (checks < checks_)
+      pause();
+    else if (checks < checks_ + yields_before_sleep)
+      std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(long_wait);
+}
+
+void ThreadPool::serve(std::size_t thread) {
+  inside_part = true;
+  for (unsigned done = 0; wait_for_call(done);) {
+    joined_.fetch_add(1);
+    const unsigned call = open_call_.load();
+    if (call != 0) {
+      do_parts(thread);
+      done = call;
+    }
+    joined_.fetch_sub(1);
+  }
+}
+
+// Until a call is open that was not served yet; false: no more will come.
+bool ThreadPool::wait_for_call(unsigned done) {
+  const auto called = [&] {
+    const unsigned call = open_call_.load();
+    return stopping_.load() || (call != 0 && call != done);
+  };
+  for (int checks = 0; checks < checks_ && !called(); ++checks)
+    pause();
+  if (!called()) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleeping_;
+    called_.wait(lock, called);
+    --sleeping_;
+  }
+  return !stopping_.load();
+}
+
+void ThreadPool::do_parts(std::size_t thread) {
+  do_share(shares_[thread][0], 0);
+  do_share(shares_[thread][1], 1);
+  for (const int loop : {1, 0})
+    for (std::size_t k = 1; k < shares_.size(); ++k)
+      do_share(shares_[(thread + k) % shares_.size()][static_cast<std::size_t>(loop)], loop);
+}
+
+void ThreadPool::do_share(Share &share, int loop) {
+  for (std::size_t part = share.next++; part < share.end; part = share.next++)
+    do_part(loop, part);
+}
+
+void ThreadPool::do_part(int loop, std::size_t part) {
+  const Loop &work = loops_[static_cast<std::size_t>(loop)];
+  try {
+    work.call(work.body, part);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::pair<int, std::size_t> by{loop, part};
+    if (!thrown_ || by < thrown_by_) thrown_ = std::current_exception(), thrown_by_ = by;
+  }
+}
+
+} // namespace platen

@@ -1,0 +1,71 @@
+// Persistent threads that share out the parts of a loop: a step is some loops of some hundred microseconds
+// one after the other, so that a thread that waits for the next loop checks for it rather than sleep.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/loop.h"
+
+namespace platen {
+
+class ThreadPool {
+public:
+  ThreadPool() = default;
+  ~ThreadPool();
+  ThreadPool(const ThreadPool &) = delete;
+  ThreadPool &operator=(const ThreadPool &) = delete;
+
+  // Every part of both loops once, on up to `threads` threads, the caller's among them; returns when all are
+  // done. Each thread starts with runs of neighbouring parts, first of one loop and then of the other, the
+  // same whenever the loops have as many parts, so that what a core has in its caches stays there. When it
+  // has none left it takes from others, the second loop's first: of two loops, the one of smaller parts is
+  // worth to be the second. No thread is waited for that has not begun. A call inside a part, or beside one
+  // that another thread has made, runs on its caller alone. What a part throws reaches the caller once no
+  // thread is at work; of several, what the lowest part of the first loop threw, or else of the second.
+  void run(const Loop &first, const Loop &second, int threads);
+
+private:
+  // Parts of a loop that a thread starts with; [next, end) are left.
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+  };
+  using Shares = std::array<Share, 2>; // of each loop
+
+  void resize(int threads);
+  void divide_parts();
+  void open_call();
+  void close_call();
+  void serve(std::size_t thread);
+  bool wait_for_call(unsigned done);
+  void do_parts(std::size_t thread);
+  void do_share(Share &share, int loop);
+  void do_part(int loop, std::size_t part);
+
+  std::vector<std::thread> threads_; // all but the caller's
+  std::vector<Shares> shares_;       // one for each thread, the caller's first
+  int checks_ = 0;                   // for the next call, before a thread sleeps
+  std::array<Loop, 2> loops_;        // of the open call
+  unsigned calls_ = 0;
+
+  std::mutex in_use_; // by a caller
+  std::mutex mutex_;  // of what follows
+  std::condition_variable called_;
+  std::exception_ptr thrown_;
+  std::pair<int, std::size_t> thrown_by_; // loop and part
+
+  alignas(64) std::atomic<unsigned> open_call_{0}; // number of the call that may be joined; 0: none
+  std::atomic<bool> stopping_{false};
+  std::atomic<int> sleeping_{0};           // threads
+  alignas(64) std::atomic<int> joined_{0}; // threads that may be at work for the caller
+};
+
+} // namespace platen

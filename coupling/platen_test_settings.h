@@ -1,0 +1,214 @@
+// What a test between two platens is told. Each struct describes its members once (base/describe.h): unit,
+// range, words and meaning; messages name them by the paths that stand with `name`. NaN: not given.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "coupling/boundaries/sleeve.h"
+#include "coupling/experiment.h"
+#include "dem/confinement.h"
+#include "dem/laws/contact_settings.h"
+#include "dem/packing/ends.h"
+#include "fem/elastic_solid.h"
+
+namespace platen::coupling {
+
+using Ends = dem::EndPreparation;
+
+struct PlatenSide : dem::SurfaceFriction {
+  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/platen_mesh.h says
+};
+
+// Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
+// springs are then the particles' share alone: what the platen gives way is in its mesh.
+struct ElasticPlatens {
+  int degree = 1;
+  bool seat = false; // spherical, under the top platen's clamp: turns freely about the middle of its face
+  fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
+  double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
+  int steps_per_solve = 20; // quasi-static: of the particles
+  double pad_thickness = 0; // m, of a sheet on the specimen's side that is part of the thickness; 0: none
+  fem::Material pad{not_given, not_given, not_given}; // of it, or the second material of a given grid
+
+  static constexpr const char *name = "platens.elastic";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
+};
+
+struct PlatenSettings {
+  PlatenSide top, bottom;
+  std::optional<ElasticPlatens> elastic; // none: rigid
+  dem::Stiffness stiffness;              // of the mean bond, or absolute
+  double tangential_ratio = 0.8;
+  double damping = 0.2;    // fraction of critical
+  double strip_width = 0;  // m, of strips that press a disc or bend a bar; 0: as wide as the platens
+  double span = not_given; // m, between the middles of two lower strips that a bar along x is bent on
+  double overhang = 1.2;   // platen half-width over the specimen's
+  double thickness = 0;    // m
+  int elements_across = 8;
+  fem::Material material{7830, 200e9, 0.3};
+  bool glued = false;
+
+  static constexpr const char *name = "platens";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
+};
+
+// A cell: pressure on the lateral surface and, while it rises and stands alone, the same stress on the
+// platens.
+struct CellSettings {
+  double pressure = 0; // Pa
+  double ramp = 0; // s, from none to all of it; 0: sixty wave transits of the height, more for slow servos
+  double path = 0; // 1, what the pressure gains per deviator of the axial stage; -1/3: constant mean stress
+  // Without a sleeve the pressure acts on the spheres of the skin; with one on its outer face.
+  dem::ConfinementArea area = dem::ConfinementArea::voronoi;
+  std::optional<SleeveSettings> sleeve;
+  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: by the pressure
+  double sleeve_seat_depth = 1; // mean radii: spheres no deeper lie flush with its inner face
+  bool alone = false;           // hydrostatic: the test is over when the pressure has stood for its time
+
+  static constexpr const char *name = "loading.cell";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
+};
+
+struct LoadingSettings {
+  bool tension = false;
+  double rate = not_given; // m/s, closure (opening) speed of the platens, each moving at half of it
+  // Sets the rate where it is not given: a wave crosses the height so often in a closure by 0.1 %.
+  double wave_transits = not_given;
+  double rate_multiplier = 1; // times that rate while the specimen is elastic (RateControl); needs bonds
+  double ramp = 0;            // s; 0: ten wave transits of the height
+  double target_strain = not_given; // closure at which the test is over; not given: never
+  double start_strain = 0;          // that the run begins with, for what is expected of its length
+  bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
+  double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
+  double hold = 0;       // s, how long that is held after the ramp, or a cell's pressure stands alone
+  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell
+  std::optional<CellSettings> cell;
+  bool wall = false;          // around the specimen, stiff and frictionless
+  double wall_stiffness = 10; // multiple of the mean bond's
+  double wall_layer = 1;      // mean radii: deeper spheres are not seated on the wall
+  // Closure strains (since the end of a cell's own stage) at which the platens turn round until the axial
+  // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
+  std::vector<double> unload_at;
+  double unload_to = 0.1;
+
+  static constexpr const char *name = "loading";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
+};
+
+class PlatenTest;
+template <class Part>
+using MadeFor = std::function<std::unique_ptr<Part>(const PlatenTest &)>;
+
+struct PlatenTestSettings {
+  dem::ModelSettings model;
+  Ends ends = Ends::as_packed;
+  double end_layer = 1; // mean radii, for ground ends
+  bool seat = false;    // rocking springs of ground spheres
+  PlatenSettings platens;
+  LoadingSettings loading;
+  TimeStepSettings time_step;
+  // Of one's own: boundaries after those that the members above make, and stages in their place. They are
+  // made when platens and lateral boundaries are there.
+  std::vector<MadeFor<Boundary>> boundaries;
+  std::vector<MadeFor<Stage>> stages;
+};
+
+template <class Visitor, class Self>
+void ElasticPlatens::describe(Visitor &&v, Self &p) {
+  v("motion", p.motion,
+    Words<fem::ElasticMotion>{{"explicit", fem::ElasticMotion::explicit_steps},
+                              {"quasi-static", fem::ElasticMotion::quasi_static}},
+    "Of deformable platens: with their inertia, step by step; or without, solved for now and then.");
+  v("degree", p.degree, between(1, 2), "Of the elements of deformable platens.");
+  v("damping", p.damping, "1", between(0, 1),
+    "Fraction of critical damping of a deformable platen's fastest vibration, less of slower ones.");
+  v("steps_per_solve", p.steps_per_solve, between(1, 100000),
+    "Time steps over which loads are averaged for each solve.");
+  v("pad_thickness", p.pad_thickness, "m", at_least(0),
+    "Of a sheet of another material that faces the specimen, part of the thickness of a deformable platen; "
+    "0: none.");
+  v("pad_modulus", p.pad.young_modulus, "Pa", above(0), "Young modulus of that sheet.");
+  v("pad_poisson_ratio", p.pad.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of that sheet.");
+  v("pad_density", p.pad.density, "kg/m3", above(0), "Density of that sheet.");
+  v("seat", p.seat, Words<bool>{{"fixed", false}, {"spherical", true}},
+    "Spherical: the top platen turns freely about the middle of its face (Kind = deformable).");
+}
+
+template <class Visitor, class Self>
+void PlatenSettings::describe(Visitor &&v, Self &p) {
+  v("tangential_ratio", p.tangential_ratio, "1", between(0, 5), "Tangential over normal penalty stiffness.");
+  v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of grains on platens.");
+  v("overhang", p.overhang, "1", between(1, 10), "Half-width of the platens over that of the specimen.");
+  v("strip_width", p.strip_width, "m", at_least(0),
+    "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens. "
+    "Test = three point bending: of the strip above the bar and the two below.");
+  v("span", p.span, "m", above(0), "Distance of the middles of the two lower strips.");
+  v("thickness", p.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
+  v("elements_across", p.elements_across, between(1, 1000), "Finite elements across a platen.");
+  v("density", p.material.density, "kg/m3", above(0), "Density of the platens.");
+  v("young_modulus", p.material.young_modulus, "Pa", above(0), "Young modulus of the platens.");
+  v("poisson_ratio", p.material.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of the platens.");
+  v("glued", p.glued, Words<bool>{{"contact", false}, {"glued", true}},
+    "Glued: the end grains are held by the platens, in tension too.");
+}
+
+template <class Visitor, class Self>
+void CellSettings::describe(Visitor &&v, Self &p) {
+  v("pressure", p.pressure, "Pa", at_least(0), "Lateral pressure, and that on the platens while it rises.");
+  v("ramp", p.ramp, "s", at_least(0),
+    "Time in which the pressure rises smoothly; 0: chosen by the app, longer for a slow servo.");
+  v("path", p.path, "1", between(-0.5, 3),
+    "What the pressure gains per deviator of the axial stage: 0 holds it, -1/3 holds the mean stress, "
+    "positive values load proportionally.");
+  v("area", p.area,
+    Words<dem::ConfinementArea>{{"voronoi", dem::ConfinementArea::voronoi},
+                                {"sphere", dem::ConfinementArea::sphere}},
+    "What the pressure acts on: each sphere's part of the deformed surface, or pi R^2 of each lateral "
+    "sphere.");
+  v("sleeve_stiffness", p.sleeve_stiffness, "1", between(0, 1000),
+    "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: by the pressure, which then "
+    "presses a sphere in by some 4 % of its radius.");
+  v("sleeve_seat_depth", p.sleeve_seat_depth, "1", between(0, 10),
+    "Grains whose surface lies no deeper, in mean radii, lie flush with it from the start.");
+}
+
+template <class Visitor, class Self>
+void LoadingSettings::describe(Visitor &&v, Self &p) {
+  v("rate", p.rate, "m/s", above(0), "Speed of closure (tension: of opening).");
+  v("wave_transits", p.wave_transits, "1", above(0),
+    "Sets the speed where Axial rate is not given: how often a wave crosses the specimen while it closes by "
+    "0.1 % (platen-compress; compression, uniaxial strain).");
+  v("rate_multiplier", p.rate_multiplier, "1", between(1, 100),
+    "How many times as fast the platens go while the specimen is elastic, before it fails and where it is "
+    "unloaded; 1: always at the speed of the test.");
+  v("ramp", p.ramp, "s", at_least(0), "Time of the smooth start; 0: chosen by the app.");
+  v("hold", p.hold, "s", at_least(0),
+    "How long the stress on the top platen is held after the ramp (Control = stress); with Confinement: how "
+    "long its pressure stands on all sides before the platens move on.");
+  v("start_strain", p.start_strain, "1", from_to_below(0, 1),
+    "Closure over height that a static solve begins the run with, at rest; 0: from nothing.");
+  v("target_strain", p.target_strain, "1", above_up_to(0, 1),
+    "Closure over height at which the run is over.");
+  v("servo", p.servo, Words<bool>{{"motion", false}, {"stress", true}},
+    "What is prescribed on the top platen.");
+  v("top_stress", p.top_stress, "Pa", at_least(0), "Pressing stress.");
+  v("servo_gain", p.servo_gain, "1", between(0, 10),
+    "Of the servo that holds the top platen at its stress or, while a cell's pressure rises, at that "
+    "pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell 10).");
+  v("wall_stiffness", p.wall_stiffness, "1", above_up_to(0, 1000),
+    "Of each sphere at the wall, as a multiple of the mean bond's.");
+  v("unload_at", p.unload_at, "1", above_up_to(0, 1),
+    "Closures over height, ascending, at which the platens turn round; empty: never.");
+  v("unload_to", p.unload_to, "1", between(0, 0.95),
+    "Share of the axial stress at the turn (less a confining pressure) at which they load again.");
+}
+
+} // namespace platen::coupling

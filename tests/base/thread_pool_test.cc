@@ -1,0 +1,179 @@
+// Threads that share out loops: every part once, whoever calls, whatever is thrown.
+#include "base/thread_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace platen {
+namespace {
+
+template <class Part>
+void run(ThreadPool &pool, int threads, std::size_t parts, const Part &part) {
+  pool.run(loop_of(parts, part), {}, threads);
+}
+
+TEST(thread_pool, does_every_part_once_on_any_number_of_threads) {
+  ThreadPool pool;
+  for (const int threads : {1, 2, 3, 8, 2})
+    for (const std::size_t parts : {0u, 1u, 2u, 7u, 1000u}) {
+      std::vector<int> done(parts, 0); // no thread shares a part
+      for (int loop = 0; loop < 20; ++loop)
+        run(pool, threads, parts, [&](std::size_t p) { ++done[p]; });
+      for (std::size_t p = 0; p < parts; ++p)
+        ASSERT_EQ(done[p], 20) << threads << " threads, part " << p << " of " << parts;
+    }
+}
+
+// Loops so short that threads come late to most of them; what one writes the next reads.
+TEST(thread_pool, loops_follow_each_other_without_mixing) {
+  ThreadPool pool;
+  for (const int threads : {2, 4}) {
+    std::vector<long> row(13, 0), other(5, 0);
+    long loop = 0;
+    const auto count_up = [&](long &r) { r = r == loop ? loop + 1 : -1; };
+    const auto first = [&](std::size_t p) { count_up(row[p]); };
+    const auto second = [&](std::size_t p) { count_up(other[p]); };
+    for (; loop < 20000; ++loop)
+      pool.run(loop_of(row.size(), first), loop_of(other.size(), second), threads);
+    EXPECT_EQ(row, std::vector<long>(13, 20000)) << threads;
+    EXPECT_EQ(other, std::vector<long>(5, 20000)) << threads;
+  }
+}
+
+TEST(thread_pool, does_every_part_of_two_loops_once) {
+  ThreadPool pool;
+  for (const int threads : {1, 2, 3})
+    for (const std::size_t parts : {0u, 1u, 5u, 300u})
+      for (const std::size_t others : {0u, 1u, 2u, 40u}) {
+        std::vector<int> done(parts, 0), more(others, 0);
+        const auto first = [&](std::size_t p) { ++done[p]; };
+        const auto second = [&](std::size_t p) { more[p] += 2; };
+        for (int loop = 0; loop < 20; ++loop)
+          pool.run(loop_of(parts, first), loop_of(others, second), threads);
+        ASSERT_EQ(done, std::vector<int>(parts, 20)) << threads << ", " << parts << " and " << others;
+        ASSERT_EQ(more, std::vector<int>(others, 40)) << threads << ", " << parts << " and " << others;
+      }
+}
+
+TEST(thread_pool, threads_work_at_the_same_time) {
+  ThreadPool pool;
+  std::atomic<int> here{0}, met{0};
+  run(pool, 2, 2, [&](std::size_t) {
+    ++here;
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (here < 2 && std::chrono::steady_clock::now() < patience)
+      std::this_thread::yield();
+    if (here == 2) ++met;
+  });
+  EXPECT_EQ(met, 2);
+}
+
+TEST(thread_pool, wakes_after_a_sleep) {
+  ThreadPool pool;
+  std::atomic<int> here{0};
+  for (int loop = 1; loop <= 3; ++loop) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    run(pool, 2, 2, [&](std::size_t) {
+      ++here;
+      const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+      while (here < 2 * loop && std::chrono::steady_clock::now() < patience)
+        std::this_thread::yield();
+    });
+    ASSERT_EQ(here, 2 * loop);
+  }
+}
+
+// A trial of minutes on one thread must not keep another from a core that it only waits on.
+TEST(thread_pool, a_caller_sleeps_while_others_work_on) {
+  const auto processor_seconds = [] {
+    timespec used{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  };
+  ThreadPool pool;
+  std::atomic<bool> begun{false};
+  const auto caller = std::this_thread::get_id();
+  const double before = processor_seconds();
+  run(pool, 2, 2, [&](std::size_t) {
+    if (std::this_thread::get_id() != caller) {
+      begun = true;
+      return std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
+    while (!begun)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  EXPECT_LT(processor_seconds() - before, 0.25);
+}
+
+TEST(thread_pool, a_loop_inside_a_loop_runs_on_its_caller) {
+  ThreadPool pool;
+  std::vector<int> strangers(8, -1);
+  run(pool, 4, strangers.size(), [&](std::size_t outer) {
+    const auto self = std::this_thread::get_id();
+    int count = 0, other = 0;
+    run(pool, 4, 10, [&](std::size_t) { ++count, other += std::this_thread::get_id() != self; });
+    strangers[outer] = other + (10 - count);
+  });
+  for (const int s : strangers)
+    EXPECT_EQ(s, 0);
+}
+
+TEST(thread_pool, two_callers_at_once_are_both_served) {
+  ThreadPool pool;
+  std::vector<long> one(50, 0), other(50, 0);
+  const auto call = [&pool](std::vector<long> &row) {
+    for (int loop = 0; loop < 2000; ++loop)
+      run(pool, 3, row.size(), [&](std::size_t p) { ++row[p]; });
+  };
+  std::thread second([&] { call(other); });
+  call(one);
+  second.join();
+  EXPECT_EQ(one, std::vector<long>(50, 2000));
+  EXPECT_EQ(other, one);
+}
+
+TEST(thread_pool, the_lowest_part_that_throws_reaches_the_caller) {
+  ThreadPool pool;
+  for (const int threads : {1, 2, 4})
+    for (int loop = 0; loop < 50; ++loop) {
+      std::string what;
+      try {
+        run(pool, threads, 64, [&](std::size_t p) {
+          if (p == 5 || p == 6 || p == 60) throw std::runtime_error(std::to_string(p));
+        });
+      } catch (const std::runtime_error &e) {
+        what = e.what();
+      }
+      ASSERT_EQ(what, "5") << threads;
+      std::atomic<int> after{0};
+      run(pool, threads, 64, [&](std::size_t) { ++after; });
+      ASSERT_EQ(after, 64) << threads;
+    }
+}
+
+TEST(thread_pool, at_once_does_each_piece_once) {
+  for (const int threads : {1, 2, 3}) {
+    const ThreadLimit limit(threads);
+    std::vector<int> one(3000, 0), other(3000, 0);
+    for (int k = 0; k < 100; ++k)
+      at_once(2, [&](std::size_t piece) {
+        if (piece == 0)
+          for_each(one.size(), [&](std::size_t i) { ++one[i]; });
+        else
+          for_each(other.size(), [&](std::size_t i) { other[i] += 2; });
+      });
+    EXPECT_EQ(one, std::vector<int>(3000, 100));
+    EXPECT_EQ(other, std::vector<int>(3000, 200));
+  }
+}
+
+} // namespace
+} // namespace platen
