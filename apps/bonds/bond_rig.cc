@@ -22,7 +22,6 @@ constexpr int steps_of_a_move = 40;      // in which a prescribed displacement i
 constexpr double bonded_gap = 1e-9;      // of the radius: spheres touch, whatever Bond/Gap allows beyond that
 constexpr double base_clearance = 1e-6;  // of the radius, between base spheres without a bond
 
-
 } // namespace
 
 bool is_pyramid(const Scene &scene) {

@@ -13,9 +13,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
-#include "base/clock.h"
 #include "base/pi.h"
-#include "fem/threads.h"
 
 namespace platen::apps {
 namespace {
@@ -120,8 +118,7 @@ void tell_found(const Scene &scene, const Found &f, RunLog &log, Json &s) {
       "{:.5g} "
       "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}, friction angle {:.4g} degree\n{}",
       1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi,
-      table_of(scene, f));
+      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi, table_of(scene, f));
   for (const std::string &line : f.missed)
     log.warning("{}", line);
 }

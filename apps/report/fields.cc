@@ -18,7 +18,6 @@
 #include "apps/io/output_folder.h"
 #include "apps/io/pvd.h"
 #include "apps/io/vtu.h"
-#include "apps/scene/errors.h"
 #include "base/pi.h"
 
 namespace platen::apps::report {

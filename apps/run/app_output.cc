@@ -39,7 +39,7 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene)
 }
 
 double AppOutput::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return seconds_since(start_);
 }
 
 std::string AppOutput::scene_text(const Scene &scene) const {

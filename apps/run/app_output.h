@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <limits>
 #include <memory>
 #include <string>
@@ -12,8 +11,9 @@
 #include "apps/io/run_log.h"
 #include "apps/io/summary.h"
 #include "apps/scene/command_line.h"
-#include "dem/model.h"
+#include "base/clock.h"
 #include "base/parallel.h"
+#include "dem/model.h"
 
 namespace platen::apps {
 
@@ -46,7 +46,7 @@ private:
   const Scene &scene_;
   std::vector<std::filesystem::path> inputs_;
   FolderUse use_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
   ThreadLimit limit_;
   std::unique_ptr<FolderLock> lock_;
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <numeric>
 #include <sstream>
@@ -22,6 +21,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
+#include "base/clock.h"
 #include "dem/packing/ends.h"
 #include "dem/packing/quality.h"
 
@@ -135,9 +135,9 @@ int run_pack(const CommandLine &command, const Scene &scene) {
                1e3 * scene.specimen.sphere_radius);
     return status_done;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const dem::Specimen specimen = make_specimen(scene);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const Judgement judgement = judge(specimen, scene);
 
   open_output_folder(paths.folder, use, inputs);

@@ -52,10 +52,7 @@ TEST_F(Vtu, particles_read_back_to_the_same_bits) {
       stress[9 * k + c] = -1e6 * static_cast<double>(k) + static_cast<double>(c);
   }
   write_points(path_, 0.125, points,
-               {{"radius", radius},
-                {"velocity", points},
-                {"broken_bonds", broken},
-                {"stress", stress, 9}});
+               {{"radius", radius}, {"velocity", points}, {"broken_bonds", broken}, {"stress", stress, 9}});
   vtkUnstructuredGrid *grid = read();
   ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(n));
   ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(n));

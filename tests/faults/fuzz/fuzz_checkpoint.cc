@@ -8,7 +8,6 @@
 #include "apps/io/checkpoint.h"
 #include "apps/io/checkpoint_format.h"
 #include "base/vector3.h"
-#include "base/vector3.h"
 #include "memory_file.h"
 
 using namespace platen::apps;
