@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "apps/io/checkpoint.h"
-#include "apps/io/checkpoint_format.h"
 #include "base/vector3.h"
 #include "memory_file.h"
 
