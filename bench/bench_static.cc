@@ -65,7 +65,7 @@ double percent_off(double a, double b) {
 }
 
 // The same strain by so many steps: platens that start smoothly over the first half of the run and then keep
-// their speed, thousands of wave crossings for the whole way.
+// their speed, thousands of wave transits for the whole test.
 void compare_with_steps(const dem::Specimen &specimen, coupling::PlatenTestSettings settings, long steps,
                         double time_step, const coupling::StaticPress &still, double still_seconds) {
   settings.loading.ramp = 0.5 * static_cast<double>(steps) * time_step;

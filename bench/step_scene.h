@@ -18,7 +18,7 @@ namespace platen::bench {
 // 20 000 spheres, each packed alike, because packing a million takes far longer than the benchmark.
 dem::Specimen close_packed(int particles);
 
-// Failure checks, energy book, local damping and contacts on; strengths that nothing reaches.
+// Failure checks, energy balance, local damping and contacts on; strengths that nothing reaches.
 enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
 extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
 coupling::PlatenTestSettings elastic_press(Law law = Law::parallel_bond);

@@ -50,7 +50,7 @@ struct Motion {
 struct Oscillation : Motion {
   double frequency = 0; // 1/s
 };
-// Swings freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
+// Oscillates freely from the state at rest under a load, which is taken away at time 0; the clamped end is so
 // heavy that it stays. Its main frequency is looked for between half and twice `expected` (1/s). Leaves the
 // model in motion.
 Oscillation release(dem::Model &model, const BarGeometry &bar, BarLoad load, const dem::StaticState &from,

@@ -32,7 +32,7 @@ public:
   void append_to(std::string &line) const;
 
 private:
-  std::variant<double, long long, std::string_view> value_; // text is looked at, not kept
+  std::variant<double, long long, std::string_view> value_; // text is not kept
 };
 
 // The texts between the commas of a line without quotes: "time_s,stress_pa".

@@ -156,7 +156,7 @@ void open_locked(std::unique_ptr<FolderLock> &lock, const fs::path &folder, Fold
   std::error_code told_below;
   fs::create_directories(folder, told_below);
   if (lock == nullptr) lock = lock_of_run(folder, log);
-  open_output_folder(folder, use, inputs); // what was there before the lock is looked at again
+  open_output_folder(folder, use, inputs); // what was there before the lock is checked again
 }
 
 } // namespace platen::apps

@@ -21,7 +21,7 @@ struct ProgressSample {
   long long broken_bonds = -1;
 };
 
-// Where progress is shown. standard_screen() looks at standard error, TERM and NO_COLOR.
+// Where progress is shown. standard_screen() asks standard error, TERM and NO_COLOR.
 struct ProgressScreen {
   std::ostream *stream = nullptr;
   bool redraws = false; // a terminal

@@ -40,7 +40,7 @@ struct Run {
   FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
   std::vector<std::string> remarks;               // what is not there, one sentence each
 
-  // Time at which cracks are looked at: the fall to 0.8 of the peak, or the end where it did not come.
+  // Time at which cracks are counted: the fall to 0.8 of the peak, or the end where it did not come.
   double pattern_time() const { return moments.post_peak_time.value_or(moments.end_time); }
   // The same in words, for captions: "the fall to 0.8 of the peak" or "the end".
   std::string pattern_words() const;

@@ -4,7 +4,7 @@
 
 namespace platen::apps {
 
-double crossings_to_peak(const coupling::PlatenTest &problem, const Results &results) {
+double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results) {
   return problem.facts().wave_transit > 0 ? results.axial_time_to_peak() / problem.facts().wave_transit
                                           : not_measured;
 }
@@ -19,7 +19,7 @@ double moment_over_nominal(const coupling::PlatenTest &problem, const Results &r
   return results.midspan_moment_at_peak() / (0.25 * load * problem.three_points().span);
 }
 
-double swings_to_peak(const coupling::PlatenTest &problem, const Results &results) {
+double oscillations_to_peak(const coupling::PlatenTest &problem, const Results &results) {
   return problem.bending_period() > 0 ? results.time_at_peak() / problem.bending_period() : not_measured;
 }
 

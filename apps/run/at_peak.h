@@ -11,11 +11,11 @@ namespace platen::apps {
 constexpr double assumed_poisson_ratio = 0.2;
 
 // Speed of a slow test: how often a wave crosses the specimen from the start of the axial stage to the peak.
-double crossings_to_peak(const coupling::PlatenTest &problem, const Results &results);
+double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results);
 
 // Of a bent bar: Pa; the moment at mid-span over P L / 4; how often it could have swung until the peak.
 double flexural_modulus(const coupling::PlatenTest &problem, const Results &results);
 double moment_over_nominal(const coupling::PlatenTest &problem, const Results &results);
-double swings_to_peak(const coupling::PlatenTest &problem, const Results &results);
+double oscillations_to_peak(const coupling::PlatenTest &problem, const Results &results);
 
 } // namespace platen::apps

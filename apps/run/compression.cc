@@ -70,9 +70,11 @@ int CompressionRun::run() {
   if (fields_) fields_->write(*test_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
-  const std::vector<std::string> haste = signs_of_haste(slowness(*test_, results_), test_->bent());
-  if (!haste.empty())
-    log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}", fmt::join(haste, "; "));
+  const std::vector<std::string> reasons =
+      reasons_not_quasi_static(slowness(*test_, results_), test_->bent());
+  if (!reasons.empty())
+    log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}",
+                 fmt::join(reasons, "; "));
   if (signal_ != 0) {
     log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*test_), command_.scene,
               command_.output);

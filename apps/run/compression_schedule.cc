@@ -7,12 +7,12 @@
 namespace platen::apps {
 namespace {
 
-// Steps between two looks at signals and progress.
+// Steps between two checks of signals and progress.
 constexpr double most_unobserved = 16;
 
 } // namespace
 
-// Steps from one look to the next: as given, or `automatic` looks on the way to the target.
+// Steps from one check to the next: as given, or `automatic` checks on the way to the target.
 double CompressionRun::every(const Interval &interval, double automatic) const {
   const double every =
       interval.kind == Interval::Kind::steps ? interval.value : std::ceil(expected_steps_ / automatic);

@@ -12,7 +12,7 @@ namespace {
 
 // The calibrated concrete cylinder bears 5 to 10 % more at these than in the limit of slow loading
 // (docs/theory.md, 5.3); a kinetic share of 1 %, as is often allowed, is beyond.
-constexpr double most_kinetic = 0.005, most_unbalanced = 0.015, fewest_crossings = 60;
+constexpr double most_kinetic = 0.005, most_unbalanced = 0.015, fewest_transits = 60;
 constexpr double most_inertial = 1e-3; // dense granular flow is quasi-static below (GDR MiDi 2004)
 
 double median(std::vector<double> values) {
@@ -36,11 +36,11 @@ Slowness slowness(const coupling::PlatenTest &problem, const Results &results) {
       s.inertial = std::fmax(s.inertial, rate * diameter * std::sqrt(problem.facts().grain_density / stress));
   }
   s.unbalanced = median(unbalanced);
-  s.crossings = crossings_to_peak(problem, results);
+  s.wave_transits = wave_transits_to_peak(problem, results);
   return s;
 }
 
-std::vector<std::string> signs_of_haste(const Slowness &s, bool bent) {
+std::vector<std::string> reasons_not_quasi_static(const Slowness &s, bool bent) {
   std::vector<std::string> signs;
   if (s.kinetic > most_kinetic)
     signs.push_back(
@@ -50,9 +50,9 @@ std::vector<std::string> signs_of_haste(const Slowness &s, bool bent) {
                                 s.unbalanced, most_unbalanced));
   if (s.inertial > most_inertial)
     signs.push_back(fmt::format("inertial number {:.2g}, {:g} at most", s.inertial, most_inertial));
-  if (!bent && s.crossings < fewest_crossings)
+  if (!bent && s.wave_transits < fewest_transits)
     signs.push_back(
-        fmt::format("{:.0f} wave crossings to the peak, {:g} at least", s.crossings, fewest_crossings));
+        fmt::format("{:.0f} wave crossings to the peak, {:g} at least", s.wave_transits, fewest_transits));
   return signs;
 }
 

@@ -1,4 +1,4 @@
-// Was a test slow enough to be called quasi-static? Looked at on the way to its peak.
+// Was a test slow enough to be called quasi-static? Measured on the way to its peak.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ struct Slowness {
   double kinetic = not_measured;    // largest kinetic over internal energy
   double unbalanced = not_measured; // median of the mean net force over the mean bond force
   double inertial = not_measured;   // largest inertial number, d eps/dt d sqrt(rho / sigma) (GDR MiDi 2004)
-  double crossings = not_measured;  // of a wave over the height, from the start of the axial stage
+  double wave_transits = not_measured; // of a wave over the height, from the start of the axial stage
 };
 Slowness slowness(const coupling::PlatenTest &problem, const Results &results);
 
 // What says that the test was too fast, each with its bound: "36 wave crossings to the peak, 60 at least".
-// Empty where it was slow enough. Of a bent bar, which swings much more slowly than waves cross it, crossings
-// say nothing.
-std::vector<std::string> signs_of_haste(const Slowness &slowness, bool bent);
+// Empty where it was slow enough. Of a bent bar, which oscillates much more slowly than waves cross it,
+// transits say nothing.
+std::vector<std::string> reasons_not_quasi_static(const Slowness &slowness, bool bent);
 
 } // namespace platen::apps

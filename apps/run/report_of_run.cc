@@ -117,11 +117,11 @@ std::string report_of_run(const Scene &scene, const coupling::PlatenTest &proble
   report_emission(report, results);
   report.line("energy residual over work", "{:.2e}", results.energy_residual_relative());
   report.line("kinetic over internal, to peak", "{:.2e}", results.kinetic_to_internal_max());
-  const double crossings = crossings_to_peak(problem, results);
+  const double transits = wave_transits_to_peak(problem, results);
   if (problem.bent())
-    report.line("swings of the bar to the peak", "{:.1f}", swings_to_peak(problem, results));
+    report.line("swings of the bar to the peak", "{:.1f}", oscillations_to_peak(problem, results));
   else
-    report.line("wave crossings to the peak", "{:.0f}", crossings);
+    report.line("wave crossings to the peak", "{:.0f}", transits);
   report.line("unbalanced over bond forces, median", "{:.2e}", slowness(problem, results).unbalanced);
   report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
               problem.model.bonds && costs.step_seconds > 0

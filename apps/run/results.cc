@@ -62,8 +62,8 @@ void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow
   emission_.after = dem::b_value(after);
 }
 
-// Platens that begin to move swing the stress a little, and so may a heavy sleeve: no peak before a bond of
-// the axial stage breaks.
+// Platens that begin to move make the stress oscillate a little, and so may a heavy sleeve: no peak before a
+// bond of the axial stage breaks.
 bool Results::fallen_to(double share) const {
   if (samples_.empty() || samples_.back().cycling != 0 || !(peak_ > 0)) return false;
   const Sample &now = samples_.back();
@@ -169,8 +169,8 @@ double Results::poisson_ratio_extremal() const {
   return c.found ? -gained(c, &Sample::lateral_extremal) / gained(c, &Sample::axial_extremal) : not_measured;
 }
 
-// Without an axial stage the book is read from half the pressure on.
-std::size_t Results::whole_book_from() const {
+// Without an axial stage the energy balance is read from half the pressure on.
+std::size_t Results::whole_balance_from() const {
   if (peak_ > 0) return ascending(0.1).after;
   std::size_t k = 0;
   while (k + 1 < samples_.size() && samples_[k].confining_pressure < 0.5 * samples_.back().confining_pressure)
@@ -179,7 +179,7 @@ std::size_t Results::whole_book_from() const {
 }
 
 double Results::energy_residual_relative() const {
-  const std::size_t from = whole_book_from();
+  const std::size_t from = whole_balance_from();
   if (from == 0 || std::isnan(samples_[from].residual)) return not_measured; // no load, or no ledger
   double largest = 0;
   for (std::size_t k = from; k < samples_.size(); ++k)

@@ -94,7 +94,7 @@ private:
   const Sample &zero() const; // where the strains of the axial stage begin
   double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
   double gained_at_peak(double Sample::*value) const;
-  std::size_t whole_book_from() const; // first sample where the book says more than noise
+  std::size_t whole_balance_from() const; // first sample where the balance says more than noise
 
   double sign_;
   dem::Soundness soundness_;

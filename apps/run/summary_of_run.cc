@@ -109,7 +109,7 @@ void add_bar(Json &to, const coupling::PlatenTest &problem, const Results &resul
   to["flexural_modulus_pa"] = flexural_modulus(problem, results);
   to["shear_over_bending_deflection"] = problem.three_points().shear_share(assumed_poisson_ratio);
   to["moment_over_nominal"] = moment_over_nominal(problem, results);
-  to["swings_to_peak"] = swings_to_peak(problem, results);
+  to["swings_to_peak"] = oscillations_to_peak(problem, results);
   to["cracks_near_midspan"] =
       dem::broken_near_midspan(problem.model.particles, *problem.model.bonds, problem.shape().height);
   withdraw_moduli(to);
@@ -120,10 +120,10 @@ void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &
   const Slowness slow = slowness(problem, results);
   to["unbalanced_force_median"] = slow.unbalanced;
   to["inertial_number_max"] = slow.inertial;
-  const bool told = !std::isnan(slow.kinetic) || !std::isnan(slow.crossings);
-  const std::vector<std::string> signs = signs_of_haste(slow, problem.bent());
-  to["quasi_static"] = told ? Json(signs.empty()) : Json();
-  to["signs_of_haste"] = signs;
+  const bool told = !std::isnan(slow.kinetic) || !std::isnan(slow.wave_transits);
+  const std::vector<std::string> reasons = reasons_not_quasi_static(slow, problem.bent());
+  to["quasi_static"] = told ? Json(reasons.empty()) : Json();
+  to["signs_of_haste"] = reasons;
 }
 
 } // namespace
@@ -189,7 +189,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
   s["kinetic_to_internal_max"] = results.kinetic_to_internal_max();
-  s["wave_crossings_to_peak"] = crossings_to_peak(problem, results);
+  s["wave_crossings_to_peak"] = wave_transits_to_peak(problem, results);
   add_slowness(s, problem, results);
   add_pattern(s, "", results.pattern());
   add_pattern(s, "final_", results.last_pattern());

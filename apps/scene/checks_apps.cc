@@ -20,7 +20,7 @@ void SceneCheck::pair_test() const {
     refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
 }
 
-// A bond that remembers is led from place to place.
+// A bond that remembers is moved from place to place.
 void SceneCheck::led_pair() const {
   const PairTest &test = scene_.pair_test;
   const bool slips = test.path == PairPath::shear || test.path == PairPath::combined;
@@ -125,10 +125,10 @@ void SceneCheck::bar_test() const {
     refuse("Effects/Bond", "leaves a heap of grains, no bar. Allowed: parallel bond, cohesive beam.");
   if (scene_.effects.gravity)
     refuse("Effects/Gravity", "would load the bar before the test does. Allowed: off.");
-  const bool swings = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
+  const bool oscillates = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
   const std::string damps = "would damp what is to swing freely. Allowed: 0, or Bar test/Method = static.";
-  if (swings && scene_.model.local_damping > 0) refuse("Integration/Damping", damps);
-  if (swings && scene_.model.bond_dashpot > 0) refuse("Bond/Damping", damps);
+  if (oscillates && scene_.model.local_damping > 0) refuse("Integration/Damping", damps);
+  if (oscillates && scene_.model.bond_dashpot > 0) refuse("Bond/Damping", damps);
   if (bar.load == BarLoad::impact && bar.method == BarMethod::at_rest)
     refuse("Bar test/Method", "leaves nothing of Bar test/Load = impact. Allowed: both, dynamic.");
   const SpecimenSection &specimen = scene_.specimen;
@@ -164,8 +164,8 @@ void SceneCheck::study() const {
   once("Study/Radius spread list", study.radius_spreads);
   once("Study/Axial rate list", study.axial_rates);
   once("Study/Safety list", study.safeties);
-  once("Study/Wave crossings list", study.wave_crossings);
-  once("Study/Hurry list", study.hurries);
+  once("Study/Wave crossings list", study.wave_transits);
+  once("Study/Hurry list", study.rate_multipliers);
   once("Study/Mass scaling list", study.mass_scalings);
   once("Study/Platen mesh list", study.platen_elements);
   once("Study/Steps per solve list", study.steps_per_solve);

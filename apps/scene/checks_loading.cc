@@ -100,13 +100,13 @@ void SceneCheck::meshes() const {
 }
 
 void SceneCheck::loading() const {
-  if (Situation{scene_, parameters_, app_}.crossed()) wave_crossings();
+  if (Situation{scene_, parameters_, app_}.rate_by_transits()) wave_transits();
   if (scene_.loading.rate_multiplier > 1 && !scene_.bond.bonded())
     refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
 }
 
-// What breaks at a tenth of the strain, or swings, would be struck at a speed that suits compression.
-void SceneCheck::wave_crossings() const {
+// What breaks at a tenth of the strain, or oscillates, would be struck at a speed that suits compression.
+void SceneCheck::wave_transits() const {
   const LoadingTest test = scene_.loading.test;
   if (scene_.loading.hydrostatic()) return;
   const auto refuse_rate = [&](const std::string &why) {

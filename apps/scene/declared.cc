@@ -33,7 +33,7 @@ bool Situation::loads() const {
          app == AppKind::study;
 }
 
-bool Situation::crossed() const {
+bool Situation::rate_by_transits() const {
   return (app == AppKind::compress || app == AppKind::study) && given(scene.loading.wave_transits) &&
          !given(scene.loading.rate);
 }

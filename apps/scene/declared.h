@@ -21,8 +21,8 @@ struct Situation {
   AppKind app;
 
   operator const Scene &() const { return scene; }
-  bool loads() const;   // the app presses a specimen
-  bool crossed() const; // Loading/Wave crossings sets the rate
+  bool loads() const;            // the app presses a specimen
+  bool rate_by_transits() const; // Loading/Wave crossings sets the rate
 };
 
 inline bool given(double value) {

@@ -85,10 +85,10 @@ struct Study {                        // platen-study; a list that is empty leav
   std::vector<double> radius_multipliers, radius_spreads; // packing
   std::vector<double> axial_rates;                        // m/s; rate, accuracy
   // The rest, sphere radii and rates: accuracy, each from coarse to fine, the last the reference.
-  std::vector<double> safeties, mass_scalings, hurries;
+  std::vector<double> safeties, mass_scalings, rate_multipliers;
   std::vector<double> platen_elements, steps_per_solve; // whole
   std::vector<double> sleeve_elements;                  // whole
-  std::vector<double> sleeve_mass_scalings, wave_crossings;
+  std::vector<double> sleeve_mass_scalings, wave_transits;
   std::vector<Quality> qualities;
   std::vector<std::string> changes; // "Section/Key = value", each alone against the scene as it is
 };

@@ -21,7 +21,7 @@ public:
   void contact() const;
   void platens() const;
   void loading() const;
-  void wave_crossings() const;
+  void wave_transits() const;
   void start() const;
   void splitting() const;
   void bending() const;

@@ -22,9 +22,9 @@ void declare_accuracy_lists(Section &section, Study &study) {
       "Safety list", study.safeties, "1", above_up_to(0, 1),
       "Study of accuracy, in place of Integration/Safety. All lists of such a study go from coarse to "
       "fine; the last value is the reference of the others.");
-  section.list("Wave crossings list", study.wave_crossings, "1", above(0),
+  section.list("Wave crossings list", study.wave_transits, "1", above(0),
                "Study of accuracy, in place of Loading/Wave crossings.");
-  section.list("Hurry list", study.hurries, "1", between(1, 100),
+  section.list("Hurry list", study.rate_multipliers, "1", between(1, 100),
                "Study of accuracy, in place of Loading/Hurry.");
   section.list("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
                "Study of accuracy, in place of Integration/Mass scaling.");

@@ -139,7 +139,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
       "along x, two below.");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
-    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() && !s.crossed()
+    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() && !s.rate_by_transits()
                ? "the platens have to move."
                : "";
   });

@@ -61,7 +61,7 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
 // Cases of the studies of platens: what faces the specimen, and how slender it is. Platens x slendernesses x
 // sphere radii x pressures of the scene's section Study; a list that is empty leaves what the scene has. A
 // specimen of another height is packed anew with the same recipe, spheres, width and seed, and pressed at the
-// same speed: so many wave crossings to the same strain, whatever the height. Throw InputError where there is
+// same speed: so many wave transits to the same strain, whatever the height. Throw InputError where there is
 // nothing to vary or the scene contradicts it.
 StudyPlan plan_friction(const Scene &scene);
 StudyPlan plan_slenderness(const Scene &scene); // one kind of platens

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How often running programs are looked at.
+// How often running programs are checked.
 constexpr std::chrono::milliseconds glance{20};
 
 // The summary of a whole run, nothing where it is missing, damaged or of a run that did not end.
@@ -63,7 +63,7 @@ private:
   void pass_on_signal();
   void start_more();
   void start(std::size_t k, bool may_resume);
-  void look();
+  void check();
   void ended(Active &one);
 
   const std::vector<StudyRun> &runs_;
@@ -127,7 +127,7 @@ void Processes::ended(Active &one) {
   }
 }
 
-void Processes::look() {
+void Processes::check() {
   for (auto one = active_.begin(); one != active_.end();) {
     if (one->process.running()) {
       ++one;
@@ -143,7 +143,7 @@ void Processes::work(const std::function<void(std::size_t, const RunOutcome &)> 
   while (true) {
     pass_on_signal();
     start_more();
-    look();
+    check();
     for (; kept < runs_.size() && outcomes_[kept]; ++kept)
       keep(kept, *outcomes_[kept]);
     if (kept == runs_.size()) return;
