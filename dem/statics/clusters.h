@@ -43,7 +43,4 @@ private:
   std::vector<double> length_;
 };
 
-extern template class Clusters<3>;
-extern template class Clusters<6>;
-
 } // namespace platen::dem::statics

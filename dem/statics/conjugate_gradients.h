@@ -20,11 +20,4 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
                              const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations);
 
-extern template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
-                                                const std::vector<char> &, const std::vector<double> &,
-                                                std::vector<double> &, double, int);
-extern template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
-                                                const std::vector<char> &, const std::vector<double> &,
-                                                std::vector<double> &, double, int);
-
 } // namespace platen::dem::statics

@@ -40,7 +40,4 @@ private:
   std::unique_ptr<Direct> direct_;
 };
 
-extern template class Multigrid<3>;
-extern template class Multigrid<6>;
-
 } // namespace platen::dem::statics
