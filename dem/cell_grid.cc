@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "dem/not_finite.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "dem/measure/disjoint_sets.h"
+#include "dem/measure/fragments.h"
 
 namespace platen::dem {
 namespace {

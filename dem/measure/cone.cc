@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/pi.h"
-#include "dem/mean_radius.h"
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/gauge.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {

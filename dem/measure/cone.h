@@ -6,7 +6,7 @@
 
 #include "base/archive.h"
 #include "base/vector3.h"
-#include "dem/measure/sound_pieces.h"
+#include "dem/measure/fragments.h"
 
 namespace platen::dem {
 
@@ -36,7 +36,7 @@ struct ConeRules {
   double least_roundness = 0.55, least_overlap = 0.6; // 1
 };
 
-// A piece of sound spheres (sound_pieces.h) on one platen, measured where its spheres were at the start:
+// A piece of sound spheres (fragments.h) on one platen, measured where its spheres were at the start:
 // what it weighs and how it is cut does not change when it is carried away or turned.
 //
 // A cone is fitted to the piece (cone_fit.h) up to the slice in which it is narrower than four radii: what

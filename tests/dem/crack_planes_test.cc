@@ -5,8 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "dem/measure/crack_planes.h"
-#include "dem/measure/crack_rose.h"
+#include "dem/measure/cracks.h"
 #include "tests/dem/broken_specimens.h"
 #include "tests/dem/examples.h"
 

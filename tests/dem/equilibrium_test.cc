@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "dem/measure/moduli.h"
+#include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/sparse_equilibrium.h"
 

@@ -6,10 +6,9 @@
 #include <limits>
 
 #include "dem/equilibrium.h"
-#include "dem/measure/bond_energy.h"
-#include "dem/measure/region.h"
-#include "dem/measure/section.h"
+#include "dem/measure/bond_network.h"
 #include "dem/measure/spectrum.h"
+#include "dem/measure/stress.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

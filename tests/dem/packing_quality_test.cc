@@ -13,7 +13,6 @@
 #include "base/random.h"
 #include "dem/packing/direction_cells.h"
 #include "dem/packing/quality.h"
-#include "dem/packing/sphere_clipping.h"
 
 namespace {
 
