@@ -21,7 +21,7 @@ double product(const std::vector<double> &a, const std::vector<double> &b) {
 } // namespace
 
 template <int n>
-Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inverse,
                              const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations) {
   const std::size_t size = right.size();
@@ -77,10 +77,10 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
   return s;
 }
 
-template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
+template Solution conjugate_gradients<3>(const BlockMatrix<3, double> &, Multigrid<3> &,
                                          const std::vector<char> &, const std::vector<double> &,
                                          std::vector<double> &, double, int);
-template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
+template Solution conjugate_gradients<6>(const BlockMatrix<6, double> &, Multigrid<6> &,
                                          const std::vector<char> &, const std::vector<double> &,
                                          std::vector<double> &, double, int);
 

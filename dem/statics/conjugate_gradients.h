@@ -16,7 +16,7 @@ struct Solution {
 // answer. The residual is over the larger of `right` and of what the fixed rows bring to it. Ends at the
 // tolerance, after so many iterations, or where A turns out to have a negative eigenvalue.
 template <int n>
-Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inverse,
                              const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations);
 

@@ -185,7 +185,7 @@ TEST(equilibrium, a_start_saves_iterations_and_nothing_else) {
   Model model(packed_box(20, 20, 30), bonded());
   const Particles &p = model.particles;
   StaticCase load = pressed(p, 30 * radius);
-  StaticSolver solver(p, *model.bonds);
+  EquilibriumSolver solver(p, *model.bonds);
   StaticSettings fine;
   fine.tolerance = 1e-11;
   const StaticState all = solver.solve(load, fine);
@@ -226,7 +226,7 @@ TEST(equilibrium, a_particle_is_led_once) {
   Model model(row(3, {1, 0, 0}), bonded());
   StaticCase load = clamped_at(0);
   load.prescribed.push_back({0, {1e-6, 0, 0}, {}});
-  StaticSolver solver(model.particles, *model.bonds);
+  EquilibriumSolver solver(model.particles, *model.bonds);
   for (int way = 0; way < 2; ++way)
     try {
       way == 0 ? solver.solve(load) : solve_static(model.particles, *model.bonds, load);
