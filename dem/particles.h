@@ -67,7 +67,7 @@ public:
 bool motion_is_finite(const Particles &particles);
 
 // Where numbers are not finite, as a message says it: "velocity of particle 17", "position, velocity of
-// particles 3, 17 and 5 more". Ids are those of the input. Empty where all are finite. Looks at every column
+// particles 3, 17 and 5 more". Ids are those of the input. Empty where all are finite. Checks every column
 // of numbers.
 std::string not_finite(const Particles &particles);
 

@@ -126,7 +126,7 @@ Outside::Outside(const std::vector<Vector3> &centres, const std::vector<double> 
       Cube::pore);
   for (std::size_t i = 0; i < centres.size(); ++i)
     visit_near(centres[i], radii[i], [&](std::size_t cube) {
-      cubes_[cube] = Cube::held;
+      cubes_[cube] = Cube::solid;
       return true;
     });
   flood();
@@ -151,7 +151,7 @@ void Outside::visit_near(const Vector3 &point, double reach, const Visit &visit)
 }
 
 void Outside::flood() {
-  std::vector<int> front; // x, y, z of cubes whose neighbours are to be looked at
+  std::vector<int> front; // x, y, z of cubes whose neighbours are to be checked
   const auto take = [&](int x, int y, int z) {
     const int at[3] = {x, y, z};
     for (int k = 0; k < 3; ++k)

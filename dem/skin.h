@@ -16,7 +16,7 @@
 
 namespace platen::dem {
 
-// The platens' faces: the body is looked at between them.
+// The platens' faces, which bound the body.
 struct EndPlanes {
   double low = 0, high = 0; // m, z
 };
@@ -32,7 +32,7 @@ public:
   bool within(const Vector3 &point, double reach) const;
 
 private:
-  enum class Cube : unsigned char { pore, held, outside };
+  enum class Cube : unsigned char { pore, solid, outside };
   template <class Visit>
   void visit_near(const Vector3 &point, double reach, const Visit &visit) const;
   void flood();

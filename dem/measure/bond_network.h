@@ -1,4 +1,4 @@
-// What a bonded network says of itself: the energy of its bonds, by the way they are strained, its elastic
+// What a bonded network says of itself: the energy of its bonds, by how they are strained, its elastic
 // moduli before anything is loaded, and the section of a bar that carries its forces.
 #pragma once
 

@@ -38,7 +38,7 @@ CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vect
   return plane;
 }
 
-// Shares of broken bonds around one, below which it is left out: of the first look and of the next ones.
+// Shares of broken bonds around one, below which it is left out: in the first pass and in the next ones.
 constexpr std::array<double, 5> least_damage{0, 0.5, 0.6, 0.7, 0.8};
 
 struct Midpoints {
@@ -103,7 +103,7 @@ std::vector<CrackPlane> find_crack_planes(const Particles &p, const Bonds &b, co
     for (const std::vector<int> &cluster : sets.all(left)) {
       const bool small = static_cast<int>(cluster.size()) < rules.least_bonds;
       const CrackPlane plane = small ? CrackPlane{} : plane_through(cluster, m.at);
-      if (!small && plane.flatness < rules.least_flatness) continue; // looked at again
+      if (!small && plane.flatness < rules.least_flatness) continue; // checked again
       if (!small) planes.push_back(plane);
       for (const int k : cluster)
         left[k] = 0;

@@ -40,7 +40,7 @@ private:
   std::array<double, 9> inverse_{}; // of the second moments of the reference positions
 };
 
-// Lateral and axial strain the way of Tannu 2017 (32)-(34): in three sections (a quarter, half and three
+// Lateral and axial strain after Tannu 2017 (32)-(34): in three sections (a quarter, half and three
 // quarters of the height) two pairs of outermost particles, along x and along y; the mean of the six
 // distances gives the lateral strain. Axial from the topmost and the lowest particle nearest to the axis of
 // each end. Loose spheres are passed over as in Gauge.

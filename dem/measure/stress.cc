@@ -21,20 +21,20 @@ void add(std::array<double, 9> &s, const Vector3 &arm, const Vector3 &force) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The part [low, high] of the way along one axis that lies between -half and half about `centre`.
+// The part [low, high] of the path along one axis that lies between -half and half about `centre`.
 void clip(double from, double to, double bottom, double top, double &low, double &high) {
-  const double way = to - from;
-  if (way == 0) {
+  const double path = to - from;
+  if (path == 0) {
     if (from < bottom || from > top) high = low;
     return;
   }
-  const double a = (bottom - from) / way, b = (top - from) / way;
+  const double a = (bottom - from) / path, b = (top - from) / path;
   low = std::max(low, std::min(a, b));
   high = std::min(high, std::max(a, b));
 }
 
-void clip_to_circle(const Vector3 &from, const Vector3 &way, double radius, double &low, double &high) {
-  const double a = way.x * way.x + way.y * way.y, b = from.x * way.x + from.y * way.y,
+void clip_to_circle(const Vector3 &from, const Vector3 &path, double radius, double &low, double &high) {
+  const double a = path.x * path.x + path.y * path.y, b = from.x * path.x + from.y * path.y,
                c = from.x * from.x + from.y * from.y - radius * radius;
   if (a == 0) {
     if (c > 0) high = low;

@@ -33,7 +33,7 @@ struct Region {
   Shape shape;
   double bottom = 0;
   bool holds(const Vector3 &point) const;
-  // Share of the way from `from` to `to` that lies inside.
+  // Share of the path from `from` to `to` that lies inside.
   double share_inside(const Vector3 &from, const Vector3 &to) const;
 };
 
@@ -46,7 +46,7 @@ Tensor mean_stress(const Region &region, const Particles &particles, const Bonds
                    const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 
 // Symmetric part of the best-fit gradient of displacement on reference position over the particles with their
-// centres inside; not numbers where they are too few. `counted` says of each row whether it is looked at, for
+// centres inside; not numbers where they are too few. `counted` says of each row whether it counts, for
 // loose spheres stay behind; empty: all are.
 Tensor mean_strain(const Region &region, const Particles &particles, const std::vector<Vector3> &displacement,
                    const std::vector<char> &counted = {});

@@ -85,7 +85,7 @@ TEST(crack_planes, an_intact_specimen_and_a_crushed_one_have_none) {
   EXPECT_EQ(sum_up({}, c.bonds).share, 0);
 }
 
-TEST(crack_rose, cracks_that_face_all_ways_alike_give_one_everywhere) {
+TEST(crack_rose, cracks_that_face_all_directions_alike_give_one_everywhere) {
   CrackRose rose;
   const int n = 200000; // points of a spiral, even on the sphere
   for (int k = 0; k < n; ++k) {

@@ -47,8 +47,8 @@ ModelSettings beams() {
   return bonded_by_beams(40e9, .2, .7);
 }
 
-// Clapeyron: half the load times its way; and the same as the bonds' own potential, to the size of the
-// strain.
+// Clapeyron: half the load times its displacement; and the same as the bonds' own potential, to the size of
+// the strain.
 TEST(network, shares_of_the_energy_are_the_work_of_the_load) {
   for (const ModelSettings &settings : {bonded(), beams()}) {
     Pulled pulled(settings);
