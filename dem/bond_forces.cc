@@ -133,19 +133,19 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
 void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
                               std::vector<BondBreak> &breaks, const Loop &beside) {
   const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
-  kernels::InterfaceColumns columns{columns_of(p, b),         b.plastic->data(),
-                                    b.tension_damage->data(), b.shear_damage->data(),
-                                    b.dissipated->data(),     b.shear_displacement->data(),
-                                    b.friction_spring->data()};
+  kernels::InterfaceColumns columns{columns_of(p, b), {}};
+  for (std::size_t k = 0; k < b.memory_scalars.size(); ++k)
+    columns.memory.scalar[k] = b.memory_scalars[k]->data();
+  for (std::size_t k = 0; k < b.memory_vectors.size(); ++k)
+    columns.memory.vector[k] = b.memory_vectors[k]->data();
   columns.bonds.velocity = p.velocity.data();
   if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
-  const ElastoDamagePlastic &law = std::get<ElastoDamagePlastic>(b.law);
   std::vector<unsigned char> failed(b.blocks.blocks(), 0);
   for_each_block(
       p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
         const kernels::BlockColumns rows = block_of(p, b.blocks, block);
-        failed[block] = kernel.compute_forces(columns, rows, law, dt, b.blocks.first_pair[block],
+        failed[block] = kernel.compute_forces(columns, rows, b.law, dt, b.blocks.first_pair[block],
                                               b.blocks.first_pair[block + 1]);
         add_weight(p, rows, gravity);
       },
@@ -154,8 +154,8 @@ void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const 
     if (!failed[block]) continue;
     for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
       if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))
-        breaks.push_back({static_cast<int>(k), (*b.tension_damage)[k] >= 1.0 ? BondState::broken_in_tension
-                                                                             : BondState::broken_in_shear});
+        breaks.push_back({static_cast<int>(k), b.failed_in_tension(k) ? BondState::broken_in_tension
+                                                                      : BondState::broken_in_shear});
   }
 }
 

@@ -8,15 +8,12 @@
 #include "base/parallel.h"
 #include "base/pi.h"
 #include "dem/cell_grid.h"
-#include "dem/kernels/bond_kernel.h"
+#include "dem/kernels/interface_kernel.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
 namespace {
 
-Triple<double> triple(const Vector3 &a) {
-  return {a.x, a.y, a.z};
-}
 Rotation<double> rotation(const Quaternion &q) {
   return {q.w, q.x, q.y, q.z};
 }
@@ -124,12 +121,21 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
 }
 
 void Bonds::add_history() {
-  plastic = &table.add<double>("plastic", "Pa");
-  tension_damage = &table.add<double>("tension_damage", "1");
-  shear_damage = &table.add<double>("shear_damage", "1");
-  dissipated = &table.add<double>("dissipated", "J");
-  shear_displacement = &table.add<Vector3>("shear_displacement", "m");
-  friction_spring = &table.add<Vector3>("friction_spring", "m");
+  of_remembering(law, [&](const auto &one) {
+    using State = typename std::decay_t<decltype(one)>::template State<double>;
+    State empty{};
+    State::describe(
+        [&](const char *name, const char *unit, const auto &member) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+            memory_scalars.push_back(&table.add<double>(name, unit));
+          else
+            memory_vectors.push_back(&table.add<Vector3>(name, unit));
+        },
+        empty);
+    return true;
+  });
+  if (memory_scalars.size() > kernels::most_scalars || memory_vectors.size() > kernels::most_vectors)
+    throw std::logic_error("a law remembers more than its kernel has columns for");
 }
 
 void Bonds::cut_blocks() {
@@ -157,7 +163,7 @@ void Bonds::describe(Archive &archive) {
 void Bonds::count_and_cut() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
   failed_rows = 0;
-  for (std::size_t k = 0; plastic != nullptr && k < size(); ++k)
+  for (std::size_t k = 0; has_history(law) && k < size(); ++k)
     failed_rows += has_failed(k);
   cut_blocks();
 }
@@ -198,9 +204,15 @@ std::vector<BrokenBond> Bonds::fail_rows(const std::vector<BondBreak> &breaks, c
   failed.reserve(breaks.size());
   for (const BondBreak &b : breaks) {
     const std::size_t k = static_cast<std::size_t>(b.row);
+    const double lost = of_remembering(law, [&](const auto &one) {
+      auto memory_of_row = memory<typename std::decay_t<decltype(one)>::template State<double>>(k);
+      const double dissipated = memory_of_row.dissipated;
+      memory_of_row.dissipated = 0;
+      set_memory(k, memory_of_row);
+      return dissipated;
+    });
     failed.push_back({first[k], second[k], record[k], b.mode, rest_length[k], interface_geometry(k).area,
-                      response(k, particles), 0.0, (*dissipated)[k]});
-    (*dissipated)[k] = 0;
+                      response(k, particles), 0.0, lost});
     if (dashpot != nullptr) (*dashpot)[k] = 0;
     state[record[k]] = static_cast<int>(b.mode);
     break_time[record[k]] = time;
@@ -214,16 +226,15 @@ bool Bonds::has_failed(std::size_t k) const {
 }
 
 double Bonds::damage(std::size_t k) const {
-  return plastic == nullptr ? 0.0 : std::max((*tension_damage)[k], (*shear_damage)[k]);
+  return of_remembering(law, [&](const auto &one) {
+    return one.damage_of(memory<typename std::decay_t<decltype(one)>::template State<double>>(k));
+  });
 }
 
-InterfaceState<double> Bonds::state_of(std::size_t k) const {
-  return {(*plastic)[k],
-          (*tension_damage)[k],
-          (*shear_damage)[k],
-          triple((*shear_displacement)[k]),
-          triple((*friction_spring)[k]),
-          (*dissipated)[k]};
+bool Bonds::failed_in_tension(std::size_t k) const {
+  return of_remembering(law, [&](const auto &one) {
+    return one.failed_in_tension(memory<typename std::decay_t<decltype(one)>::template State<double>>(k));
+  });
 }
 
 InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
@@ -246,10 +257,11 @@ BondStiffness Bonds::stiffness(std::size_t k) const {
 BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
   const Triple<double> d = triple(p.position[j] - p.position[i]);
-  if (const auto *interface = std::get_if<ElastoDamagePlastic>(&law)) {
-    const InterfaceGeometry<double> g = interface_geometry(k);
-    return interface->bond_response(state_of(k), g, d);
-  }
+  if (has_history(law))
+    return of_remembering(law, [&](const auto &one) {
+      return one.bond_response(memory<typename std::decay_t<decltype(one)>::template State<double>>(k),
+                               interface_geometry(k), d);
+    });
   return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {
     if (p.has_rotation())
       return elastic(geometry(k),
@@ -262,16 +274,20 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
 }
 
 BondTotals Bonds::interface_totals(const Particles &p) const {
-  const ElastoDamagePlastic &of = std::get<ElastoDamagePlastic>(law);
-  return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
-    BondTotals sum;
-    for (std::size_t k = from; k < to; ++k) {
-      const BondResponse<double> r = response(k, p);
-      const bool failed = has_failed(k);
-      sum += {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : (*dissipated)[k],
-              failed ? (*dissipated)[k] : 0.0, of.plastic_work(state_of(k), interface_geometry(k))};
-    }
-    return sum;
+  return of_remembering(law, [&](const auto &of) {
+    using State = typename std::decay_t<decltype(of)>::template State<double>;
+    return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
+      BondTotals sum;
+      for (std::size_t k = from; k < to; ++k) {
+        const BondResponse<double> r = response(k, p);
+        const State memory_of_row = memory<State>(k);
+        const bool failed = has_failed(k);
+        sum +=
+            {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : memory_of_row.dissipated,
+             failed ? memory_of_row.dissipated : 0.0, of.plastic_work(memory_of_row, interface_geometry(k))};
+      }
+      return sum;
+    });
   });
 }
 

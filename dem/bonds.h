@@ -113,13 +113,10 @@ struct Bonds {
   Column<int> &state = records.add<int>("state", "1");                 // BondState
   Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
 
-  // Only where bonds remember (elasto_damage_plastic.h says what); rows then stay when they have failed.
-  Column<double> *plastic = nullptr;             // Pa
-  Column<double> *tension_damage = nullptr;      // 1
-  Column<double> *shear_damage = nullptr;        // 1
-  Column<double> *dissipated = nullptr;          // J, by damage, and once failed by friction
-  Column<Vector3> *shear_displacement = nullptr; // m
-  Column<Vector3> *friction_spring = nullptr;    // m
+  // Only where bonds remember: the members of the law's State, in its order. Rows then stay when they have
+  // failed.
+  std::vector<Column<double> *> memory_scalars;
+  std::vector<Column<Vector3> *> memory_vectors;
   std::size_t failed_rows = 0;
 
   PairBlocks blocks; // of the rows of `table`, ends times kernels::row_stride
@@ -152,12 +149,17 @@ struct Bonds {
   BondResponse<double> response(std::size_t row, const Particles &particles) const;
   BondTotals interface_totals(const Particles &particles) const; // of bonds that remember
   double damage(std::size_t row) const;                          // 0 ... 1; of laws without history 0
-  BondStiffness stiffness(std::size_t row) const;                // at rest; 0 once broken
-  std::size_t bytes() const;                                     // of all columns and of the blocks
+  bool failed_in_tension(std::size_t row) const;                 // of bonds that remember
+  // What a row remembers; State is that of its law.
+  template <class State>
+  State memory(std::size_t row) const;
+  template <class State>
+  void set_memory(std::size_t row, const State &remembered);
+  BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
+  std::size_t bytes() const;                      // of all columns and of the blocks
 
 private:
   BondGeometry<double> geometry(std::size_t row) const;
-  InterfaceState<double> state_of(std::size_t row) const;
   InterfaceGeometry<double> interface_geometry(std::size_t row) const;
   void add_history();
   std::size_t particles_ = 0;
@@ -165,6 +167,38 @@ private:
   void count_and_cut();
   void cut_blocks();
 };
+
+inline Triple<double> triple(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+
+template <class State>
+State Bonds::memory(std::size_t row) const {
+  State remembered{};
+  std::size_t scalars = 0, vectors = 0;
+  State::describe(
+      [&](const char *, const char *, auto &member) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+          member = (*memory_scalars[scalars++])[row];
+        else
+          member = triple((*memory_vectors[vectors++])[row]);
+      },
+      remembered);
+  return remembered;
+}
+
+template <class State>
+void Bonds::set_memory(std::size_t row, const State &remembered) {
+  std::size_t scalars = 0, vectors = 0;
+  State::describe(
+      [&](const char *, const char *, const auto &member) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+          (*memory_scalars[scalars++])[row] = member;
+        else
+          (*memory_vectors[vectors++])[row] = {member.x, member.y, member.z};
+      },
+      remembered);
+}
 
 // A bond that has just broken: what the contact takes over, and what the crack log needs.
 struct BrokenBond {

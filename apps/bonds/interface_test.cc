@@ -103,9 +103,10 @@ void InterfaceTest::move(const InterfacePlace &to) {
 InterfaceReading InterfaceTest::read() const {
   const dem::Bonds &b = *model_.bonds;
   const dem::BondTotals totals = b.interface_totals(model_.particles);
-  return {(*b.tension_damage)[0],
-          (*b.shear_damage)[0],
-          (*b.plastic)[0] / section_.normal_stiffness(),
+  const auto state = b.memory<dem::InterfaceState<double>>(0);
+  return {state.tension_damage,
+          state.shear_damage,
+          state.plastic / section_.normal_stiffness(),
           work_,
           totals.energy,
           model_.works.fracture + totals.damage + totals.friction + totals.plastic};

@@ -11,35 +11,34 @@ namespace {
 struct Rows {
   const int *first, *second;
   const double *rest_length, *lever, *normal_stiffness, *bond_radius;
-  double *plastic, *tension_damage, *shear_damage, *dissipated;
-  Vector3 *shear, *slider;
   const double *strength_factor; // only with factors
+  MemoryColumns memory;
 };
 
 Rows rows_at(const InterfaceColumns &c, std::size_t k) {
   const BondColumns &b = c.bonds;
-  return {b.first + k,
-          b.second + k,
-          b.rest_length + k,
-          b.lever + k,
-          b.normal_stiffness + k,
-          b.bond_radius + k,
-          c.plastic + k,
-          c.tension_damage + k,
-          c.shear_damage + k,
-          c.dissipated + k,
-          c.shear + k,
-          c.slider + k,
-          b.strength_factor == nullptr ? nullptr : b.strength_factor + k};
+  Rows r{b.first + k,
+         b.second + k,
+         b.rest_length + k,
+         b.lever + k,
+         b.normal_stiffness + k,
+         b.bond_radius + k,
+         b.strength_factor == nullptr ? nullptr : b.strength_factor + k,
+         c.memory};
+  for (double *&column : r.memory.scalar)
+    column += column == nullptr ? 0 : k;
+  for (Vector3 *&column : r.memory.vector)
+    column += column == nullptr ? 0 : k;
+  return r;
 }
 
 // The last interfaces of a block, the very last repeated where they do not fill a pack.
 struct Filled {
   int first[lanes], second[lanes];
   double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
-  double plastic[lanes], tension_damage[lanes], shear_damage[lanes], dissipated[lanes];
   double strength_factor[lanes];
-  Vector3 shear[lanes + 1], slider[lanes + 1];
+  double scalar[most_scalars][lanes];
+  Vector3 vector[most_vectors][lanes + 1];
 
   Filled(const InterfaceColumns &c, std::size_t from, std::size_t to) {
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -47,22 +46,27 @@ struct Filled {
       first[l] = *r.first, second[l] = *r.second;
       rest_length[l] = *r.rest_length, lever[l] = *r.lever;
       normal_stiffness[l] = *r.normal_stiffness, bond_radius[l] = *r.bond_radius;
-      plastic[l] = *r.plastic, dissipated[l] = *r.dissipated;
-      tension_damage[l] = *r.tension_damage, shear_damage[l] = *r.shear_damage;
-      shear[l] = *r.shear, slider[l] = *r.slider;
       strength_factor[l] = r.strength_factor == nullptr ? 1.0 : *r.strength_factor;
+      for (std::size_t m = 0; m < most_scalars && r.memory.scalar[m] != nullptr; ++m)
+        scalar[m][l] = *r.memory.scalar[m];
+      for (std::size_t m = 0; m < most_vectors && r.memory.vector[m] != nullptr; ++m)
+        vector[m][l] = *r.memory.vector[m];
     }
   }
   Rows rows() {
-    return {first,          second,       rest_length, lever, normal_stiffness, bond_radius,    plastic,
-            tension_damage, shear_damage, dissipated,  shear, slider,           strength_factor};
+    Rows r{first, second, rest_length, lever, normal_stiffness, bond_radius, strength_factor, {}};
+    for (std::size_t m = 0; m < most_scalars; ++m)
+      r.memory.scalar[m] = scalar[m];
+    for (std::size_t m = 0; m < most_vectors; ++m)
+      r.memory.vector[m] = vector[m];
+    return r;
   }
   void give_back(const InterfaceColumns &c, std::size_t from, std::size_t to) const {
     for (std::size_t l = 0; from + l < to; ++l) {
-      const Rows r = rows_at(c, from + l);
-      *r.plastic = plastic[l], *r.dissipated = dissipated[l];
-      *r.tension_damage = tension_damage[l], *r.shear_damage = shear_damage[l];
-      *r.shear = shear[l], *r.slider = slider[l];
+      for (std::size_t m = 0; m < most_scalars && c.memory.scalar[m] != nullptr; ++m)
+        c.memory.scalar[m][from + l] = scalar[m][l];
+      for (std::size_t m = 0; m < most_vectors && c.memory.vector[m] != nullptr; ++m)
+        c.memory.vector[m][from + l] = vector[m][l];
     }
   }
 };
@@ -70,6 +74,20 @@ struct Filled {
 inline void store(double *to, const Pack &a) {
   for (int l = 0; l < lanes; ++l)
     to[l] = a.v[l];
+}
+
+// f(column, member) for every member of a state and the column that keeps it.
+template <class State, class F>
+PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, State &state, const F &f) {
+  std::size_t scalars = 0, vectors = 0;
+  State::describe(
+      [&](const char *, const char *, auto &member) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>)
+          f(columns.scalar[scalars++], member);
+        else
+          f(columns.vector[vectors++], member);
+      },
+      state);
 }
 
 // What the pair has done since its last state, at the velocities of the drift that led here.
@@ -92,32 +110,27 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, const Rows &
   return m;
 }
 
-template <bool rotation, bool factors>
-PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const ElastoDamagePlastic &law, const Rows &r,
-                            const Ends &ends, double dt) {
+template <bool rotation, bool factors, class Law>
+PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, const Rows &r, const Ends &ends,
+                            double dt) {
   const Pack radius = load(r.bond_radius);
   InterfaceGeometry<Pack> g{load(r.rest_length), load(r.lever), load(r.normal_stiffness),
                             Pack(pi * radius * radius)};
   if constexpr (factors) g.strength_factor = load(r.strength_factor);
-  InterfaceState<Pack> s{load(r.plastic), load(r.tension_damage), load(r.shear_damage),
-                         load(r.shear),   load(r.slider),         load(r.dissipated)};
+  typename Law::template State<Pack> s;
+  for_each_memory(r.memory, s, [](const auto *column, auto &member) { member = load(column); });
   const InterfaceMotion<Pack> m = motion_of<rotation>(c.bonds, r, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law(s, g, m);
-  store(r.plastic, s.plastic);
-  store(r.tension_damage, s.tension_damage);
-  store(r.shear_damage, s.shear_damage);
-  store(r.dissipated, s.dissipated);
-  store(r.shear, s.shear);
-  store(r.slider, s.slider);
+  for_each_memory(r.memory, s, [](auto *column, const auto &member) { store(column, member); });
   // Only what is across the distance has a moment: d x F = d x F_s.
   const Triple<Pack> moment = cross(m.distance, response.force);
   scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
   return response.failed_now;
 }
 
-template <bool rotation, bool factors>
-bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
-                    double dt, std::size_t first, std::size_t last) {
+template <bool rotation, bool factors, class Law>
+bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                    std::size_t first, std::size_t last) {
   gather<rotation>(c.bonds, block);
   Pack failed(0.0);
   std::size_t k = first;
@@ -137,17 +150,19 @@ bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const 
   return any;
 }
 
-template <bool rotation>
-bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
-                  double dt, std::size_t first, std::size_t last) {
+template <bool rotation, class Law>
+bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                  std::size_t first, std::size_t last) {
   return c.bonds.strength_factor != nullptr ? compute_forces<rotation, true>(c, block, law, dt, first, last)
                                             : compute_forces<rotation, false>(c, block, law, dt, first, last);
 }
 
-bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const ElastoDamagePlastic &law,
-                       double dt, std::size_t first, std::size_t last) {
-  return c.bonds.orientation != nullptr ? compute_with<true>(c, block, law, dt, first, last)
-                                        : compute_with<false>(c, block, law, dt, first, last);
+bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law, double dt,
+                       std::size_t first, std::size_t last) {
+  return of_remembering(law, [&](const auto &one) {
+    return c.bonds.orientation != nullptr ? compute_with<true>(c, block, one, dt, first, last)
+                                          : compute_with<false>(c, block, one, dt, first, last);
+  });
 }
 
 } // namespace

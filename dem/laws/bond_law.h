@@ -56,4 +56,18 @@ auto of_elastic(const BondLaw &law, const F &f) {
       law);
 }
 
+// f(law) where the law held remembers; else f's result as it is made of nothing.
+template <class F>
+auto of_remembering(const BondLaw &law, const F &f) {
+  using Result = decltype(f(std::declval<const ElastoDamagePlastic &>()));
+  return std::visit(
+      [&](const auto &one) {
+        if constexpr (std::decay_t<decltype(one)>::has_history)
+          return f(one);
+        else
+          return Result();
+      },
+      law);
+}
+
 } // namespace platen::dem

@@ -49,6 +49,17 @@ struct InterfaceState {
   Triple<Real> shear;                // u_s, m
   Triple<Real> slider;               // x, m
   Real dissipated;                   // J: by damage until it fails, by friction from then on
+
+  // v(column, unit, this member of each state), all of them.
+  template <class Visitor, class... States>
+  static void describe(Visitor &&v, States &...s) {
+    v("plastic", "Pa", s.plastic...);
+    v("tension_damage", "1", s.tension_damage...);
+    v("shear_damage", "1", s.shear_damage...);
+    v("dissipated", "J", s.dissipated...);
+    v("shear_displacement", "m", s.shear...);
+    v("friction_spring", "m", s.slider...);
+  }
 };
 template <class Real>
 struct InterfaceResponse {
@@ -92,6 +103,12 @@ struct ElastoDamagePlastic {
   };
   static constexpr std::size_t most_branches = 3;
   Branch branches[most_branches] = {}; // where fewer are given, the last goes on
+
+  template <class Real>
+  using State = InterfaceState<Real>;
+  // 1: it has failed, in tension or in shear.
+  static double damage_of(const State<double> &s) { return larger(s.tension_damage, s.shear_damage); }
+  static bool failed_in_tension(const State<double> &s) { return s.tension_damage >= 1.0; }
 
   bool bends() const { return false; }
   BondStiffness stiffness(const BondGeometry<double> &g) const;

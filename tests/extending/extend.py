@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adds a bond law and a contact law to a copy of the sources, as docs/extending.md says, builds and runs it.
+"""Adds two bond laws and a contact law to a copy of the sources, as docs/extending.md says, builds and runs it.
 
     tests/extending/extend.py SOURCE FOLDER [COMPILER]
 
@@ -21,6 +21,11 @@ ADDITIONS = {
         ("dem/laws/bond_law.h", '#include "dem/laws/parallel_bond.h"\n',
          '#include "dem/laws/parallel_bond.h"\n#include "dem/laws/spring_bond.h"\n'),
         ("dem/laws/bond_law.h", "ElastoDamagePlastic>;", "ElastoDamagePlastic, SpringBond>;"),
+    ]),
+    "bond law that remembers": ("yielding_bond.h", "dem/laws/yielding_bond.h", [
+        ("dem/laws/bond_law.h", '#include "dem/laws/spring_bond.h"\n',
+         '#include "dem/laws/spring_bond.h"\n#include "dem/laws/yielding_bond.h"\n'),
+        ("dem/laws/bond_law.h", "SpringBond>;", "SpringBond, YieldingBond>;"),
     ]),
     "contact law": ("cone_contact.h", "dem/laws/cone_contact.h", [
         ("dem/laws/contact_settings.h", "enum class NormalContact { linear, hertz };",
