@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/shortest_text.h"
-#include "dem/not_finite.h"
+#include "dem/particles.h"
 
 namespace platen::coupling {
 namespace {

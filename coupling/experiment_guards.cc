@@ -5,7 +5,7 @@
 
 #include "base/shortest_text.h"
 #include "coupling/experiment.h"
-#include "dem/not_finite.h"
+#include "dem/particles.h"
 
 namespace platen::coupling {
 namespace {

@@ -8,7 +8,7 @@
 #include "coupling/platens_of_test.h"
 #include "coupling/program/axial_loading.h"
 #include "coupling/program/consolidation.h"
-#include "dem/measure/moduli.h"
+#include "dem/measure/bond_network.h"
 
 namespace platen::coupling {
 namespace {

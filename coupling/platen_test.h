@@ -12,7 +12,7 @@
 #include "coupling/boundaries/platen.h"
 #include "coupling/boundaries/skin_pressure.h"
 #include "coupling/platen_test_settings.h"
-#include "dem/measure/bending.h"
+#include "dem/measure/gauge.h"
 
 namespace platen::coupling {
 

@@ -12,7 +12,7 @@
 #include "coupling/experiment.h"
 #include "dem/confinement.h"
 #include "dem/laws/contact_settings.h"
-#include "dem/packing/ends.h"
+#include "dem/packing/specimen.h"
 #include "fem/elastic_solid.h"
 
 namespace platen::coupling {

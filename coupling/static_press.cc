@@ -99,7 +99,7 @@ StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticS
   if (!test.model.bonds || !(strain > 0))
     throw NumericsStopped("a static solve needs bonds and a strain above 0");
   Contacts contacts = contacts_of(test, strain);
-  dem::StaticSolver solver(test.model.particles, *test.model.bonds);
+  dem::EquilibriumSolver solver(test.model.particles, *test.model.bonds);
   // While the set of contacts still changes a rough answer tells which.
   dem::StaticSettings now = settings;
   now.tolerance = std::max(settings.tolerance, rough);

@@ -6,13 +6,13 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "dem/not_finite.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {
 
 // Spheres whose reach (radius and half the margin) is within a factor of two of each other share a grid:
-// every larger one looks into the grids of smaller ones, never the other way round. Reaches below the
+// every larger one searches the grids of smaller ones, never the other way round. Reaches below the
 // smallest class are in it too.
 constexpr int most_classes = 24;
 constexpr double cell_slack = 1e-6; // cells; far above the round-off of a place in them
@@ -110,7 +110,7 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
     if (!spheres[c].empty()) grids.emplace_back(centres, radii, spheres[c], margin);
   }
   std::vector<std::vector<IndexPair>> found(number_of_blocks(count));
-  std::vector<std::size_t> looked(found.size(), 0);
+  std::vector<std::size_t> checked(found.size(), 0);
   for_each_block(count, [&](std::size_t first, std::size_t last, std::size_t block) {
     std::vector<int> partners;
     for (std::size_t i = first; i < last; ++i) {
@@ -125,7 +125,7 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
               for (int m = grid.start[c]; m < grid.start[c + 1]; ++m) {
                 const int j = grid.member[m];
                 if (g == own && j <= static_cast<int>(i)) continue;
-                ++looked[block];
+                ++checked[block];
                 const double reach = radii[i] + radii[j] + margin;
                 if (reach > 0 && norm_squared(centres[j] - centres[i]) < reach * reach) partners.push_back(j);
               }
@@ -139,7 +139,7 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
   for (const auto &f : found)
     pairs.insert(pairs.end(), f.begin(), f.end());
   if (grids.size() > 1) std::sort(pairs.begin(), pairs.end());
-  if (measured != nullptr) *measured = std::accumulate(looked.begin(), looked.end(), std::size_t{0});
+  if (measured != nullptr) *measured = std::accumulate(checked.begin(), checked.end(), std::size_t{0});
   return pairs;
 }
 

@@ -20,7 +20,7 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
 
 // All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs,
 // whatever the radii. Throws NotFinite where a centre is not finite. `measured`, where given, is told of how
-// many pairs the distance was looked at.
+// many pairs the distance was checked.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
                                   double margin, std::size_t *measured = nullptr);
 

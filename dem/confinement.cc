@@ -123,12 +123,12 @@ double Confinement::power(const Particles &p) const {
 }
 
 void Confinement::add_forces(Particles &p, const Bonds *bonds, const EndPlanes &planes, double pressure,
-                             double dt, double distance, bool look) {
+                             double dt, double distance, bool update) {
   moved_ += distance;
   // By the trapezoid over the drift: the old areas and pressure at its beginning, the new ones at its end.
   double swelling = power(p);
   work_ -= 0.5 * dt * pressure_ * swelling;
-  if (look && (moved_ > move_of_areas * mean_radius_ || broken_bonds(bonds) != broken_)) {
+  if (update && (moved_ > move_of_areas * mean_radius_ || broken_bonds(bonds) != broken_)) {
     find(p, bonds, planes);
     swelling = power(p);
   }

@@ -32,9 +32,9 @@ public:
               ConfinementArea kind);
 
   // Once a step, after the drift of dt (s): `distance` (m) bounds what any particle moved. Presses with
-  // `pressure` (Pa) and books the work. `look`: areas may be found anew in this step.
+  // `pressure` (Pa) and adds its work. `update`: areas may be updated in this step.
   void add_forces(Particles &particles, const Bonds *bonds, const EndPlanes &planes, double pressure,
-                  double dt, double distance, bool look);
+                  double dt, double distance, bool update);
 
   double pressure() const { return pressure_; } // Pa, now
   double work() const { return work_; }         // J, done by the pressure since the start

@@ -17,15 +17,15 @@ double reduced(double a, double b) {
 
 } // namespace
 
-// What a loop has. `book`: sums of what is lost, which cost a loop without them up to 15 % if they are but
+// What a loop has. `ledger`: sums of what is lost, which cost a loop without them up to 15 % if they are but
 // asked for (bench/results/effects.md).
 template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
-          bool with_book>
+          bool with_ledger>
 struct Contacts::With {
   using Law = NormalLaw;
   static constexpr bool friction = tangential != TangentialContact::none,
                         rolling = tangential == TangentialContact::coulomb_with_rolling,
-                        dashpots = with_dashpots, rotation = with_rotation, book = with_book;
+                        dashpots = with_dashpots, rotation = with_rotation, ledger = with_ledger;
 };
 
 struct Contacts::Touch {
@@ -95,7 +95,7 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
     if constexpr (Effects::friction) tangential_force<Effects>(p, dt, k, t, lost);
     if constexpr (Effects::dashpots) {
       // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
-      if constexpr (Effects::book) lost.damping += 0.5 * dt * dot(t.drag + (*dashpot)[k], v);
+      if constexpr (Effects::ledger) lost.damping += 0.5 * dt * dot(t.drag + (*dashpot)[k], v);
       (*dashpot)[k] = t.drag;
     }
     force[k] = t.force;
@@ -123,17 +123,18 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, To
   double &kt = (*tangential_stiffness)[k];
   CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], t.n), (*sliding)[k]};
   if constexpr (!Effects::Law::constant_stiffness) {
-    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and it is booked.
+    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and the ledger gets
+    // it.
     const double now = Effects::Law::tangential_ratio(settings_) * t.kn;
     const double before = 0.5 * norm_squared(state.spring) / kt;
     if (now < kt) state.spring *= now / kt;
-    if (Effects::book && kt > 0 && norm_squared(state.spring) > 0)
+    if (Effects::ledger && kt > 0 && norm_squared(state.spring) > 0)
       lost.friction += before - 0.5 * norm_squared(state.spring) / now;
     kt = now;
   }
   const CoulombFriction friction{{settings_.friction, settings_.friction}};
   const CoulombFriction::Result result = friction(state, dt * t.slip_velocity, t.pressing, kt);
-  if constexpr (Effects::book) lost.friction += result.dissipated;
+  if constexpr (Effects::ledger) lost.friction += result.dissipated;
   (*sliding)[k] = state.sliding;
   (*spring)[k] = state.spring;
   (*normal)[k] = t.n;
@@ -164,7 +165,7 @@ void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, cons
   CoulombFriction::State state{carry_with_plane((*rolling)[k], (*normal)[k], t.n), 0};
   const CoulombFriction::Result result =
       CoulombFriction{{limit, limit}}(state, dt * (w - dot(w, t.n) * t.n), t.pressing, stiffness);
-  if constexpr (Effects::book) lost.friction += result.dissipated;
+  if constexpr (Effects::ledger) lost.friction += result.dissipated;
   (*rolling)[k] = state.spring;
 }
 
@@ -175,13 +176,13 @@ void Contacts::release(std::size_t k, Dissipation &lost) {
   force[k] = {};
   if constexpr (Effects::friction) {
     const double kt = (*tangential_stiffness)[k];
-    if (Effects::book && kt > 0) lost.friction += 0.5 * norm_squared((*spring)[k]) / kt;
+    if (Effects::ledger && kt > 0) lost.friction += 0.5 * norm_squared((*spring)[k]) / kt;
     (*spring)[k] = {};
     (*sliding)[k] = 0;
   }
   if constexpr (Effects::dashpots) (*dashpot)[k] = {};
   if constexpr (Effects::rolling) {
-    if (Effects::book && (*rolling_stiffness)[k] > 0)
+    if (Effects::ledger && (*rolling_stiffness)[k] > 0)
       lost.friction += 0.5 * norm_squared((*rolling)[k]) / (*rolling_stiffness)[k];
     (*rolling)[k] = {};
   }
@@ -190,7 +191,7 @@ void Contacts::release(std::size_t k, Dissipation &lost) {
 // Choices are made one after the other.
 template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
 Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if (c.book) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
+  if (c.ledger) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
   return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, false>>;
 }
 template <class Law, TangentialContact tangential, bool dashpots>

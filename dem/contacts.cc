@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "dem/heterogeneity.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
-#include "dem/mean_radius.h"
-#include "dem/phases.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {

@@ -74,7 +74,7 @@ private:
     }
   };
   struct Touch;
-  template <class Law, TangentialContact tangential, bool dashpots, bool rotation, bool book>
+  template <class Law, TangentialContact tangential, bool dashpots, bool rotation, bool ledger>
   struct With;
   template <class Effects>
   Dissipation compute_block(Particles &particles, double dt, std::size_t block);
@@ -89,7 +89,7 @@ private:
   using Loop = Dissipation (Contacts::*)(Particles &, double, std::size_t);
   struct LoopChoice {
     TangentialContact tangential;
-    bool dashpots, rotation, book;
+    bool dashpots, rotation, ledger;
   };
   Loop loop_for(const LoopChoice &choice);
   template <class Law>

@@ -1,4 +1,4 @@
-// The energy book of a run: what is stored, what was lost, what came in. J throughout.
+// The energy balance of a run: what is stored, what was lost, what came in. J throughout.
 #pragma once
 
 namespace platen::dem {
@@ -22,7 +22,7 @@ struct EnergyLedger {
   }
   double stored() const { return kinetic + bonds + contacts + bodies; }
   double lost() const { return damping + friction + fracture + plastic; }
-  // Zero when the book closes.
+  // Zero when the balance closes.
   double residual() const { return stored() + lost() - boundary; }
 };
 

@@ -81,7 +81,7 @@ void put(const Vector3 &a, double *to) {
 
 } // namespace
 
-struct StaticSolver::Implementation {
+struct EquilibriumSolver::Implementation {
   virtual ~Implementation() = default;
   virtual StaticState solve(const StaticCase &load, const StaticSettings &settings,
                             const StaticState *start) = 0;
@@ -90,7 +90,7 @@ struct StaticSolver::Implementation {
 namespace {
 
 template <int n>
-class Network final : public StaticSolver::Implementation {
+class Network final : public EquilibriumSolver::Implementation {
 public:
   Network(const Particles &p, const Bonds &b)
       : p_(p), network_(b), bonds_(statics::assemble<n>(p, b)), matrix_(bonds_) {
@@ -192,31 +192,31 @@ private:
 
   const Particles &p_;
   const Bonds &network_;
-  statics::BlockRows<n, double> bonds_, matrix_; // without and with supports
-  std::vector<std::size_t> diagonal_;            // block of each row
-  std::vector<std::size_t> supported_;           // rows
+  statics::BlockMatrix<n, double> bonds_, matrix_; // without and with supports
+  std::vector<std::size_t> diagonal_;              // block of each row
+  std::vector<std::size_t> supported_;             // rows
   std::vector<char> fixed_;
   std::optional<statics::Multigrid<n>> multigrid_;
 };
 
 } // namespace
 
-StaticSolver::StaticSolver(const Particles &particles, const Bonds &bonds) {
+EquilibriumSolver::EquilibriumSolver(const Particles &particles, const Bonds &bonds) {
   if (particles.has_rotation())
     implementation_ = std::make_unique<Network<6>>(particles, bonds);
   else
     implementation_ = std::make_unique<Network<3>>(particles, bonds);
 }
-StaticSolver::~StaticSolver() = default;
+EquilibriumSolver::~EquilibriumSolver() = default;
 
-StaticState StaticSolver::solve(const StaticCase &load, const StaticSettings &settings,
-                                const StaticState *start) {
+StaticState EquilibriumSolver::solve(const StaticCase &load, const StaticSettings &settings,
+                                     const StaticState *start) {
   return implementation_->solve(load, settings, start);
 }
 
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings) {
-  return StaticSolver(particles, bonds).solve(load, settings);
+  return EquilibriumSolver(particles, bonds).solve(load, settings);
 }
 
 } // namespace platen::dem

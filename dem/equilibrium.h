@@ -54,10 +54,10 @@ StaticState solve_static(const Particles &particles, const Bonds &bonds, const S
 
 // The same for several cases of one network, which must stay as it is: its stiffness is assembled once, and
 // what prepares the solves is kept while the prescribed particles are the same.
-class StaticSolver {
+class EquilibriumSolver {
 public:
-  StaticSolver(const Particles &particles, const Bonds &bonds);
-  ~StaticSolver();
+  EquilibriumSolver(const Particles &particles, const Bonds &bonds);
+  ~EquilibriumSolver();
 
   // From `start` on, if it is given: of another case that is near.
   StaticState solve(const StaticCase &load, const StaticSettings &settings = {},

@@ -10,12 +10,11 @@
 #include "dem/bonds.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
+#include "dem/heterogeneity.h"
 #include "dem/integrator.h"
 #include "dem/particles.h"
-#include "dem/phases.h"
 #include "dem/stable_step.h"
 #include "dem/stages.h"
-#include "dem/strength_scatter.h"
 
 namespace platen::dem {
 

@@ -1,6 +1,8 @@
 // The particles of a specimen as columns. Row order is the spatial order; `id` is the order of the input.
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "base/table.h"
@@ -46,5 +48,27 @@ struct Particles {
 // Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row
 // k.
 std::vector<int> spatial_order(const std::vector<Vector3> &centres);
+
+// m; 1 of no particles.
+inline double mean_radius(const Particles &particles) {
+  double sum = 0;
+  for (const double r : particles.radius)
+    sum += r;
+  return particles.size() == 0 ? 1.0 : sum / static_cast<double>(particles.size());
+}
+
+// Thrown where a search meets a centre that is not finite; Problem says then whose it is.
+class NotFinite : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// Whether position, velocity and, with rotation, orientation and angular velocity of all are finite.
+bool motion_is_finite(const Particles &particles);
+
+// Where numbers are not finite, as a message says it: "velocity of particle 17", "position, velocity of
+// particles 3, 17 and 5 more". Ids are those of the input. Empty where all are finite. Checks every column
+// of numbers.
+std::string not_finite(const Particles &particles);
 
 } // namespace platen::dem

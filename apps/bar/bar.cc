@@ -4,8 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "dem/measure/bond_network.h"
 #include "dem/measure/fragments.h"
-#include "dem/measure/section.h"
 
 namespace platen::apps {
 namespace {

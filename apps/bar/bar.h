@@ -35,8 +35,8 @@ struct BarGeometry {
          top = 0; // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
   double length() const { return top - bottom; } // m
   Section bounding;                              // of the perfect bar
-  Section effective;          // that carries forces (dem/measure/section.h); of the middle half of the length
-  Section mass;               // of inertia of rotation, likewise
+  Section effective; // that carries forces (dem/measure/bond_network.h); of the middle half of the length
+  Section mass;      // of inertia of rotation, likewise
   double mass_per_length = 0; // kg/m
   bool along_x = true;
 };

@@ -6,7 +6,7 @@
 
 #include "apps/bar/bar.h"
 #include "apps/bar/static_test.h"
-#include "dem/measure/bond_energy.h"
+#include "dem/measure/bond_network.h"
 
 namespace platen::apps {
 

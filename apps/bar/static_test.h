@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/bar/bar.h"
-#include "dem/measure/bond_energy.h"
-#include "dem/measure/region.h"
+#include "dem/measure/bond_network.h"
+#include "dem/measure/stress.h"
 
 namespace platen::apps {
 

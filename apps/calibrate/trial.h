@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/scene/scene.h"
-#include "dem/measure/moduli.h"
+#include "dem/measure/bond_network.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {

@@ -1,6 +1,6 @@
 #include "apps/run/at_peak.h"
 
-#include "dem/measure/bending.h"
+#include "dem/measure/gauge.h"
 
 namespace platen::apps {
 

@@ -8,8 +8,8 @@
 #include "apps/run/run_state.h"
 #include "apps/scene/surfaces.h"
 #include "base/pi.h"
-#include "dem/mean_radius.h"
-#include "dem/measure/bond_stress.h"
+#include "dem/measure/stress.h"
+#include "dem/particles.h"
 
 namespace platen::apps {
 namespace {

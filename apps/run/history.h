@@ -9,9 +9,8 @@
 #include "base/archive.h"
 #include "coupling/platen_test.h"
 #include "dem/energy.h"
-#include "dem/measure/bending.h"
+#include "dem/measure/damage.h"
 #include "dem/measure/gauge.h"
-#include "dem/measure/split.h"
 
 namespace platen::apps {
 

@@ -22,8 +22,8 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
 #include "base/clock.h"
-#include "dem/packing/ends.h"
 #include "dem/packing/quality.h"
+#include "dem/packing/specimen.h"
 
 namespace platen::apps {
 namespace {

@@ -7,8 +7,8 @@
 #include "apps/run/failure_summary.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/summary_of_run.h"
-#include "dem/measure/bending.h"
-#include "dem/measure/split.h"
+#include "dem/measure/damage.h"
+#include "dem/measure/gauge.h"
 
 namespace platen::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/run/history.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/acoustic_emission.h"
-#include "dem/measure/crack_rose.h"
+#include "dem/measure/cracks.h"
 #include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {

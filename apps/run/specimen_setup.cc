@@ -11,7 +11,6 @@
 #include "apps/scene/units.h"
 #include "base/pi.h"
 #include "dem/packing/advancing_front.h"
-#include "dem/packing/radius_distribution.h"
 
 namespace platen::apps {
 namespace {

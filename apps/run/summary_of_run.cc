@@ -8,9 +8,9 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
 #include "apps/scene/version.h"
-#include "dem/measure/bending.h"
+#include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
-#include "dem/measure/split.h"
+#include "dem/measure/gauge.h"
 
 namespace platen::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "dem/heterogeneity.h"
 #include "dem/laws/bond_law.h"
-#include "dem/strength_scatter.h"
 
 namespace platen::apps {
 

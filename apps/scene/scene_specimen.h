@@ -7,9 +7,9 @@
 
 #include "apps/scene/quantities.h"
 #include "dem/contacts.h"
-#include "dem/packing/ends.h"
-#include "dem/packing/radius_distribution.h"
-#include "dem/phases.h"
+#include "dem/heterogeneity.h"
+#include "dem/packing/advancing_front.h"
+#include "dem/packing/specimen.h"
 
 namespace platen::apps {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "coupling/boundary.h"
-#include "dem/outside.h"
+#include "dem/skin.h"
 #include "fem/body.h"
 
 namespace platen::coupling {

@@ -31,7 +31,7 @@ struct ContactSettings {
   double young_modulus = 17e9;   // Pa, of the grains (Hertz, of_bulk)
   double poisson_ratio = 0.15;
 
-  // Of multiples of bonds, by the spheres of the aggregate in a pair (dem/phases.h).
+  // Of multiples of bonds, by the spheres of the aggregate in a pair (dem/heterogeneity.h).
   std::array<double, 3> modulus_factors{1, 1, 1};
 
   // Linear: k_n, N/m. Hertz: 4/3 E* sqrt(R*), N/m^1.5.

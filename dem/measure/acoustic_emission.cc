@@ -5,7 +5,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "dem/measure/disjoint_sets.h"
+#include "dem/measure/fragments.h"
 
 namespace platen::dem {
 namespace {
@@ -49,9 +49,9 @@ double mode(const std::vector<double> &sorted, double bin) {
 
 } // namespace
 
-EventWindow event_window(double mean_radius, double wave_speed, double radii, double crossings) {
+EventWindow event_window(double mean_radius, double wave_speed, double radii, double transits) {
   const double reach = radii * mean_radius;
-  return {reach, crossings * reach / wave_speed};
+  return {reach, transits * reach / wave_speed};
 }
 
 double magnitude_of(double energy) {

@@ -24,11 +24,11 @@ struct EventWindow {
   double reach = 0; // m
   double time = 0;  // s
 };
-// `radii` mean sphere radii, and the time that a wave takes over `crossings` times that way. Defaults of
+// `radii` mean sphere radii, and the time that a wave takes over `transits` times that distance. Defaults of
 // scenes: 5 and 1. A crack unloads its neighbourhood, over some diameters, and can make the next one break no
 // sooner than a wave gets there. Smaller windows take events apart into cracks; larger ones join strangers
 // once cracks are many, near and after the peak.
-EventWindow event_window(double mean_radius, double wave_speed, double radii, double crossings);
+EventWindow event_window(double mean_radius, double wave_speed, double radii, double transits);
 
 struct AcousticEvent {
   double time = 0, duration = 0; // s, of the first crack; to the last

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "base/pi.h"
-#include "dem/mean_radius.h"
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/gauge.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {
 
-constexpr double narrowest = 2;   // equivalent radius of the last slice that is looked at, mean radii
+constexpr double narrowest = 2;   // equivalent radius of the last slice that is measured, mean radii
 constexpr double full = 0.9;      // share of a section from which the rim cuts the flank
 constexpr double flank_reach = 3; // mean radii to both sides
 constexpr int sectors = 12;
@@ -203,7 +203,7 @@ ConePiece measure(const Seen &s, const ConeRules &rules) {
 
 const char *words_of(NoCone why) {
   switch (why) {
-    case NoCone::not_looked:
+    case NoCone::not_measured:
       return "not measured";
     case NoCone::found:
       return "a cone";

@@ -6,23 +6,23 @@
 
 #include "base/archive.h"
 #include "base/vector3.h"
-#include "dem/measure/sound_pieces.h"
+#include "dem/measure/fragments.h"
 
 namespace platen::dem {
 
 // Why a piece is no cone; the first that holds.
 enum class NoCone : std::int64_t {
-  not_looked = 0,  // nothing was measured
-  found,           // it is one
-  nothing_stands,  // no sound sphere touches the platen
-  spans,           // the piece goes on to the other platen
-  few_spheres,     // less than `least_spheres`
-  thin,            // lower than `least_height`: a skin, or crumbs
-  blunt,           // full section over half of its height or more: the rest of a specimen broken elsewhere
-  does_not_narrow, // half-angle outside the range: a column, or a plate
-  leans,           // its axis is not the specimen's
-  one_sided,       // flanks do not go round: a wedge
-  ragged           // no cone has its shape
+  not_measured = 0, // nothing was measured
+  found,            // it is one
+  nothing_stands,   // no sound sphere touches the platen
+  spans,            // the piece goes on to the other platen
+  few_spheres,      // less than `least_spheres`
+  thin,             // lower than `least_height`: a skin, or crumbs
+  blunt,            // full section over half of its height or more: the rest of a specimen broken elsewhere
+  does_not_narrow,  // half-angle outside the range: a column, or a plate
+  leans,            // its axis is not the specimen's
+  one_sided,        // flanks do not go round: a wedge
+  ragged            // no cone has its shape
 };
 const char *words_of(NoCone why);
 
@@ -36,7 +36,7 @@ struct ConeRules {
   double least_roundness = 0.55, least_overlap = 0.6; // 1
 };
 
-// A piece of sound spheres (sound_pieces.h) on one platen, measured where its spheres were at the start:
+// A piece of sound spheres (fragments.h) on one platen, measured where its spheres were at the start:
 // what it weighs and how it is cut does not change when it is carried away or turned.
 //
 // A cone is fitted to the piece (cone_fit.h) up to the slice in which it is narrower than four radii: what
@@ -56,7 +56,7 @@ struct ConeRules {
 // dome is taken for the cone that is nearest, a pyramid (of a box) too. Pieces of real runs are ragged, and
 // judged by `confidence`. Sound pieces that touch in the middle are one that spans, and no cone.
 struct ConePiece {
-  NoCone verdict = NoCone::not_looked;
+  NoCone verdict = NoCone::not_measured;
   double spheres = 0;         // skin included, as for the height
   double height = 0;          // m, from the end plane to the highest surface of a sphere
   double half_angle = 0;      // rad
@@ -71,7 +71,7 @@ struct ConePiece {
 };
 
 // [bottom_end], [top_end]. Of a cylinder or box; of a disc, which is pressed across, verdicts are
-// `not_looked`.
+// `not_measured`.
 std::array<ConePiece, 2> measure_cones(const Particles &particles, const Bonds &bonds,
                                        const SoundPieces &pieces, const Shape &shape,
                                        const ConeRules &rules = {});

@@ -28,20 +28,22 @@ Vector3 outward(const Vector3 &x, const Shape &shape) {
                                         : Vector3{0, std::copysign(1.0, x.y), 0};
 }
 
-Vector3 reference_midpoint(const Particles &p, const Bonds &b, std::size_t record) {
-  return 0.5 * (p.reference_position[b.record_first[record]] + p.reference_position[b.record_second[record]]);
-}
-
 struct Count {
-  int initial = 0, broken = 0;
-  void add(bool is) { ++initial, broken += is; }
-  double share() const { return initial == 0 ? not_a_number : static_cast<double>(broken) / initial; }
+  int all = 0, some = 0;
+  void add(bool is) { ++all, some += is; }
+  double share() const { return all == 0 ? not_a_number : static_cast<double>(some) / all; }
 };
+
+constexpr std::size_t first_bonds = 20;
 
 } // namespace
 
 bool is_broken(int state) {
   return state >= static_cast<int>(BondState::broken_in_tension);
+}
+
+Vector3 reference_midpoint(const Particles &p, const Bonds &b, std::size_t record) {
+  return 0.5 * (p.reference_position[b.record_first[record]] + p.reference_position[b.record_second[record]]);
 }
 
 DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape &shape) {
@@ -97,6 +99,34 @@ BondCounts bond_counts(const Particles &p, const Bonds &b) {
     ++column[static_cast<std::size_t>(b.record_second[k])];
   }
   return counts;
+}
+
+SplitPattern split_pattern(const Particles &p, const Bonds &b, const Shape &shape) {
+  std::vector<std::size_t> broken;
+  for (std::size_t k = 0; k < b.initial_count(); ++k)
+    if (is_broken(b.state[k])) broken.push_back(k);
+  std::stable_sort(broken.begin(), broken.end(), [&](std::size_t one, std::size_t other) {
+    return b.break_time[one] < b.break_time[other];
+  });
+  double on = 0, middle = 0, first = 0;
+  for (std::size_t n = 0; n < broken.size(); ++n) {
+    const std::size_t k = broken[n];
+    const Vector3 x = reference_midpoint(p, b, k);
+    if (std::abs(x.x) > 0.25 * shape.radius) continue;
+    on += 1;
+    if (std::abs(x.z - 0.5 * shape.height) > 0.5 * shape.radius) continue;
+    middle += 1;
+    if (n < first_bonds) first += 1;
+  }
+  const double all = static_cast<double>(broken.size());
+  return {on / all, middle / all, first / std::min(all, static_cast<double>(first_bonds))};
+}
+
+double broken_near_midspan(const Particles &p, const Bonds &b, double depth) {
+  Count near;
+  for (std::size_t k = 0; k < b.initial_count(); ++k)
+    if (is_broken(b.state[k])) near.add(std::abs(reference_midpoint(p, b, k).x) <= 0.5 * depth);
+  return near.share();
 }
 
 } // namespace platen::dem

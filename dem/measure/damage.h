@@ -1,5 +1,5 @@
 // Where a specimen is broken and how it has opened: the measures that tell friction from no friction at its
-// ends.
+// ends, and how a disc or a bar breaks.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,8 @@
 namespace platen::dem {
 
 bool is_broken(int state); // of Bonds::state
+// Of a record of a bond, m.
+Vector3 reference_midpoint(const Particles &particles, const Bonds &bonds, std::size_t record);
 
 // Broken over initial bonds whose reference midpoint lies in a region; NaN where it holds none.
 struct DamageByRegion {
@@ -34,5 +36,17 @@ struct BondCounts {
   std::vector<int> intact, broken;
 };
 BondCounts bond_counts(const Particles &particles, const Bonds &bonds);
+
+// Where bonds broke, by reference midpoint. Shares of broken bonds, NaN without any. The loaded diameter is
+// the band |x| < R/4, its middle half |z - R| < R/2.
+struct SplitPattern {
+  double on_diameter = 0;     // of all that broke, in the band
+  double in_middle = 0;       // of all that broke, in its middle half
+  double first_in_middle = 0; // of the first twenty
+};
+SplitPattern split_pattern(const Particles &particles, const Bonds &bonds, const Shape &shape);
+
+// Share of the broken bonds whose reference midpoint lies within half a depth of mid-span; NaN without any.
+double broken_near_midspan(const Particles &particles, const Bonds &bonds, double depth);
 
 } // namespace platen::dem

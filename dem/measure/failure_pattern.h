@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "dem/measure/cone.h"
-#include "dem/measure/crack_planes.h"
+#include "dem/measure/cracks.h"
 #include "dem/measure/damage.h"
 
 namespace platen::dem {

@@ -1,12 +1,31 @@
-// Pieces that hold together by intact bonds.
+// Pieces that hold together by intact bonds: all of them, and those that have stayed whole and still stand on
+// the platens.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "dem/bonds.h"
+#include "dem/packing/specimen.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
+
+// Of the members 0 ... n - 1, each a set of its own at first. A set is named by its smallest member, so that
+// names do not depend on the order in which pairs are joined.
+class DisjointSets {
+public:
+  explicit DisjointSets(std::size_t n);
+  int name(int member);
+  void join(int one, int other);
+  // Members of each set, ascending; sets by their names. Of those alone that are counted, where that is said:
+  // counted and other members must not have been joined.
+  std::vector<std::vector<int>> all(const std::vector<char> &counted = {});
+
+private:
+  std::vector<int> parent_;
+};
 
 struct Fragments {
   std::vector<int> of_particle; // fragment number of each row; 0 is the largest by mass, then descending
@@ -16,5 +35,28 @@ struct Fragments {
   int single = 0;               // particles that are alone
 };
 Fragments find_fragments(const Particles &particles, const Bonds *bonds);
+
+enum End { bottom_end = 0, top_end = 1 };
+
+// A sphere is sound that has kept `share` of its initial bonds (and had any). It stands on a platen where its
+// reference surface is within `reach` mean radii of the end plane.
+struct Soundness {
+  double share = 0.7; // 1
+  double reach = 0.5; // mean radii
+};
+
+// Sound spheres joined by intact bonds.
+struct SoundPieces {
+  static constexpr int none = -1;
+  std::vector<int> of_particle;            // piece of each row, by volume from the largest; `none`: not sound
+  std::vector<double> volume;              // m^3, of the spheres of a piece
+  std::array<std::vector<char>, 2> stands; // whether a piece stands on the platen of an End
+  std::array<int, 2> at_end{{none, none}}; // the largest piece that does; `none` where there is none
+  double bonded_volume = 0;                // m^3, of all spheres that ever had a bond
+  bool spans(int piece) const;             // from platen to platen
+  double share(int piece) const { return volume[piece] / bonded_volume; }
+};
+SoundPieces find_sound_pieces(const Particles &particles, const Bonds &bonds, const Shape &shape,
+                              const Soundness &soundness = {});
 
 } // namespace platen::dem

@@ -2,9 +2,22 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace platen::dem {
+namespace {
+
+// Mean displacement along an axis, m; NaN of no rows.
+double mean_motion(const Particles &p, const std::vector<int> &rows, int axis) {
+  double sum = 0;
+  for (const int i : rows)
+    sum += p.position[i][axis] - p.reference_position[i][axis];
+  return sum / static_cast<double>(rows.size());
+}
+
+} // namespace
 
 std::vector<char> ever_bonded(const Particles &p, const Bonds *bonds) {
   if (bonds == nullptr || bonds->initial_count() == 0) return std::vector<char>(p.size(), 1);
@@ -107,6 +120,37 @@ double ExtremalPairs::axial(const Particles &p) const {
   return (p.position[along_[1]].z - p.position[along_[0]].z) /
              (p.reference_position[along_[1]].z - p.reference_position[along_[0]].z) -
          1;
+}
+
+DiscOpening::DiscOpening(const Particles &p, const Shape &shape) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (std::abs(x.z - 0.5 * shape.height) > 0.25 * shape.radius) continue;
+    if (x.x > 0.7 * shape.radius) right_.push_back(static_cast<int>(i));
+    if (x.x < -0.7 * shape.radius) left_.push_back(static_cast<int>(i));
+  }
+}
+
+double DiscOpening::operator()(const Particles &p) const {
+  return mean_motion(p, right_, 0) - mean_motion(p, left_, 0);
+}
+
+Deflection::Deflection(const Particles &p, const Shape &shape, double span) {
+  const double half = std::max(shape.height / 8, 2 * mean_radius(p));
+  const double beyond = std::min(half, 0.5 * (shape.width_x - span));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (std::abs(x.z - 0.5 * shape.height) > half) continue;
+    if (std::abs(x.x) <= half) middle_.push_back(static_cast<int>(i));
+    if (std::abs(x.x + 0.5 * span) <= beyond) left_.push_back(static_cast<int>(i));
+    if (std::abs(x.x - 0.5 * span) <= beyond) right_.push_back(static_cast<int>(i));
+  }
+  if (left_.empty() || middle_.empty() || right_.empty())
+    throw std::invalid_argument("no sphere lies at half the depth above a support or at mid-span");
+}
+
+double Deflection::operator()(const Particles &p) const {
+  return 0.5 * (mean_motion(p, left_, 2) + mean_motion(p, right_, 2)) - mean_motion(p, middle_, 2);
 }
 
 } // namespace platen::dem

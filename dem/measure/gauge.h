@@ -1,4 +1,4 @@
-// Strain of the middle of a specimen, away from its ends.
+// What an instrument on a specimen would read: strain of its middle, opening of a disc, sag of a bar.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ private:
   std::array<double, 9> inverse_{}; // of the second moments of the reference positions
 };
 
-// Lateral and axial strain the way of Tannu 2017 (32)-(34): in three sections (a quarter, half and three
+// Lateral and axial strain after Tannu 2017 (32)-(34): in three sections (a quarter, half and three
 // quarters of the height) two pairs of outermost particles, along x and along y; the mean of the six
 // distances gives the lateral strain. Axial from the topmost and the lowest particle nearest to the axis of
 // each end. Loose spheres are passed over as in Gauge.
@@ -53,6 +53,52 @@ public:
 private:
   std::vector<std::array<int, 2>> across_;
   std::array<int, 2> along_{};
+};
+
+// Growth of the width across the loaded diameter: mean displacement along x of the spheres of the right rim
+// (reference x > 0.7 R, within R/4 of the centre's height) minus that of the left rim, m; NaN where a rim has
+// none.
+class DiscOpening {
+public:
+  DiscOpening(const Particles &particles, const Shape &shape);
+  double operator()(const Particles &particles) const;
+
+private:
+  std::vector<int> left_, right_;
+};
+
+// A beam of rectangular section on two supports, loaded in the middle of the span.
+struct ThreePoints {
+  double span = 0;    // m, L
+  double breadth = 0; // m, b, along y
+  double depth = 0;   // m, d, along the load
+
+  // m^2; the load over it is the flexural stress of a slender elastic beam, 3 P L / (2 b d^2).
+  double nominal_area() const { return 2 * breadth * depth * depth / (3 * span); }
+  // Deflection by shear over that by bending, Timoshenko's beam with the shear factor of Cowper (1966),
+  // 10 (1 + nu) / (12 + 11 nu).
+  double shear_share(double poisson_ratio) const {
+    return depth * depth / (span * span) * (12 + 11 * poisson_ratio) / 5;
+  }
+  // Deflection at mid-span under a flexural stress (Pa) of a beam with Young's modulus E (Pa), m:
+  // sigma L^2 / (6 E d), and the share of shear.
+  double deflection(double stress, double young_modulus, double poisson_ratio) const {
+    return stress * span * span / (6 * young_modulus * depth) * (1 + shear_share(poisson_ratio));
+  }
+};
+
+// Sag of the middle of the span: mean displacement along -z of the spheres at mid-span minus that of the
+// spheres above the two supports, the mean of both sides, m. All lie at half the depth, so that what is
+// crushed at the lines of load does not enter. A place is a window of a quarter of the depth, or of four mean
+// radii where that is more, along x no wider than what of the bar lies beyond the support.
+class Deflection {
+public:
+  // Throws std::invalid_argument where a place holds no sphere.
+  Deflection(const Particles &particles, const Shape &shape, double span);
+  double operator()(const Particles &particles) const;
+
+private:
+  std::vector<int> left_, middle_, right_;
 };
 
 } // namespace platen::dem

@@ -6,7 +6,7 @@
 namespace platen::dem::statics {
 
 template <int n>
-Clusters<n>::Clusters(const BlockRows<n, double> &a, const std::vector<Vector3> &place,
+Clusters<n>::Clusters(const BlockMatrix<n, double> &a, const std::vector<Vector3> &place,
                       const std::vector<double> &length, const std::vector<char> &fixed) {
   join(a, fixed);
   const std::size_t rows = a.rows(), count = begin_.size() - 1;
@@ -32,7 +32,7 @@ Clusters<n>::Clusters(const BlockRows<n, double> &a, const std::vector<Vector3> 
 }
 
 template <int n>
-void Clusters<n>::join(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
+void Clusters<n>::join(const BlockMatrix<n, double> &a, const std::vector<char> &fixed) {
   const std::size_t rows = a.rows();
   cluster_.assign(rows, -1);
   int count = 0;
@@ -103,8 +103,8 @@ void Clusters<n>::add_carried(const double *block, const Carry &row, const Carry
 }
 
 template <int n>
-BlockRows<n, double> Clusters<n>::stiffness(const BlockRows<n, double> &a) const {
-  BlockRows<n, double> b;
+BlockMatrix<n, double> Clusters<n>::stiffness(const BlockMatrix<n, double> &a) const {
+  BlockMatrix<n, double> b;
   std::vector<std::vector<int>> columns(size());
   const auto for_each_entry = [&](std::size_t c, const auto &body) {
     for (std::size_t m = begin_[c]; m < begin_[c + 1]; ++m) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/vector3.h"
-#include "dem/statics/block_rows.h"
+#include "dem/statics/block_matrix.h"
 
 namespace platen::dem::statics {
 
@@ -15,13 +15,13 @@ public:
   Clusters() = default;
   // A row and all its neighbours where none of them is taken yet; what is left joins a neighbour's cluster.
   // Fixed rows, and rows without a stiffness, are in none.
-  Clusters(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
+  Clusters(const BlockMatrix<n, double> &matrix, const std::vector<Vector3> &place,
            const std::vector<double> &length, const std::vector<char> &fixed);
 
   std::size_t size() const { return place_.size(); }
   const std::vector<Vector3> &place() const { return place_; }  // m, mean of the members'
   const std::vector<double> &length() const { return length_; } // m, by which rotations are multiplied
-  BlockRows<n, double> stiffness(const BlockRows<n, double> &matrix) const; // of the rigid clusters
+  BlockMatrix<n, double> stiffness(const BlockMatrix<n, double> &matrix) const; // of the rigid clusters
 
   void gather(const std::vector<float> &forces, std::vector<float> &of_clusters) const;
   // What the clusters' motions, times a factor, are to their members; 0 for rows in none.
@@ -32,7 +32,7 @@ private:
   struct Carry {
     double arm[3] = {0, 0, 0}, ratio = 1;
   };
-  void join(const BlockRows<n, double> &matrix, const std::vector<char> &fixed);
+  void join(const BlockMatrix<n, double> &matrix, const std::vector<char> &fixed);
   void add_carried(const double *block, const Carry &row, const Carry &column, double *to) const;
 
   std::vector<int> cluster_; // of each row, or -1
@@ -42,8 +42,5 @@ private:
   std::vector<Vector3> place_;
   std::vector<double> length_;
 };
-
-extern template class Clusters<3>;
-extern template class Clusters<6>;
 
 } // namespace platen::dem::statics

@@ -1,6 +1,7 @@
 #include "dem/statics/conjugate_gradients.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace platen::dem::statics {
 namespace {
@@ -8,29 +9,19 @@ namespace {
 // Unknowns of a vector that a thread takes at a time.
 constexpr std::size_t entries_per_part = 1 << 13;
 
-// Sum over entries in the order of the parts.
-template <class Term>
-double ordered(std::size_t entries, const Term &term) {
-  std::vector<double> partial(number_of_blocks(entries, entries_per_part), 0.0);
-  for_each_block(
-      entries,
-      [&](std::size_t first, std::size_t last, std::size_t part) {
-        double sum = 0;
-        for (std::size_t k = first; k < last; ++k)
-          sum += term(k);
-        partial[part] = sum;
+double product(const std::vector<double> &a, const std::vector<double> &b) {
+  return ordered_sum<double>(
+      a.size(),
+      [&](std::size_t first, std::size_t last) {
+        return std::inner_product(&a[first], &a[0] + last, &b[first], 0.0);
       },
       entries_per_part);
-  double sum = 0;
-  for (const double p : partial)
-    sum += p;
-  return sum;
 }
 
 } // namespace
 
 template <int n>
-Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inverse,
                              const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations) {
   const std::size_t size = right.size();
@@ -43,7 +34,7 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
     for (std::size_t c = 0; c < n; ++c)
       r[n * i + c] = fixed[i] ? 0.0 : right[n * i + c] - sum[c];
   });
-  const double wanted = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; }));
+  const double wanted = std::sqrt(product(r, r));
   Solution s;
   if (wanted == 0) {
     x = prescribed;
@@ -56,11 +47,11 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
   // The multigrid is not quite the same from call to call, by round-off of single precision: beta is that of
   // Polak and Ribiere, with the change of the residual.
   double rz = 0, change = 0;
-  s.residual = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; })) / wanted;
+  s.residual = std::sqrt(product(r, r)) / wanted;
   while (s.residual > tolerance && s.iterations < most_iterations) {
     inverse.apply(r, z);
-    const double now = ordered(size, [&](std::size_t k) { return r[k] * z[k]; });
-    if (s.iterations > 0) change = ordered(size, [&](std::size_t k) { return ad[k] * z[k]; });
+    const double now = product(r, z);
+    if (s.iterations > 0) change = product(ad, z);
     const double beta = s.iterations > 0 ? change / rz : 0;
     rz = now;
     for_each(
@@ -69,7 +60,7 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
       for (std::size_t c = 0; c < n; ++c)
         ad[n * i + c] = fixed[i] ? 0.0 : sum[c];
     });
-    const double curvature = ordered(size, [&](std::size_t k) { return d[k] * ad[k]; });
+    const double curvature = product(d, ad);
     if (!(curvature > 0) || !(rz > 0)) return s;
     const double alpha = rz / curvature;
     for_each(
@@ -80,16 +71,16 @@ Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &invers
           r[k] += ad[k];
         },
         entries_per_part);
-    s.residual = std::sqrt(ordered(size, [&](std::size_t k) { return r[k] * r[k]; })) / wanted;
+    s.residual = std::sqrt(product(r, r)) / wanted;
     ++s.iterations;
   }
   return s;
 }
 
-template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
+template Solution conjugate_gradients<3>(const BlockMatrix<3, double> &, Multigrid<3> &,
                                          const std::vector<char> &, const std::vector<double> &,
                                          std::vector<double> &, double, int);
-template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
+template Solution conjugate_gradients<6>(const BlockMatrix<6, double> &, Multigrid<6> &,
                                          const std::vector<char> &, const std::vector<double> &,
                                          std::vector<double> &, double, int);
 

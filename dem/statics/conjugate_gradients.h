@@ -16,15 +16,8 @@ struct Solution {
 // answer. The residual is over the larger of `right` and of what the fixed rows bring to it. Ends at the
 // tolerance, after so many iterations, or where A turns out to have a negative eigenvalue.
 template <int n>
-Solution conjugate_gradients(const BlockRows<n, double> &a, Multigrid<n> &inverse,
+Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inverse,
                              const std::vector<char> &fixed, const std::vector<double> &right,
                              std::vector<double> &x, double tolerance, int most_iterations);
-
-extern template Solution conjugate_gradients<3>(const BlockRows<3, double> &, Multigrid<3> &,
-                                                const std::vector<char> &, const std::vector<double> &,
-                                                std::vector<double> &, double, int);
-extern template Solution conjugate_gradients<6>(const BlockRows<6, double> &, Multigrid<6> &,
-                                                const std::vector<char> &, const std::vector<double> &,
-                                                std::vector<double> &, double, int);
 
 } // namespace platen::dem::statics

@@ -25,7 +25,7 @@ constexpr double softest = 1e-6;
 
 template <int n>
 struct Multigrid<n>::Level {
-  BlockRows<n, float> matrix;
+  BlockMatrix<n, float> matrix;
   std::vector<float> inverse; // of the diagonal blocks; 0 where fixed
   Clusters<n> clusters;
   std::vector<float> right, solution, residual, direction;
@@ -42,7 +42,7 @@ namespace {
 
 // Mean of the diagonal over the rows that are free.
 template <int n>
-double mean_diagonal(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
+double mean_diagonal(const BlockMatrix<n, double> &a, const std::vector<char> &fixed) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.rows(); ++i)
@@ -54,7 +54,7 @@ double mean_diagonal(const BlockRows<n, double> &a, const std::vector<char> &fix
 }
 
 template <int n>
-std::vector<float> inverse_of_diagonal(const BlockRows<n, double> &a, const std::vector<char> &fixed) {
+std::vector<float> inverse_of_diagonal(const BlockMatrix<n, double> &a, const std::vector<char> &fixed) {
   using Block = Eigen::Matrix<double, n, n>;
   const double soft = softest * mean_diagonal(a, fixed);
   std::vector<float> inverse(a.rows() * n * n, 0.0f);
@@ -74,8 +74,8 @@ std::vector<float> inverse_of_diagonal(const BlockRows<n, double> &a, const std:
 }
 
 template <int n>
-BlockRows<n, float> in_single(const BlockRows<n, double> &a) {
-  BlockRows<n, float> b;
+BlockMatrix<n, float> in_single(const BlockMatrix<n, double> &a) {
+  BlockMatrix<n, float> b;
   b.begin = a.begin;
   b.column = a.column;
   b.block.resize(a.block.size());
@@ -87,7 +87,7 @@ BlockRows<n, float> in_single(const BlockRows<n, double> &a) {
 } // namespace
 
 template <int n>
-Multigrid<n>::Multigrid(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
+Multigrid<n>::Multigrid(const BlockMatrix<n, double> &matrix, const std::vector<Vector3> &place,
                         const std::vector<double> &length, const std::vector<char> &fixed) {
   make_next(matrix, place, length, fixed);
 }
@@ -97,7 +97,7 @@ template <int n>
 Multigrid<n>::Multigrid(Multigrid &&) noexcept = default;
 
 template <int n>
-void Multigrid<n>::make_next(const BlockRows<n, double> &a, std::vector<Vector3> place,
+void Multigrid<n>::make_next(const BlockMatrix<n, double> &a, std::vector<Vector3> place,
                              std::vector<double> length, std::vector<char> fixed) {
   const std::size_t rows = a.rows();
   Clusters<n> clusters;

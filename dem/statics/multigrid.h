@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/vector3.h"
-#include "dem/statics/block_rows.h"
+#include "dem/statics/block_matrix.h"
 
 namespace platen::dem::statics {
 
@@ -20,7 +20,7 @@ class Multigrid {
 public:
   // Of a symmetric matrix without negative eigenvalues. `place`: of each row, m; `length`: by which its
   // rotation is multiplied, m. Rows that are `fixed` have no part in it: what comes back for them is 0.
-  Multigrid(const BlockRows<n, double> &matrix, const std::vector<Vector3> &place,
+  Multigrid(const BlockMatrix<n, double> &matrix, const std::vector<Vector3> &place,
             const std::vector<double> &length, const std::vector<char> &fixed);
   ~Multigrid();
   Multigrid(Multigrid &&) noexcept;
@@ -31,7 +31,7 @@ public:
 private:
   struct Level;
   struct Direct;
-  void make_next(const BlockRows<n, double> &matrix, std::vector<Vector3> place, std::vector<double> length,
+  void make_next(const BlockMatrix<n, double> &matrix, std::vector<Vector3> place, std::vector<double> length,
                  std::vector<char> fixed);
   void cycle(std::size_t level, bool rest);
   void visit_next(std::size_t level);
@@ -39,8 +39,5 @@ private:
   std::vector<Level> levels_;
   std::unique_ptr<Direct> direct_;
 };
-
-extern template class Multigrid<3>;
-extern template class Multigrid<6>;
 
 } // namespace platen::dem::statics

@@ -68,10 +68,10 @@ BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row) {
 } // namespace
 
 template <int n>
-BlockRows<n, double> assemble(const Particles &p, const Bonds &bonds) {
+BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
   const std::size_t particles = p.size();
   // Of each particle: its bonds as second particle, itself, its bonds as first; in the order of bonds.
-  BlockRows<n, double> a;
+  BlockMatrix<n, double> a;
   std::vector<std::size_t> as_second(particles, 0), as_first(particles, 0);
   for (std::size_t k = 0; k < bonds.size(); ++k) {
     ++as_first[static_cast<std::size_t>(bonds.first[k])];
@@ -139,8 +139,8 @@ void add_support_load(const Particles &p, const GroundSpring &s, const Vector3 &
       (moves(radius, s.arm).transpose() * force * eigen(moved)).template head<n>();
 }
 
-template BlockRows<3, double> assemble<3>(const Particles &, const Bonds &);
-template BlockRows<6, double> assemble<6>(const Particles &, const Bonds &);
+template BlockMatrix<3, double> assemble<3>(const Particles &, const Bonds &);
+template BlockMatrix<6, double> assemble<6>(const Particles &, const Bonds &);
 template void add_support<3>(const Particles &, const GroundSpring &, double *);
 template void add_support<6>(const Particles &, const GroundSpring &, double *);
 template void add_support_load<3>(const Particles &, const GroundSpring &, const Vector3 &, double *);

@@ -7,14 +7,14 @@
 #include "dem/bonds.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
-#include "dem/statics/block_rows.h"
+#include "dem/statics/block_matrix.h"
 
 namespace platen::dem::statics {
 
 // Of all bonds in their present directions, without the forces that are in them. Every row has its diagonal
 // block.
 template <int n>
-BlockRows<n, double> assemble(const Particles &particles, const Bonds &bonds);
+BlockMatrix<n, double> assemble(const Particles &particles, const Bonds &bonds);
 
 // Of a spring to a body; n x n by columns.
 template <int n>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dem/measure/bending.h"
+#include "dem/measure/gauge.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/dem/examples.h"
 

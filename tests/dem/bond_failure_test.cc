@@ -143,13 +143,13 @@ TEST(bond_failure, a_broken_bond_never_pulls_again_and_pushes_from_where_it_was)
 }
 
 // The dashpot of a bond acts until the bond breaks, the half step before it included.
-TEST(bond_failure, the_dashpot_of_a_breaking_bond_is_in_the_book) {
+TEST(bond_failure, the_dashpot_of_a_breaking_bond_is_in_the_balance) {
   ModelSettings settings = breakable();
   settings.bond_dashpot = .3;
   Model model(row(1, {1, 0, 0}), settings);
   Particles &p = model.particles;
   const double omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]);
-  p.velocity[1].x = 10 * breaking_strain * 2 * radius * omega; // breaks on the first swing
+  p.velocity[1].x = 10 * breaking_strain * 2 * radius * omega; // breaks in the first oscillation
   const double energy = kinetic_energy(p), dt = .02 / omega;
   for (int s = 0; s < 100; ++s)
     step(model, dt);
@@ -255,7 +255,7 @@ TEST(bond_failure, a_bond_broken_in_tension_hands_over_no_shear) {
   EXPECT_LT(std::abs(dot(pair.force(), Vector3{0, 1, 0})), 1e-2 * norm(pair.force()));
 }
 
-// Whole packing beyond its strength at once: every bond's energy is in the book, to round-off.
+// Whole packing beyond its strength at once: every bond's energy is in the balance, to round-off.
 TEST(bond_failure, a_burst_releases_what_was_stored) {
   ModelSettings settings = breakable();
   settings.contact.reset();
@@ -313,7 +313,7 @@ TEST(bond_failure, cracking_conserves_momentum_and_angular_momentum) {
   expect_below(6, "drift_of_angular_momentum", b.angular_drift, 1e-10);
 }
 
-TEST(bond_failure, the_energy_book_of_a_cracking_body_closes) {
+TEST(bond_failure, the_energy_balance_of_a_cracking_body_closes) {
   for (const double damping : {0.0, .2}) {
     const Burst coarse = burst(.8, damping), fine = burst(.2, damping);
     EXPECT_GT(fine.broken, 100);

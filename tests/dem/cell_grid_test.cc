@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "dem/not_finite.h"
+#include "dem/particles.h"
 
 namespace platen::dem {
 namespace {

@@ -32,7 +32,7 @@ struct Wanted {
 // Distance to the flank, of a point with z upwards from the end plane.
 double to_flank(const Wanted &w, const Vector3 &x) {
   const double tilt = w.tilt * degree;
-  // The axis passes half way up through that of the specimen.
+  // The axis passes at half its height through that of the specimen.
   const Cone cone{{.5 * w.depth * radius * std::tan(tilt), 0, w.depth * radius},
                   {-std::sin(tilt), 0, -std::cos(tilt)},
                   w.half_angle * degree};
@@ -219,7 +219,7 @@ TEST(cone, a_disc_has_none) {
   Cylinder c;
   c.shape = disc(Cylinder::width * radius, Cylinder::length * radius);
   for (const ConePiece &piece : cones_of(c))
-    EXPECT_EQ(piece.verdict, NoCone::not_looked);
+    EXPECT_EQ(piece.verdict, NoCone::not_measured);
 }
 
 } // namespace

@@ -159,7 +159,8 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
   ASSERT_FALSE(breaks.empty());
   body.bonds.break_rows(breaks, body.particles, 0.0);
   c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, false);
-  EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0) << "nobody has looked yet";
+  EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0)
+      << "areas have not been updated yet";
   for (Vector3 &f : body.particles.force)
     f = {};
   c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, true);

@@ -65,7 +65,7 @@ TEST(contact_search, bonded_pairs_do_not_touch_until_their_bond_breaks) {
   EXPECT_EQ(model.contacts->touching_count(), 1u);
 }
 
-// An intact packing has next to no pairs to look at: what makes steps cheap.
+// An intact packing has next to no pairs to check: what makes steps cheap.
 TEST(contact_search, an_intact_packing_lists_almost_no_pairs) {
   Model model(packed_box(20, 20, 20), breakable());
   step(model, 1e-8);

@@ -102,7 +102,7 @@ double hertz_restitution_by_quadrature(double damping_fraction, bool clamped) {
 TEST(contact, hertz_dashpot_gives_the_restitution_asked_for) {
   for (const double e : {.1, .3, .5, .7, .9, 1.0}) {
     const double fraction = HertzContact::damping_fraction(e);
-    // Free to attract at the end, the law gives e itself; held at zero instead, spheres part a little faster.
+    // Free to attract at the end, the law gives e itself; kept at zero instead, spheres part a little faster.
     EXPECT_NEAR(hertz_restitution_by_quadrature(fraction, false), e, 2e-3) << e;
     const double expected = hertz_restitution_by_quadrature(fraction, true);
     ModelSettings settings = unbonded(NormalContact::hertz, TangentialContact::none, 0);
@@ -160,7 +160,7 @@ TEST(contact, spheres_that_overlap_from_the_start_are_at_rest) {
   EXPECT_GT(model.contacts->energy(), 0);
 }
 
-// Sphere 0 held, sphere 1 pressed on it by N and pulled sideways by a force that grows.
+// Sphere 0 fixed, sphere 1 pressed on it by N and pulled sideways by a force that grows.
 TEST(contact, sliding_starts_at_the_coulomb_limit) {
   const double mu = .4, pressing = 10, k = 1e8; // N, N/m: the plane turns by 4e-5 until sliding
   ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, k);

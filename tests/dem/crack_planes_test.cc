@@ -5,8 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "dem/measure/crack_planes.h"
-#include "dem/measure/crack_rose.h"
+#include "dem/measure/cracks.h"
 #include "tests/dem/broken_specimens.h"
 #include "tests/dem/examples.h"
 
@@ -86,7 +85,7 @@ TEST(crack_planes, an_intact_specimen_and_a_crushed_one_have_none) {
   EXPECT_EQ(sum_up({}, c.bonds).share, 0);
 }
 
-TEST(crack_rose, cracks_that_face_all_ways_alike_give_one_everywhere) {
+TEST(crack_rose, cracks_that_face_all_directions_alike_give_one_everywhere) {
   CrackRose rose;
   const int n = 200000; // points of a spiral, even on the sphere
   for (int k = 0; k < n; ++k) {

@@ -1,4 +1,4 @@
-// The scheme of Tchamwa and Wielgosz: amplification, damping of fast swings, stability, energy book.
+// The scheme of Tchamwa and Wielgosz: amplification, damping of fast oscillations, stability, energy balance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,10 +19,10 @@ ModelSettings dissipative(double phi) {
   return settings;
 }
 
-// A pair that swings along its axis, as an oscillator of the frequency w: x the stretch, v its rate.
-class Swing {
+// A pair that oscillates along its axis with the frequency w: x the stretch, v its rate.
+class Oscillator {
 public:
-  Swing(const ModelSettings &settings, double x, double v) : model(row(1, {1, 0, 0}), settings) {
+  Oscillator(const ModelSettings &settings, double x, double v) : model(row(1, {1, 0, 0}), settings) {
     Particles &p = model.particles;
     omega = std::sqrt(2 * normal_stiffness * area / p.mass[0]);
     p.position[0].x -= .5 * x, p.position[1].x += .5 * x;
@@ -46,8 +46,8 @@ struct Amplification {
 // Of one step, in x and v/w; W = w dt.
 Amplification amplification(double phi, double W) {
   const double size = 1e-3 * radius;
-  Swing stretched(dissipative(phi), size, 0);
-  Swing moving(dissipative(phi), 0, size * stretched.omega);
+  Oscillator stretched(dissipative(phi), size, 0);
+  Oscillator moving(dissipative(phi), 0, size * stretched.omega);
   const double dt = W / stretched.omega;
   step(stretched.model, dt), step(moving.model, dt);
   const double a = stretched.x() / size, c = stretched.v() / (size * stretched.omega);
@@ -66,7 +66,8 @@ TEST(dissipative_scheme, has_the_amplification_of_its_source) {
   EXPECT_NEAR(amplification(1.3, 1).radius(), .83666, 5e-6);
 }
 
-// Swings below W = 2/phi are complex: both eigenvalues shrink alike. Above, one of them comes back to 1.
+// Oscillations below W = 2/phi are complex: both eigenvalues shrink alike. Above, one of them comes back
+// to 1.
 TEST(dissipative_scheme, damps_most_at_the_bifurcation) {
   const double phi = 1.3, W = 2 / phi;
   EXPECT_NEAR(amplification(phi, W).radius(), phi * W * W / 2 - 1,
@@ -75,27 +76,27 @@ TEST(dissipative_scheme, damps_most_at_the_bifurcation) {
   EXPECT_GT(amplification(phi, W + .02).radius(), amplification(phi, W).radius());
 }
 
-TEST(dissipative_scheme, damps_slow_swings_by_half_of_excess_and_step) {
+TEST(dissipative_scheme, damps_slow_oscillations_by_half_of_excess_and_step) {
   const double phi = 1.2, W = .05, size = 1e-3 * radius;
-  Swing swing(dissipative(phi), size, 0);
+  Oscillator oscillator(dissipative(phi), size, 0);
   const int steps = 4000;
   for (int s = 0; s < steps; ++s)
-    step(swing.model, W / swing.omega);
-  const double amplitude = std::hypot(swing.x(), swing.v() / swing.omega);
+    step(oscillator.model, W / oscillator.omega);
+  const double amplitude = std::hypot(oscillator.x(), oscillator.v() / oscillator.omega);
   const double ratio = -std::log(amplitude / size) / (W * steps);
-  // The next terms of the logarithm are of the order W^2; the amplitude swings by (phi - 1) W.
+  // The next terms of the logarithm are of the order W^2; the amplitude oscillates by (phi - 1) W.
   EXPECT_NEAR(ratio, .5 * (phi - 1) * W, .02 * .5 * (phi - 1) * W);
 }
 
 // The loops of the scheme with next to no dissipation: what they lose in 1e5 steps is (phi - 1) W^2 each.
 TEST(dissipative_scheme, without_excess_holds_the_energy) {
   const double W = .5;
-  Swing swing(dissipative(1 + 1e-10), 1e-3 * radius, 0);
-  const double start = swing.model.energy().stored();
+  Oscillator oscillator(dissipative(1 + 1e-10), 1e-3 * radius, 0);
+  const double start = oscillator.model.energy().stored();
   double most = 0, least = 2 * start;
   for (int s = 0; s < 100000; ++s) {
-    step(swing.model, W / swing.omega);
-    const double e = swing.model.energy().stored();
+    step(oscillator.model, W / oscillator.omega);
+    const double e = oscillator.model.energy().stored();
     most = std::max(most, e), least = std::min(least, e);
   }
   // The band of velocity Verlet, W^2/4 of the energy.
@@ -105,26 +106,27 @@ TEST(dissipative_scheme, without_excess_holds_the_energy) {
 
 // Energy, what was lost and dt^2/8 m a^2, the band of velocity Verlet, balance to round-off where springs are
 // linear.
-TEST(dissipative_scheme, books_what_it_takes_exactly) {
+TEST(dissipative_scheme, accounts_for_what_it_takes_exactly) {
   const double W = .8, size = 1e-3 * radius;
-  Swing swing(dissipative(1.3), size, 0);
-  const double dt = W / swing.omega, m = swing.model.particles.mass[0];
-  const auto book = [&] {
-    const double f = swing.model.particles.force[0].x;
-    return swing.model.energy().stored() + swing.model.energy().lost() - dt * dt / 8 * 2 * f * f / m;
+  Oscillator oscillator(dissipative(1.3), size, 0);
+  const double dt = W / oscillator.omega, m = oscillator.model.particles.mass[0];
+  const auto balance = [&] {
+    const double f = oscillator.model.particles.force[0].x;
+    return oscillator.model.energy().stored() + oscillator.model.energy().lost() -
+           dt * dt / 8 * 2 * f * f / m;
   };
-  const double start = book();
+  const double start = balance();
   double lost = 0;
   for (int s = 0; s < 200; ++s) {
-    step(swing.model, dt);
-    ASSERT_NEAR(book(), start, 1e-10 * start) << s; // positions hold stretches to 1e-10
-    lost = swing.model.energy().damping;
+    step(oscillator.model, dt);
+    ASSERT_NEAR(balance(), start, 1e-10 * start) << s; // positions hold stretches to 1e-10
+    lost = oscillator.model.energy().damping;
   }
   // All of it by now, but for the band at the start, W^2/4 of the energy.
   EXPECT_NEAR(lost, .5 * normal_stiffness * area * size * size * (1 - W * W / 4), 1e-9 * lost);
 }
 
-TEST(dissipative_scheme, damps_turning_as_it_damps_swinging) {
+TEST(dissipative_scheme, damps_turning_as_it_damps_oscillation) {
   const double phi = 1.3, angle = 1e-5;
   const auto twisted = [&](double turn, double spin, double dt) {
     Model model(row(1, {1, 0, 0}), dissipative(phi));
@@ -164,11 +166,11 @@ TEST(dissipative_scheme, lets_a_free_sphere_fly_and_turn) {
 
 // Contacts, dashpots and works take the path of a step for the velocity times dt.
 TEST(dissipative_scheme, shows_the_velocity_of_the_drift_until_the_step_ends) {
-  Swing swing(dissipative(1.5), 1e-2 * radius, .3);
-  const double dt = .9 / swing.omega;
+  Oscillator oscillator(dissipative(1.5), 1e-2 * radius, .3);
+  const double dt = .9 / oscillator.omega;
   for (int s = 0; s < 5; ++s) {
-    const Vector3 before = swing.model.particles.position[1];
-    step(swing.model, dt, [&](Particles &p) {
+    const Vector3 before = oscillator.model.particles.position[1];
+    step(oscillator.model, dt, [&](Particles &p) {
       const Vector3 path = p.position[1] - before;
       EXPECT_LT(norm(path - dt * p.velocity[1]), 1e-15 * norm(before));
     });
@@ -240,7 +242,7 @@ double bar_residual(double phi, double &lost) {
   return most;
 }
 
-TEST(dissipative_scheme, closes_the_book_as_velocity_verlet_does) {
+TEST(dissipative_scheme, closes_the_balance_as_velocity_verlet_does) {
   double lost_by_verlet = 0, lost = 0;
   const double verlet = bar_residual(1, lost_by_verlet), residual = bar_residual(1.3, lost);
   EXPECT_EQ(lost_by_verlet, 0);
@@ -262,8 +264,8 @@ TEST(dissipative_scheme, keeps_momentum) {
   EXPECT_LT(norm(after.linear - before.linear), 1e-11 * before.linear_scale);
 }
 
-// Going round is two swings at right angles: the orbit loses (phi - 1) W^2 a step. The spins of the spheres,
-// .4 of the orbit, follow it through the bond.
+// Going round is two oscillations at right angles: the orbit loses (phi - 1) W^2 a step. The spins of the
+// spheres, .4 of the orbit, follow it through the bond.
 TEST(dissipative_scheme, slows_what_circles_fast) {
   const double phi = 1.5;
   Model model(row(1, {1, 0, 0}), dissipative(phi));
@@ -283,7 +285,7 @@ TEST(dissipative_scheme, slows_what_circles_fast) {
 }
 
 // Every term at once: breaks, friction, both kinds of dashpots, local damping, weight.
-TEST(dissipative_scheme, closes_the_book_of_a_block_that_cracks) {
+TEST(dissipative_scheme, closes_the_balance_of_a_block_that_cracks) {
   const auto residual = [](double phi, double share) {
     ModelSettings settings = breakable();
     settings.scheme = Scheme::tchamwa_wielgosz;

@@ -1,4 +1,4 @@
-// The elasto-damage-plastic law, one interface led by hand, against its closed forms.
+// The elasto-damage-plastic law, one interface with prescribed motion, against its closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ ElastoDamagePlastic::Parameters concrete() {
 
 constexpr double modulus = 28e9, length = 0.01, radius = 0.004; // Pa, m, m
 
-// Two spheres along z, the second one led.
+// Two spheres along z, the second one prescribed.
 struct Interface {
   ElastoDamagePlastic law;
   InterfaceGeometry<double> geometry{length, 0.5, modulus / length, pi *radius *radius};
@@ -187,7 +187,7 @@ TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_f
   slide(0.75 * limit * (1 + 1e-12), 5);
   EXPECT_EQ(pair.state.shear_damage, 1);
   EXPECT_NEAR(pair.shear(), residual, 1e-9 * strength);
-  // It sticks the other way, then slides.
+  // It sticks in the other sense, then slides.
   slide(-residual / pair.shear_stiffness(), 4);
   EXPECT_NEAR(pair.shear(), 0, 1e-9 * strength);
   slide(-3 * residual / pair.shear_stiffness(), 4);
@@ -216,7 +216,7 @@ TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for)
   EXPECT_NEAR(work, pair.state.dissipated + pair.now.energy - start, 1e-6 * work);
 }
 
-// Velocity Verlet does the work of the mean of the forces at both ends of a step: the book closes to
+// Velocity Verlet does the work of the mean of the forces at both ends of a step: the balance closes to
 // round-off at steps of any size, through damage, slip under a pressure that changes, and failure.
 TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled})
@@ -224,7 +224,7 @@ TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
       ElastoDamagePlastic::Parameters p = concrete();
       p.failure_line = line;
       p.softening_tension = 1;
-      p.compression_limits = p.compression_slopes = {}; // yield books its own closed form
+      p.compression_limits = p.compression_slopes = {}; // yield adds its own closed form
       Interface pair(p);
       const double reach = normal / pair.geometry.normal_stiffness, limit = 16e6 / pair.shear_stiffness();
       double work = 0, at = 0, largest = 0;

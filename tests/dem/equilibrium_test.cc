@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "dem/measure/moduli.h"
+#include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/sparse_equilibrium.h"
 
@@ -33,7 +33,7 @@ StaticCase clamped_at(std::size_t row) {
 
 class Cantilever : public testing::TestWithParam<Vector3> {};
 
-// Whatever way it points: Euler and Bernoulli at the node at its tip.
+// Whatever its direction: Euler and Bernoulli at the node at its tip.
 TEST_P(Cantilever, of_beams_is_a_beam) {
   const Vector3 axis = GetParam() / norm(GetParam());
   const Vector3 side = cross(axis, Vector3{.3, -.5, .81}) / norm(cross(axis, Vector3{.3, -.5, .81}));
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(equilibrium, Cantilever,
                          testing::Values(Vector3{1, 0, 0}, Vector3{0, 0, -1}, Vector3{1, -2, .7}));
 
 // Loads and prescribed particles ask for the same: what a load does, that displacement gives the load back.
-TEST(equilibrium, led_particles_feel_what_loads_would_do) {
+TEST(equilibrium, prescribed_particles_feel_what_loads_would_do) {
   Model model(packed_box(9, 9, 9), bonded());
   const Particles &p = model.particles;
   const std::size_t low = 0, high = p.size() - 1;
@@ -185,7 +185,7 @@ TEST(equilibrium, a_start_saves_iterations_and_nothing_else) {
   Model model(packed_box(20, 20, 30), bonded());
   const Particles &p = model.particles;
   StaticCase load = pressed(p, 30 * radius);
-  StaticSolver solver(p, *model.bonds);
+  EquilibriumSolver solver(p, *model.bonds);
   StaticSettings fine;
   fine.tolerance = 1e-11;
   const StaticState all = solver.solve(load, fine);
@@ -222,11 +222,11 @@ TEST(equilibrium, loose_spheres_stay_where_they_are) {
   EXPECT_THROW(solve_static(model.particles, *model.bonds, load), NoEquilibrium);
 }
 
-TEST(equilibrium, a_particle_is_led_once) {
+TEST(equilibrium, a_particle_is_prescribed_once) {
   Model model(row(3, {1, 0, 0}), bonded());
   StaticCase load = clamped_at(0);
   load.prescribed.push_back({0, {1e-6, 0, 0}, {}});
-  StaticSolver solver(model.particles, *model.bonds);
+  EquilibriumSolver solver(model.particles, *model.bonds);
   for (int way = 0; way < 2; ++way)
     try {
       way == 0 ? solver.solve(load) : solve_static(model.particles, *model.bonds, load);
@@ -248,7 +248,7 @@ TEST(equilibrium, a_particle_is_led_once) {
 }
 
 // Whatever spring it has too, a prescribed particle is where it was moved to.
-TEST(equilibrium, a_led_particle_does_not_feel_its_support) {
+TEST(equilibrium, a_prescribed_particle_does_not_feel_its_support) {
   Model model(row(3, {1, 0, 0}), bonded());
   const Particles &p = model.particles;
   const std::size_t low = row_of(p, 0), high = row_of(p, 3);

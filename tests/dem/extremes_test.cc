@@ -15,7 +15,7 @@ using namespace examples;
 using measured::expect_below;
 
 // A light sphere bonded between two heavy ones, masses 1e6 apart by their radii, and pulled: the bonds are
-// springs in series, the book closes.
+// springs in series, the balance closes.
 TEST(extremes, a_mass_ratio_of_a_million_leaves_springs_in_series) {
   const double large = 100 * radius;
   Specimen specimen = spheres({{-(large + radius), 0, 0}, {0, 0, 0}, {large + radius, 0, 0}});

@@ -151,7 +151,7 @@ TEST(integrator, a_thrown_sphere_follows_its_parabola) {
     step(model, 1e-4);
   EXPECT_NEAR(p.position[0].x, .1, 1e-13);
   EXPECT_NEAR(p.position[0].z, .3 - .5 * 9.80665 * .01, 1e-13); // leapfrog is exact for a constant force
-  // The work of the weight is booked at full-step velocities: half a step's kick is open at either end.
+  // The work of the weight is taken at full-step velocities: half a step's kick is open at either end.
   const double open = .5 * 1e-4 * p.mass[0] * 9.80665 * 9.80665 * .1;
   EXPECT_NEAR(model.energy().residual(), .5 * p.mass[0] * 10, 1.01 * open);
 }

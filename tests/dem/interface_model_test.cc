@@ -21,7 +21,7 @@ double difference(const Triple<double> &a, const Vector3 &b) {
   return norm(Vector3{a.x, a.y, a.z} - b);
 }
 
-// Spheres on their way, at random and inwards: some interfaces are drawn apart, some slide, some are pressed
+// Spheres in motion, at random and inwards: some interfaces are drawn apart, some slide, some are pressed
 // beyond yield. `rate` in 1/s.
 void set_moving(Particles &p, double speed, double rate = 0) {
   Random random(5);
@@ -34,7 +34,7 @@ void set_moving(Particles &p, double speed, double rate = 0) {
   }
 }
 
-// Leads every interface by the law alone, in doubles, beside a model that steps.
+// Moves every interface by the law alone, in doubles, beside a model that steps.
 struct ByHand {
   std::vector<InterfaceState<double>> states;
 
@@ -99,9 +99,9 @@ TEST_P(InterfaceKernels, follow_the_law_on_every_instruction_set) {
 }
 INSTANTIATE_TEST_SUITE_P(rotation, InterfaceKernels, testing::Bool());
 
-// A free block that shakes itself to pieces: what it had at first is stored, or booked as damage, yield and
+// A free block that shakes itself to pieces: what it had at first is stored, or counted as damage, yield and
 // friction.
-TEST(InterfaceModel, the_energy_book_of_a_breaking_block_closes) {
+TEST(InterfaceModel, the_energy_balance_of_a_breaking_block_closes) {
   double residual[2];
   for (int fine = 0; fine < 2; ++fine) {
     Model model(packed_box(16, 16, 16), interfaces());

@@ -21,7 +21,7 @@ public:
     const std::size_t clamp = row_of(model.particles, 0);
     model.particles.mass[clamp] = (*model.particles.inertia)[clamp] = 1e30; // kg, kg m^2: does not move
   }
-  // Until damping has left some 1e-9 of the swings, whose period grows as the square of the length.
+  // Until damping has left some 1e-9 of the oscillations, whose period grows as the square of the length.
   void bend(const Vector3 &force, const Vector3 &torque) {
     const std::size_t tip = row_of(model.particles, beams_);
     const double dt = .5 * model.stable_step({}, 0).limit;

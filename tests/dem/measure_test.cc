@@ -6,11 +6,10 @@
 #include <functional>
 #include <numeric>
 
-#include "dem/measure/bond_stress.h"
+#include "dem/measure/bond_network.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
-#include "dem/measure/moduli.h"
 #include "dem/measure/stress.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/dem/examples.h"

@@ -6,10 +6,9 @@
 #include <limits>
 
 #include "dem/equilibrium.h"
-#include "dem/measure/bond_energy.h"
-#include "dem/measure/region.h"
-#include "dem/measure/section.h"
+#include "dem/measure/bond_network.h"
 #include "dem/measure/spectrum.h"
+#include "dem/measure/stress.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -48,8 +47,8 @@ ModelSettings beams() {
   return bonded_by_beams(40e9, .2, .7);
 }
 
-// Clapeyron: half the load times its way; and the same as the bonds' own potential, to the size of the
-// strain.
+// Clapeyron: half the load times its displacement; and the same as the bonds' own potential, to the size of
+// the strain.
 TEST(network, shares_of_the_energy_are_the_work_of_the_load) {
   for (const ModelSettings &settings : {bonded(), beams()}) {
     Pulled pulled(settings);

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/pi.h"
-#include "dem/packing/ends.h"
 #include "dem/packing/specimen.h"
 
 namespace {

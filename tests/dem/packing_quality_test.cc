@@ -13,7 +13,6 @@
 #include "base/random.h"
 #include "dem/packing/direction_cells.h"
 #include "dem/packing/quality.h"
-#include "dem/packing/sphere_clipping.h"
 
 namespace {
 
@@ -152,7 +151,7 @@ TEST(DirectionCells, are_hit_by_their_weight) {
     EXPECT_NEAR(hits[c] / n, cells.weight(c), 5 * std::sqrt(cells.weight(c) / n));
 }
 
-TEST(DirectionCells, count_an_axis_once_whichever_way_it_points) {
+TEST(DirectionCells, count_an_axis_once_whatever_its_sign) {
   const std::vector<AxisCell> none = count_axes({});
   ASSERT_EQ(none.size(), DirectionCells::count / 2);
   double sum = 0;

@@ -1,5 +1,5 @@
 // Aggregates in a matrix: who is what, springs in series, and where cracks begin.
-#include "dem/phases.h"
+#include "dem/heterogeneity.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dem/measure/moduli.h"
+#include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {

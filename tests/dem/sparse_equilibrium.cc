@@ -33,7 +33,7 @@ Matrix3 spring(const Vector3 &n, double along, double across) {
 }
 
 // K x = f in displacements and rotations times the radius, the particles' own or, without rotation,
-// displacements alone. What is led is moved to the right hand side; its own rows are those of the unit
+// displacements alone. What is prescribed is moved to the right hand side; its own rows are those of the unit
 // matrix.
 class Network {
 public:
@@ -122,33 +122,33 @@ private:
   }
 
   void couple(std::size_t row, std::size_t column, const Matrix6 &block) {
-    const int led_row = prescribed_[row], led_column = prescribed_[column];
-    if (led_row >= 0 && led_column >= 0) return;
-    if (led_column >= 0)
+    const int prescribed_row = prescribed_[row], prescribed_column = prescribed_[column];
+    if (prescribed_row >= 0 && prescribed_column >= 0) return;
+    if (prescribed_column >= 0)
       right_.segment(at(row), width_) -=
-          (block * prescribed_state_[static_cast<std::size_t>(led_column)]).head(width_);
-    else if (led_row >= 0)
+          (block * prescribed_state_[static_cast<std::size_t>(prescribed_column)]).head(width_);
+    else if (prescribed_row >= 0)
       right_.segment(at(column), width_) -=
-          (block.transpose() * prescribed_state_[static_cast<std::size_t>(led_row)]).head(width_);
+          (block.transpose() * prescribed_state_[static_cast<std::size_t>(prescribed_row)]).head(width_);
     else
       for (Index c = 0; c < width_; ++c)
         for (Index r = 0; r < width_; ++r)
           entries_.emplace_back(at(row) + r, at(column) + c, block(r, c));
   }
 
-  // The diagonal blocks. What nothing holds, or what is led, keeps the unit matrix, times a stiffness like
-  // others'.
+  // The diagonal blocks. What nothing holds, or what is prescribed, keeps the unit matrix, times a stiffness
+  // like others'.
   void finish() {
     double largest = 0;
     for (const Matrix6 &d : diagonal_)
       largest = std::max(largest, d.diagonal().maxCoeff());
     if (largest == 0) largest = 1;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const bool led = prescribed_[i] >= 0, loose = diagonal_[i].isZero(0);
-      if (loose && !led && !right_.segment(at(i), width_).isZero(0))
+      const bool prescribed = prescribed_[i] >= 0, loose = diagonal_[i].isZero(0);
+      if (loose && !prescribed && !right_.segment(at(i), width_).isZero(0))
         throw NoEquilibrium("nothing holds particle " + std::to_string(p_.id[i]) + ", which is loaded");
-      if (led || loose) diagonal_[i] = largest * Matrix6::Identity();
-      if (led)
+      if (prescribed || loose) diagonal_[i] = largest * Matrix6::Identity();
+      if (prescribed)
         right_.segment(at(i), width_) =
             (largest * prescribed_state_[static_cast<std::size_t>(prescribed_[i])]).head(width_);
       for (Index c = 0; c < width_; ++c)

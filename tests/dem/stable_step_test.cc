@@ -29,7 +29,7 @@ bool runs_away(const Specimen &specimen, const ModelSettings &settings, double d
   start = kinetic_energy(model.particles);
   for (int s = 0; s < 600; ++s) {
     step(model, dt);
-    // Just below the limit the scheme's own energy swings by 1/(1 - (dt/limit)^2), here up to 25.
+    // Just below the limit the scheme's own energy oscillates by 1/(1 - (dt/limit)^2), here up to 25.
     if (!(kinetic_energy(model.particles) < 300 * start)) return true;
   }
   return false;

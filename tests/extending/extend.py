@@ -83,9 +83,9 @@ def main():
     copy = folder / "sources"
     copy_of(source, copy)
     small = all([add(copy, what) for what in ADDITIONS])
-    shutil.copy(HERE / "check_laws.cc", copy / "dem/check_laws.cc")
+    shutil.copy(HERE / "check_laws.cc", copy / "dem/laws/check_laws.cc")
     with open(copy / "dem/CMakeLists.txt", "a", encoding="utf-8") as cmake:
-        cmake.write("add_executable(check_laws check_laws.cc)\ntarget_link_libraries(check_laws PRIVATE platen_dem)\n")
+        cmake.write("add_executable(check_laws laws/check_laws.cc)\ntarget_link_libraries(check_laws PRIVATE platen_dem)\n")
     build = folder / "build"
     run("cmake", "-S", copy, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_APPS=OFF", "-DPLATEN_TESTS=OFF",
         "-DPLATEN_BENCH=OFF", *compiler)

@@ -1,13 +1,21 @@
-#include "dem/phases.h"
+#include "dem/heterogeneity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "base/random.h"
 #include "dem/bonds.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
+namespace {
+
+// Keeps strengths apart from the packing, which draws from the same seed.
+constexpr std::uint64_t stream = 0x5ca77e7ed57e9675ULL;
+
+} // namespace
 
 void mark_phases(Particles &p, const Phases &phases) {
   require_in_range(phases);
@@ -38,6 +46,27 @@ void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases
     bonds.normal_stiffness[k] *= f.modulus;
     if (bonds.strength_factor != nullptr) (*bonds.strength_factor)[k] *= f.strength;
   }
+}
+
+std::vector<double> weibull_factors(std::size_t count, const StrengthScatter &scatter) {
+  const double m = scatter.weibull_modulus;
+  if (!(m > 0 && std::isfinite(m))) throw std::invalid_argument("the Weibull modulus must be positive");
+  const double scale = 1 / std::tgamma(1 + 1 / m);
+  Random random(scatter.seed ^ stream);
+  std::vector<double> factors(count);
+  for (double &s : factors) {
+    const double survival = 1 - random.uniform(); // above 0, and 1 once in 2^53: no strength at all
+    s = scale * std::pow(-std::log(survival), 1 / m);
+    if (!(s > 0)) s = std::numeric_limits<double>::min();
+  }
+  return factors;
+}
+
+void scatter_strengths(Bonds &bonds, const StrengthScatter &scatter) {
+  bonds.add_strength_factor();
+  const std::vector<double> factors = weibull_factors(bonds.records.size(), scatter);
+  for (std::size_t k = 0; k < bonds.size(); ++k)
+    (*bonds.strength_factor)[k] *= factors[static_cast<std::size_t>(bonds.record[k])];
 }
 
 } // namespace platen::dem

@@ -1,4 +1,4 @@
-#include "dem/measure/crack_planes.h"
+#include "dem/measure/cracks.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -6,14 +6,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "base/pi.h"
 #include "dem/cell_grid.h"
-#include "dem/mean_radius.h"
 #include "dem/measure/damage.h"
-#include "dem/measure/disjoint_sets.h"
+#include "dem/measure/fragments.h"
 
 namespace platen::dem {
 namespace {
+
+constexpr double quarter_turn = pi / 2;
 
 CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vector3> &points) {
   CrackPlane plane;
@@ -35,7 +38,7 @@ CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vect
   return plane;
 }
 
-// Shares of broken bonds around one, below which it is left out: of the first look and of the next ones.
+// Shares of broken bonds around one, below which it is left out: in the first pass and in the next ones.
 constexpr std::array<double, 5> least_damage{0, 0.5, 0.6, 0.7, 0.8};
 
 struct Midpoints {
@@ -49,7 +52,7 @@ Midpoints midpoints(const Particles &p, const Bonds &b, double reach) {
   const std::size_t n = b.initial_count();
   m.at.resize(n);
   for (std::size_t k = 0; k < n; ++k)
-    m.at[k] = 0.5 * (p.reference_position[b.record_first[k]] + p.reference_position[b.record_second[k]]);
+    m.at[k] = reference_midpoint(p, b, k);
   std::vector<int> all(n, 1), broken(n, 1);
   const std::vector<double> points(n, 0.0);
   for (const IndexPair &pair : near_pairs(m.at.data(), points.data(), n, reach)) {
@@ -65,6 +68,23 @@ Midpoints midpoints(const Particles &p, const Bonds &b, double reach) {
 }
 
 } // namespace
+
+void CrackRose::add(const Vector3 &normal, double crack_area) {
+  const double angle = std::acos(std::min(1.0, std::abs(normal.z)));
+  area[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>(bins * angle / quarter_turn)))] +=
+      crack_area;
+}
+
+std::array<double, CrackRose::bins> CrackRose::over_isotropic() const {
+  const double all = std::accumulate(area.begin(), area.end(), 0.0);
+  std::array<double, bins> rose{};
+  for (int k = 0; k < bins; ++k) {
+    const double directions = std::cos(quarter_turn * k / bins) - std::cos(quarter_turn * (k + 1) / bins);
+    rose[static_cast<std::size_t>(k)] = all > 0 ? area[static_cast<std::size_t>(k)] / all / directions
+                                                : std::numeric_limits<double>::quiet_NaN();
+  }
+  return rose;
+}
 
 std::vector<CrackPlane> find_crack_planes(const Particles &p, const Bonds &b, const CrackPlaneRules &rules) {
   const std::size_t n = b.initial_count();
@@ -83,7 +103,7 @@ std::vector<CrackPlane> find_crack_planes(const Particles &p, const Bonds &b, co
     for (const std::vector<int> &cluster : sets.all(left)) {
       const bool small = static_cast<int>(cluster.size()) < rules.least_bonds;
       const CrackPlane plane = small ? CrackPlane{} : plane_through(cluster, m.at);
-      if (!small && plane.flatness < rules.least_flatness) continue; // looked at again
+      if (!small && plane.flatness < rules.least_flatness) continue; // checked again
       if (!small) planes.push_back(plane);
       for (const int k : cluster)
         left[k] = 0;

@@ -1,13 +1,28 @@
-// Where broken bonds lie in one plane.
+// Which directions cracks face, and where broken bonds lie in one plane.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/archive.h"
+#include "base/vector3.h"
 #include "dem/bonds.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
+
+// Area of broken bonds by the angle of their normals to the axis z, in nine bins of ten degrees from along it
+// (cracks across the specimen) to across it (cracks along the specimen).
+struct CrackRose {
+  static constexpr int bins = 9;
+  std::array<double, bins> area{}; // m^2
+
+  // A unit normal, of either sense; m^2.
+  void add(const Vector3 &normal, double crack_area);
+  // Share of the area over the bin's share of all directions: 1 everywhere where cracks face all directions
+  // alike. NaN without cracks.
+  std::array<double, bins> over_isotropic() const;
+};
 
 // Lengths in mean sphere radii.
 struct CrackPlaneRules {
@@ -27,7 +42,7 @@ struct CrackPlane {
 
 // Clusters of broken bonds by single linkage of their reference midpoints, of those that are flat; the
 // largest first. Where much is broken all of it hangs together, and cracks show as sheets in which more is
-// broken than beside them. So a cluster that is not flat is looked at again without the bonds around which
+// broken than beside them. So a cluster that is not flat is checked again without the bonds around which
 // less than half (then 0.6, 0.7, 0.8) of the bonds within `reach` are broken, until its parts are flat or
 // small. Planes that cross are one cluster that is not flat, and are not found; a small cluster may look flat
 // by chance.

@@ -13,7 +13,7 @@ constexpr std::size_t rows_per_part = 128;
 
 // Square; blocks are n x n, stored by columns.
 template <int n, class Real>
-struct BlockRows {
+struct BlockMatrix {
   std::vector<std::size_t> begin{0}; // first block of each row, one entry more than rows
   std::vector<int> column;           // of each block
   std::vector<Real> block;
@@ -33,7 +33,7 @@ inline void add_product(const Real *block, const Real *x, Real *y) {
 
 // done(row, A x of that row) for every row, on any number of threads; each row is summed in its own order.
 template <int n, class Real, class Done>
-void for_each_product(const BlockRows<n, Real> &a, const Real *x, const Done &done) {
+void for_each_product(const BlockMatrix<n, Real> &a, const Real *x, const Done &done) {
   for_each(
       a.rows(),
       [&](std::size_t row) {

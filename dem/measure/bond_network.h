@@ -1,4 +1,5 @@
-// What the bonds of a slightly deformed network store, by the way they are strained.
+// What a bonded network says of itself: the energy of its bonds, by how they are strained, its elastic
+// moduli before anything is loaded, and the section of a bar that carries its forces.
 #pragma once
 
 #include <vector>
@@ -37,5 +38,29 @@ EnergyShares energy_shares(const Particles &particles, const Bonds &bonds,
                            const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 // The same of where the particles are now, their rotations being small.
 EnergyShares energy_shares(const Particles &particles, const Bonds &bonds);
+
+struct NetworkModuli {
+  double young_voigt = 0, poisson_voigt = 0; // affine motion: an upper bound on E; Pa, 1
+  double young_reuss = 0, poisson_reuss = 0; // static: an estimate, not a bound
+};
+
+// Isotropic network, sum over bonds of l^2 k_n / V = K, k = k_s/k_n: Voigt E = (K/3)(2 + 3k)/(4 + k),
+// nu = (1 - k)/(4 + k); Reuss E = (K/3) 5k/(2 + 3k), nu = (1 - k)/(2 + 3k). `volume` of the specimen, m^3.
+NetworkModuli network_moduli(const Bonds &bonds, double volume);
+
+// Mean squares of the distance from the centre of the section, m^2.
+struct Gyration {
+  double centre_x = 0, centre_y = 0; // m
+  double xx = 0, yy = 0;             // of x - centre_x, of y - centre_y
+};
+
+// Of the mass of the spheres whose centres lie in low <= z <= high, their own extent included.
+Gyration mass_gyration(const Particles &particles, double low, double high);
+
+// Of what carries force along z: bonds with their middle in low <= z <= high, each at its middle with the
+// weight that it has in the axial stiffness under a uniform strain, l^2 (K_n n_z^4 + K_s n_z^2 (1 - n_z^2)).
+// Forces run between the centres of spheres, so this section ends about a radius inside the surface: the
+// "effective section" of Andre et al. 2012, section 6. Zero without bonds there.
+Gyration bond_gyration(const Particles &particles, const Bonds &bonds, double low, double high);
 
 } // namespace platen::dem
