@@ -10,7 +10,7 @@
 
 #include "base/archive.h"
 #include "base/vector3.h"
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 #include "coupling/program/servo.h"
 #include "dem/energy.h"
 #include "dem/particles.h"

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 #include "fem/loaded_surface.h"
 
 namespace platen::coupling {

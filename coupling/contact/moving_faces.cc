@@ -1,4 +1,4 @@
-#include "coupling/moving_faces.h"
+#include "coupling/contact/moving_faces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/pi.h"
-#include "coupling/contact_layer.h"
-#include "coupling/transfer.h"
+#include "coupling/contact/contact_layer.h"
+#include "coupling/contact/transfer.h"
 #include "dem/laws/rotating_plane.h"
 
 namespace platen::coupling {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/box_tree.h"
-#include "coupling/closest_point.h"
-#include "coupling/flat_faces.h"
-#include "coupling/moving_faces.h"
+#include "coupling/contact/box_tree.h"
+#include "coupling/contact/closest_point.h"
+#include "coupling/contact/flat_faces.h"
+#include "coupling/contact/moving_faces.h"
 #include "dem/particles.h"
 #include "fem/surface_mesh.h"
 

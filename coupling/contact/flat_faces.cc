@@ -1,9 +1,9 @@
-#include "coupling/flat_faces.h"
+#include "coupling/contact/flat_faces.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 
 namespace platen::coupling {
 

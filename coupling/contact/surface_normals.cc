@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 
 namespace platen::coupling {
 

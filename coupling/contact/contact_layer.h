@@ -23,7 +23,7 @@
 
 #include "base/archive.h"
 #include "coupling/program/servo.h"
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 #include "dem/laws/friction_law.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"

@@ -1,4 +1,4 @@
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "coupling/box_tree.h"
+#include "coupling/contact/box_tree.h"
 
 #include <algorithm>
 #include <numeric>

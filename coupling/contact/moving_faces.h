@@ -2,7 +2,7 @@
 // is worked out once, so that the foot of each costs two steps of Newton's method.
 #pragma once
 
-#include "coupling/closest_point.h"
+#include "coupling/contact/closest_point.h"
 
 namespace platen::coupling {
 

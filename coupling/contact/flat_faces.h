@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "coupling/closest_point.h"
+#include "coupling/contact/closest_point.h"
 #include "fem/surface_mesh.h"
 
 namespace platen::coupling {
