@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "base/archive.h"
-#include "coupling/program/servo.h"
 #include "coupling/contact/surface_search.h"
+#include "coupling/program/platen_speed.h"
 #include "dem/laws/friction_law.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"

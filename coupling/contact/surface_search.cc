@@ -1,7 +1,9 @@
+// The list of particles near a surface, by a tree of boxes around its faces.
 #include "coupling/contact/surface_search.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/parallel.h"
@@ -10,31 +12,12 @@ namespace platen::coupling {
 
 using fem::SurfaceMesh;
 
-namespace {
-
-// Distances are compared with this relative margin, so that round-off never drops the face that is closest.
-constexpr double margin = 1e-9;
-
-const std::array<int, 4> &corners_of(const SurfaceMesh &surface, int face) {
-  return surface.faces[static_cast<std::size_t>(face)];
-}
-
-// Of the origin from the box around the corners: no point of the face is nearer.
-double box_distance_squared(const Quad &q) {
-  Box box{q[0], q[0]};
-  for (std::size_t k = 1; k < 4; ++k)
-    box.include(q[k]);
-  return box.distance_squared({});
-}
-
-} // namespace
-
 const Vector3 &vertex_at(const SurfaceMesh &surface, int v) {
   return surface.vertices[static_cast<std::size_t>(v)];
 }
 
 Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
-  const std::array<int, 4> &v = corners_of(surface, face);
+  const std::array<int, 4> &v = surface.faces[static_cast<std::size_t>(face)];
   return {vertex_at(surface, v[0]) - origin, vertex_at(surface, v[1]) - origin,
           vertex_at(surface, v[2]) - origin, vertex_at(surface, v[3]) - origin};
 }
@@ -118,35 +101,6 @@ void SurfaceSearch::collect(const SurfaceMesh &surface, const Vector3 &centre, d
             });
 }
 
-// The foot on a flat face of a surface that has not turned since the search was set up.
-bool SurfaceSearch::foot(const SurfaceMesh &surface, int face, const Vector3 &centre,
-                         SurfacePoint &result) const {
-  if (!surface.only_shifted) return false;
-  if (!flat_.foot(face, centre - vertex_at(surface, corners_of(surface, face)[0]), result.local,
-                  result.normal, result.distance))
-    return false;
-  result.face = face;
-  return true;
-}
-
-// The same, where it is sure to be the closest point of all: every other face listed lies in the same plane
-// or farther away. False says nothing.
-bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
-                                    SurfacePoint &result) const {
-  const std::size_t last = first_near_[k + 1];
-  std::size_t n = first_near_[k];
-  while (n < last && !foot(surface, near_[n].face, centre, result))
-    ++n;
-  if (n == last) return false;
-  const double distance = std::abs(result.distance) * (1 + margin);
-  const int piece = flat_.piece(result.face);
-  for (std::size_t other = first_near_[k]; other < last; ++other) {
-    if (near_[other].distance - travelled_ > distance) break;
-    if (flat_.piece(near_[other].face) != piece) return false;
-  }
-  return true;
-}
-
 void SurfaceSearch::look(const SurfaceMesh &surface) {
   if (surface.only_shifted || looked_) return;
   moving_.resize(surface.faces.size());
@@ -161,79 +115,72 @@ void SurfaceSearch::look(const SurfaceMesh &surface) {
   looked_ = true;
 }
 
-bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vector3 &centre,
-                               const MovingFace *moving, SurfacePoint &nearest) const {
-  nearest.face = face;
-  Foot foot;
-  if (moving == nullptr || !find_foot(*moving, centre, foot)) {
-    nearest.local = closest_point(face_corners(surface, face, centre));
-    return false;
+void Box::include(const Vector3 &p) {
+  for (int k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], p[k]);
+    high[k] = std::max(high[k], p[k]);
   }
-  ClosestPoint &local = nearest.local;
-  local.point = -foot.out;
-  local.weights = bilinear_weights(foot.u, foot.v);
-  local.u = foot.u;
-  local.v = foot.v;
-  local.distance_squared = norm_squared(foot.out);
-  local.feature = Feature::face;
-  local.local = 0;
-  nearest.normal = foot.normal;
-  nearest.distance = dot(foot.out, foot.normal);
-  nearest.along_u = foot.along_u;
-  nearest.along_v = foot.along_v;
-  return true;
 }
 
-SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const {
-  SurfacePoint point;
-  if (surface.only_shifted && foot_of_nearest(surface, k, centre, point)) return point;
-  return closest_listed(surface, k, centre);
+void Box::include(const Box &b) {
+  include(b.low);
+  include(b.high);
 }
 
-SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size_t k,
-                                           const Vector3 &centre) const {
-  SurfacePoint best, found;
-  best.local.distance_squared = std::numeric_limits<double>::infinity();
-  double best_distance = best.local.distance_squared;
-  bool whole = false;
-  MovingFace made;
-  for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n) {
-    const int face = near_[n].face;
-    if (near_[n].distance - travelled_ > best_distance * (1 + margin)) break;
-    const MovingFace *moving = nullptr;
-    if (!surface.only_shifted) {
-      if (!looked_) made = moving_face(face_corners(surface, face, {}));
-      moving = looked_ ? &moving_[static_cast<std::size_t>(face)] : &made;
+double Box::distance_squared(const Vector3 &p) const {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double outside = std::max({low[k] - p[k], 0.0, p[k] - high[k]});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+BoxTree::BoxTree(const std::vector<Box> &boxes) {
+  if (boxes.empty()) return;
+  std::vector<int> items(boxes.size());
+  std::iota(items.begin(), items.end(), 0);
+  nodes_.reserve(2 * boxes.size());
+  build(boxes, items, 0, items.size());
+}
+
+int BoxTree::build(const std::vector<Box> &boxes, std::vector<int> &items, std::size_t first,
+                   std::size_t last) {
+  const auto box_of = [&](std::size_t k) -> const Box & { return boxes[static_cast<std::size_t>(items[k])]; };
+  Node node;
+  node.box = box_of(first);
+  for (std::size_t k = first; k < last; ++k)
+    node.box.include(box_of(k));
+  const std::size_t index = nodes_.size();
+  if (last - first == 1) node.item = items[first];
+  nodes_.push_back(node);
+  if (node.item >= 0) return static_cast<int>(index);
+
+  const Vector3 side = node.box.high - node.box.low;
+  const int axis = side.x >= side.y && side.x >= side.z ? 0 : (side.y >= side.z ? 1 : 2);
+  const std::size_t middle = (first + last) / 2;
+  const auto at = [&](std::size_t k) { return items.begin() + static_cast<std::ptrdiff_t>(k); };
+  std::nth_element(at(first), at(middle), at(last), [&](int a, int b) {
+    const Box &p = boxes[static_cast<std::size_t>(a)], &q = boxes[static_cast<std::size_t>(b)];
+    const double pa = p.low[axis] + p.high[axis], qb = q.low[axis] + q.high[axis];
+    return pa != qb ? pa < qb : a < b;
+  });
+  const int left = build(boxes, items, first, middle), right = build(boxes, items, middle, last);
+  nodes_[index].left = left;
+  nodes_[index].right = right;
+  return static_cast<int>(index);
+}
+
+void BoxTree::refit(const std::vector<Box> &boxes) {
+  for (std::size_t k = nodes_.size(); k-- > 0;) {
+    Node &node = nodes_[k];
+    if (node.item >= 0) {
+      node.box = boxes[static_cast<std::size_t>(node.item)];
+    } else {
+      node.box = nodes_[static_cast<std::size_t>(node.left)].box;
+      node.box.include(nodes_[static_cast<std::size_t>(node.right)].box);
     }
-    if (best.face >= 0) {
-      const double least = moving != nullptr ? least_distance_squared(*moving, centre)
-                                             : box_distance_squared(face_corners(surface, face, centre));
-      if (least > best.local.distance_squared * (1 + margin)) continue;
-    }
-    const bool found_whole = nearest_on(surface, face, centre, moving, found);
-    if (preference(found.local) > preference(best.local)) continue;
-    if (preference(found.local) == preference(best.local) && face > best.face) continue;
-    best = found;
-    whole = found_whole;
-    best_distance = std::sqrt(found.local.distance_squared);
   }
-  return whole ? best : with_normal(surface, best.face, best.local, centre);
-}
-
-SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vector3 &centre) const {
-  SurfacePoint best, found;
-  best.local.distance_squared = std::numeric_limits<double>::infinity();
-  bool whole = false;
-  for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
-    const MovingFace moving =
-        surface.only_shifted ? MovingFace{} : moving_face(face_corners(surface, face, {}));
-    const bool found_whole =
-        nearest_on(surface, face, centre, surface.only_shifted ? nullptr : &moving, found);
-    if (!(preference(found.local) < preference(best.local))) continue;
-    best = found;
-    whole = found_whole;
-  }
-  return whole ? best : with_normal(surface, best.face, best.local, centre);
 }
 
 } // namespace platen::coupling

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "coupling/contact/surface_search.h"
-#include "fem/loaded_surface.h"
+#include "fem/surface.h"
 
 namespace platen::coupling {
 

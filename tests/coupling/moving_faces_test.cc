@@ -1,4 +1,4 @@
-#include "coupling/contact/moving_faces.h"
+#include "coupling/contact/faces.h"
 
 #include <gtest/gtest.h>
 
