@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "fem/elastic_model.h"
-#include "fem/static_solver.h"
+#include "fem/static_equations.h"
 
 namespace {
 
@@ -26,7 +26,7 @@ struct Cost {
 Cost measure(const fem::ElasticModel &model, const fem::Fixed &fixed, fem::LinearSolver kind, int solves) {
   Cost cost{};
   auto start = Clock::now();
-  const fem::StaticSolver solver(model.stiffness, model.nodes, fixed, kind);
+  const fem::StaticEquations solver(model.stiffness, model.nodes, fixed, kind);
   cost.setup = seconds_since(start);
   cost.x.assign(model.nodes.size(), Vector3{});
   for (int k = 0; k < solves; ++k) {

@@ -4,19 +4,41 @@
 
 #include <iosfwd>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/archive.h"
 #include "base/vector3.h"
-#include "coupling/contact_layer.h"
-#include "coupling/program/servo.h"
+#include "coupling/contact/contact_layer.h"
+#include "coupling/program/platen_speed.h"
 #include "dem/energy.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 
 namespace platen::coupling {
+
+// The run cannot go on: what, where, when and what to try. Texts name members of the settings in backquotes
+// (`loading.ramp`), which a program that reads them from a file replaces by its own names. Apps exit with
+// status 3.
+class NumericsStopped : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// The settings ask for something that cannot be run: what is wrong with which member. Apps exit with status
+// 2.
+class BadSetup : public std::runtime_error {
+public:
+  BadSetup(std::string member, const std::string &reason)
+      : std::runtime_error("`" + member + "` " + reason), member_(std::move(member)), reason_(reason) {}
+  const std::string &member() const { return member_; } // "loading.ramp"
+  const std::string &reason() const { return reason_; } // what() without the member
+
+private:
+  std::string member_, reason_;
+};
 
 // What the machine asks of a boundary in a step.
 struct Command {
@@ -107,13 +129,28 @@ private:
 class ContactBoundary : public Boundary {
 public:
   using Boundary::Boundary;
-  std::size_t prepare(const dem::Particles &particles, const Step &step) override;
-  void compute_part(const dem::Particles &particles, const Step &step, std::size_t part) override;
-  void apply_forces(dem::Particles &particles, const Step &step) override;
+  std::size_t prepare(const dem::Particles &particles, const Step &step) override {
+    layer().moved(step.farthest + farthest(step));
+    return layer().prepare(particles, surface());
+  }
+  void compute_part(const dem::Particles &particles, const Step &step, std::size_t part) override {
+    layer().compute_part(particles, surface(), step.dt, part);
+  }
+  void apply_forces(dem::Particles &particles, const Step &) override {
+    layer().give_forces(particles, surface());
+  }
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }
-  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
-  void add_energy(dem::EnergyLedger &energy) const override;
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override {
+    layer().make_list(particles, surface());
+    const std::vector<dem::GroundSpring> own = layer().ground_springs(particles, surface());
+    springs.insert(springs.end(), own.begin(), own.end());
+  }
+  void add_energy(dem::EnergyLedger &energy) const override {
+    energy.contacts += layer().elastic_energy();
+    energy.friction += layer().friction_work;
+    energy.damping += layer().damping_work;
+  }
   std::size_t bytes() const override { return layer().bytes(); }
   void write_vtu(std::ostream &stream) const override = 0;
   std::vector<ActiveContact> contacts() const override { return layer().contacts(); }

@@ -9,7 +9,6 @@
 
 #include "base/describe.h"
 #include "coupling/boundary.h"
-#include "coupling/errors.h"
 #include "coupling/program/program.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
@@ -83,12 +82,12 @@ private:
   void apply_boundary_forces(const Step &step);
   void group_boundaries();
   void finish_boundaries(const Step &step);
-  // Time step (experiment_time_step.cc).
+  // Time step (experiment_limits.cc).
   dem::StableStep limit_now();
   std::size_t contacts_closed() const;
   void choose_step(bool first);
   void check_step();
-  // What stops a run (experiment_guards.cc).
+  // What stops a run (experiment_limits.cc).
   [[noreturn]] void stop_not_finite() const;
   [[noreturn]] void stop_unseen(const std::string &reason) const;
   void require_boundaries_finite() const;

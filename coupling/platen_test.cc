@@ -6,8 +6,7 @@
 
 #include "base/pi.h"
 #include "coupling/platens_of_test.h"
-#include "coupling/program/axial_loading.h"
-#include "coupling/program/consolidation.h"
+#include "coupling/program/stages.h"
 #include "dem/measure/bond_network.h"
 
 namespace platen::coupling {

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/boundaries/elastic_platen.h"
-#include "coupling/boundaries/lateral_wall.h"
+#include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"
-#include "coupling/boundaries/skin_pressure.h"
 #include "coupling/platen_test_settings.h"
 #include "dem/measure/gauge.h"
 

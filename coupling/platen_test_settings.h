@@ -20,7 +20,7 @@ namespace platen::coupling {
 using Ends = dem::EndPreparation;
 
 struct PlatenSide : dem::SurfaceFriction {
-  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/platen_mesh.h says
+  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/grids.h says
 };
 
 // Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty

@@ -8,9 +8,7 @@
 
 #include "base/pi.h"
 #include "base/shortest_text.h"
-#include "coupling/boundaries/strips.h"
 #include "fem/grids.h"
-#include "fem/platen_mesh.h"
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
@@ -24,6 +22,40 @@ double platen_plane(const dem::Specimen &s, bool above, Ends ends) {
 }
 
 namespace {
+
+// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
+struct Strips {
+  std::vector<double> middles;     // m, x
+  double width = 0;                // m, along x
+  double length = 0;               // m, along y, about y = 0
+  double z_low = 0, thickness = 0; // m
+  int elements_across = 8;         // along x and along y
+  bool presses_from_above = false; // its lower face meets the bar, else its upper one
+};
+
+fem::Grid make_grid(const Strips &s) {
+  std::vector<fem::BoxPlate> boxes;
+  for (const double x : s.middles)
+    boxes.push_back({{x - 0.5 * s.width, -0.5 * s.length, s.z_low},
+                     {x + 0.5 * s.width, 0.5 * s.length, s.z_low + s.thickness},
+                     {s.elements_across, s.elements_across, 2}});
+  return fem::make_grid(boxes);
+}
+
+// Each strip has a sphere of the specimen within `depth` (m) of its face.
+bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth) {
+  const auto meets = [&](double middle) {
+    for (std::size_t i = 0; i < specimen.size(); ++i) {
+      const Vector3 &c = specimen.centre[i];
+      const double r = specimen.radius[i];
+      const double gap =
+          strips.presses_from_above ? strips.z_low - c.z - r : c.z - r - strips.z_low - strips.thickness;
+      if (gap <= depth && std::abs(c.x - middle) <= 0.5 * strips.width) return true;
+    }
+    return false;
+  };
+  return std::all_of(strips.middles.begin(), strips.middles.end(), meets);
+}
 
 void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
   const PlatenSettings &p = settings.platens;

@@ -6,7 +6,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "fem/loaded_surface.h"
+#include "fem/surface.h"
 
 namespace platen::fem {
 

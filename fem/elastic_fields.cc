@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "fem/elastic_model.h"
-#include "fem/threads.h"
+#include "fem/grids.h"
 
 namespace platen::fem {
 namespace {

@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "base/require.h"
-#include "fem/threads.h"
+#include "fem/grids.h"
 
 namespace platen::fem {
 namespace {
@@ -55,7 +55,7 @@ void lay_out(ElasticModel &model) {
   const auto n = static_cast<dealii::DynamicSparsityPattern::size_type>(model.nodes.size());
   dealii::DynamicSparsityPattern pattern(n, n);
   dealii::DoFTools::make_sparsity_pattern(*model.numbers, pattern);
-  BlockRows &k = model.stiffness;
+  BlockMatrix &k = model.stiffness;
   k.begin.push_back(0);
   for (dealii::DynamicSparsityPattern::size_type row = 0; row < n; ++row) {
     for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)

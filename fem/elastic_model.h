@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/block_rows.h"
+#include "fem/block_matrix.h"
 #include "fem/grids.h"
 #include "fem/material.h"
 
@@ -28,7 +28,7 @@ struct ElasticModel {
   std::vector<Vector3> nodes;     // m
   std::vector<int> cell_nodes;    // (degree + 1)^3 per cell, in deal.II's order
   std::vector<int> cell_material; // one per cell
-  BlockRows stiffness;            // N/m, exactly symmetric
+  BlockMatrix stiffness;          // N/m, exactly symmetric
   std::vector<double> mass;       // kg, lumped, positive; the sum is the mass of the solid
   double volume = 0;              // m^3
   // Upper bound of the eigenvalues of mass^-1 stiffness (1/s^2): the largest over cells of a norm of the
@@ -73,5 +73,17 @@ double von_mises(const Stress &stress); // Pa
 std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
 // One per entry of cell_nodes: the mean over all cells of the same material that share the node.
 std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
+
+// The indentation of a mesh under a force on one place of its surface. It has no limit as the mesh is refined
+// and depends on where in a face the force acts; a contact that knows it can take it out of its own spring.
+//
+// Where the body goes on far and wide, as that of a half space with this mesh: what the body as a whole gives
+// way, being thin, narrow or fixed, is none of it. One per face of the surface, the same on both sides of an
+// edge. Each vertex with the cells around it is solved for, fixed at what lies beyond; the rest, some tenth
+// of the whole, is beyond_the_patch (1 - nu^2) / E times the mean of 1 / r over what holds it. Measured:
+// within 3 % of a half space for cubes of degree 1 or 2 and nu up to 0.4, 11 % for cells half as thick as
+// wide. Vertices that `fixed` holds in any component have none.
+std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const NodeSurface &surface,
+                                            const Fixed &fixed);
 
 } // namespace platen::fem

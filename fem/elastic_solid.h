@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "base/vector3.h"
+#include "fem/block_matrix.h"
 #include "fem/body.h"
 #include "fem/elastic_model.h"
-#include "fem/largest_frequency.h"
-#include "fem/static_solver.h"
+#include "fem/static_equations.h"
 
 namespace platen::fem {
 
@@ -181,11 +181,11 @@ private:
     std::size_t node;
     Vector3 gain, before; // m/s
   };
-  std::vector<Kicked> kicked_;       // by the loads since the last drift
-  std::vector<StaticSolver> solver_; // none until the first aim()
-  std::vector<double> support_;      // N/m per node; empty without
-  BlockRows supported_;              // stiffness and support
-  std::vector<StaticSolver> supported_solver_;
+  std::vector<Kicked> kicked_;          // by the loads since the last drift
+  std::vector<StaticEquations> solver_; // none until the first aim()
+  std::vector<double> support_;         // N/m per node; empty without
+  BlockMatrix supported_;               // stiffness and support
+  std::vector<StaticEquations> supported_solver_;
 };
 
 } // namespace platen::fem

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/elastic_model.h"
 #include "fem/elastic_solid.h"
-#include "fem/face_compliance.h"
 
 namespace platen::fem {
 
@@ -121,8 +121,8 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
   if (vertex_loads.size() != node_of_.size())
     throw std::invalid_argument("elastic solid: one load per surface vertex, please");
   const bool follows = duration > 0 && !support_.empty();
-  std::vector<StaticSolver> &solver = follows ? supported_solver_ : solver_;
-  const BlockRows &stiffness = follows ? supported_ : model_.stiffness;
+  std::vector<StaticEquations> &solver = follows ? supported_solver_ : solver_;
+  const BlockMatrix &stiffness = follows ? supported_ : model_.stiffness;
   if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, fixed_, options_.solver);
   std::vector<Vector3> load(model_.nodes.size(), Vector3{});
   for (std::size_t v = 0; v < node_of_.size(); ++v)
@@ -171,7 +171,7 @@ void ElasticSolid::set_support(const std::vector<double> &vertex_stiffness) {
 }
 
 LinearSolver ElasticSolid::solver_kind() const {
-  const std::vector<StaticSolver> &used = supported_solver_.empty() ? solver_ : supported_solver_;
+  const std::vector<StaticEquations> &used = supported_solver_.empty() ? solver_ : supported_solver_;
   return used.empty() ? options_.solver : used[0].kind();
 }
 

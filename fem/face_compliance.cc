@@ -1,4 +1,4 @@
-#include "fem/face_compliance.h"
+#include "fem/elastic_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +105,7 @@ private:
     const std::size_t n = 3 * nodes_.size();
     matrix_.assign(n * n, 0.0);
     border_.clear();
-    const BlockRows &k = model_.stiffness;
+    const BlockMatrix &k = model_.stiffness;
     for (std::size_t row = 0; row < nodes_.size(); ++row)
       for (std::size_t e = k.begin[index(nodes_[row])]; e < k.begin[index(nodes_[row]) + 1]; ++e) {
         const int column = place_[index(k.column[e])];

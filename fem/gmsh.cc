@@ -14,7 +14,6 @@
 #include <string>
 
 #include "base/shortest_text.h"
-#include "fem/gmsh_check.h"
 
 namespace platen::fem {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <string_view>
 
 #include "fem/grids.h"
 
@@ -19,5 +20,11 @@ struct GmshOptions {
 // Throws std::invalid_argument, naming the file, where it is no such mesh (with the line: check_gmsh), a cell
 // is inverted or warped through itself (with its place), or the size is none that a platen can have.
 Grid read_gmsh(std::istream &stream, const GmshOptions &options);
+
+// Throws std::invalid_argument, as "NAME:LINE: error: ...", where `text` is no ASCII file of format 2.2
+// or 4.1 whose counts hold, whose elements name nodes that are there, and whose hexahedra make a body: eight
+// nodes each, a face between two of them at most, every quadrilateral a face and every line an edge of one.
+// deal.II reads what is left; of files with such faults it takes some for memory that is not there.
+void check_gmsh(std::string_view text, const std::string &name);
 
 } // namespace platen::fem

@@ -1,4 +1,4 @@
-#include "fem/gmsh_check.h"
+#include "fem/gmsh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,5 @@
 #include "fem/grids.h"
-#include "base/pi.h"
-#include "base/require.h"
-#include "fem/threads.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -14,9 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string>
+
+#include "base/pi.h"
+#include "base/require.h"
 
 namespace platen::fem {
 namespace {
@@ -184,164 +178,52 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
   return grid;
 }
 
-namespace {
-
-void check(const std::vector<Layer> &layers, double whole) {
-  require(!layers.empty(), "platen grid: there are no layers");
-  double sum = 0;
-  for (const Layer &layer : layers) {
-    require(layer.thickness > 0, "platen grid: the thickness of a layer must be positive");
-    require(layer.elements >= 1, "platen grid: at least one element through a layer");
-    sum += layer.thickness;
-  }
-  require(std::abs(sum - whole) <= 1e-9 * whole, "platen grid: the layers are " + std::to_string(sum) +
-                                                     " m thick together, the plate " + std::to_string(whole) +
-                                                     " m");
-}
-
-int elements_of(const std::vector<Layer> &layers) {
-  int sum = 0;
-  for (const Layer &layer : layers)
-    sum += layer.elements;
-  return sum;
-}
-
-// From even heights between low and high to those of the layers, by whole numbers: ends keep their bits.
-void stretch(dealii::Triangulation<3> &grid, const std::vector<Layer> &layers, double low, double high) {
-  std::vector<double> heights = {low};
-  std::vector<unsigned int> material;
-  double below = low;
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    for (int j = 1; j <= layers[k].elements; ++j) {
-      heights.push_back(below + layers[k].thickness * j / layers[k].elements);
-      material.push_back(static_cast<unsigned int>(k));
-    }
-    below = heights.back();
-  }
-  heights.back() = high;
-  const double count = static_cast<double>(material.size());
-  const auto level = [&](double z) { return (z - low) / (high - low) * count; };
-  for (const auto &cell : grid.active_cell_iterators())
-    cell->set_material_id(material[static_cast<std::size_t>(level(cell->center()[2]))]);
-  const auto raise = [&](dealii::Point<3> p) {
-    p[2] = heights[static_cast<std::size_t>(std::lround(level(p[2])))];
-    return p;
+Grid make_grid(const Tube &tube) {
+  require(tube.inner_radius > 0, "tube grid: inner radius must be positive");
+  require(tube.thickness > 0, "tube grid: thickness must be positive");
+  require(tube.height > 0, "tube grid: height must be positive");
+  require(tube.elements_around >= 3, "tube grid: at least 3 elements around");
+  require(tube.elements_along >= 1, "tube grid: at least one element along the axis");
+  require(tube.elements_through >= 1, "tube grid: at least one element through the wall");
+  const int around = tube.elements_around, along = tube.elements_along, through = tube.elements_through;
+  const auto number = [&](int k, int i, int j) { // height, angle, radius
+    return static_cast<unsigned int>((k * around + i % around) * (through + 1) + j);
   };
-  dealii::GridTools::transform(raise, grid);
-}
-
-} // namespace
-
-Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers) {
-  check(layers, plate.thickness);
-  CylinderPlate even = plate;
-  even.elements_thick = elements_of(layers);
-  Grid grid = make_grid(even);
-  stretch(*grid, layers, plate.z_low, plate.z_low + plate.thickness);
-  return grid;
-}
-
-Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers) {
-  check(layers, plate.high[2] - plate.low[2]);
-  BoxPlate even = plate;
-  even.elements[2] = elements_of(layers);
-  Grid grid = make_grid(even);
-  stretch(*grid, layers, plate.low[2], plate.high[2]);
-  return grid;
-}
-
-Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> &place) {
-  auto moved = std::make_shared<dealii::Triangulation<3>>();
-  moved->copy_triangulation(*grid);
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p) {
-        const Vector3 q = place({p[0], p[1], p[2]});
-        return dealii::Point<3>(q[0], q[1], q[2]);
-      },
-      *moved);
-  return moved;
-}
-
-std::string inverted_cell(const Grid &grid) {
-  for (const auto &cell : grid->active_cell_iterators())
-    for (const unsigned int v : cell->vertex_indices()) {
-      // Edges along the cell's three axes, of which bits of v tell the direction.
-      std::array<dealii::Tensor<1, 3>, 3> edge;
-      for (unsigned int k = 0; k < 3; ++k)
-        edge[k] = (v >> k & 1U ? -1.0 : 1.0) * (cell->vertex(v ^ (1U << k)) - cell->vertex(v));
-      if (dealii::cross_product_3d(edge[0], edge[1]) * edge[2] > 0) continue;
-      const dealii::Point<3> p = cell->center();
-      std::ostringstream name;
-      name << "cell " << cell->active_cell_index() << " at (" << p[0] << ", " << p[1] << ", " << p[2]
-           << ") m";
-      return name.str();
-    }
-  return "";
-}
-
-GridSurface extract_surface(const Grid &grid) {
-  GridSurface result;
-  std::vector<int> surface_vertex(grid->n_vertices(), -1);
-  std::vector<std::array<unsigned int, 4>> corners;
-  for (const auto &cell : grid->active_cell_iterators())
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
-      const auto face = cell->face(f);
-      std::array<unsigned int, 4> ring = {face->vertex_index(0), face->vertex_index(1), face->vertex_index(3),
-                                          face->vertex_index(2)};
-      const auto diagonals =
-          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
-      if (diagonals * (face->center() - cell->center()) < 0) std::swap(ring[1], ring[3]);
-      corners.push_back(ring);
-      result.surface.face_tags.push_back(static_cast<int>(face->boundary_id()));
-      for (const unsigned int v : ring)
-        surface_vertex[v] = 0;
-    }
-  for (std::size_t v = 0; v < surface_vertex.size(); ++v) {
-    if (surface_vertex[v] < 0) continue;
-    surface_vertex[v] = static_cast<int>(result.grid_vertex.size());
-    result.grid_vertex.push_back(static_cast<int>(v));
-    const dealii::Point<3> &p = grid->get_vertices()[v];
-    result.surface.vertices.push_back({p[0], p[1], p[2]});
-  }
-  for (const auto &ring : corners)
-    result.surface.faces.push_back(
-        {surface_vertex[ring[0]], surface_vertex[ring[1]], surface_vertex[ring[2]], surface_vertex[ring[3]]});
-  result.surface.velocities.assign(result.surface.vertices.size(), Vector3{});
-  return result;
-}
-
-VolumeMoments volume_moments(const Grid &grid) {
-  // r_i r_j times the Jacobian of a trilinear map is of degree 4 along each axis: three Gauss points are
-  // exact.
-  const dealii::QGauss<3> quadrature(3);
-  const dealii::FE_Nothing<3> element;
-  const NoCellReuse same_for_any_threads;
-  const dealii::MappingQ<3> mapping(1);
-  dealii::FEValues<3> values(mapping, element, quadrature,
-                             dealii::update_quadrature_points | dealii::update_JxW_values);
-  VolumeMoments m;
-  const auto integrate = [&](const auto &add) {
-    for (const auto &cell : grid->active_cell_iterators()) {
-      values.reinit(cell);
-      for (const unsigned int q : values.quadrature_point_indices()) {
-        const dealii::Point<3> &p = values.quadrature_point(q);
-        add(Vector3{p[0], p[1], p[2]}, values.JxW(q));
+  std::vector<dealii::Point<3>> points;
+  for (int k = 0; k <= along; ++k)
+    for (int i = 0; i < around; ++i)
+      for (int j = 0; j <= through; ++j) {
+        const double r = tube.inner_radius + tube.thickness * j / through, angle = 2 * pi * i / around;
+        points.emplace_back(r * std::cos(angle), r * std::sin(angle), tube.z_low + tube.height * k / along);
       }
-    }
+  std::vector<dealii::CellData<3>> cells;
+  dealii::SubCellData sides;
+  const auto add_side = [&](unsigned int a, unsigned int b, unsigned int c, unsigned int d, int tag) {
+    dealii::CellData<2> face;
+    face.vertices = {a, b, c, d};
+    face.boundary_id = static_cast<dealii::types::boundary_id>(tag);
+    sides.boundary_quads.push_back(face);
   };
-  integrate([&](const Vector3 &p, double weight) {
-    m.volume += weight;
-    m.centroid = m.centroid + weight * p;
-  });
-  m.centroid = (1.0 / m.volume) * m.centroid;
-  integrate([&](const Vector3 &p, double weight) {
-    const Vector3 r = p - m.centroid;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        m.second[3 * i + j] += weight * r[i] * r[j];
-  });
-  return m;
+  for (int k = 0; k < along; ++k)
+    for (int i = 0; i < around; ++i) {
+      for (int j = 0; j < through; ++j) { // x of the cell runs outwards, y around, z along
+        dealii::CellData<3> cell;
+        cell.vertices = {number(k, i, j),         number(k, i, j + 1),        number(k, i + 1, j),
+                         number(k, i + 1, j + 1), number(k + 1, i, j),        number(k + 1, i, j + 1),
+                         number(k + 1, i + 1, j), number(k + 1, i + 1, j + 1)};
+        cells.push_back(cell);
+        for (const int end : {0, along})
+          if (k == (end > 0 ? end - 1 : 0))
+            add_side(number(end, i, j), number(end, i, j + 1), number(end, i + 1, j),
+                     number(end, i + 1, j + 1), end == 0 ? low_end_tag : high_end_tag);
+      }
+      for (const int j : {0, through})
+        add_side(number(k, i, j), number(k, i + 1, j), number(k + 1, i, j), number(k + 1, i + 1, j),
+                 j == 0 ? inner_tag : mantle_tag);
+    }
+  auto grid = std::make_shared<dealii::Triangulation<3>>();
+  grid->create_triangulation(points, cells, sides);
+  return grid;
 }
 
 } // namespace platen::fem

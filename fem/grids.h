@@ -1,4 +1,4 @@
-// Finite-element grids of platens, and what a body reads off them. deal.II stays in grids.cc.
+// Finite-element grids of platens, and what a body reads off them. deal.II stays in the .cc files.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/surface_mesh.h"
+#include "fem/surface.h"
 
 namespace dealii {
 template <int dim, int spacedim>
@@ -93,5 +93,31 @@ struct VolumeMoments {
   Matrix3 second{};   // m^5, integral of r_i r_j about the centroid, row by row
 };
 VolumeMoments volume_moments(const Grid &grid);
+
+// A grid from elsewhere as a platen: laid against the specimen, its ends found.
+//
+// The grid shifted along z so that its extreme plane on the specimen's side, the highest of a platen that
+// faces up and the lowest of one that faces down, lies at z = `plane` (m); x and y stay. Tags are made anew:
+// faces in the plane of the other end, where the machine holds it, and on the specimen's side those in the
+// extreme plane; where none lies there (a convex platen), all whose normals are within 60 degrees of the
+// axis. As low_end_tag and high_end_tag; every other face gets mantle_tag. Throws std::invalid_argument where
+// no face lies in the plane of the machine's end.
+Grid laid_platen(const Grid &grid, bool faces_up, double plane);
+
+// Materials are counted from 0; how many a grid has.
+int materials_of(const Grid &grid);
+
+// Threads of deal.II. Loops over cells and nodes use the pool of the process instead (base/parallel.h).
+//
+// deal.II copies the geometry of a cell from the one before where both are alike, but only where it may have
+// one thread, and the last bits are others then. While any of these lives it may have two, so that matrices
+// do not depend on what a program allows it; afterwards one: a process has no second pool.
+class NoCellReuse {
+public:
+  NoCellReuse();
+  ~NoCellReuse();
+  NoCellReuse(const NoCellReuse &) = delete;
+  NoCellReuse &operator=(const NoCellReuse &) = delete;
+};
 
 } // namespace platen::fem

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/block_rows.h"
-#include "fem/loaded_surface.h"
+#include "fem/block_matrix.h"
 #include "fem/solid_mesh.h"
+#include "fem/surface.h"
 
 namespace platen::fem {
 
@@ -83,7 +83,7 @@ public:
   void place_surface_ahead(double dt);
   void update_forces(); // internal and pressure forces at the present place
   // s; from the largest eigenvalue of the assembled stiffness, load stiffness included, to 1 % and on the
-  // safe side (largest_frequency.h). Costs as much as 30 steps: ask now and then. Springs of contacts come on
+  // safe side (block_matrix.h). Costs as much as 30 steps: ask now and then. Springs of contacts come on
   // top: see surface_mass().
   double stable_step() const;
 
@@ -151,7 +151,7 @@ private:
   void add_pressure_forces();
   CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
   void lay_out_stiffness();
-  void assemble(const std::vector<CellStiffness> &cells, BlockRows &rows) const;
+  void assemble(const std::vector<CellStiffness> &cells, BlockMatrix &rows) const;
   FaceCorners face_places(const BoundaryFace &face, const std::vector<Vector3> &displacement) const;
   void place_surface();
   void follow_state();
@@ -164,7 +164,7 @@ private:
   std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
   double volume_ = 0;
   std::vector<double> mass_; // kg, of each node
-  BlockRows stiffness_;      // layout alone
+  BlockMatrix stiffness_;    // layout alone
 
   std::vector<Vector3> displacement_, velocity_, next_;
   std::vector<unsigned char> prescribed_; // bits x, y, z of each node

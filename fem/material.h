@@ -1,8 +1,9 @@
 // An isotropic elastic material.
 #pragma once
 
-#include <array>
 #include <string>
+
+#include "base/require.h"
 
 namespace platen::fem {
 
@@ -13,12 +14,20 @@ struct Material {
 };
 
 // Throws std::invalid_argument "WHO: ..." where a constant is out of range or no number.
-void check(const Material &material, const std::string &who);
+inline void check(const Material &material, const std::string &who) {
+  require(material.density > 0, who + ": density must be positive");
+  require(material.young_modulus > 0, who + ": Young's modulus must be positive");
+  require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5,
+          who + ": Poisson ratio must lie in (-1, 0.5)");
+}
 
 // Lame's constants lambda and mu (Pa).
 struct Lame {
   double lambda, mu;
 };
-Lame lame(const Material &material);
+inline Lame lame(const Material &material) {
+  const double e = material.young_modulus, nu = material.poisson_ratio;
+  return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
+}
 
 } // namespace platen::fem

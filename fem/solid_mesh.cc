@@ -1,6 +1,6 @@
 #include "fem/solid_mesh.h"
 #include "base/require.h"
-#include "fem/threads.h"
+#include "fem/grids.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

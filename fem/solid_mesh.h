@@ -5,9 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "fem/follower_pressure.h"
 #include "fem/grids.h"
-#include "fem/mean_dilatation.h"
+#include "fem/hyperelastic_cell.h"
 
 namespace platen::fem {
 

@@ -1,9 +1,91 @@
 #include "coupling/boundaries/platen.h"
 
+#include <array>
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
+#include <string>
 
 namespace platen::coupling {
+
+namespace {
+
+// A face is asked at the middles of this many parts along each side.
+constexpr int parts = 8;
+
+// A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
+// side may be looked at alone.
+constexpr double share_of_body = 0.25;
+
+} // namespace
+
+void MeanLoads::add(const fem::Body &body, double dt) {
+  for (const int v : body.loaded_vertices())
+    impulse_[static_cast<std::size_t>(v)] = impulse_[static_cast<std::size_t>(v)] + dt * body.contact_load(v);
+  time_ += dt;
+  ++steps_;
+}
+
+std::vector<Vector3> MeanLoads::mean() const {
+  std::vector<Vector3> loads(impulse_);
+  for (Vector3 &load : loads)
+    load = (1 / time_) * load;
+  return loads;
+}
+
+void MeanLoads::reset() {
+  impulse_.assign(impulse_.size(), Vector3{});
+  time_ = 0;
+  steps_ = 0;
+}
+
+void MeanLoads::describe(Archive &archive) {
+  archive.version(1);
+  archive("time", time_, "s");
+  archive("steps", steps_);
+  archive.same_rows("impulse", impulse_, "N s");
+}
+
+MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
+                     const std::function<bool(double, double)> &covers) {
+  std::vector<double> part(surface.vertices.size(), 0.0), whole(part);
+  double covered = 0, all = 0;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    if (surface.face_tags[f] != tag) continue;
+    const std::array<int, 4> &corners = surface.faces[f];
+    const double area = norm(fem::face_area_vector(surface, f)) / (parts * parts);
+    for (int k = 0; k < parts * parts; ++k) {
+      const double s = (k % parts + 0.5) / parts, t = (k / parts + 0.5) / parts;
+      const std::array<double, 4> weights = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+      Vector3 place{};
+      for (std::size_t c = 0; c < 4; ++c)
+        place = place + weights[c] * surface.vertices[static_cast<std::size_t>(corners[c])];
+      const bool inside = covers(place[0], place[1]);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const std::size_t v = static_cast<std::size_t>(corners[c]);
+        whole[v] += weights[c] * area;
+        if (inside) part[v] += weights[c] * area;
+      }
+      all += area;
+      if (inside) covered += area;
+    }
+  }
+  if (!(all > 0)) throw std::invalid_argument("mean place: no face has the tag " + std::to_string(tag));
+  const std::vector<double> &area = covered > 0 ? part : whole;
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    if (area[v] == 0) continue;
+    vertices_.push_back(static_cast<int>(v));
+    shares_.push_back(area[v] / (covered > 0 ? covered : all));
+  }
+  start_ = height(surface);
+}
+
+double MeanPlace::height(const fem::SurfaceMesh &surface) const {
+  double z = 0;
+  for (std::size_t k = 0; k < vertices_.size(); ++k)
+    z += shares_[k] * surface.vertices[static_cast<std::size_t>(vertices_[k])][2];
+  return z;
+}
 
 Platen::Platen(std::string name, std::unique_ptr<fem::Body> body, const dem::Particles &particles,
                const SurfaceContact &contact)
@@ -61,6 +143,61 @@ void RigidPlaten::finish(const Step &step) {
   const Vector3 before = force_;
   Platen::finish(step);
   power_ = dot(before + force_, body_->velocity());
+}
+
+ElasticPlaten::ElasticPlaten(std::string name, fem::ElasticSolid &solid,
+                             std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
+                             const SurfaceContact &contact, const FaceOf &face, bool quasi_static,
+                             int steps_per_solve)
+    : Platen(std::move(name), std::move(body), particles, contact),
+      solid_(solid),
+      face_(body_->surface(), face.tag, face.covers),
+      quasi_static_(quasi_static),
+      steps_per_solve_(steps_per_solve),
+      loads_(body_->surface().vertices.size()) {}
+
+void ElasticPlaten::finish(const Step &step) {
+  body_->kick(0.5 * step.dt);
+  Platen::finish(step);
+  if (!quasi_static_) return;
+  loads_.add(*body_, step.dt);
+  if (loads_.steps() < steps_per_solve_) return;
+  solid_.aim(loads_.mean(), steps_per_solve_ * step.dt);
+  loads_.reset();
+}
+
+void ElasticPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
+  const std::size_t first = springs.size();
+  Platen::add_springs(particles, springs);
+  for (std::size_t k = first; k < springs.size(); ++k) {
+    springs[k].normal_stiffness *= 1 + share_of_body;
+    springs[k].tangential_stiffness *= 1 + share_of_body;
+  }
+}
+
+StepLimit ElasticPlaten::limit(const dem::Particles &particles) const {
+  fem::VertexSprings springs = layer_.vertex_springs(particles, *body_);
+  for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
+    for (double &number : *column)
+      number *= 1 + 1 / share_of_body;
+  return {body_->stable_step(springs), "the finite elements of a platen with the springs of its contacts"};
+}
+
+void ElasticPlaten::fit(const dem::Particles &particles, double) {
+  if (quasi_static_) solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
+}
+
+void ElasticPlaten::add_energy(dem::EnergyLedger &energy) const {
+  Platen::add_energy(energy);
+  const fem::BodyBook own = body_->book();
+  energy.bodies += own.strain + own.kinetic;
+  energy.damping += own.dissipated;
+  energy.boundary += own.clamp_work;
+}
+
+void ElasticPlaten::describe(Archive &archive) {
+  Platen::describe(archive);
+  if (quasi_static_) archive.part("mean_loads", loads_);
 }
 
 } // namespace platen::coupling

@@ -1,13 +1,52 @@
-// A platen: a body of finite elements that the machine moves, and its contacts with the specimen.
+// A platen: a body of finite elements that the machine moves, and its contacts with the specimen. A rigid
+// one, and one that yields: linear elastic, fixed to the machine at the end that is far from the specimen.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
+#include "base/archive.h"
 #include "coupling/boundary.h"
 #include "dem/skin.h"
 #include "fem/body.h"
+#include "fem/elastic_solid.h"
 
 namespace platen::coupling {
+
+// Loads of a body's vertices on the mean over time, for who follows them without inertia.
+class MeanLoads {
+public:
+  MeanLoads() = default;
+  explicit MeanLoads(std::size_t vertices) : impulse_(vertices, Vector3{}) {}
+  void add(const fem::Body &body, double dt); // the loads as they are, for dt (s)
+  int steps() const { return steps_; }        // added since the last reset()
+  std::vector<Vector3> mean() const;          // N, one per vertex
+  void reset();
+
+  void describe(Archive &archive);
+
+private:
+  std::vector<Vector3> impulse_; // N s
+  double time_ = 0;              // s
+  int steps_ = 0;
+};
+
+// The mean height of a part of the surface, as shares of its vertices.
+class MeanPlace {
+public:
+  MeanPlace() = default;
+  // Of the faces of a tag, over their area where `covers` holds at (x, y); over all of it where it never
+  // does.
+  MeanPlace(const fem::SurfaceMesh &surface, int tag, const std::function<bool(double, double)> &covers);
+  double height(const fem::SurfaceMesh &surface) const;                                   // m, z now
+  double rise(const fem::SurfaceMesh &surface) const { return height(surface) - start_; } // m
+
+private:
+  std::vector<int> vertices_;
+  std::vector<double> shares_; // sum 1
+  double start_ = 0;           // m
+};
 
 class Platen : public ContactBoundary {
 public:
@@ -69,6 +108,43 @@ struct EndPlatens {
   dem::EndPlanes planes() const {       // now
     return {low_plane + low.face_rise(), high_plane + high.face_rise()};
   }
+};
+
+// What of its face counts where its displacement is told: the faces of a tag, where `covers` holds.
+struct FaceOf {
+  int tag = 0;
+  std::function<bool(double x, double y)> covers;
+};
+
+class ElasticPlaten : public Platen {
+public:
+  // Quasi-static: its shape follows the mean loads of so many steps of the particles during the next ones.
+  ElasticPlaten(std::string name, std::unique_ptr<fem::ElasticSolid> solid, const dem::Particles &particles,
+                const SurfaceContact &contact, const FaceOf &face, bool quasi_static, int steps_per_solve)
+      : ElasticPlaten(std::move(name), *solid, std::move(solid), particles, contact, face, quasi_static,
+                      steps_per_solve) {}
+
+  void finish(const Step &step) override;
+  bool drifts_long() const override { return true; }
+  bool can_be_carried() const override { return false; }
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
+  StepLimit limit(const dem::Particles &particles) const override;
+  void fit(const dem::Particles &particles, double time_step) override;
+  void add_energy(dem::EnergyLedger &energy) const override;
+  double face_rise() const override { return face_.rise(body_->surface()); } // the mean of the face
+  void describe(Archive &archive) override;
+  const fem::ElasticSolid &solid() const { return solid_; }
+
+private:
+  ElasticPlaten(std::string name, fem::ElasticSolid &solid, std::unique_ptr<fem::ElasticSolid> &&body,
+                const dem::Particles &particles, const SurfaceContact &contact, const FaceOf &face,
+                bool quasi_static, int steps_per_solve);
+
+  fem::ElasticSolid &solid_; // the body
+  MeanPlace face_;
+  bool quasi_static_;
+  int steps_per_solve_;
+  MeanLoads loads_;
 };
 
 } // namespace platen::coupling

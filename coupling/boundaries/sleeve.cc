@@ -8,7 +8,7 @@
 #include "base/pi.h"
 #include "base/require.h"
 #include "base/shortest_text.h"
-#include "coupling/errors.h"
+#include "coupling/boundary.h"
 
 namespace platen::coupling {
 

@@ -1,10 +1,75 @@
-// The stages of a test, one after the other.
+// Loading as a list of stages. A stage asks something of each boundary in every step, by what is measured,
+// until it is over; it touches no particle.
 #pragma once
 
-#include "coupling/program/stage.h"
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/archive.h"
+#include "coupling/boundary.h"
 
 namespace platen::coupling {
 
+// What a program sees of a test.
+class Measures {
+public:
+  virtual ~Measures() = default;
+  virtual double time() const = 0;             // s; in a step that of its end
+  virtual double time_step() const = 0;        // s
+  virtual double closure_strain() const = 0;   // of the platens, over the height
+  virtual double axial_stress() const = 0;     // Pa, mean of both platens, compression positive
+  virtual double lateral_pressure() const = 0; // Pa
+  virtual double broken_bonds() const = 0;     // since the start
+  // Of a boundary by its place in the experiment's list: N, of the specimen on it; what it pushes against.
+  virtual Vector3 force(std::size_t boundary) const = 0;
+  virtual ServoLoad servo_load(std::size_t boundary) const = 0;
+};
+
+// Places of a test's boundaries in the experiment's list.
+struct Sides {
+  std::size_t bottom = 0, top = 1;
+  std::optional<std::size_t> lateral; // what presses the lateral surface
+};
+// What is asked of each boundary of an experiment, in the order of its list.
+using Commands = std::vector<Command>;
+
+// 0 to 1 without a jump in the rate, for x from 0 to 1.
+inline double smooth_start(double x) {
+  return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
+}
+
+class Stage {
+public:
+  virtual ~Stage() = default;
+  virtual std::string name() const = 0;
+  // Once, before its first command.
+  void begin(const Measures &m) { begun_ = m.time(), closure_at_begin_ = m.closure_strain(); }
+  // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
+  virtual void command(const Measures &m, Commands &asked) = 0;
+  // After forces.
+  virtual void update(const Measures &) {}
+  virtual bool has_ended(const Measures &m) const = 0;
+
+  virtual double expected_seconds() const = 0;            // until it ends, as far as that is known
+  virtual double progress(const Measures &m) const = 0;   // 0 ... 1
+  virtual double fastest() const { return 0; }            // m/s, closure speed that it may ask for
+  virtual bool is_consolidation() const { return false; } // all sides alike, before the axial loading
+  // From a turn of the platens until the strain of the turn has been reached again.
+  virtual bool is_cycling(const Measures &) const { return false; }
+
+  double closure_gained(const Measures &m) const { return m.closure_strain() - closure_at_begin_; }
+  virtual void describe(Archive &archive);
+
+protected:
+  double begun() const { return begun_; } // s
+
+private:
+  double begun_ = 0, closure_at_begin_ = 0; // s, 1
+};
+
+// The stages of a test, one after the other.
 class Program {
 public:
   // Begins the first of at least one stage. `measures` outlives the program.

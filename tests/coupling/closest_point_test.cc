@@ -1,4 +1,4 @@
-#include "coupling/closest_point.h"
+#include "coupling/contact/closest_point.h"
 
 #include <gtest/gtest.h>
 

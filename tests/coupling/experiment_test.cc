@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coupling/program/axial_loading.h"
+#include "coupling/program/stages.h"
 #include "tests/coupling/small_cylinder.h"
 
 namespace platen::coupling {

@@ -1,4 +1,4 @@
-#include "coupling/moving_faces.h"
+#include "coupling/contact/faces.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 #include "sphere_scene.h"
 
 namespace platen::coupling {

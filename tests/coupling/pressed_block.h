@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 #include "dem/packing/specimen.h"
 #include "fem/elastic_solid.h"
 #include "fem/grids.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 #include "dem/packing/specimen.h"
 #include "fem/elastic_solid.h"
 #include "fem/grids.h"

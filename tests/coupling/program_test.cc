@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include "coupling/program/axial_loading.h"
-#include "coupling/program/consolidation.h"
+#include "coupling/program/stages.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {

@@ -1,6 +1,5 @@
-#include "coupling/program/rate_control.h"
+#include "coupling/program/platen_speed.h"
 #include "base/state.h"
-#include "coupling/program/servo.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "coupling/program/servo.h"
+#include "coupling/program/platen_speed.h"
 #include "base/pi.h"
 #include "base/state.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 #include "dem/packing/specimen.h"
 #include "fem/grids.h"
 #include "fem/rigid_body.h"

@@ -1,4 +1,4 @@
-#include "coupling/surface_search.h"
+#include "coupling/contact/surface_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "coupling/transfer.h"
+#include "coupling/contact/transfer.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/static_solver.h"
+#include "fem/static_equations.h"
 
 namespace platen::fem {
 namespace {
@@ -62,7 +62,7 @@ double error_of_wave(int degree, int n) {
   const ElasticModel model = make_elastic_model(distorted_cube(n), degree, {steel});
   std::vector<Vector3> x(model.nodes.size(), Vector3{});
   const auto load = body_load(model, [&](const Vector3 &p) { return wave.force(p, steel); });
-  StaticSolver(model.stiffness, model.nodes, held_on(model, {0, 1, 2, 3, 4, 5}))
+  StaticEquations(model.stiffness, model.nodes, held_on(model, {0, 1, 2, 3, 4, 5}))
       .solve(model.stiffness, load, x);
   return std::sqrt(integral(model, x, [&](const Vector3 &p, const Vector3 &u) {
     const Vector3 d = u - wave.displacement(p);
@@ -105,7 +105,7 @@ TEST(elastic_model, passes_the_patch_test_on_distorted_cells) {
       for (std::size_t i = 0; i < x.size(); ++i)
         if (fixed[i][0]) x[i] = linear(model.nodes[i]);
       const std::vector<Vector3> none(x.size(), Vector3{});
-      StaticSolver(model.stiffness, model.nodes, fixed, kind).solve(model.stiffness, none, x);
+      StaticEquations(model.stiffness, model.nodes, fixed, kind).solve(model.stiffness, none, x);
       double worst = 0;
       for (std::size_t i = 0; i < x.size(); ++i)
         worst = std::max(worst, norm(x[i] - linear(model.nodes[i])));
@@ -139,7 +139,7 @@ TEST(elastic_model, a_thick_tube_widens_and_bears_as_lame_says) {
     const auto load =
         face_load(model, 0, [&](const Vector3 &, const Vector3 &normal) { return -p * normal; });
     std::vector<Vector3> x(load.size(), Vector3{});
-    StaticSolver(model.stiffness, model.nodes, fixed).solve(model.stiffness, load, x);
+    StaticEquations(model.stiffness, model.nodes, fixed).solve(model.stiffness, load, x);
     const double A = p * a * a / (b * b - a * a), B = A * b * b, e = steel.young_modulus,
                  nu = steel.poisson_ratio;
     const auto stress = nodal_stress(model, x);
@@ -178,7 +178,7 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
         x[static_cast<std::size_t>(i)][2] = closure;
       }
       const std::vector<Vector3> none(x.size(), Vector3{});
-      StaticSolver(model.stiffness, model.nodes, fixed).solve(model.stiffness, none, x);
+      StaticEquations(model.stiffness, model.nodes, fixed).solve(model.stiffness, none, x);
       model.stiffness.multiply(x, force);
       double reaction = 0;
       for (const int i : nodes_on(model, low_end_tag))
@@ -219,7 +219,7 @@ TEST(elastic_model, lumped_masses_are_positive_and_weigh_what_the_solid_does) {
 TEST(elastic_model, stiffness_is_symmetric_and_blind_to_rigid_motions) {
   for (const int degree : {1, 2}) {
     ElasticModel model = make_elastic_model(distorted_cube(3), degree, {steel});
-    BlockRows &k = model.stiffness;
+    BlockMatrix &k = model.stiffness;
     for (std::size_t i = 0; i < k.rows(); ++i)
       for (std::size_t b = k.begin[i]; b < k.begin[i + 1]; ++b) {
         const double *mirror = k.block(static_cast<std::size_t>(k.column[b]), static_cast<int>(i));
@@ -264,9 +264,9 @@ TEST(elastic_model, multigrid_and_factors_agree) {
     const auto load = body_load(model, [](const Vector3 &p) { return Vector3{1e6 * p[1], 2e5, 3e7 * p[0]}; });
     const Fixed fixed = held_on(model, {high_end_tag});
     std::vector<Vector3> by_factors(load.size(), Vector3{}), by_multigrid = by_factors;
-    StaticSolver(model.stiffness, model.nodes, fixed, LinearSolver::direct)
+    StaticEquations(model.stiffness, model.nodes, fixed, LinearSolver::direct)
         .solve(model.stiffness, load, by_factors);
-    const StaticSolver multigrid(model.stiffness, model.nodes, fixed, LinearSolver::multigrid);
+    const StaticEquations multigrid(model.stiffness, model.nodes, fixed, LinearSolver::multigrid);
     multigrid.solve(model.stiffness, load, by_multigrid);
     EXPECT_GT(multigrid.iterations(), 1);
     double size = 0, difference = 0;
@@ -302,7 +302,7 @@ TEST(elastic_model, what_no_solid_can_be_is_refused) {
   EXPECT_THROW(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, {{1.5, 1}, {-0.5, 1}}),
                std::invalid_argument);
   const ElasticModel model = make_elastic_model(grid, 1, {steel});
-  EXPECT_THROW(StaticSolver(model.stiffness, model.nodes, Fixed(model.nodes.size(), {0, 0, 0})),
+  EXPECT_THROW(StaticEquations(model.stiffness, model.nodes, Fixed(model.nodes.size(), {0, 0, 0})),
                std::invalid_argument);
 }
 

@@ -1,6 +1,6 @@
 // Indentations of a mesh under single forces: against a half space, and what they may not depend on.
-#include "fem/face_compliance.h"
 #include "base/pi.h"
+#include "fem/elastic_model.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "fem/follower_pressure.h"
-#include "fem/mean_dilatation.h"
+#include "fem/hyperelastic_cell.h"
 #include "fem/solid_mesh.h"
 
 namespace platen::fem {

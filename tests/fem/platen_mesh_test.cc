@@ -1,4 +1,4 @@
-#include "fem/platen_mesh.h"
+#include "fem/grids.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "coupling/contact_layer.h"
+#include "coupling/contact/contact_layer.h"
 #include "fem/elastic_solid.h"
 #include "fem/grids.h"
 #include "fem/rigid_body.h"

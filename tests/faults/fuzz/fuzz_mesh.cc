@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "fem/gmsh_check.h"
+#include "fem/gmsh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   try {

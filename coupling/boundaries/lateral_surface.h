@@ -1,0 +1,73 @@
+// What acts on the lateral surface of a specimen where there is no sleeve.
+#pragma once
+
+#include "coupling/boundaries/platen.h"
+#include "dem/confinement.h"
+#include "dem/lateral_wall.h"
+
+namespace platen::coupling {
+
+// The pressure of a cell on the skin of the specimen, where the sleeve itself is left out.
+class SkinPressure : public Boundary {
+public:
+  // Throws std::invalid_argument where the skin has no area. `bonds` may be null.
+  SkinPressure(const dem::Particles &particles, const dem::Bonds *bonds, const dem::Shape &shape,
+               const EndPlatens &ends, dem::ConfinementArea area)
+      : Boundary("skin_pressure"),
+        bonds_(bonds),
+        ends_(ends),
+        skin_(particles, bonds, shape, ends.planes(), area) {}
+
+  void drift(const Step &, const Command &command) override { asked_ = command.pressure; }
+  void apply_forces(dem::Particles &particles, const Step &step) override {
+    skin_.add_forces(particles, bonds_, ends_.planes(), asked_, step.dt, step.farthest,
+                     step.number % steps_between_skins == 0);
+  }
+  void add_energy(dem::EnergyLedger &energy) const override { energy.boundary += skin_.work(); }
+  double pressure() const override { return skin_.pressure(); }
+  void describe(Archive &archive) override {
+    archive.version(1);
+    archive.part("skin", skin_);
+  }
+  const dem::Confinement &skin() const { return skin_; }
+
+private:
+  // Areas of the skin are found anew in every step that is a multiple of this.
+  static constexpr long steps_between_skins = 400;
+  const dem::Bonds *bonds_;
+  EndPlatens ends_;
+  dem::Confinement skin_;
+  double asked_ = 0; // Pa
+};
+
+// A stiff frictionless wall around the specimen, at rest: it holds the lateral strain at zero.
+class LateralWall : public Boundary {
+public:
+  // As dem::LateralWall; the pressure is told over the height between the platens.
+  LateralWall(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
+              double stiffness, double layer)
+      : Boundary("wall"), ends_(ends), wall_(particles, shape, stiffness, layer) {}
+
+  void drift(const Step &, const Command &) override {}
+  void apply_forces(dem::Particles &particles, const Step &step) override {
+    wall_.add_forces(particles, step.farthest);
+  }
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override {
+    wall_.make_list(particles);
+    const std::vector<dem::GroundSpring> own = wall_.ground_springs(particles);
+    springs.insert(springs.end(), own.begin(), own.end());
+  }
+  void add_energy(dem::EnergyLedger &energy) const override { energy.contacts += wall_.elastic_energy(); }
+  double pressure() const override {
+    const dem::EndPlanes planes = ends_.planes();
+    return wall_.pressure(planes.high - planes.low);
+  }
+  void describe(Archive &archive) override { archive.part("springs", wall_); }
+  std::size_t seats() const { return wall_.seats(); }
+
+private:
+  EndPlatens ends_;
+  dem::LateralWall wall_;
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,268 @@
+#include "coupling/contact/contact_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/pi.h"
+#include "base/require.h"
+
+namespace platen::coupling {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
+// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
+// indentation alone is as much, nothing is taken out.
+constexpr double most_answer = 0.85;
+constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
+
+// One minus the cosine of a normal that counts as upright.
+constexpr double aslant = 1e-9;
+
+void check(const SurfaceContact &p, bool rotation) {
+  require(p.particle_stiffness > 0, "surface contact: particle stiffness must be positive");
+  require(p.tangential_ratio > 0, "surface contact: tangential stiffness ratio must be positive");
+  require(p.friction_static >= 0, "surface contact: static friction must not be negative");
+  require(p.dynamic() >= 0, "surface contact: dynamic friction must not be negative");
+  using By = dem::Weakening::By;
+  require(p.weakening.by == By::nothing || p.dynamic() <= p.friction_static,
+          "surface contact: friction that weakens must not grow");
+  require(p.weakening.by != By::slip || p.weakening.slip_length > 0,
+          "surface contact: slip length must be positive");
+  require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0,
+          "surface contact: slip velocity must be positive");
+  require(p.damping >= 0 && p.damping < infinite, "surface contact: damping must not be negative");
+  require(p.seat_modulus >= 0 && p.seat_modulus < infinite,
+          "surface contact: seat modulus must not be negative");
+  require(p.seat_modulus == 0 || rotation, "surface contact: seats need particles that rotate");
+  require(p.skin > 0, "surface contact: skin must be positive");
+}
+
+// N/m, of the spring that makes up the stiffness with an indentation (m/N) in series.
+double beside_indentation(double stiffness, double indentation) {
+  const double share = stiffness * indentation;
+  return stiffness *
+         std::min(1 / (1 - std::min(share, most_indentation)), std::max(1.0, most_answer / share));
+}
+
+std::size_t index(int row) {
+  return static_cast<std::size_t>(row);
+}
+
+} // namespace
+
+ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
+                           const SurfaceContact &parameters)
+    : parameters_(parameters),
+      friction_(dem::friction_law(parameters)),
+      smallest_radius_(infinite),
+      search_(body.surface(), parameters.skin) {
+  check(parameters, particles.has_rotation());
+  require(
+      parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
+      "surface contact: a compliance of faces needs one entry per face");
+  // Inverted twice, as in series with a rigid body: an eighth of all numbers come back with another last bit,
+  // and results are held to be the same bits as before.
+  stiffness_ = 1 / (1 / parameters.particle_stiffness);
+  for (const double r : particles.radius)
+    smallest_radius_ = std::min(smallest_radius_, r);
+  const bool friction = parameters.friction_static > 0 || parameters.dynamic() > 0;
+  const bool tangential = friction || parameters.attachment == Attachment::glued;
+  if (tangential || parameters.seat_modulus > 0) normal_ = &table_.add<Vector3>("normal", "1");
+  if (tangential) {
+    spring_ = &table_.add<Vector3>("tangential_force", "N");
+    sliding_ = &table_.add<int>("sliding", "1");
+    slip_ = &table_.add<double>("slip", "m");
+  }
+  if (parameters.seat_modulus > 0) {
+    seat_spring_ = &table_.add<Vector3>("seat_moment", "N m");
+    seat_sliding_ = &table_.add<int>("seat_sliding", "1");
+  }
+}
+
+std::size_t ContactLayer::add_row(int particle) {
+  const auto place = std::lower_bound(particle_.begin(), particle_.end(), particle);
+  const std::size_t row = static_cast<std::size_t>(place - particle_.begin());
+  if (place != particle_.end() && *place == particle) return row;
+  const std::size_t last = table_.size();
+  table_.resize(last + 1);
+  particle_[last] = particle;
+  std::vector<int> order(last + 1);
+  for (std::size_t k = 0; k <= last; ++k)
+    order[k] = static_cast<int>(k < row ? k : (k == row ? last : k - 1));
+  table_.permute(order);
+  return row;
+}
+
+ContactLayer::~ContactLayer() = default;
+
+void ContactLayer::seat(int particle, double offset) {
+  require(std::isfinite(offset), "surface contact: a seat's offset must be finite");
+  const std::size_t row = add_row(particle);
+  seated_[row] = 1;
+  offset_[row] = offset;
+  search_.forget();
+}
+
+int ContactLayer::seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
+                              bool upright) {
+  std::vector<double> reach(particles.size());
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    reach[i] = particles.radius[i] + depth;
+  search_.rebuild(body.surface(), particles.position, reach, {});
+  int count = 0;
+  const std::vector<int> near = search_.particles();
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const std::size_t i = index(near[k]);
+    const SurfacePoint meets = search_.closest(body.surface(), k, particles.position[i]);
+    const double gap = meets.distance - particles.radius[i];
+    if (gap > depth || (upright && std::abs(meets.normal.z) < 1 - aslant)) continue;
+    seat(near[k], gap);
+    ++count;
+  }
+  search_.forget();
+  return count;
+}
+
+int ContactLayer::seats() const {
+  return static_cast<int>(seated_particles().size());
+}
+
+std::vector<int> ContactLayer::seated_particles() const {
+  std::vector<int> rows;
+  for (std::size_t k = 0; k < table_.size(); ++k)
+    if (seated_[k]) rows.push_back(particle_[k]);
+  return rows;
+}
+
+void ContactLayer::moved(double distance) {
+  if (!(distance <= smallest_radius_))
+    throw std::runtime_error("a particle moved " + std::to_string(distance) +
+                             " m against a surface in one step, more than the smallest radius " +
+                             std::to_string(smallest_radius_) +
+                             " m: it could pass through a face unseen; use a smaller time step");
+  search_.moved(distance);
+  travelled_ += distance;
+}
+
+void ContactLayer::update_search(const dem::Particles &particles, const fem::LoadedSurface &body) {
+  if (!search_.stale()) return;
+  std::vector<double> reach(particles.radius.begin(), particles.radius.end());
+  for (std::size_t k = 0; k < table_.size(); ++k)
+    reach[index(particle_[k])] += std::max(0.0, offset_[k]);
+  search_.rebuild(body.surface(), particles.position, reach, seated_particles());
+  set_rows(search_.particles());
+}
+
+void ContactLayer::make_list(const dem::Particles &particles, const fem::LoadedSurface &body) {
+  search_.forget();
+  update_search(particles, body);
+}
+
+// Rows for exactly these particles; those that stay keep their history, new ones start without.
+void ContactLayer::set_rows(const std::vector<int> &particles) {
+  const std::size_t old_rows = table_.size();
+  std::vector<int> order(particles.size());
+  int fresh = static_cast<int>(old_rows);
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    while (old < old_rows && particle_[old] < particles[k])
+      ++old;
+    order[k] = old < old_rows && particle_[old] == particles[k] ? static_cast<int>(old) : fresh++;
+  }
+  table_.resize(static_cast<std::size_t>(fresh));
+  table_.permute(order);
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    particle_[k] = particles[k];
+  idle_until_.assign(particles.size(), 0);
+}
+
+double ContactLayer::spring(const SurfacePoint &at) const {
+  if (parameters_.face_compliance.empty()) return stiffness_;
+  const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
+  const std::array<double, 4> &w = at.local.weights;
+  double indentation = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    indentation += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
+  return beside_indentation(stiffness_, indentation);
+}
+
+double ContactLayer::stiffest_spring(int face) const {
+  if (parameters_.face_compliance.empty()) return stiffness_;
+  // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
+  // that is more than can be taken out, some other place is the stiffest.
+  const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
+  return beside_indentation(
+      stiffness_, std::min(most_indentation / stiffness_, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+}
+
+std::size_t ContactLayer::bytes() const {
+  return table_.size() * table_.bytes_per_row() + loads_.capacity() * sizeof(RowLoad) +
+         contacts_.capacity() * sizeof(RowContact) + search_.bytes();
+}
+
+std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,
+                                                            const fem::LoadedSurface &body,
+                                                            bool whole) const {
+  std::vector<dem::GroundSpring> springs;
+  for (std::size_t row = 0; row < search_.particles().size(); ++row) {
+    const int i = search_.particles()[row];
+    const double r = particles.radius[index(i)];
+    const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
+    dem::GroundSpring spring;
+    spring.particle = i;
+    spring.normal = at.normal;
+    spring.arm = at.local.point;
+    spring.normal_stiffness = whole ? stiffness_ : stiffest_spring(at.face);
+    spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
+    if (spring_ != nullptr)
+      spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
+    if (seat_spring_ != nullptr && row < table_.size() && seated_[row])
+      spring.rotational_stiffness = 2 * parameters_.seat_modulus * pi * r * r * r / 8;
+    springs.push_back(spring);
+  }
+  return springs;
+}
+
+fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
+                                                const fem::Body &body) const {
+  const std::size_t vertices = body.surface().vertices.size();
+  fem::VertexSprings springs{std::vector<double>(vertices, 0.0), std::vector<double>(vertices, 0.0)};
+  for (std::size_t row = 0; row < search_.particles().size(); ++row) {
+    const int i = search_.particles()[row];
+    const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
+    const double k = stiffest_spring(at.face);
+    const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
+    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[index(i)]);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
+      springs.stiffness[v] += at.local.weights[corner] * stiffest;
+      springs.dashpot[v] += at.local.weights[corner] * dashpot;
+    }
+  }
+  return springs;
+}
+
+ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
+  ServoLoad load;
+  for (const int particle : particle_) {
+    load.stiffness += stiffness_;
+    load.impedance += std::sqrt(stiffness_ * particles.mass[index(particle)]);
+  }
+  return load;
+}
+
+void ContactLayer::describe(Archive &archive) {
+  archive.version(1);
+  archive("friction_work", friction_work, "J");
+  archive("damping_work", damping_work, "J");
+  archive("closed", closed);
+  archive.table("rows", table_);
+  if (archive.reads()) search_.forget();
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,209 @@
+// Contact between the particles and the surface of one body: node to surface, one contact per particle. The
+// particle is the node; its sphere touches the closest point of the whole surface, wherever that lies among
+// faces, edges and vertices, so that neither force nor friction history notices the mesh.
+//
+// Normal n from body to particle, gap g = distance of the centre - R - offset, positive when open. Force on
+// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k m), m the particle's mass
+// (the body is taken as much heavier); T after dem/laws/friction_law.h with k_t = ratio k_n. It acts at
+// the closest point. v is the particle's velocity there, minus the surface's, both as they were over the last
+// drift (half-step values: their product with dt is the displacement, and the works below are those that
+// velocity Verlet sees).
+//
+// On a mesh that yields, a force sinks in by c = w^T C w, with the weights w that it gives the corners of the
+// face, and ever deeper as the mesh is refined. Given C, the spring here is what that leaves of the stiffness
+// asked for, 1/k_n = 1/k - c: both together are k wherever on a face the contact lies, and what the body
+// gives way as a whole comes on top. That holds up to k c = .46, which elements of five radii of the contact
+// reach at their vertices; beyond, less is taken out, and from k c = .85 on nothing: the contact is too soft.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/archive.h"
+#include "coupling/contact/surface_search.h"
+#include "coupling/program/platen_speed.h"
+#include "dem/laws/friction_law.h"
+#include "dem/particles.h"
+#include "dem/stable_step.h"
+#include "fem/body.h"
+
+namespace platen::coupling {
+
+enum class Attachment {
+  free, // contact only: pushes, slides, lets go
+  glued // seated particles are tied to the surface: pull as well as push, no limit to the tangential force
+};
+
+// Frictionless surfaces have no tangential columns.
+struct SurfaceContact : dem::SurfaceFriction {
+  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m, k_n of the whole contact
+  // Of a body that yields: the indentations of its mesh under single forces, which the stiffness above holds
+  // already and which are therefore taken out of the spring (see below). Empty: none.
+  std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
+  double tangential_ratio = 0.8;                    // k_t / k_n, > 0
+  double damping = 0;                               // fraction of critical, >= 0
+  Attachment attachment = Attachment::free;
+  // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up
+  // to the moment .5 N R. Zero: no seat. Needs rotation.
+  double seat_modulus = 0;
+  double skin =
+      std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
+};
+
+// One contact as it is now, for output.
+struct ActiveContact {
+  int particle = 0;        // row
+  int face = 0;            // of the surface
+  Vector3 point;           // m, on the surface
+  Vector3 normal;          // unit, from body to particle
+  double normal_force = 0; // N, positive when pressed; with `glued` also negative
+  Vector3 shear;           // N, tangential force on the particle
+  bool sliding = false;
+  double slip = 0; // m, path slid since the contact closed
+};
+
+class ContactLayer {
+public:
+  // Throws std::invalid_argument, naming the entry, where a parameter is out of range.
+  ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
+               const SurfaceContact &parameters);
+  ~ContactLayer();
+
+  // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
+  // sawn flush with the surface: that gap is from then on the zero of its own. Returns how many.
+  // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
+  // beside its edge would be seated aslant, and wedge.
+  int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
+                  bool upright = false);
+  int seats() const;
+
+  // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)
+  // since the last call. Throws std::runtime_error where that is more than the smallest radius: a particle
+  // could have passed through a face without being seen.
+  void moved(double distance);
+
+  // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it
+  // before asking for springs or stiffness ahead of the first step.
+  void update_search(const dem::Particles &particles, const fem::LoadedSurface &body);
+  // The same in any case.
+  void make_list(const dem::Particles &particles, const fem::LoadedSurface &body);
+
+  // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
+  // by the step dt (s) that the drift made. Reads position, velocity, radius, mass (angular_velocity); writes
+  // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
+  void add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt);
+
+  // The stage in three pieces, for who has other work for threads that wait. What has to be looked at, in how
+  // many parts:
+  std::size_t prepare(const dem::Particles &particles, const fem::LoadedSurface &body);
+  // the forces of one part, in any order and on any thread, from particles and body as they are then; writes
+  // nothing but the layer's own rows;
+  void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+                    std::size_t part);
+  // and then, once, what particles and body get of them.
+  void give_forces(dem::Particles &particles, fem::LoadedSurface &body);
+
+  // Of the last add_forces.
+  std::vector<ActiveContact> contacts() const;              // ascending particle rows
+  double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
+  // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
+  // elsewhere.
+  std::vector<double> vertex_slip(const fem::LoadedSurface &body) const;
+
+  // Since the start (J).
+  double friction_work = 0; // lost to sliding, including rocking seats
+  double damping_work = 0;  // lost to dashpots
+  std::size_t closed = 0;   // contacts in the last add_forces
+
+  // Springs of all particles near the surface: for the stable step as stiff as they may be anywhere on the
+  // face, for equilibria (`whole`) with the indentation of the mesh.
+  std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
+                                                const fem::LoadedSurface &body, bool whole = false) const;
+  // What the same particles would put on each vertex of the surface.
+  fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
+  // What a servo pushes against: all particles near the surface, touching or not.
+  ServoLoad servo_load(const dem::Particles &particles) const;
+
+  const Table &history() const { return table_; } // one row per particle near the surface, ascending
+  void describe(Archive &archive);
+
+  std::size_t bytes() const; // of rows and search lists
+  const SurfaceContact &parameters() const { return parameters_; }
+  const SurfaceSearch &search() const { return search_; }
+
+private:
+  struct Kinematics;
+  // Of one row in one step.
+  struct RowForce {
+    bool active = false;
+    int particle = 0;
+    SurfacePoint at;
+    double normal_force = 0; // N, >= 0 unless tied
+    double dashpot = 0;      // N, part of the normal force
+    Vector3 shear;           // N
+    Vector3 moment;          // N m, of the seat
+    dem::CoulombFriction::State spring, seat;
+    double idle_until = 0;                                   // m, of travelled_
+    double slip = 0;                                         // m
+    double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+  };
+  // What it gives to particle, body and sums, kept small because all of it is read once more in the step.
+  struct alignas(64) RowLoad {
+    int particle = -1; // -1: no contact
+    int face = -1;
+    std::array<double, 4> weights{};
+    Vector3 force, torque;                                   // N, N m about the centre
+    double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+  };
+  // What else is told of it when somebody asks.
+  struct RowContact {
+    Vector3 point, normal, shear, moment; // m, 1, N, N m
+    double normal_force = 0, slip = 0;    // N, m
+    bool sliding = false;
+  };
+  void set_rows(const std::vector<int> &particles);
+  void find_due_rows();
+  std::vector<int> seated_particles() const;
+  std::size_t add_row(int particle);
+  void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
+  double spring(const SurfacePoint &at) const; // N/m, without the indentation of the mesh
+  double stiffest_spring(int face) const;
+  bool tied(std::size_t row) const;
+  bool holds_history(std::size_t row) const;
+  void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
+                 RowForce &result);
+  void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  void keep_history(std::size_t row, RowForce &result);
+  void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
+
+  SurfaceContact parameters_;
+  dem::FrictionLaw friction_;
+  double stiffness_ = 0; // N/m, of the whole contact
+  double smallest_radius_;
+  SurfaceSearch search_;
+
+  Table table_;
+  Column<int> &particle_ = table_.add<int>("particle", "1");
+  Column<int> &seated_ = table_.add<int>("seated", "1");
+  Column<double> &offset_ = table_.add<double>("offset", "m");
+  Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
+  Column<Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
+  Column<Vector3> *spring_ = nullptr;      // N; with friction or glue
+  Column<int> *sliding_ = nullptr;         // the same
+  Column<double> *slip_ = nullptr;         // m, the same
+  Column<Vector3> *seat_spring_ = nullptr; // N m; with seats
+  Column<int> *seat_sliding_ = nullptr;
+
+  double travelled_ = 0;             // m, sum of the distances told to moved()
+  std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
+  std::vector<std::size_t> due_;     // rows to look at in this step
+  std::vector<RowLoad> loads_;       // of them
+  std::vector<RowContact> contacts_; // of them
+  double elastic_energy_ = 0;
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,262 @@
+// What every particle near a surface feels in a step, row by row.
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/pi.h"
+#include "coupling/contact/contact_layer.h"
+#include "coupling/contact/transfer.h"
+#include "dem/laws/rotating_plane.h"
+
+namespace platen::coupling {
+
+using dem::CoulombFriction;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
+constexpr double idle_margin = 1e-9;  // of a gap, for round-off
+constexpr std::size_t rows_per_part = 32; // a row costs as much as some dozen bonds
+
+} // namespace
+
+// How particle and surface move against each other at the closest point.
+struct ContactLayer::Kinematics {
+  double gap = 0;           // m
+  double opening_speed = 0; // m/s
+  Vector3 slide;            // m/s, relative velocity in the contact plane
+  Vector3 rocking;          // rad/s, relative rotation in the contact plane; only with seats
+  double spin = 0;          // rad/s of the surface about the normal
+  double k_n = 0, c_n = 0;  // N/m, N s/m
+  double radius = 0;        // m
+};
+
+bool ContactLayer::tied(std::size_t row) const {
+  return parameters_.attachment == Attachment::glued && seated_[row];
+}
+
+bool ContactLayer::holds_history(std::size_t row) const {
+  return dashpot_[row] != 0 || (spring_ != nullptr && norm_squared((*spring_)[row]) > 0) ||
+         (seat_spring_ != nullptr && norm_squared((*seat_spring_)[row]) > 0);
+}
+
+// A row is passed over while nothing can have brought its particle to the surface since it was last looked
+// at.
+void ContactLayer::find_due_rows() {
+  due_.clear();
+  for (std::size_t row = 0; row < table_.size(); ++row)
+    if (!(travelled_ < idle_until_[row])) due_.push_back(row);
+  loads_.resize(due_.size());
+  contacts_.resize(due_.size());
+}
+
+void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
+  const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
+  run_loops(loop_of(prepare(particles, body), part));
+  give_forces(particles, body);
+}
+
+std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::LoadedSurface &body) {
+  update_search(particles, body);
+  search_.look(body.surface());
+  find_due_rows();
+  return number_of_blocks(due_.size(), rows_per_part);
+}
+
+void ContactLayer::compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+                                std::size_t part) {
+  const std::size_t last = std::min(due_.size(), (part + 1) * rows_per_part);
+  for (std::size_t k = part * rows_per_part; k < last; ++k) {
+    const std::size_t row = due_[k];
+    RowForce r;
+    row_force(particles, body, row, dt, r);
+    keep_history(row, r);
+    idle_until_[row] = r.idle_until;
+    keep_result(k, r, particles.position[static_cast<std::size_t>(r.particle)]);
+  }
+}
+
+void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &centre) {
+  RowLoad &load = loads_[k];
+  load.particle = r.active ? r.particle : -1;
+  load.friction_loss = r.friction_loss;
+  load.damping_loss = r.damping_loss;
+  if (!r.active) return;
+  const Vector3 &arm = r.at.local.point;
+  load.face = r.at.face;
+  load.weights = r.at.local.weights;
+  load.force = r.normal_force * r.at.normal + r.shear;
+  load.torque = cross(arm, load.force) + r.moment;
+  load.elastic = r.elastic;
+  contacts_[k] = {centre + arm, r.at.normal,          r.shear, r.moment, r.normal_force,
+                  r.slip,       r.spring.sliding != 0};
+}
+
+// Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
+// by row: rows that are passed over may differ from run to run, sums may not.
+void ContactLayer::give_forces(dem::Particles &particles, fem::LoadedSurface &body) {
+  for_each(loads_.size(), [&](std::size_t k) {
+    const RowLoad &load = loads_[k];
+    if (load.particle < 0) return;
+    const std::size_t i = static_cast<std::size_t>(load.particle);
+    particles.force[i] += load.force;
+    if (particles.has_rotation()) (*particles.torque)[i] += load.torque;
+  });
+  std::size_t active = 0;
+  double elastic = 0, friction_loss = 0, damping_loss = 0;
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const RowLoad &load = loads_[k];
+    friction_loss += load.friction_loss;
+    damping_loss += load.damping_loss;
+    if (load.particle < 0) continue;
+    ++active;
+    elastic += load.elastic;
+    apply_force(body, load.face, load.weights, -load.force);
+    if (seat_spring_ != nullptr && norm_squared(contacts_[k].moment) > 0)
+      apply_moment(body, load.face, -contacts_[k].moment);
+  }
+  closed = active;
+  elastic_energy_ = elastic;
+  friction_work += friction_loss;
+  damping_work += damping_loss;
+}
+
+void ContactLayer::keep_history(std::size_t row, RowForce &r) {
+  dashpot_[row] = r.dashpot;
+  if (normal_ != nullptr) (*normal_)[row] = r.active ? r.at.normal : Vector3{};
+  if (spring_ != nullptr) {
+    (*spring_)[row] = r.spring.spring;
+    (*sliding_)[row] = r.spring.sliding;
+    (*slip_)[row] = r.slip = r.active ? (*slip_)[row] + r.slip : 0;
+  }
+  if (seat_spring_ != nullptr) {
+    (*seat_spring_)[row] = r.seat.spring;
+    (*seat_sliding_)[row] = r.seat.sliding;
+  }
+}
+
+// Reads the row's history and writes nothing but its own result.
+void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row,
+                             double dt, RowForce &result) {
+  const std::size_t i = static_cast<std::size_t>(particle_[row]);
+  result = RowForce{};
+  result.particle = particle_[row];
+  result.at = search_.closest(body.surface(), row, particles.position[i]);
+  Kinematics motion;
+  motion.radius = particles.radius[i];
+  motion.gap = result.at.distance - particles.radius[i] - offset_[row];
+  result.active = motion.gap < 0 || tied(row);
+  if (!result.active && !holds_history(row)) {
+    result.idle_until = travelled_ + (1 - idle_margin) * motion.gap;
+    return;
+  }
+
+  const Vector3 arm = result.at.local.point, &n = result.at.normal;
+  const Vector3 spin = particles.has_rotation() ? (*particles.angular_velocity)[i] : Vector3{};
+  const SurfaceMotion surface = surface_motion(body.surface(), result.at);
+  const Vector3 v = particles.velocity[i] + cross(spin, arm) - surface.velocity;
+  motion.opening_speed = dot(v, n);
+  motion.slide = v - motion.opening_speed * n;
+  motion.spin = surface.spin;
+  motion.k_n = spring(result.at);
+  if (parameters_.damping > 0)
+    motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[i]);
+  normal_force(row, motion, dt, result);
+  if (spring_ != nullptr) tangential_force(row, motion, dt, result);
+  if (seat_spring_ != nullptr && seated_[row]) {
+    const Vector3 w = spin - face_rotation(body.surface(), result.at.face);
+    motion.rocking = w - dot(w, n) * n;
+    seat_moment(row, motion, dt, result);
+  }
+}
+
+// The work of the dashpot by the trapezoid rule, as the leapfrog does it. Where the sum is held at zero the
+// dashpot has used up the spring's force, and what the spring gives back is lost to it.
+void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
+  if (result.active) {
+    const double spring = -motion.k_n * motion.gap;
+    result.normal_force = spring - motion.c_n * motion.opening_speed;
+    if (!tied(row)) result.normal_force = std::max(0.0, result.normal_force);
+    result.dashpot = result.normal_force - spring;
+    result.elastic = 0.5 * motion.k_n * motion.gap * motion.gap;
+  }
+  result.damping_loss = -0.5 * (dashpot_[row] + result.dashpot) * motion.opening_speed * dt;
+}
+
+void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
+  const Vector3 &n = result.at.normal;
+  const bool touched = norm_squared((*normal_)[row]) > 0;
+  CoulombFriction::State state{(*spring_)[row], (*sliding_)[row], (*slip_)[row]};
+  if (touched)
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+  const Vector3 stretch = -dt * motion.slide;
+  const double k_t = parameters_.tangential_ratio * motion.k_n;
+  // Glue has no limit, and any force presses it.
+  const CoulombFriction glue{{infinite, infinite}};
+  const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
+  const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction_);
+  const CoulombFriction::Result t = constant != nullptr
+                                        ? (*constant)(state, stretch, pressing, k_t)
+                                        : dem::slide_weakening(friction_, state, stretch, pressing, k_t, dt);
+  result.spring = state;
+  result.shear = t.force;
+  result.slip = t.slip;
+  result.friction_loss += t.dissipated;
+  result.elastic += 0.5 * norm_squared(t.force) / k_t;
+}
+
+// A flat end of a ground sphere rocks on an elastic base: a spring with a limit, the law of friction with
+// angles for paths and R/2 for the coefficient.
+void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
+  const Vector3 &n = result.at.normal;
+  const double stiffness =
+      2 * parameters_.seat_modulus * pi * motion.radius * motion.radius * motion.radius / 8;
+  double limit = rocking_limit * motion.radius, pressing = result.active ? result.normal_force : 0;
+  if (tied(row)) {
+    limit = infinite;
+    pressing = 1;
+  }
+  CoulombFriction::State state{(*seat_spring_)[row], (*seat_sliding_)[row]};
+  if (norm_squared((*normal_)[row]) > 0)
+    state.spring =
+        dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
+  const CoulombFriction::Result m =
+      CoulombFriction{{limit, limit}}(state, -dt * motion.rocking, pressing, stiffness);
+  result.seat = state;
+  result.moment = m.force;
+  result.friction_loss += m.dissipated;
+  result.elastic += 0.5 * norm_squared(m.force) / stiffness;
+}
+
+std::vector<ActiveContact> ContactLayer::contacts() const {
+  std::vector<ActiveContact> active;
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const RowContact &c = contacts_[k];
+    if (loads_[k].particle >= 0)
+      active.push_back({loads_[k].particle, loads_[k].face, c.point, c.normal, c.normal_force, c.shear,
+                        c.sliding, c.slip});
+  }
+  return active;
+}
+
+std::vector<double> ContactLayer::vertex_slip(const fem::LoadedSurface &body) const {
+  std::vector<double> sum(body.surface().vertices.size()), weight(sum.size());
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    if (loads_[k].particle < 0) continue;
+    const auto &corners = body.surface().faces[static_cast<std::size_t>(loads_[k].face)];
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::size_t v = static_cast<std::size_t>(corners[corner]);
+      sum[v] += loads_[k].weights[corner] * contacts_[k].slip;
+      weight[v] += loads_[k].weights[corner];
+    }
+  }
+  // Weights below this are round-off of a contact on the far edge of the face.
+  constexpr double no_weight = 1e-12;
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    sum[v] = weight[v] > no_weight ? sum[v] / weight[v] : 0;
+  return sum;
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,214 @@
+#include "coupling/contact/faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/contact/surface_search.h"
+
+namespace platen::coupling {
+
+namespace {
+
+// Farther from a plane than this share of the face is not flat.
+constexpr double flatness = 1e-14;
+
+double size_of(const Quad &q) {
+  return std::max(norm(q[2] - q[0]), norm(q[3] - q[1]));
+}
+
+// Share of the rim, in u and v, that is left to the general search, which knows edges.
+constexpr double rim = 1e-9;
+// A start this far off the face does not come back onto it: the warp moves a foot by less.
+constexpr double far_off = 0.05;
+// A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
+constexpr double last_move = 1e-6;
+constexpr int most_steps = 8;
+constexpr double round_off = 1e-12; // of a face: a box holds it for certain
+
+// Axes of the mean plane, the box and where a foot is single. False: no area.
+bool set_plane(const Quad &q, MovingFace &face) {
+  const Vector3 across = cross(q[2] - q[0], q[3] - q[1]);
+  const double area = norm(across);
+  const Vector3 along = face.e + 0.5 * face.t;
+  if (!(area > 0)) return false;
+  face.normal = across / area;
+  const Vector3 flat = along - dot(along, face.normal) * face.normal;
+  const double length = norm(flat);
+  if (!(length > 0)) return false;
+  face.along = flat / length;
+  face.across = cross(face.normal, face.along);
+  return true;
+}
+
+void set_box(const Quad &q, MovingFace &face) {
+  const Vector3 axes[3] = {face.along, face.across, face.normal};
+  const double noise = round_off * (norm(face.e) + norm(face.f));
+  face.middle = face.corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = 0, high = 0; // of the first corner
+    for (std::size_t k = 1; k < 4; ++k) {
+      const double at = dot(q[k] - q[0], axes[axis]);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    face.middle += 0.5 * (low + high) * axes[axis];
+    face.half[axis] = 0.5 * (high - low) + noise;
+  }
+}
+
+} // namespace
+
+FlatFaces::FlatFaces(const fem::SurfaceMesh &surface) {
+  for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
+    const Vector3 first = vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]);
+    faces_.push_back(face_of(face_corners(surface, face, first)));
+  }
+  join_pieces(surface);
+}
+
+FlatFaces::Face FlatFaces::face_of(const Quad &q) {
+  Face face;
+  face.normal = bilinear_normal(q, 0.5, 0.5);
+  const double size = size_of(q);
+  face.flat = norm_squared(face.normal) > 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 edge = q[(k + 1) % 4] - q[k], next = q[(k + 2) % 4] - q[(k + 1) % 4];
+    if (std::abs(dot(q[k] - q[0], face.normal)) > flatness * size) face.flat = false;
+    if (!(dot(cross(edge, next), face.normal) > 0)) face.flat = false; // convex
+  }
+  face.e = q[1] - q[0];
+  face.f = q[3] - q[0];
+  face.t = (q[0] - q[1]) + (q[2] - q[3]);
+  if (norm(face.t) <= flatness * size) face.t = {};
+  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), face.normal); };
+  // (r - v f) and (e + v t) are parallel.
+  face.linear = cross(face.t, face.normal);
+  face.free = cross(face.e, face.normal);
+  face.square = -plane(face.f, face.t);
+  face.constant = -plane(face.f, face.e);
+  return face;
+}
+
+bool FlatFaces::foot(int index, const Vector3 &centre, ClosestPoint &local, Vector3 &normal,
+                     double &distance) const {
+  const Face &face = faces_[static_cast<std::size_t>(index)];
+  if (!face.flat) return false;
+  const double linear = dot(centre, face.linear) + face.constant, free = dot(centre, face.free);
+  const double discriminant = linear * linear - 4 * face.square * free;
+  if (!(discriminant >= 0)) return false;
+  const double v = -2 * free / (linear + std::copysign(std::sqrt(discriminant), linear));
+  if (!(v > rim && v < 1 - rim)) return false;
+  const Vector3 along = face.e + v * face.t;
+  const double u = dot(centre - v * face.f, along) / norm_squared(along);
+  if (!(u > rim && u < 1 - rim)) return false;
+  normal = face.normal;
+  distance = dot(centre, face.normal);
+  local = ClosestPoint{};
+  local.point = -distance * face.normal;
+  local.weights = bilinear_weights(u, v);
+  local.u = u;
+  local.v = v;
+  local.distance_squared = distance * distance;
+  return true;
+}
+
+// Flat faces that share a corner and lie in the plane of the piece's first face.
+void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
+  std::vector<std::vector<int>> around(surface.vertices.size());
+  for (std::size_t face = 0; face < faces_.size(); ++face)
+    for (const int v : surface.faces[face])
+      around[static_cast<std::size_t>(v)].push_back(static_cast<int>(face));
+  piece_.assign(faces_.size(), -1);
+  for (int first = 0; first < static_cast<int>(faces_.size()); ++first) {
+    if (piece(first) >= 0) continue;
+    piece_[static_cast<std::size_t>(first)] = first;
+    const Face &seed = faces_[static_cast<std::size_t>(first)];
+    if (!seed.flat) continue;
+    const Vector3 origin = vertex_at(surface, surface.faces[static_cast<std::size_t>(first)][0]);
+    const auto in_plane = [&](int face) {
+      const Quad q = face_corners(surface, face, origin);
+      return faces_[static_cast<std::size_t>(face)].flat &&
+             std::all_of(q.begin(), q.end(), [&](const Vector3 &corner) {
+               return std::abs(dot(corner, seed.normal)) <= flatness * (size_of(q) + norm(corner));
+             });
+    };
+    std::vector<int> open{first};
+    while (!open.empty()) {
+      const int face = open.back();
+      open.pop_back();
+      for (const int v : surface.faces[static_cast<std::size_t>(face)])
+        for (const int next : around[static_cast<std::size_t>(v)]) {
+          if (piece(next) >= 0 || !in_plane(next)) continue;
+          piece_[static_cast<std::size_t>(next)] = first;
+          open.push_back(next);
+        }
+    }
+  }
+}
+
+MovingFace moving_face(const Quad &q) {
+  MovingFace face;
+  face.corner = q[0];
+  face.e = q[1] - q[0];
+  face.f = q[3] - q[0];
+  face.t = (q[0] - q[1]) + (q[2] - q[3]);
+  if (!set_plane(q, face)) {
+    // Any axes hold for the box of a face without area.
+    face.along = {1, 0, 0}, face.across = {0, 1, 0}, face.normal = {0, 0, 1};
+    set_box(q, face);
+    return face;
+  }
+  set_box(q, face);
+  face.single_foot = single_foot_within(q, face.normal) - 2 * face.half.z;
+  // (r - v f) and (e + v t) are parallel in the plane.
+  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), face.normal); };
+  face.linear = cross(face.t, face.normal);
+  face.free = cross(face.e, face.normal);
+  face.square = -plane(face.f, face.t);
+  face.constant = -plane(face.f, face.e);
+  return face;
+}
+
+double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
+  const Vector3 r = centre - face.middle;
+  const double a = std::max(0.0, std::abs(dot(r, face.along)) - face.half.x),
+               b = std::max(0.0, std::abs(dot(r, face.across)) - face.half.y),
+               c = std::max(0.0, std::abs(dot(r, face.normal)) - face.half.z);
+  return a * a + b * b + c * c;
+}
+
+bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
+  const Vector3 r = centre - face.corner;
+  if (!(std::abs(dot(r, face.normal)) <= face.single_foot)) return false;
+  const double linear = dot(r, face.linear) + face.constant, free = dot(r, face.free);
+  const double discriminant = linear * linear - 4 * face.square * free;
+  if (!(discriminant >= 0)) return false;
+  double v = -2 * free / (linear + std::copysign(std::sqrt(discriminant), linear));
+  if (!(v > -far_off && v < 1 + far_off)) return false;
+  const Vector3 start = face.e + v * face.t;
+  double u = dot(r - v * face.f, start) / norm_squared(start);
+  if (!(u > -far_off && u < 1 + far_off)) return false;
+  double moved = 1;
+  for (int step = 0; step < most_steps && moved > last_move; ++step) {
+    const Vector3 a = face.e + v * face.t, b = face.f + u * face.t;
+    const Vector3 out = r - u * face.e - v * b; // from the face to the centre
+    const double gu = dot(out, a), gv = dot(out, b);
+    const double aa = norm_squared(a), bb = norm_squared(b), off = dot(a, b) - dot(out, face.t);
+    const double scale = 1 / (aa * bb - off * off);
+    const double du = (gu * bb - gv * off) * scale, dv = (gv * aa - gu * off) * scale;
+    u += du;
+    v += dv;
+    moved = std::max(std::abs(du), std::abs(dv));
+  }
+  if (!(moved <= last_move && u > rim && u < 1 - rim && v > rim && v < 1 - rim)) return false;
+  foot.u = u;
+  foot.v = v;
+  foot.along_u = face.e + v * face.t;
+  foot.along_v = face.f + u * face.t;
+  foot.out = r - u * face.e - v * foot.along_v;
+  const Vector3 n = cross(foot.along_u, foot.along_v);
+  foot.normal = n / norm(n);
+  return true;
+}
+
+} // namespace platen::coupling

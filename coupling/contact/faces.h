@@ -1,0 +1,79 @@
+// The flat faces of a surface that moves without turning: what does not change from step to step is worked
+// out once, so that the foot of a particle on a platen costs a few products.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "coupling/contact/closest_point.h"
+#include "fem/surface.h"
+
+namespace platen::coupling {
+
+class FlatFaces {
+public:
+  // From the faces where they are now; a later shift of all of them changes nothing.
+  explicit FlatFaces(const fem::SurfaceMesh &surface);
+
+  // Foot of a centre, given relative to the face's first corner (m), where the face is flat and convex and
+  // the foot lies inside it, off its rim by 1e-9 of its size; false elsewhere, which says nothing. Unit
+  // normal out of the body; distance of the centre along it (m), negative inside the body.
+  bool foot(int face, const Vector3 &centre, ClosestPoint &local, Vector3 &normal, double &distance) const;
+
+  // Faces with the same number make up one flat piece of the surface: outside the face that holds its foot,
+  // no face of the piece is nearer to a centre.
+  int piece(int face) const { return piece_[static_cast<std::size_t>(face)]; }
+
+private:
+  // The bilinear map x = q0 + u e + v (f + u t), inverted in the plane: v solves
+  // square v^2 + (r.linear + constant) v + r.free = 0 for r = x - q0, and u follows.
+  struct Face {
+    Vector3 normal, e, f, t;
+    Vector3 linear, free;
+    double square = 0, constant = 0;
+    bool flat = false;
+  };
+  static Face face_of(const Quad &corners);
+  void join_pieces(const fem::SurfaceMesh &surface);
+
+  std::vector<Face> faces_;
+  std::vector<int> piece_;
+};
+
+// The faces of a surface that turns or deforms, as they are in one step: what all particles near a face share
+// is worked out once, so that the foot of each costs two steps of Newton's method.
+//
+// x(u, v) = corner + u e + v f + uv t, the bilinear map of closest_point.h.
+struct MovingFace {
+  Vector3 corner, e, f, t; // m
+  // The map inverted in the mean plane, for a start: square v^2 + (r.linear + constant) v + r.free = 0 for
+  // r = x - corner, and u follows.
+  Vector3 linear, free;
+  double square = 0, constant = 0;
+  // A box around the face, along its mean plane.
+  Vector3 normal, along, across; // unit
+  Vector3 middle, half;          // m, global axes; along its own: along, across, normal
+  // Centres at most this far from the plane through the first corner have a single foot (m); negative: none.
+  double single_foot = -1;
+};
+
+// From corners in global axes (m). Any corners are legal.
+MovingFace moving_face(const Quad &corners);
+
+// No point of the face is nearer to the centre (m, global axes) than the root of this (m^2).
+double least_distance_squared(const MovingFace &face, const Vector3 &centre);
+
+// A foot inside a face.
+struct Foot {
+  double u = 0, v = 0;
+  Vector3 out;              // m, from the foot to the centre
+  Vector3 along_u, along_v; // m, tangents
+  Vector3 normal;           // unit, out of the body
+};
+
+// Foot of the centre where there is a single one and it lies inside the face, off its rim by 1e-9 of its
+// size: to 1e-12 of the face along it, and so with a distance to round-off. False elsewhere, which says
+// nothing.
+bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot);
+
+} // namespace platen::coupling

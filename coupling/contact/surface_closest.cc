@@ -1,0 +1,227 @@
+// The closest point of a surface to a listed particle, and the normal there: on faces, and where none is
+// defined.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/contact/surface_search.h"
+
+namespace platen::coupling {
+
+using fem::SurfaceMesh;
+
+namespace {
+
+const std::array<int, 4> &corners_of(const SurfaceMesh &surface, int face) {
+  return surface.faces[static_cast<std::size_t>(face)];
+}
+
+double largest_corner(const Quad &q) {
+  return std::sqrt(
+      std::max({norm_squared(q[0]), norm_squared(q[1]), norm_squared(q[2]), norm_squared(q[3])}));
+}
+
+// Of the origin from the box around the corners: no point of the face is nearer.
+double box_distance_squared(const Quad &q) {
+  Box box{q[0], q[0]};
+  for (std::size_t k = 1; k < 4; ++k)
+    box.include(q[k]);
+  return box.distance_squared({});
+}
+
+} // namespace
+
+// The foot on a flat face of a surface that has not turned since the search was set up.
+bool SurfaceSearch::foot(const SurfaceMesh &surface, int face, const Vector3 &centre,
+                         SurfacePoint &result) const {
+  if (!surface.only_shifted) return false;
+  if (!flat_.foot(face, centre - vertex_at(surface, corners_of(surface, face)[0]), result.local,
+                  result.normal, result.distance))
+    return false;
+  result.face = face;
+  return true;
+}
+
+// The same, where it is sure to be the closest point of all: every other face listed lies in the same plane
+// or farther away. False says nothing.
+bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
+                                    SurfacePoint &result) const {
+  const std::size_t last = first_near_[k + 1];
+  std::size_t n = first_near_[k];
+  while (n < last && !foot(surface, near_[n].face, centre, result))
+    ++n;
+  if (n == last) return false;
+  const double distance = std::abs(result.distance) * (1 + margin);
+  const int piece = flat_.piece(result.face);
+  for (std::size_t other = first_near_[k]; other < last; ++other) {
+    if (near_[other].distance - travelled_ > distance) break;
+    if (flat_.piece(near_[other].face) != piece) return false;
+  }
+  return true;
+}
+
+bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vector3 &centre,
+                               const MovingFace *moving, SurfacePoint &nearest) const {
+  nearest.face = face;
+  Foot foot;
+  if (moving == nullptr || !find_foot(*moving, centre, foot)) {
+    nearest.local = closest_point(face_corners(surface, face, centre));
+    return false;
+  }
+  ClosestPoint &local = nearest.local;
+  local.point = -foot.out;
+  local.weights = bilinear_weights(foot.u, foot.v);
+  local.u = foot.u;
+  local.v = foot.v;
+  local.distance_squared = norm_squared(foot.out);
+  local.feature = Feature::face;
+  local.local = 0;
+  nearest.normal = foot.normal;
+  nearest.distance = dot(foot.out, foot.normal);
+  nearest.along_u = foot.along_u;
+  nearest.along_v = foot.along_v;
+  return true;
+}
+
+SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const {
+  SurfacePoint point;
+  if (surface.only_shifted && foot_of_nearest(surface, k, centre, point)) return point;
+  return closest_listed(surface, k, centre);
+}
+
+SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size_t k,
+                                           const Vector3 &centre) const {
+  SurfacePoint best, found;
+  best.local.distance_squared = std::numeric_limits<double>::infinity();
+  double best_distance = best.local.distance_squared;
+  bool whole = false;
+  MovingFace made;
+  for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n) {
+    const int face = near_[n].face;
+    if (near_[n].distance - travelled_ > best_distance * (1 + margin)) break;
+    const MovingFace *moving = nullptr;
+    if (!surface.only_shifted) {
+      if (!looked_) made = moving_face(face_corners(surface, face, {}));
+      moving = looked_ ? &moving_[static_cast<std::size_t>(face)] : &made;
+    }
+    if (best.face >= 0) {
+      const double least = moving != nullptr ? least_distance_squared(*moving, centre)
+                                             : box_distance_squared(face_corners(surface, face, centre));
+      if (least > best.local.distance_squared * (1 + margin)) continue;
+    }
+    const bool found_whole = nearest_on(surface, face, centre, moving, found);
+    if (preference(found.local) > preference(best.local)) continue;
+    if (preference(found.local) == preference(best.local) && face > best.face) continue;
+    best = found;
+    whole = found_whole;
+    best_distance = std::sqrt(found.local.distance_squared);
+  }
+  return whole ? best : with_normal(surface, best.face, best.local, centre);
+}
+
+SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vector3 &centre) const {
+  SurfacePoint best, found;
+  best.local.distance_squared = std::numeric_limits<double>::infinity();
+  bool whole = false;
+  for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
+    const MovingFace moving =
+        surface.only_shifted ? MovingFace{} : moving_face(face_corners(surface, face, {}));
+    const bool found_whole =
+        nearest_on(surface, face, centre, surface.only_shifted ? nullptr : &moving, found);
+    if (!(preference(found.local) < preference(best.local))) continue;
+    best = found;
+    whole = found_whole;
+  }
+  return whole ? best : with_normal(surface, best.face, best.local, centre);
+}
+
+// Inside or outside: on a face its normal tells; on an edge or vertex the sum of the normals around it,
+// weighted by angle, does for any closed surface (Baerentzen and Aanaes 2005).
+SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, const ClosestPoint &local,
+                                        const Vector3 &centre) const {
+  SurfacePoint s;
+  // The same formula as the short way of closest(), so that the way does not show in a single bit.
+  if (local.feature == Feature::face && foot(surface, face, centre, s)) return s;
+  s.face = face;
+  s.local = local;
+  const Vector3 out = -local.point;
+  const Quad corners = face_corners(surface, face, centre);
+  s.along_u = derivative_u(corners, local.v);
+  s.along_v = derivative_v(corners, local.u);
+  Vector3 mean;
+  if (local.feature == Feature::face) {
+    mean = bilinear_normal(corners, local.u, local.v);
+    if (norm_squared(mean) > 0) {
+      s.normal = mean;
+      s.distance = dot(out, mean);
+      return s;
+    }
+  } else {
+    mean = local.feature == Feature::edge ? edge_normal(surface, face, local, centre)
+                                          : vertex_normal(surface, face, local.local, centre);
+  }
+  // Across an edge inside a flat face the direction from surface to centre is that of the normal up to
+  // round-off of the corners; there, and where the centre lies on the surface, the normal itself is taken.
+  const double noise = 32 * std::numeric_limits<double>::epsilon() * largest_corner(corners);
+  const double size = norm(out);
+  if (norm_squared(mean) > 0 && norm(cross(out, mean)) <= noise) {
+    s.normal = mean;
+    s.distance = dot(out, mean);
+  } else {
+    const double side = dot(out, mean) < 0 ? -1.0 : 1.0;
+    s.normal = size > 0 ? (side / size) * out : Vector3{0, 0, 1}; // a surface without area: any direction
+    s.distance = side * size;
+  }
+  return s;
+}
+
+Vector3 SurfaceSearch::edge_normal(const SurfaceMesh &surface, int face, const ClosestPoint &local,
+                                   const Vector3 &centre) const {
+  const std::array<int, 4> &own = corners_of(surface, face);
+  const std::size_t k = static_cast<std::size_t>(local.local);
+  const int a = own[k], b = own[(k + 1) % 4];
+  const double along = local.weights[(k + 1) % 4]; // share of b
+  const double corner_u[4] = {0, 1, 1, 0}, corner_v[4] = {0, 0, 1, 1};
+  Vector3 sum;
+  for (int n = first_face_of_vertex_[static_cast<std::size_t>(a)];
+       n < first_face_of_vertex_[static_cast<std::size_t>(a) + 1]; ++n) {
+    const int other = faces_of_vertex_[static_cast<std::size_t>(n)];
+    if (n > first_face_of_vertex_[static_cast<std::size_t>(a)] &&
+        other == faces_of_vertex_[static_cast<std::size_t>(n - 1)])
+      continue; // a triangle, written as a quad with one corner twice
+    const std::array<int, 4> &ring = corners_of(surface, other);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      const bool same = ring[i] == a && ring[j] == b, turned = ring[i] == b && ring[j] == a;
+      if (!same && !turned) continue;
+      const double s = same ? along : 1 - along;
+      sum +=
+          bilinear_normal(face_corners(surface, other, centre), corner_u[i] + s * (corner_u[j] - corner_u[i]),
+                          corner_v[i] + s * (corner_v[j] - corner_v[i]));
+    }
+  }
+  const double size = norm(sum);
+  return size > 0 ? sum / size : Vector3{};
+}
+
+Vector3 SurfaceSearch::vertex_normal(const SurfaceMesh &surface, int face, int corner,
+                                     const Vector3 &centre) const {
+  const std::size_t v = static_cast<std::size_t>(corners_of(surface, face)[static_cast<std::size_t>(corner)]);
+  Vector3 sum;
+  for (int n = first_face_of_vertex_[v]; n < first_face_of_vertex_[v + 1]; ++n) {
+    const int other = faces_of_vertex_[static_cast<std::size_t>(n)];
+    if (n > first_face_of_vertex_[v] && other == faces_of_vertex_[static_cast<std::size_t>(n - 1)]) continue;
+    const std::array<int, 4> &ring = corners_of(surface, other);
+    const Quad q = face_corners(surface, other, centre);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (static_cast<std::size_t>(ring[i]) != v) continue;
+      const Vector3 next = q[(i + 1) % 4] - q[i], last = q[(i + 3) % 4] - q[i], normal = cross(next, last);
+      const double size = norm(normal);
+      if (size > 0) sum += (std::atan2(size, dot(next, last)) / size) * normal;
+    }
+  }
+  const double size = norm(sum);
+  return size > 0 ? sum / size : Vector3{};
+}
+
+} // namespace platen::coupling

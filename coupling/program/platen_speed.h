@@ -1,0 +1,77 @@
+// A servo that moves a platen so that its reaction meets a wanted force: loading by force, confining plates,
+// seating.
+//
+// It is the discrete form of a light piston with a dashpot, m dv/dt = F_wanted - F - c v. A piston takes
+// energy out of whatever it presses on and puts none in beyond the work of the wanted force, so it stays
+// stable against any specimen, cracking ones too; only the time step limits it, and c is chosen far above
+// that limit.
+#pragma once
+
+#include <limits>
+
+#include "base/archive.h"
+
+namespace platen::coupling {
+
+// What the platen presses on, summed over the particles that it touches or may touch soon.
+struct ServoLoad {
+  double stiffness = 0; // N/m, sum of k_n
+  double impedance = 0; // N s/m, sum of sqrt(k_n m): force per speed of an impact
+};
+
+class Servo {
+public:
+  struct Parameters {
+    double gain = 1; // multiplies the response; 0.1 ... 10 are safe, larger is faster
+    double velocity_limit = std::numeric_limits<double>::quiet_NaN(); // m/s, > 0
+  };
+  // Throws std::invalid_argument where a parameter is not positive.
+  explicit Servo(const Parameters &parameters);
+
+  // Velocity (m/s) for the next step dt (s), positive towards the specimen. Forces in N, positive in
+  // compression: `reaction` is that of the last step. Without anything near (zero load) it closes in at the
+  // velocity limit.
+  double velocity(double wanted, double reaction, const ServoLoad &load, double dt);
+
+  void describe(Archive &archive);
+
+private:
+  Parameters parameters_;
+  double velocity_ = 0;
+};
+
+// How fast platens may go: at a multiple of the rate of the test while a specimen is elastic, at that rate
+// while it fails.
+//
+// Elastic: stress goes with closure, up or down, nearly as steeply as the steepest secant from the start, and
+// hardly a bond breaks. Bonds are checked every wave transit and the slope every few; before the first ten
+// nothing is told, for platens that start press by the specimen's inertia. Speed rises within `ramp` and
+// falls in a third of it.
+class RateControl {
+public:
+  struct Parameters {
+    double multiplier = 1; // speed while elastic, over that while failing; >= 1
+    double transit = 0;    // s, of a wave over the specimen
+    double ramp = 0;       // s, from one to the other
+    double bonds = 0;      // at the start
+  };
+  // Throws std::invalid_argument where the multiplier is below one or a time is not positive.
+  explicit RateControl(const Parameters &parameters);
+
+  // Factor on the platens' speed for a step dt (s) that begins at `time`.
+  double factor(double time, double dt);
+  // After a step. `stress` (Pa) and `closure` (1) of one sign; `broken`: bonds so far.
+  void update(double time, double stress, double closure, double broken);
+
+  void describe(Archive &archive);
+
+private:
+  Parameters parameters_;
+  double factor_ = 1;
+  double careful_until_ = -1, next_check_ = 0, next_slope_ = 0; // s; below zero: not begun
+  double first_stress_ = 0, first_closure_ = 0;                 // when it began
+  double stress_ = 0, closure_ = 0, broken_ = 0;                // when they were last checked
+  double steepest_ = 0;                                         // Pa
+};
+
+} // namespace platen::coupling

@@ -1,0 +1,212 @@
+#include "fem/hyperelastic_cell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace platen::fem {
+
+namespace {
+
+Tensor deformation_gradient(const Corners &gradient, const Corners &displacement) {
+  Tensor f = identity_tensor;
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        f[3 * i + j] += displacement[a][i] * gradient[a][j];
+  return f;
+}
+
+// All points of a deformed cell.
+struct Deformed {
+  std::array<Tensor, 8> f, cof;
+  std::array<double, 8> j;
+  double volume = 0; // m^3, v
+
+  Deformed(const ReferenceCell &cell, const Corners &displacement) {
+    for (std::size_t q = 0; q < 8; ++q) {
+      f[q] = deformation_gradient(cell.gradient[q], displacement);
+      cof[q] = cofactor(f[q]);
+      j[q] = determinant(f[q], cof[q]);
+      volume += cell.weight[q] * j[q];
+    }
+  }
+};
+
+constexpr std::array<double, 4> s_of = {-1, 1, 1, -1}, t_of = {-1, -1, 1, 1};
+
+struct Bilinear {
+  Vector3 a{}, b{}, c{};
+  explicit Bilinear(const FaceCorners &x)
+      : a(0.25 * ((x[1] + x[2]) - (x[0] + x[3]))),
+        b(0.25 * ((x[2] + x[3]) - (x[0] + x[1]))),
+        c(0.25 * ((x[0] + x[2]) - (x[1] + x[3]))) {}
+};
+
+} // namespace
+
+std::array<double, 8> corner_volumes(const Corners &x) {
+  std::array<double, 8> volumes;
+  for (std::size_t c = 0; c < 8; ++c)
+    volumes[c] = dot(cross(x[c | 1u] - x[c & 6u], x[c | 2u] - x[c & 5u]), x[c | 4u] - x[c & 3u]);
+  return volumes;
+}
+
+double smallest_volume_ratio(const ReferenceCell &cell, const Corners &displacement, const Corners &place) {
+  const std::array<double, 8> corners = corner_volumes(place);
+  double smallest = corners[0] / cell.corner_volume[0];
+  const auto take = [&](double ratio) {
+    if (!(ratio >= smallest)) smallest = ratio; // passes on what is not a number
+  };
+  for (std::size_t c = 1; c < 8; ++c)
+    take(corners[c] / cell.corner_volume[c]);
+  for (std::size_t q = 0; q < 8; ++q)
+    take(determinant(deformation_gradient(cell.gradient[q], displacement)));
+  return smallest;
+}
+
+CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
+  const Deformed at(cell, displacement);
+  const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
+  CellForce result;
+  result.energy = cell.volume * law.volume_energy(ratio);
+  for (std::size_t q = 0; q < 8; ++q) {
+    const double w = cell.weight[q], shape = w * law.shape_factor(at.j[q]), norm2 = squared_norm(at.f[q]);
+    const double beside = w * along - shape * norm2 / (3 * at.j[q]);
+    result.energy += 0.5 * (shape * norm2 - 3 * law.shear_modulus * w);
+    Tensor p; // first Piola-Kirchhoff stress times weight
+    for (std::size_t k = 0; k < 9; ++k)
+      p[k] = shape * at.f[q][k] + beside * at.cof[q][k];
+    for (std::size_t a = 0; a < 8; ++a)
+      result.force[a] = result.force[a] + p * cell.gradient[q][a];
+  }
+  return result;
+}
+
+CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
+  const Deformed at(cell, displacement);
+  const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
+  CellStiffness k{};
+  Corners swelling{}; // m^2, derivative of the volume by each corner
+  for (std::size_t q = 0; q < 8; ++q) {
+    const double w = cell.weight[q], j = at.j[q], shape = w * law.shape_factor(j);
+    const double third = squared_norm(at.f[q]) / 3, push = w * along * j, back = shape * third - push;
+    Corners g, h; // gradient in the current place; F times that in the reference place
+    for (std::size_t a = 0; a < 8; ++a) {
+      g[a] = (1 / j) * (at.cof[q] * cell.gradient[q][a]);
+      h[a] = at.f[q] * cell.gradient[q][a];
+      swelling[a] = swelling[a] + w * j * g[a];
+    }
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < 8; ++b) {
+        const double direct = shape * dot(cell.gradient[q][a], cell.gradient[q][b]);
+        for (std::size_t i = 0; i < 3; ++i) {
+          double *row = &k[24 * (3 * a + i) + 3 * b];
+          row[i] += direct;
+          for (std::size_t l = 0; l < 3; ++l)
+            row[l] += push * g[a][i] * g[b][l] + back * g[b][i] * g[a][l] +
+                      shape * (-2.0 / 3.0) * (g[b][l] * (h[a][i] - third * g[a][i]) + h[b][l] * g[a][i]);
+        }
+      }
+  }
+  const double c = law.volume_modulus(ratio) / cell.volume;
+  for (std::size_t m = 0; m < 24; ++m)
+    for (std::size_t n = 0; n < 24; ++n)
+      k[24 * m + n] += c * swelling[m / 3][m % 3] * swelling[n / 3][n % 3];
+  return k;
+}
+
+CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
+  const Deformed at(cell, displacement);
+  CellStress result;
+  result.volume_ratio = at.volume / cell.volume;
+  for (std::size_t q = 0; q < 8; ++q) {
+    const Tensor &f = at.f[q];
+    const double share = cell.weight[q] * law.shape_factor(at.j[q]) / at.volume, third = squared_norm(f) / 3;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        result.cauchy[3 * i + k] += share * (f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] +
+                                             f[3 * i + 2] * f[3 * k + 2] - (i == k ? third : 0.0));
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    result.cauchy[4 * i] += law.volume_stress(result.volume_ratio);
+  return result;
+}
+
+double eigenvalue_bound(const CellStiffness &stiffness, const std::array<double, 8> &mass) {
+  CellStiffness a, b;
+  double size = 0;
+  for (std::size_t m = 0; m < 24; ++m)
+    for (std::size_t n = 0; n < 24; ++n) {
+      a[24 * m + n] =
+          0.5 * (stiffness[24 * m + n] + stiffness[24 * n + m]) / std::sqrt(mass[m / 3] * mass[n / 3]);
+      size = std::max(size, std::abs(a[24 * m + n]));
+    }
+  if (!(size > 0)) return size;
+  for (double &x : a)
+    x /= size;
+  double power = 1, logarithm = 0; // the 2^n-th power is exp(logarithm) times a
+  for (int squaring = 0; squaring < 3; ++squaring) {
+    double largest = 0;
+    for (std::size_t m = 0; m < 24; ++m) {
+      double *row = &b[24 * m];
+      std::fill(row, row + 24, 0.0);
+      for (std::size_t l = 0; l < 24; ++l)
+        for (std::size_t n = 0; n < 24; ++n)
+          row[n] += a[24 * m + l] * a[24 * l + n];
+      for (std::size_t n = 0; n < 24; ++n)
+        largest = std::max(largest, std::abs(row[n]));
+    }
+    for (std::size_t m = 0; m < b.size(); ++m)
+      a[m] = b[m] / largest;
+    power *= 2;
+    logarithm = 2 * logarithm + std::log(largest);
+  }
+  double trace = 0; // of the square: that of the 16th power
+  for (const double x : a)
+    trace += x * x;
+  return size * std::exp((2 * logarithm + std::log(trace)) / (2 * power));
+}
+
+FaceCorners corner_areas(const FaceCorners &place) {
+  const Bilinear face(place);
+  const Vector3 middle = cross(face.a, face.b), along = (1.0 / 3) * cross(face.a, face.c),
+                across = (1.0 / 3) * cross(face.c, face.b);
+  FaceCorners areas;
+  for (std::size_t k = 0; k < 4; ++k)
+    areas[k] = middle + s_of[k] * along + t_of[k] * across;
+  return areas;
+}
+
+double swept_volume(const FaceCorners &from, const FaceCorners &to) {
+  const double off = 0.5 / std::sqrt(3.0);
+  double volume = 0;
+  for (const double share : {0.5 - off, 0.5 + off}) {
+    FaceCorners place;
+    for (std::size_t k = 0; k < 4; ++k)
+      place[k] = (1 - share) * from[k] + share * to[k];
+    const FaceCorners areas = corner_areas(place);
+    for (std::size_t k = 0; k < 4; ++k)
+      volume += 0.5 * dot(areas[k], to[k] - from[k]);
+  }
+  return volume;
+}
+
+std::array<double, 144> corner_area_gradient(const FaceCorners &place) {
+  const Bilinear face(place);
+  std::array<double, 144> gradient;
+  for (std::size_t m = 0; m < 4; ++m)
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double s = s_of[n], t = t_of[n], st = s * t, third_s = s_of[m] / 3, third_t = t_of[m] / 3;
+      // The change of n_m under a move d of corner n is d x w.
+      const Vector3 w = 0.25 * ((s * face.b - t * face.a) + third_s * (s * face.c - st * face.a) +
+                                third_t * (st * face.b - t * face.c));
+      const std::array<double, 9> block = {0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          gradient[12 * (3 * m + i) + 3 * n + k] = block[3 * i + k];
+    }
+  return gradient;
+}
+
+} // namespace platen::fem
