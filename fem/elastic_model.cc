@@ -55,7 +55,7 @@ void lay_out(ElasticModel &model) {
   const auto n = static_cast<dealii::DynamicSparsityPattern::size_type>(model.nodes.size());
   dealii::DynamicSparsityPattern pattern(n, n);
   dealii::DoFTools::make_sparsity_pattern(*model.numbers, pattern);
-  BlockMatrix &k = model.stiffness;
+  NodeMatrix &k = model.stiffness;
   k.begin.push_back(0);
   for (dealii::DynamicSparsityPattern::size_type row = 0; row < n; ++row) {
     for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "fem/block_matrix.h"
 #include "fem/grids.h"
 #include "fem/material.h"
+#include "fem/node_matrix.h"
 
 namespace dealii {
 template <int dim, int spacedim>
@@ -28,7 +28,7 @@ struct ElasticModel {
   std::vector<Vector3> nodes;     // m
   std::vector<int> cell_nodes;    // (degree + 1)^3 per cell, in deal.II's order
   std::vector<int> cell_material; // one per cell
-  BlockMatrix stiffness;          // N/m, exactly symmetric
+  NodeMatrix stiffness;           // N/m, exactly symmetric
   std::vector<double> mass;       // kg, lumped, positive; the sum is the mass of the solid
   double volume = 0;              // m^3
   // Upper bound of the eigenvalues of mass^-1 stiffness (1/s^2): the largest over cells of a norm of the

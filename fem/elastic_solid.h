@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "base/vector3.h"
-#include "fem/block_matrix.h"
 #include "fem/body.h"
 #include "fem/elastic_model.h"
+#include "fem/node_matrix.h"
 #include "fem/static_equations.h"
 
 namespace platen::fem {
@@ -184,7 +184,7 @@ private:
   std::vector<Kicked> kicked_;          // by the loads since the last drift
   std::vector<StaticEquations> solver_; // none until the first aim()
   std::vector<double> support_;         // N/m per node; empty without
-  BlockMatrix supported_;               // stiffness and support
+  NodeMatrix supported_;                // stiffness and support
   std::vector<StaticEquations> supported_solver_;
 };
 

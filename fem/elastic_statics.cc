@@ -122,7 +122,7 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
     throw std::invalid_argument("elastic solid: one load per surface vertex, please");
   const bool follows = duration > 0 && !support_.empty();
   std::vector<StaticEquations> &solver = follows ? supported_solver_ : solver_;
-  const BlockMatrix &stiffness = follows ? supported_ : model_.stiffness;
+  const NodeMatrix &stiffness = follows ? supported_ : model_.stiffness;
   if (solver.empty()) solver.emplace_back(stiffness, model_.nodes, fixed_, options_.solver);
   std::vector<Vector3> load(model_.nodes.size(), Vector3{});
   for (std::size_t v = 0; v < node_of_.size(); ++v)

@@ -105,7 +105,7 @@ private:
     const std::size_t n = 3 * nodes_.size();
     matrix_.assign(n * n, 0.0);
     border_.clear();
-    const BlockMatrix &k = model_.stiffness;
+    const NodeMatrix &k = model_.stiffness;
     for (std::size_t row = 0; row < nodes_.size(); ++row)
       for (std::size_t e = k.begin[index(nodes_[row])]; e < k.begin[index(nodes_[row]) + 1]; ++e) {
         const int column = place_[index(k.column[e])];

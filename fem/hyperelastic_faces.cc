@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "fem/block_matrix.h"
 #include "fem/hyperelastic_solid.h"
+#include "fem/node_matrix.h"
 
 namespace platen::fem {
 
@@ -184,7 +184,7 @@ void HyperelasticSolid::lay_out_stiffness() {
 }
 
 // The symmetric part: that of the pressure is symmetric but for its rims.
-void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, BlockMatrix &rows) const {
+void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, NodeMatrix &rows) const {
   rows.values.assign(9 * rows.column.size(), 0.0);
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (std::size_t a = 0; a < 8; ++a)
@@ -216,7 +216,7 @@ double HyperelasticSolid::stable_step() const {
   };
   const double bound = ordered_sum<Largest>(mesh_.cells.size(), look, cell_grain).value;
   if (!(bound > 0)) return std::numeric_limits<double>::infinity();
-  BlockMatrix rows = stiffness_;
+  NodeMatrix rows = stiffness_;
   assemble(cells, rows);
   Fixed fixed(prescribed_.size());
   for (std::size_t n = 0; n < prescribed_.size(); ++n)

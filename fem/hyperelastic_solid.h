@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/block_matrix.h"
+#include "fem/node_matrix.h"
 #include "fem/solid_mesh.h"
 #include "fem/surface.h"
 
@@ -151,7 +151,7 @@ private:
   void add_pressure_forces();
   CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
   void lay_out_stiffness();
-  void assemble(const std::vector<CellStiffness> &cells, BlockMatrix &rows) const;
+  void assemble(const std::vector<CellStiffness> &cells, NodeMatrix &rows) const;
   FaceCorners face_places(const BoundaryFace &face, const std::vector<Vector3> &displacement) const;
   void place_surface();
   void follow_state();
@@ -164,7 +164,7 @@ private:
   std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
   double volume_ = 0;
   std::vector<double> mass_; // kg, of each node
-  BlockMatrix stiffness_;    // layout alone
+  NodeMatrix stiffness_;     // layout alone
 
   std::vector<Vector3> displacement_, velocity_, next_;
   std::vector<unsigned char> prescribed_; // bits x, y, z of each node

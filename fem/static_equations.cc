@@ -56,7 +56,7 @@ Index row_of(std::size_t node, std::size_t k) {
 
 // Entries of the matrix with fixed rows and columns left out, and a diagonal entry of the same size for them.
 template <class Add>
-void for_entries(const BlockMatrix &a, const Fixed &fixed, const Add &add) {
+void for_entries(const NodeMatrix &a, const Fixed &fixed, const Add &add) {
   for (std::size_t i = 0; i < a.rows(); ++i)
     for (std::size_t b = a.begin[i]; b < a.begin[i + 1]; ++b) {
       const auto j = static_cast<std::size_t>(a.column[b]);
@@ -114,14 +114,14 @@ struct StaticEquations::Parts {
   dealii::TrilinosWrappers::PreconditionAMG multigrid;
   std::vector<double> modes; // ML keeps pointing at them
 
-  void factorise(const BlockMatrix &a, const dealii::DynamicSparsityPattern &rows) {
+  void factorise(const NodeMatrix &a, const dealii::DynamicSparsityPattern &rows) {
     dealii::SparsityPattern pattern;
     pattern.copy_from(rows);
     dealii::SparseMatrix<double> full(pattern);
     for_entries(a, fixed, [&](Index r, Index c, double value) { full.add(r, c, value); });
     direct.initialize(full);
   }
-  void aggregate(const BlockMatrix &a, const dealii::DynamicSparsityPattern &rows,
+  void aggregate(const NodeMatrix &a, const dealii::DynamicSparsityPattern &rows,
                  const std::vector<Vector3> &nodes) {
     const dealii::IndexSet all = dealii::complete_index_set(rows.n_rows());
     dealii::TrilinosWrappers::SparsityPattern pattern(all, MPI_COMM_SELF, rows.max_entries_per_row());
@@ -168,7 +168,7 @@ struct StaticEquations::Parts {
   }
 };
 
-StaticEquations::StaticEquations(const BlockMatrix &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
+StaticEquations::StaticEquations(const NodeMatrix &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
                                  LinearSolver kind) {
   bool any = false;
   for (const auto &node : fixed)
@@ -196,7 +196,7 @@ StaticEquations::~StaticEquations() = default;
 StaticEquations::StaticEquations(StaticEquations &&) noexcept = default;
 StaticEquations &StaticEquations::operator=(StaticEquations &&) noexcept = default;
 
-void StaticEquations::solve(const BlockMatrix &stiffness, const std::vector<Vector3> &load,
+void StaticEquations::solve(const NodeMatrix &stiffness, const std::vector<Vector3> &load,
                             std::vector<Vector3> &x) const {
   const Fixed &fixed = parts_->fixed;
   std::vector<Vector3> prescribed(x.size(), Vector3{}), brought;

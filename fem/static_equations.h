@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/block_matrix.h"
+#include "fem/node_matrix.h"
 
 namespace platen::fem {
 
@@ -19,7 +19,7 @@ class StaticEquations {
 public:
   // Fixed components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
   // fixed. Sets MPI up where nobody has: Trilinos does not go without.
-  StaticEquations(const BlockMatrix &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
+  StaticEquations(const NodeMatrix &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
                   LinearSolver kind = LinearSolver::automatic);
   ~StaticEquations();
   StaticEquations(StaticEquations &&) noexcept;
@@ -28,7 +28,7 @@ public:
   // Displacements (m) under nodal loads (N). Comes with the fixed components and, for multigrid, a guess of
   // the others. Residual of the free components at most 1e-12 of the loads' (of what fixed motions bring,
   // too). Throws std::runtime_error where the gradients do not get there.
-  void solve(const BlockMatrix &stiffness, const std::vector<Vector3> &load, std::vector<Vector3> &x) const;
+  void solve(const NodeMatrix &stiffness, const std::vector<Vector3> &load, std::vector<Vector3> &x) const;
 
   LinearSolver kind() const; // direct or multigrid
   int iterations() const;    // of the last solve; 0 for a direct one

@@ -219,7 +219,7 @@ TEST(elastic_model, lumped_masses_are_positive_and_weigh_what_the_solid_does) {
 TEST(elastic_model, stiffness_is_symmetric_and_blind_to_rigid_motions) {
   for (const int degree : {1, 2}) {
     ElasticModel model = make_elastic_model(distorted_cube(3), degree, {steel});
-    BlockMatrix &k = model.stiffness;
+    NodeMatrix &k = model.stiffness;
     for (std::size_t i = 0; i < k.rows(); ++i)
       for (std::size_t b = k.begin[i]; b < k.begin[i + 1]; ++b) {
         const double *mirror = k.block(static_cast<std::size_t>(k.column[b]), static_cast<int>(i));

@@ -9,7 +9,7 @@
 
 namespace platen::fem {
 
-struct BlockMatrix {
+struct NodeMatrix {
   std::vector<std::size_t> begin; // of each row in `column`; one more than there are rows
   std::vector<int> column;        // ascending within a row
   std::vector<double> values;     // nine per block, row by row
@@ -33,7 +33,7 @@ using Fixed = std::vector<std::array<char, 3>>;
 // Largest eigenvalue of mass^-1 stiffness on the components that are not fixed (1/s^2), never below it but
 // for round-off: the largest Ritz value of Lanczos' method plus its residual (Zhou and Li 2011), iterated
 // until the two agree to 1 %, and not above `bound`. The start is the same each time.
-double largest_eigenvalue(const BlockMatrix &stiffness, const std::vector<double> &mass, const Fixed &fixed,
+double largest_eigenvalue(const NodeMatrix &stiffness, const std::vector<double> &mass, const Fixed &fixed,
                           double bound);
 
 } // namespace platen::fem

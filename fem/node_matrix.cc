@@ -1,4 +1,4 @@
-#include "fem/block_matrix.h"
+#include "fem/node_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,13 +48,13 @@ double last_component(const std::vector<double> &diagonal, const std::vector<dou
 
 } // namespace
 
-double *BlockMatrix::block(std::size_t row, int col) {
+double *NodeMatrix::block(std::size_t row, int col) {
   const auto first = column.begin() + static_cast<std::ptrdiff_t>(begin[row]);
   const auto last = column.begin() + static_cast<std::ptrdiff_t>(begin[row + 1]);
   return &values[9 * static_cast<std::size_t>(std::lower_bound(first, last, col) - column.begin())];
 }
 
-void BlockMatrix::multiply(const std::vector<Vector3> &x, std::vector<Vector3> &y) const {
+void NodeMatrix::multiply(const std::vector<Vector3> &x, std::vector<Vector3> &y) const {
   y.resize(rows());
   for_each(rows(), [&](std::size_t r) {
     double s0 = 0, s1 = 0, s2 = 0;
@@ -76,7 +76,7 @@ double dot(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
   return sum;
 }
 
-double largest_eigenvalue(const BlockMatrix &stiffness, const std::vector<double> &mass, const Fixed &fixed,
+double largest_eigenvalue(const NodeMatrix &stiffness, const std::vector<double> &mass, const Fixed &fixed,
                           double bound) {
   const std::size_t n = mass.size();
   std::vector<Vector3> now(n), before(n, Vector3{}), scaled(n), next(n);
