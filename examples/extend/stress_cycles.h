@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <coupling/program/stage.h>
+#include <coupling/program/program.h>
 
 class StressCycles : public platen::coupling::Stage {
 public:

@@ -1,5 +1,5 @@
-#include "coupling/program/platen_speed.h"
 #include "base/state.h"
+#include "coupling/program/platen_speed.h"
 
 #include <gtest/gtest.h>
 

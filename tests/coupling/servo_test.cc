@@ -1,6 +1,6 @@
-#include "coupling/program/platen_speed.h"
 #include "base/pi.h"
 #include "base/state.h"
+#include "coupling/program/platen_speed.h"
 
 #include <gtest/gtest.h>
 
