@@ -8,28 +8,41 @@ namespace platen::fem {
 
 namespace {
 
-Tensor deformation_gradient(const Corners &gradient, const Corners &displacement) {
-  Tensor f = identity_tensor;
-  for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        f[3 * i + j] += displacement[a][i] * gradient[a][j];
+using TensorAtPoints = std::array<AtPoints, 9>;
+
+TensorAtPoints deformation_gradient(const ReferenceCell &cell, const Corners &displacement) {
+  TensorAtPoints f;
+  for (std::size_t k = 0; k < 9; ++k) {
+    f[k].fill(identity_tensor[k]);
+    for (std::size_t a = 0; a < 8; ++a) {
+      const double u = displacement[a][k / 3];
+      for (std::size_t q = 0; q < 8; ++q)
+        f[k][q] += u * cell.gradient[a][k % 3][q];
+    }
+  }
   return f;
+}
+
+Tensor tensor_at(const TensorAtPoints &f, std::size_t q) {
+  return {f[0][q], f[1][q], f[2][q], f[3][q], f[4][q], f[5][q], f[6][q], f[7][q], f[8][q]};
 }
 
 // All points of a deformed cell.
 struct Deformed {
-  std::array<Tensor, 8> f, cof;
-  std::array<double, 8> j;
+  TensorAtPoints f, cof;
+  AtPoints j;
   double volume = 0; // m^3, v
 
-  Deformed(const ReferenceCell &cell, const Corners &displacement) {
+  Deformed(const ReferenceCell &cell, const Corners &displacement)
+      : f(deformation_gradient(cell, displacement)) {
     for (std::size_t q = 0; q < 8; ++q) {
-      f[q] = deformation_gradient(cell.gradient[q], displacement);
-      cof[q] = cofactor(f[q]);
-      j[q] = determinant(f[q], cof[q]);
-      volume += cell.weight[q] * j[q];
+      const Tensor own = tensor_at(f, q), cofactors = cofactor(own);
+      for (std::size_t k = 0; k < 9; ++k)
+        cof[k][q] = cofactors[k];
+      j[q] = determinant(own, cofactors);
     }
+    for (std::size_t q = 0; q < 8; ++q)
+      volume += cell.weight[q] * j[q];
   }
 };
 
@@ -60,8 +73,12 @@ double smallest_volume_ratio(const ReferenceCell &cell, const Corners &displacem
   };
   for (std::size_t c = 1; c < 8; ++c)
     take(corners[c] / cell.corner_volume[c]);
+  const TensorAtPoints f = deformation_gradient(cell, displacement);
+  AtPoints j;
   for (std::size_t q = 0; q < 8; ++q)
-    take(determinant(deformation_gradient(cell.gradient[q], displacement)));
+    j[q] = determinant(tensor_at(f, q));
+  for (const double ratio : j)
+    take(ratio);
   return smallest;
 }
 
@@ -70,15 +87,26 @@ CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Cor
   const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
   CellForce result;
   result.energy = cell.volume * law.volume_energy(ratio);
+  AtPoints shape, beside;
   for (std::size_t q = 0; q < 8; ++q) {
-    const double w = cell.weight[q], shape = w * law.shape_factor(at.j[q]), norm2 = squared_norm(at.f[q]);
-    const double beside = w * along - shape * norm2 / (3 * at.j[q]);
-    result.energy += 0.5 * (shape * norm2 - 3 * law.shear_modulus * w);
-    Tensor p; // first Piola-Kirchhoff stress times weight
-    for (std::size_t k = 0; k < 9; ++k)
-      p[k] = shape * at.f[q][k] + beside * at.cof[q][k];
-    for (std::size_t a = 0; a < 8; ++a)
-      result.force[a] = result.force[a] + p * cell.gradient[q][a];
+    const double w = cell.weight[q], norm2 = squared_norm(tensor_at(at.f, q));
+    shape[q] = w * law.shape_factor(at.j[q]);
+    beside[q] = w * along - shape[q] * norm2 / (3 * at.j[q]);
+    result.energy += 0.5 * (shape[q] * norm2 - 3 * law.shear_modulus * w);
+  }
+  TensorAtPoints p; // first Piola-Kirchhoff stress times weight
+  for (std::size_t k = 0; k < 9; ++k)
+    for (std::size_t q = 0; q < 8; ++q)
+      p[k][q] = shape[q] * at.f[k][q] + beside[q] * at.cof[k][q];
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto &g = cell.gradient[a];
+    for (std::size_t i = 0; i < 3; ++i) {
+      AtPoints share;
+      for (std::size_t q = 0; q < 8; ++q)
+        share[q] = p[3 * i][q] * g[0][q] + p[3 * i + 1][q] * g[1][q] + p[3 * i + 2][q] * g[2][q];
+      for (std::size_t q = 0; q < 8; ++q)
+        result.force[a][i] += share[q];
+    }
   }
   return result;
 }
@@ -90,16 +118,18 @@ CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, c
   Corners swelling{}; // m^2, derivative of the volume by each corner
   for (std::size_t q = 0; q < 8; ++q) {
     const double w = cell.weight[q], j = at.j[q], shape = w * law.shape_factor(j);
-    const double third = squared_norm(at.f[q]) / 3, push = w * along * j, back = shape * third - push;
-    Corners g, h; // gradient in the current place; F times that in the reference place
+    const Tensor f = tensor_at(at.f, q), cof = tensor_at(at.cof, q);
+    const double third = squared_norm(f) / 3, push = w * along * j, back = shape * third - push;
+    Corners reference, g, h; // gradient in the reference place and in the current one; F times the first
     for (std::size_t a = 0; a < 8; ++a) {
-      g[a] = (1 / j) * (at.cof[q] * cell.gradient[q][a]);
-      h[a] = at.f[q] * cell.gradient[q][a];
+      reference[a] = cell.gradient_at(q, a);
+      g[a] = (1 / j) * (cof * reference[a]);
+      h[a] = f * reference[a];
       swelling[a] = swelling[a] + w * j * g[a];
     }
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b) {
-        const double direct = shape * dot(cell.gradient[q][a], cell.gradient[q][b]);
+        const double direct = shape * dot(reference[a], reference[b]);
         for (std::size_t i = 0; i < 3; ++i) {
           double *row = &k[24 * (3 * a + i) + 3 * b];
           row[i] += direct;
@@ -121,7 +151,7 @@ CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const C
   CellStress result;
   result.volume_ratio = at.volume / cell.volume;
   for (std::size_t q = 0; q < 8; ++q) {
-    const Tensor &f = at.f[q];
+    const Tensor f = tensor_at(at.f, q);
     const double share = cell.weight[q] * law.shape_factor(at.j[q]) / at.volume, third = squared_norm(f) / 3;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k)

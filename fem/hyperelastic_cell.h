@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "base/vector3.h"
 #include "fem/materials/neo_hookean.h"
@@ -15,14 +16,22 @@
 namespace platen::fem {
 
 using Corners = std::array<Vector3, 8>; // x fastest, then y, then z
+// A number at each Gauss point: points come last, because loops over them become packed operations.
+using AtPoints = std::array<double, 8>;
 
 // A cell where it carries no stress.
 struct ReferenceCell {
-  std::array<Corners, 8> gradient{};     // 1/m, of each corner's shape function at each Gauss point
-  std::array<double, 8> weight{};        // m^3, of each Gauss point
+  std::array<std::array<AtPoints, 3>, 8>
+      gradient{};                        // 1/m, of each corner's shape function: corner, component
+  AtPoints weight{};                     // m^3
   std::array<double, 8> corner_volume{}; // m^3, triple product of the edges at each corner
   std::array<double, 8> share{};         // m^3, integral of each corner's shape function
   double volume = 0;                     // m^3
+
+  Vector3 gradient_at(std::size_t point, std::size_t corner) const {
+    const auto &of = gradient[corner];
+    return {of[0][point], of[1][point], of[2][point]};
+  }
 };
 
 struct CellForce {

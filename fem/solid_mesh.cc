@@ -36,7 +36,8 @@ void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
       reference.volume += values.JxW(q);
       for (unsigned int a = 0; a < 8; ++a) {
         const auto gradient = values.shape_grad(a, q);
-        reference.gradient[q][a] = {gradient[0], gradient[1], gradient[2]};
+        for (unsigned int k = 0; k < 3; ++k)
+          reference.gradient[a][k][q] = gradient[k];
         reference.share[a] += values.shape_value(a, q) * values.JxW(q);
       }
     }

@@ -168,7 +168,7 @@ TEST(hyperelastic_statics, volume_at_each_point_would_lock_where_the_mean_does_n
       Tensor f = identity_tensor;
       for (std::size_t n = 0; n < 8; ++n)
         for (std::size_t m = 0; m < 9; ++m)
-          f[m] += own[n][m / 3] * cell.gradient[q][n][m % 3];
+          f[m] += own[n][m / 3] * cell.gradient[n][m % 3][q];
       plain += cell.weight[q] * law.energy(f);
     }
   }
