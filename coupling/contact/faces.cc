@@ -26,7 +26,7 @@ constexpr int most_steps = 8;
 constexpr double round_off = 1e-12; // of a face: a box holds it for certain
 
 // Axes of the mean plane, the box and where a foot is single. False: no area.
-bool set_plane(const Quad &q, MovingFace &face) {
+bool set_mean_plane(const Quad &q, MovingFace &face) {
   const Vector3 across = cross(q[2] - q[0], q[3] - q[1]);
   const double area = norm(across);
   const Vector3 along = face.e + 0.5 * face.t;
@@ -58,6 +58,34 @@ void set_box(const Quad &q, MovingFace &face) {
 
 } // namespace
 
+void BilinearMap::set_corners(const Quad &q) {
+  e = q[1] - q[0];
+  f = q[3] - q[0];
+  t = (q[0] - q[1]) + (q[2] - q[3]);
+}
+
+// (r - v f) and (e + v t) are parallel in the plane.
+void BilinearMap::set_plane(const Vector3 &normal) {
+  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), normal); };
+  linear = cross(t, normal);
+  free = cross(e, normal);
+  square = -plane(f, t);
+  constant = -plane(f, e);
+}
+
+bool BilinearMap::find_v(const Vector3 &r, double &v) const {
+  const double first = dot(r, linear) + constant, zeroth = dot(r, free);
+  const double discriminant = first * first - 4 * square * zeroth;
+  if (!(discriminant >= 0)) return false;
+  v = -2 * zeroth / (first + std::copysign(std::sqrt(discriminant), first));
+  return true;
+}
+
+double BilinearMap::u_at(const Vector3 &r, double v) const {
+  const Vector3 along = e + v * t;
+  return dot(r - v * f, along) / norm_squared(along);
+}
+
 FlatFaces::FlatFaces(const fem::SurfaceMesh &surface) {
   for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
     const Vector3 first = vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]);
@@ -76,16 +104,9 @@ FlatFaces::Face FlatFaces::face_of(const Quad &q) {
     if (std::abs(dot(q[k] - q[0], face.normal)) > flatness * size) face.flat = false;
     if (!(dot(cross(edge, next), face.normal) > 0)) face.flat = false; // convex
   }
-  face.e = q[1] - q[0];
-  face.f = q[3] - q[0];
-  face.t = (q[0] - q[1]) + (q[2] - q[3]);
+  face.set_corners(q);
   if (norm(face.t) <= flatness * size) face.t = {};
-  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), face.normal); };
-  // (r - v f) and (e + v t) are parallel.
-  face.linear = cross(face.t, face.normal);
-  face.free = cross(face.e, face.normal);
-  face.square = -plane(face.f, face.t);
-  face.constant = -plane(face.f, face.e);
+  face.set_plane(face.normal);
   return face;
 }
 
@@ -93,13 +114,9 @@ bool FlatFaces::foot(int index, const Vector3 &centre, ClosestPoint &local, Vect
                      double &distance) const {
   const Face &face = faces_[static_cast<std::size_t>(index)];
   if (!face.flat) return false;
-  const double linear = dot(centre, face.linear) + face.constant, free = dot(centre, face.free);
-  const double discriminant = linear * linear - 4 * face.square * free;
-  if (!(discriminant >= 0)) return false;
-  const double v = -2 * free / (linear + std::copysign(std::sqrt(discriminant), linear));
-  if (!(v > rim && v < 1 - rim)) return false;
-  const Vector3 along = face.e + v * face.t;
-  const double u = dot(centre - v * face.f, along) / norm_squared(along);
+  double v = 0;
+  if (!face.find_v(centre, v) || !(v > rim && v < 1 - rim)) return false;
+  const double u = face.u_at(centre, v);
   if (!(u > rim && u < 1 - rim)) return false;
   normal = face.normal;
   distance = dot(centre, face.normal);
@@ -149,10 +166,8 @@ void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
 MovingFace moving_face(const Quad &q) {
   MovingFace face;
   face.corner = q[0];
-  face.e = q[1] - q[0];
-  face.f = q[3] - q[0];
-  face.t = (q[0] - q[1]) + (q[2] - q[3]);
-  if (!set_plane(q, face)) {
+  face.set_corners(q);
+  if (!set_mean_plane(q, face)) {
     // Any axes hold for the box of a face without area.
     face.along = {1, 0, 0}, face.across = {0, 1, 0}, face.normal = {0, 0, 1};
     set_box(q, face);
@@ -160,12 +175,7 @@ MovingFace moving_face(const Quad &q) {
   }
   set_box(q, face);
   face.single_foot = single_foot_within(q, face.normal) - 2 * face.half.z;
-  // (r - v f) and (e + v t) are parallel in the plane.
-  const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), face.normal); };
-  face.linear = cross(face.t, face.normal);
-  face.free = cross(face.e, face.normal);
-  face.square = -plane(face.f, face.t);
-  face.constant = -plane(face.f, face.e);
+  face.set_plane(face.normal);
   return face;
 }
 
@@ -180,13 +190,9 @@ double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
 bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
   const Vector3 r = centre - face.corner;
   if (!(std::abs(dot(r, face.normal)) <= face.single_foot)) return false;
-  const double linear = dot(r, face.linear) + face.constant, free = dot(r, face.free);
-  const double discriminant = linear * linear - 4 * face.square * free;
-  if (!(discriminant >= 0)) return false;
-  double v = -2 * free / (linear + std::copysign(std::sqrt(discriminant), linear));
-  if (!(v > -far_off && v < 1 + far_off)) return false;
-  const Vector3 start = face.e + v * face.t;
-  double u = dot(r - v * face.f, start) / norm_squared(start);
+  double v = 0;
+  if (!face.find_v(r, v) || !(v > -far_off && v < 1 + far_off)) return false;
+  double u = face.u_at(r, v);
   if (!(u > -far_off && u < 1 + far_off)) return false;
   double moved = 1;
   for (int step = 0; step < most_steps && moved > last_move; ++step) {

@@ -10,6 +10,19 @@
 
 namespace platen::coupling {
 
+// The bilinear map of a face, x = q0 + u e + v (f + u t), m, and its inverse in a plane: v solves
+// square v^2 + (r.linear + constant) v + r.free = 0 for r = x - q0, and u follows.
+struct BilinearMap {
+  Vector3 e, f, t;
+  Vector3 linear, free;
+  double square = 0, constant = 0;
+
+  void set_corners(const Quad &corners);
+  void set_plane(const Vector3 &normal);          // along which points come down
+  bool find_v(const Vector3 &r, double &v) const; // false: there is none
+  double u_at(const Vector3 &r, double v) const;
+};
+
 class FlatFaces {
 public:
   // From the faces where they are now; a later shift of all of them changes nothing.
@@ -25,12 +38,8 @@ public:
   int piece(int face) const { return piece_[static_cast<std::size_t>(face)]; }
 
 private:
-  // The bilinear map x = q0 + u e + v (f + u t), inverted in the plane: v solves
-  // square v^2 + (r.linear + constant) v + r.free = 0 for r = x - q0, and u follows.
-  struct Face {
-    Vector3 normal, e, f, t;
-    Vector3 linear, free;
-    double square = 0, constant = 0;
+  struct Face : BilinearMap {
+    Vector3 normal;
     bool flat = false;
   };
   static Face face_of(const Quad &corners);
@@ -41,15 +50,10 @@ private:
 };
 
 // The faces of a surface that turns or deforms, as they are in one step: what all particles near a face share
-// is worked out once, so that the foot of each costs two steps of Newton's method.
-//
-// x(u, v) = corner + u e + v f + uv t, the bilinear map of closest_point.h.
-struct MovingFace {
-  Vector3 corner, e, f, t; // m
-  // The map inverted in the mean plane, for a start: square v^2 + (r.linear + constant) v + r.free = 0 for
-  // r = x - corner, and u follows.
-  Vector3 linear, free;
-  double square = 0, constant = 0;
+// is worked out once, so that the foot of each costs two steps of Newton's method. The map is inverted in the
+// mean plane, for a start.
+struct MovingFace : BilinearMap {
+  Vector3 corner; // m
   // A box around the face, along its mean plane.
   Vector3 normal, along, across; // unit
   Vector3 middle, half;          // m, global axes; along its own: along, across, normal
