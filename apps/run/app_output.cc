@@ -1,11 +1,11 @@
 #include "apps/run/app_output.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
 #include "apps/run/expectations.h"
+#include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {
@@ -49,10 +49,7 @@ std::string AppOutput::scene_text(const Scene &scene) const {
 }
 
 void AppOutput::require_same_scene() const {
-  std::ifstream file(paths.scene(), std::ios::binary);
-  std::ostringstream before;
-  before << file.rdbuf();
-  if (before.str() != scene_text(scene_))
+  if (completed_scene_text(paths.scene().string(), paths.folder.string()) != scene_text(scene_))
     throw InputError(
         paths.scene().string() +
         ": error: is another scene than the one given, or the folder holds no calibration; resume "

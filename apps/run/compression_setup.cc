@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
 #include "apps/io/checkpoint_folder.h"
@@ -15,6 +14,7 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 #include "coupling/static_press.h"
 
@@ -27,16 +27,10 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
   return text.str();
 }
 
-std::string file_text(const std::filesystem::path &path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 // A resumed run must be the same scene; the first line that differs is named.
 void require_same_scene(const Scene &scene, const OutputPaths &paths) {
-  std::istringstream before(file_text(paths.scene())), now(scene_text(scene, paths.folder));
+  std::istringstream before(completed_scene_text(paths.scene().string(), paths.folder.string())),
+      now(scene_text(scene, paths.folder));
   std::string a, b;
   while (true) {
     const bool more_before = static_cast<bool>(std::getline(before, a)),

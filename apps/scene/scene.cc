@@ -1,7 +1,9 @@
 #include "apps/scene/scene.h"
 
 #include <filesystem>
+#include <fstream>
 #include <ostream>
+#include <sstream>
 
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
@@ -72,6 +74,24 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   check_scene(scene, parameters, app);
   keep(scene, parameters);
   return scene;
+}
+
+std::string completed_scene_text(const std::string &path, const std::string &folder) {
+  std::ostringstream text;
+  try {
+    Scene scene;
+    Parameters parameters;
+    declare_scene(parameters, scene);
+    parameters.set_source(path);
+    read_scene_file(path, parameters);
+    inherit(scene, parameters);
+    keep(scene, parameters);
+    write_scene(scene, folder, text);
+  } catch (const InputError &) {
+    text.str("");
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+  }
+  return text.str();
 }
 
 void refuse(const Scene &scene, const std::string &entry, const std::string &reason) {

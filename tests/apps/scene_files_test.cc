@@ -173,6 +173,26 @@ TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
   EXPECT_TRUE(fs::equivalent(again.specimen.file, scene.specimen.file)) << again.specimen.file;
 }
 
+// A program without a key wrote the scene: it is the same scene with the key at its default.
+TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lacks) {
+  const std::string folder = (folder_ / "results").string(), file = folder + "/scene.prm";
+  const Scene scene = read("concrete.prm", concrete);
+  std::ostringstream whole;
+  write_scene(scene, folder, whole);
+  const auto completed = [&](std::string text, const std::string &key, const std::string &line) {
+    const std::size_t at = text.find("  set " + key);
+    EXPECT_NE(at, std::string::npos) << key;
+    text.replace(at, text.find('\n', at) + 1 - at, line);
+    put("results/scene.prm", text);
+    return completed_scene_text(file, folder);
+  };
+  EXPECT_EQ(completed(whole.str(), "Safety", ""), whole.str());
+  EXPECT_NE(completed(whole.str(), "Safety", "  set Safety = 0.7\n"), whole.str());
+  EXPECT_NE(completed(whole.str(), "Sphere radius", ""), whole.str()) << "a given value, not the default";
+  EXPECT_EQ(completed("  set Safety = broken\n", "Safety", "what is no scene\n"), "what is no scene\n");
+  EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder), "");
+}
+
 TEST_F(SceneFiles, a_file_is_looked_for_beside_the_scene_that_names_it) {
   put("packings/spheres.csv", "x\n");
   std::string with_file = concrete;
