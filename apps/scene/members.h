@@ -64,12 +64,21 @@ public:
   Declared operator()(const std::string &member, const std::string &key = "") {
     const std::string under = key.empty() ? key_of(member) : key;
     declare_member(section_, of_, member, under);
+    declared_.push_back(member);
     return section_.at(under);
+  }
+  // All members that have not been declared here, under the keys that follow from their names.
+  void rest() {
+    std::vector<std::string> all;
+    Described::describe([&](const char *name, const auto &...) { all.emplace_back(name); }, of_);
+    for (const std::string &member : all)
+      if (std::find(declared_.begin(), declared_.end(), member) == declared_.end()) (*this)(member);
   }
 
 private:
   Section &section_;
   Described &of_;
+  std::vector<std::string> declared_;
 };
 
 // What a number, or each of a list, may be. Throws std::logic_error where no member has that name.
