@@ -137,7 +137,7 @@ public:
     layer().compute_part(particles, surface(), step.dt, part);
   }
   void apply_forces(dem::Particles &particles, const Step &) override {
-    layer().give_forces(particles, surface());
+    layer().apply_forces(particles, surface());
   }
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }

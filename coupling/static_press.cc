@@ -9,7 +9,7 @@ namespace platen::coupling {
 
 namespace {
 
-constexpr int most_solves = 40; // the set of contacts settles within ten, or swings
+constexpr int most_solves = 40; // the set of contacts settles within ten, or oscillates
 constexpr double rough = 1e-4;
 // After so many solves a sphere changes sides for a hundredth of the mean force only.
 constexpr int decided = 12;
@@ -26,11 +26,11 @@ struct Contacts {
 Contacts contacts_of(PlatenTest &test, double strain) {
   Contacts c;
   c.glued = test.top().glued();
-  const double way = 0.5 * strain * test.shape().height;
+  const double displacement = 0.5 * strain * test.shape().height;
   for (const bool top : {false, true}) {
     if (top) c.first_of_top = c.near.size();
     for (dem::GroundSpring &s : (top ? test.top() : test.bottom()).whole_springs(test.model.particles))
-      if (s.gap <= way) c.near.push_back({s, {0, 0, top ? -way : way}});
+      if (s.gap <= displacement) c.near.push_back({s, {0, 0, top ? -displacement : displacement}});
   }
   c.pressed.assign(c.near.size(), true);
   return c;

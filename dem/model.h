@@ -64,9 +64,10 @@ void ModelSettings::describe(Visitor &&v, Self &p) {
   v("scheme", p.scheme,
     Words<Scheme>{{"velocity verlet", Scheme::velocity_verlet},
                   {"tchamwa wielgosz", Scheme::tchamwa_wielgosz}},
-    "Tchamwa Wielgosz takes energy from fast swings by the drift itself, for slow tests.");
+    "Tchamwa Wielgosz takes energy from fast oscillations by the drift itself, for slow tests.");
   v("dissipation", p.dissipation, "1", between(1, 1.5),
-    "phi: a swing of frequency w is damped by (phi - 1) w dt / 2 of critical; 1: none, which is velocity "
+    "phi: an oscillation of frequency w is damped by (phi - 1) w dt / 2 of critical; 1: none, which is "
+    "velocity "
     "Verlet.");
 }
 

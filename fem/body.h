@@ -11,8 +11,9 @@
 namespace platen::fem {
 
 // Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
-// clamp_work stays what it was. A rigid body keeps no book: where its loads do work, the machine does it.
-struct BodyBook {
+// clamp_work stays what it was. A rigid body keeps no energy balance: where its loads do work, the machine
+// does it.
+struct EnergyBalance {
   // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
   double kinetic = 0;
   double strain = 0;
@@ -54,7 +55,7 @@ public:
   // mesh does not.
   virtual std::vector<FaceCompliance> face_compliance() const { return {}; }
 
-  virtual BodyBook book() const = 0;
+  virtual EnergyBalance energy_balance() const = 0;
 
   // Everything that changes in a run.
   virtual void describe(Archive &archive) = 0;

@@ -10,13 +10,13 @@ namespace platen::fem {
 namespace {
 
 constexpr double step_share = 0.9; // of the stable step, in a drift that chooses its own
-// Of the step at which kicks alone would be unstable: a mode that swings half a period between kicks grows by
-// (omega_kicks dt)^2 / (2 pi) = 6 % a step at most, less than damping of the fastest mode by 5 % of critical
-// takes away (15 %).
+// Of the step at which kicks alone would be unstable: a mode that oscillates half a period between kicks
+// grows by (omega_kicks dt)^2 / (2 pi) = 6 % a step at most, less than damping of the fastest mode by 5 % of
+// critical takes away (15 %).
 constexpr double share_of_kicks = 0.3;
 // Longest time between kicks over the stable step: two steps of its own then do (2 * step_share). Between
-// kicks of a load that rests a body swings to and fro, at rest at the kicks and midway, where damping acts;
-// with three steps damping takes energy from that swing which nobody brought.
+// kicks of a load that rests a body oscillates to and fro, at rest at the kicks and midway, where damping
+// acts; with three steps damping takes energy from that oscillation which nobody brought.
 constexpr double steps_between_kicks = 1.8;
 
 } // namespace
@@ -91,10 +91,10 @@ void ElasticSolid::place_surface() {
   for (std::size_t v = 0; v < node_of_.size(); ++v) {
     const auto node = static_cast<std::size_t>(node_of_[v]);
     if (is_static()) {
-      const Vector3 way = target_[node] - start_[node];
-      moved_[node] = carried(node) + to_space(start_[node] + s * way);
+      const Vector3 displacement = target_[node] - start_[node];
+      moved_[node] = carried(node) + to_space(start_[node] + s * displacement);
       rate_[node] = carried_velocity(arm(node));
-      if (on_the_way_) rate_[node] = rate_[node] + to_space((1 / duration_) * way);
+      if (on_the_path_) rate_[node] = rate_[node] + to_space((1 / duration_) * displacement);
     }
     surface_.vertices[v] = model_.nodes[node] + moved_[node];
     surface_.velocities[v] = rate_[node];
@@ -141,7 +141,7 @@ void ElasticSolid::kick(double dt) {
 }
 
 // Steps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free
-// vertices, and what they do to modes that swing half a period between them is left to the damping.
+// vertices, and what they do to modes that oscillate half a period between them is left to the damping.
 double ElasticSolid::stable_step(const VertexSprings &springs) const {
   if (is_static()) return stable_step_;
   double square = 0, damping = 0; // 1/s^2, 1/s
@@ -180,9 +180,9 @@ void ElasticSolid::drift(double dt, int steps) {
   place_surface();
   last_move_ = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    const Vector3 way = surface_.vertices[v] - before[v];
-    last_move_ = std::max(last_move_, norm(way));
-    if (!is_static() && dt != 0) surface_.velocities[v] = (1 / dt) * way;
+    const Vector3 displacement = surface_.vertices[v] - before[v];
+    last_move_ = std::max(last_move_, norm(displacement));
+    if (!is_static() && dt != 0) surface_.velocities[v] = (1 / dt) * displacement;
   }
 }
 

@@ -108,7 +108,7 @@ void ElasticSolid::describe(Archive &archive) {
   if (is_static()) {
     archive("elapsed", elapsed_, "s");
     archive("duration", duration_, "s");
-    archive("on_the_way", on_the_way_);
+    archive("on_the_way", on_the_path_);
     archive.same_rows("start", start_, "m");
     archive.same_rows("target", target_, "m");
   } else {

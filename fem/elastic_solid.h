@@ -73,7 +73,7 @@ public:
 
   void kick(double dt) override; // impulse of the loads over dt (s)
   // Moves everything over dt in steps of at most 0.9 of the stable one. Surface velocities are then those of
-  // the way: their product with dt is what each vertex went.
+  // the path: their product with dt is what each vertex went.
   void drift(double dt) override;
   void drift(double dt, int substeps);
   double stable_step() const { return stable_step_; } // s, of explicit steps; infinite for quasi-static
@@ -86,10 +86,11 @@ public:
   // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
   // std::logic_error for an explicit body.
   void aim(const std::vector<Vector3> &vertex_loads, double duration);
-  // Springs by which the loads answer to the way of each vertex (N/m, at least half of what they are): solved
-  // for with a duration, the body then takes as much of them into account as if they stood on ground where
-  // it was on the mean under the loads. Loads that are not followed so swing up from solve to solve where the
-  // body is softer than its contacts. At rest nothing is left of them. Quasi-static, before the first aim().
+  // Springs by which the loads answer to the displacement of each vertex (N/m, at least half of what they
+  // are): solved for with a duration, the body then takes as much of them into account as if they stood on
+  // ground where it was on the mean under the loads. Loads that are not followed so oscillate ever more from
+  // solve to solve where the body is softer than its contacts. At rest nothing is left of them. Quasi-static,
+  // before the first aim().
   void set_support(const std::vector<double> &vertex_stiffness);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
 
@@ -98,16 +99,16 @@ public:
   Vector3 clamp_force() const;
   Vector3 clamp_moment() const;
 
-  double kinetic_energy() const;                           // J
-  double internal_energy() const { return book().strain; } // J
-  BodyBook book() const override;
+  double kinetic_energy() const;                                     // J
+  double internal_energy() const { return energy_balance().strain; } // J
+  EnergyBalance energy_balance() const override;
   Vector3 momentum() const;         // kg m/s, clamp nodes included; explicit
   Vector3 angular_momentum() const; // kg m^2/s about centre or seat; explicit
 
   // Displacement of each node in the frame's axes (m): what is strained.
   std::vector<Vector3> deformation() const;
   // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; fixed nodes are
-  // ignored. The book starts anew.
+  // ignored. The energy balance starts anew.
   void set_deformation(const std::vector<Vector3> &displacement, const std::vector<Vector3> &rate);
   std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
@@ -150,7 +151,7 @@ private:
   void give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment);
 
   // Quasi-static.
-  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the way to the target
+  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the path to the target
   double path_strain() const;
   void measure_path();
   void drift_evenly(double dt);
@@ -172,9 +173,9 @@ private:
   std::vector<Vector3> moved_, rate_;     // m, m/s per node, global axes; explicit
   std::vector<Vector3> strained_, force_; // m and N per node: u, and internal forces in global axes
   std::vector<Vector3> start_, target_;   // m per node, frame's axes; quasi-static
-  double elapsed_ = 0, duration_ = 0;     // s since the start of the way, and of it
-  bool on_the_way_ = false;               // whether the last drift deformed the body
-  std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] on the way
+  double elapsed_ = 0, duration_ = 0;     // s since the start of the path, and of it
+  bool on_the_path_ = false;              // whether the last drift deformed the body
+  std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] along it
   double last_step_ = 0, last_move_ = 0;
   double load_work_ = 0, clamp_work_ = 0, dissipated_ = 0;
   struct Kicked {

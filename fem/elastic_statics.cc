@@ -30,7 +30,7 @@ void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
     }
   }
   elapsed_ = duration_ = last_step_ = 0;
-  on_the_way_ = false;
+  on_the_path_ = false;
   load_work_ = clamp_work_ = dissipated_ = 0;
   if (is_static())
     measure_path();
@@ -39,18 +39,18 @@ void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
   place_surface();
 }
 
-BodyBook ElasticSolid::book() const {
-  BodyBook book;
-  book.load_work = load_work_, book.clamp_work = clamp_work_, book.dissipated = dissipated_;
-  book.kinetic = kinetic_energy();
+EnergyBalance ElasticSolid::energy_balance() const {
+  EnergyBalance balance;
+  balance.load_work = load_work_, balance.clamp_work = clamp_work_, balance.dissipated = dissipated_;
+  balance.kinetic = kinetic_energy();
   if (is_static()) {
-    book.strain = path_strain();
-    return book;
+    balance.strain = path_strain();
+    return balance;
   }
   double shift = 0;
   Vector3 moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    book.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
+    balance.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
     const Vector3 free = free_part(i, force_[i]);
     shift += dot(free, free) / model_.mass[i];
     if (turns_freely()) moment = moment - cross(arm(i), free);
@@ -61,8 +61,8 @@ BodyBook ElasticSolid::book() const {
       for (std::size_t b = 0; b < 3; ++b)
         shift += m[a] * rotor_inverse_[3 * a + b] * m[b];
   }
-  book.kinetic -= last_step_ * last_step_ / 8 * shift;
-  return book;
+  balance.kinetic -= last_step_ * last_step_ / 8 * shift;
+  return balance;
 }
 
 double ElasticSolid::kinetic_energy() const {
@@ -102,14 +102,14 @@ double ElasticSolid::path_strain() const {
 }
 
 void ElasticSolid::measure_path() {
-  std::vector<Vector3> way(start_.size()), product;
-  for (std::size_t i = 0; i < way.size(); ++i)
-    way[i] = target_[i] - start_[i];
+  std::vector<Vector3> displacement(start_.size()), product;
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    displacement[i] = target_[i] - start_[i];
   model_.stiffness.multiply(start_, product);
   path_[0] = 0.5 * dot(start_, product);
-  path_[1] = dot(way, product);
-  model_.stiffness.multiply(way, product);
-  path_[2] = 0.5 * dot(way, product);
+  path_[1] = dot(displacement, product);
+  model_.stiffness.multiply(displacement, product);
+  path_[2] = 0.5 * dot(displacement, product);
 }
 
 std::vector<FaceCompliance> ElasticSolid::face_compliance() const {
@@ -133,9 +133,9 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
   start_ = deformation();
   solver[0].solve(stiffness, load, target_);
   elapsed_ = 0, duration_ = duration > 0 ? duration : 0;
-  on_the_way_ = duration_ > 0;
+  on_the_path_ = duration_ > 0;
   measure_path();
-  if (!on_the_way_) { // the loads act in full all the way
+  if (!on_the_path_) { // the loads act in full all along the path
     double work = 0;
     for (std::size_t i = 0; i < load.size(); ++i)
       work += dot(load[i], target_[i] - start_[i]);
@@ -147,9 +147,9 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
 
 void ElasticSolid::drift_evenly(double dt) {
   move_frame(dt);
-  on_the_way_ = elapsed_ < duration_;
+  on_the_path_ = elapsed_ < duration_;
   const double before = path_strain();
-  // A way of n steps is n steps long, whatever round-off says of their sum.
+  // A path of n steps is n steps long, whatever round-off says of their sum.
   elapsed_ = elapsed_ + dt * (1 + 1e-9) >= duration_ ? duration_ : elapsed_ + dt;
   dissipated_ -= path_strain() - before;
 }

@@ -94,7 +94,7 @@ HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Vec
       if (worst.cell < 0) worst = other.worst;
     }
   };
-  const auto look = [&](std::size_t first, std::size_t last) {
+  const auto check = [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       const Corners own = mesh_.gather(c, displacement);
       Corners place;
@@ -105,7 +105,7 @@ HyperelasticSolid::Worst HyperelasticSolid::first_inverted(const std::vector<Vec
     }
     return First{};
   };
-  return ordered_sum<First>(mesh_.cells.size(), look, cell_grain).worst;
+  return ordered_sum<First>(mesh_.cells.size(), check, cell_grain).worst;
 }
 
 Vector3 HyperelasticSolid::cell_middle(int cell, const std::vector<Vector3> &displacement) const {
@@ -199,14 +199,14 @@ void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, NodeMa
 }
 
 // At most the largest of one cell, with the cell's own share of the masses (Irons, Treharne 1971; each
-// pressed face belongs to one cell). Neighbours that share nodes seldom swing so all at once.
+// pressed face belongs to one cell). Neighbours that share nodes seldom oscillate so all at once.
 double HyperelasticSolid::stable_step() const {
   struct Largest {
     double value = 0;
     void operator+=(const Largest &other) { value = std::max(value, other.value); }
   };
   std::vector<CellStiffness> cells(mesh_.cells.size());
-  const auto look = [&](std::size_t first, std::size_t last) {
+  const auto check = [&](std::size_t first, std::size_t last) {
     Largest largest;
     for (std::size_t c = first; c < last; ++c) {
       cells[c] = total_stiffness(c);
@@ -214,7 +214,7 @@ double HyperelasticSolid::stable_step() const {
     }
     return largest;
   };
-  const double bound = ordered_sum<Largest>(mesh_.cells.size(), look, cell_grain).value;
+  const double bound = ordered_sum<Largest>(mesh_.cells.size(), check, cell_grain).value;
   if (!(bound > 0)) return std::numeric_limits<double>::infinity();
   NodeMatrix rows = stiffness_;
   assemble(cells, rows);

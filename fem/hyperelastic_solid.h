@@ -101,7 +101,8 @@ public:
   const std::vector<Vector3> &pressure_forces() const { return pressed_; }   // N
   const std::vector<double> &nodal_mass() const { return mass_; }            // kg
   Vector3 node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
-  // Places all nodes and updates the forces; books no work. Throws InvertedElement, then nothing has changed.
+  // Places all nodes and updates the forces; counts no work. Throws InvertedElement, then nothing has
+  // changed.
   void set_displacement(const std::vector<Vector3> &displacement);
   void set_velocity(const std::vector<Vector3> &velocity);
   // Derivative of (internal - pressure) forces times a vector, one per node.

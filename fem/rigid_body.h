@@ -41,7 +41,7 @@ public:
 
   double kinetic_energy() const;                                   // J
   double stable_step(const VertexSprings &springs) const override; // s; infinite
-  BodyBook book() const override { return {}; }
+  EnergyBalance energy_balance() const override { return {}; }
 
   // Motion, velocities and loads.
   void describe(Archive &archive) override;

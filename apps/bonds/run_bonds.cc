@@ -33,7 +33,7 @@ void check(const Scene &scene) {
   if (is_prescribed(scene)) return; // what else it asks for is checked with the scene
   if (scene.model.local_damping < .05)
     refuse(scene, "Integration/Damping",
-           "lets the spheres swing for ever. Allowed: 0.05 ... 1 (0.7 is best).");
+           "lets the spheres oscillate for ever. Allowed: 0.05 ... 1 (0.7 is best).");
   if (!std::isnan(test.force) && !std::isnan(test.displacement))
     refuse(scene, "Pair test/Displacement",
            "contradicts Pair test/Force. Allowed: one of both drives the test.");

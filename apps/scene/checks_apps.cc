@@ -25,7 +25,8 @@ void SceneCheck::led_pair() const {
   const PairTest &test = scene_.pair_test;
   const bool slips = test.path == PairPath::shear || test.path == PairPath::combined;
   if (test.particles != 2)
-    refuse("Pair test/Particles", "leaves a bond that remembers to the swings of free spheres. Allowed: 2.");
+    refuse("Pair test/Particles",
+           "leaves a bond that remembers to the oscillations of free spheres. Allowed: 2.");
   if (test.path == PairPath::bending || test.path == PairPath::twisting)
     refuse("Pair test/Path",
            "moves nothing in an elasto damage plastic bond, which neither bends nor twists. "
@@ -126,7 +127,8 @@ void SceneCheck::bar_test() const {
   if (scene_.effects.gravity)
     refuse("Effects/Gravity", "would load the bar before the test does. Allowed: off.");
   const bool oscillates = bar.method != BarMethod::at_rest && bar.load != BarLoad::none;
-  const std::string damps = "would damp what is to swing freely. Allowed: 0, or Bar test/Method = static.";
+  const std::string damps =
+      "would damp what is to oscillate freely. Allowed: 0, or Bar test/Method = static.";
   if (oscillates && scene_.model.local_damping > 0) refuse("Integration/Damping", damps);
   if (oscillates && scene_.model.bond_dashpot > 0) refuse("Bond/Damping", damps);
   if (bar.load == BarLoad::impact && bar.method == BarMethod::at_rest)

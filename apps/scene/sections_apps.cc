@@ -161,7 +161,7 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
   section.word<BarMethod>(
       "Method", bar.method,
       {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},
-      "Static: the bar at rest under the load. Dynamic: it is let go from there and swings; an impact is "
+      "Static: the bar at rest under the load. Dynamic: it is let go from there and oscillates; an impact is "
       "dynamic.");
   section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
                         "The way in which bending pushes the free end.");

@@ -189,7 +189,7 @@ void ElasticPlaten::fit(const dem::Particles &particles, double) {
 
 void ElasticPlaten::add_energy(dem::EnergyLedger &energy) const {
   Platen::add_energy(energy);
-  const fem::BodyBook own = body_->book();
+  const fem::EnergyBalance own = body_->energy_balance();
   energy.bodies += own.strain + own.kinetic;
   energy.damping += own.dissipated;
   energy.boundary += own.clamp_work;

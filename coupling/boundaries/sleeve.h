@@ -5,7 +5,7 @@
 // several steps, by velocity Verlet with the interval as step. Within the interval its nodes move at constant
 // velocity, so that the surface that particles meet moves smoothly; at its end they feel what contacts,
 // elements and pressure are then. The mean of the contacts over the interval would be half an interval late,
-// and a spring that answers late feeds every swing.
+// and a spring that answers late feeds every oscillation.
 #pragma once
 
 #include <optional>

@@ -103,7 +103,7 @@ public:
   void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                     std::size_t part);
   // and then, once, what particles and body get of them.
-  void give_forces(dem::Particles &particles, fem::LoadedSurface &body);
+  void apply_forces(dem::Particles &particles, fem::LoadedSurface &body);
 
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const;              // ascending particle rows

@@ -54,12 +54,12 @@ void ContactLayer::find_due_rows() {
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
   const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
   run_loops(loop_of(prepare(particles, body), part));
-  give_forces(particles, body);
+  apply_forces(particles, body);
 }
 
 std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::LoadedSurface &body) {
   update_search(particles, body);
-  search_.look(body.surface());
+  search_.update(body.surface());
   find_due_rows();
   return number_of_blocks(due_.size(), rows_per_part);
 }
@@ -95,7 +95,7 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
 
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
 // by row: rows that are passed over may differ from run to run, sums may not.
-void ContactLayer::give_forces(dem::Particles &particles, fem::LoadedSurface &body) {
+void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &body) {
   for_each(loads_.size(), [&](std::size_t k) {
     const RowLoad &load = loads_[k];
     if (load.particle < 0) return;

@@ -101,7 +101,7 @@ void SurfaceSearch::collect(const SurfaceMesh &surface, const Vector3 &centre, d
             });
 }
 
-void SurfaceSearch::look(const SurfaceMesh &surface) {
+void SurfaceSearch::update(const SurfaceMesh &surface) {
   if (surface.only_shifted || looked_) return;
   moving_.resize(surface.faces.size());
   constexpr std::size_t faces_per_part = 32;

@@ -98,7 +98,7 @@ public:
 
   // Looks at the faces near particles as they are now, so that until moved() is called again closest() need
   // not do so for each particle. Nothing to do for a surface that only shifts.
-  void look(const fem::SurfaceMesh &surface);
+  void update(const fem::SurfaceMesh &surface);
 
   long lists_made() const { return lists_made_; }
   // Rows of the particles listed, ascending.

@@ -347,7 +347,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
   damage(s, g, delta, tension);
 
-  // What the step took: (F before + F now)/2 times the way, less the gain of stored energy. Of springs that
+  // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
   // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
   // off by the kink, as in any contact: that is no loss.
   const Real tension_before =

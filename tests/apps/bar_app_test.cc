@@ -126,7 +126,7 @@ TEST_F(BarApp, expectations_decide_the_exit_status) {
 
 TEST_F(BarApp, what_cannot_be_is_refused_before_anything_is_written) {
   const std::pair<std::vector<std::string>, const char *> faults[] = {
-      {{"Integration/Damping = 0.5"}, "Integration/Damping = 0.5 would damp what is to swing freely"},
+      {{"Integration/Damping = 0.5"}, "Integration/Damping = 0.5 would damp what is to oscillate freely"},
       {{"Bond/Damping = 0.1"}, "Bond/Damping = 0.1 would damp"},
       {{"Effects/Gravity = on"}, "Effects/Gravity = on would load the bar"},
       {{"Effects/Bond = none", "Effects/Contact = hertz"}, "Effects/Bond = none leaves a heap of grains"},

@@ -120,7 +120,7 @@ protected:
     rod = rod_at_rest(bar, young * s.area(), poisson, s);
   }
   double limit() const { return stable_step(model.particles, model.bonds.get(), nullptr, {}, {}).limit; }
-  double swing(BarLoad load, double expected) {
+  double oscillate(BarLoad load, double expected) {
     const StaticTest test = load_bar(model, bar, load, load_of_strain(rod, load, 1e-6));
     const double step = .1 * limit();
     const Clocking clocking{step, static_cast<long>(12 / (expected * step)), 20};
@@ -168,11 +168,11 @@ TEST_F(Chain, the_skin_of_the_clamp_has_the_strain_that_was_asked_for) {
 }
 
 // n masses on n springs, one end held: omega = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))).
-TEST_F(Chain, swings_as_masses_on_springs) {
+TEST_F(Chain, oscillates_as_masses_on_springs) {
   const double r = slender * radius, k = young * pi * r * r / (2 * radius),
                m = 4. / 3 * pi * radius * radius * radius * density,
                expected = std::sqrt(k / m) * std::sin(pi / (2 * (2 * joints + 1))) / pi;
-  EXPECT_NEAR(swing(BarLoad::tension, 1.1 * expected), expected, 2e-4 * expected);
+  EXPECT_NEAR(oscillate(BarLoad::tension, 1.1 * expected), expected, 2e-4 * expected);
 }
 
 TEST_F(Chain, twists_as_flywheels_on_shafts) {
@@ -180,15 +180,15 @@ TEST_F(Chain, twists_as_flywheels_on_shafts) {
                m = 4. / 3 * pi * radius * radius * radius * density,
                expected =
                    std::sqrt(k / (.4 * m * radius * radius)) * std::sin(pi / (2 * (2 * joints + 1))) / pi;
-  EXPECT_NEAR(swing(BarLoad::torsion, .9 * expected), expected, 2e-4 * expected);
+  EXPECT_NEAR(oscillate(BarLoad::torsion, .9 * expected), expected, 2e-4 * expected);
 }
 
-// A half piece of mass is missing at the clamp: what swings ends half a spacing beyond the last centre.
+// A half piece of mass is missing at the clamp: what oscillates ends half a spacing beyond the last centre.
 TEST_F(Chain, bends_as_a_beam_with_its_mass_in_points) {
   Rod swinging = rod;
   swinging.length = bar.top - bar.low.z;
   const double by_hand = swinging.bending_frequency();
-  EXPECT_NEAR(swing(BarLoad::bending, by_hand), by_hand, .03 * by_hand); // rotation of spheres, 1/n
+  EXPECT_NEAR(oscillate(BarLoad::bending, by_hand), by_hand, .03 * by_hand); // rotation of spheres, 1/n
 }
 
 class LongChain : public Chain {

@@ -1,4 +1,4 @@
-// Tests in a cell: strength grows with the pressure, the book closes, and a stopped run repeats.
+// Tests in a cell: strength grows with the pressure, the energy balance closes, and a stopped run repeats.
 #include <signal.h>
 
 #include <algorithm>

@@ -125,7 +125,7 @@ TEST_F(Determinism, a_run_begun_statically_resumes_as_if_it_had_not_been_stopped
   EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
-TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_book_closes) {
+TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_energy_balance_closes) {
   for (const std::string motion : {"explicit", "quasi-static"}) {
     const std::vector<std::string> options{"-s", "Platens/Kind = deformable", "-s",
                                            "Platens/Motion = " + motion};

@@ -70,7 +70,7 @@ TEST_F(Interfaces, the_area_factor_scales_the_modulus) {
   const double one = crush("one", concrete(brief))["youngs_modulus_gauge_pa"];
   const double two = crush("two", concrete(wide))["youngs_modulus_gauge_pa"];
   const nlohmann::json by_packing = crush("packed", concrete(packed));
-  EXPECT_NEAR(two / one, 2, 0.06); // the fast start swings by some percent
+  EXPECT_NEAR(two / one, 2, 0.06); // the fast start oscillates by some percent
   const double porosity = 1 - by_packing["packing_fraction"].get<double>(),
                contacts = by_packing["coordination_number"];
   const double factor = 40 * porosity / contacts;

@@ -28,7 +28,7 @@ protected:
   Results results_{false};
 };
 
-TEST_F(FallenTo, the_first_swings_of_the_platens_are_no_peak) {
+TEST_F(FallenTo, the_first_oscillations_of_the_platens_are_no_peak) {
   at(-2e4, 3, 0);
   at(4e4, 3);
   at(1e4, 3);

@@ -61,7 +61,7 @@ TEST(cell, a_pressure_on_all_sides_gives_the_bulk_modulus) {
   // Alike in all directions, as far as so small a packing is.
   EXPECT_NEAR(s.lateral_x / s.axial, 1, 0.15);
   EXPECT_NEAR(s.lateral_y / s.axial, 1, 0.15);
-  // The only forces from outside are platens and pressure, and both are in the book.
+  // The only forces from outside are platens and pressure, and both are in the energy balance.
   EXPECT_LT(std::abs(problem.energy().residual()), 1e-6 * problem.energy().boundary);
   EXPECT_GT(problem.skin()->skin().work(), 0.5 * problem.energy().boundary);
 }
@@ -102,11 +102,11 @@ TEST(cell, a_stiff_wall_takes_nu_over_one_minus_nu_of_the_axial_stress) {
   EXPECT_NEAR(problem.confining_pressure() / axial / (nu / (1 - nu)), 1, 0.08);
   const double constrained = elastic().young * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   EXPECT_NEAR(axial / -s.axial / constrained, 1, 0.05);
-  // A wall at rest does no work; its springs are in the book.
+  // A wall at rest does no work; its springs are in the energy balance.
   EXPECT_LT(std::abs(problem.energy().residual()), 1e-5 * problem.energy().boundary);
 }
 
-TEST(cell, what_is_elastic_unloads_along_the_way_it_was_loaded) {
+TEST(cell, what_is_elastic_unloads_along_the_path_it_was_loaded) {
   PlatenTestSettings settings = lubricated();
   settings.loading.unload_at = {1e-4};
   settings.loading.unload_to = 0.2;

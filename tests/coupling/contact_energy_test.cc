@@ -1,4 +1,4 @@
-// The book of energy of spheres on a plate: nothing appears, nothing goes without being counted.
+// The energy balance of spheres on a plate: nothing appears, nothing goes without being counted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -97,7 +97,7 @@ TEST(contact_energy, a_sliding_ball_ends_rolling_at_five_sevenths_of_its_speed) 
   const double dt = step_of(scene, 0.01), before = scene.kinetic_energy();
   scene.compute_forces(0);
   const double pressed = scene.layer.elastic_energy();
-  double speed = 0, turn = 0; // means over many swings of the spring that holds it now
+  double speed = 0, turn = 0; // means over many oscillations of the spring that holds it now
   for (int n = 0; n < 60000; ++n) {
     scene.step(dt);
     if (n < 40000) continue;
@@ -112,7 +112,7 @@ TEST(contact_energy, a_sliding_ball_ends_rolling_at_five_sevenths_of_its_speed) 
 
 // With a plate that moves the work comes in through it: the mean of the loads before and after each step,
 // times the way of the step.
-TEST(contact_energy, a_moving_plate_puts_in_what_the_book_shows) {
+TEST(contact_energy, a_moving_plate_puts_in_what_the_energy_balance_shows) {
   SurfaceContact contact = frictional(0.5, 0.3);
   contact.damping = 0.1;
   contact.seat_modulus = 2e9;

@@ -1,4 +1,5 @@
-// Platens that yield: stiff ones are rigid ones, loads go through them, and the machine's book closes.
+// Platens that yield: stiff ones are rigid ones, loads go through them, and the machine's energy balance
+// closes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,9 +98,9 @@ TEST(elastic_platens, explicit_and_quasi_static_ones_bear_alike) {
     stress[still] = problem.stress_top();
     closure[still] = problem.closure_strain();
     EXPECT_LT(problem.closure_strain() * problem.shape().height, 0.999 * problem.clamp_closure());
-    EXPECT_NEAR(problem.top().body().book().strain, problem.bottom().body().book().strain,
-                0.5 * problem.top().body().book().strain);
-    // Contacts, friction, bonds and platens in one book.
+    EXPECT_NEAR(problem.top().body().energy_balance().strain, problem.bottom().body().energy_balance().strain,
+                0.5 * problem.top().body().energy_balance().strain);
+    // Contacts, friction, bonds and platens in one energy balance.
     const dem::EnergyLedger energy = problem.energy();
     EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary) << still;
     EXPECT_GT(energy.bodies, 0.01 * energy.boundary);
@@ -158,7 +159,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
   }
 }
 
-TEST(elastic_platens, the_book_closes_through_a_crush) {
+TEST(elastic_platens, the_energy_balance_closes_through_a_crush) {
   for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     PlatenTest problem(cylinder(), crushing(motion));
     advance_to(problem, 3000);
@@ -198,7 +199,7 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
 }
 
 // Pressure on the particles, the servo at the clamp, then the platens alone.
-TEST(elastic_platens, the_book_closes_in_a_cell) {
+TEST(elastic_platens, the_energy_balance_closes_in_a_cell) {
   PlatenTestSettings settings = crushing(ElasticMotion::explicit_steps);
   settings.loading.cell = CellSettings{};
   settings.loading.cell->pressure = 1e6;
@@ -255,7 +256,7 @@ TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
 }
 
 // Softer than its contacts, and still at rest from solve to solve.
-TEST(elastic_platens, a_soft_pad_without_inertia_does_not_swing) {
+TEST(elastic_platens, a_soft_pad_without_inertia_does_not_oscillate) {
   PlatenTest problem(cylinder(), on_pads(ElasticMotion::quasi_static));
   advance_to(problem, 5000);
   EXPECT_LT(std::abs(problem.energy().residual()), 1e-4 * problem.energy().boundary);

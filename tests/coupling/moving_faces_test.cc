@@ -103,7 +103,7 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
     search.moved(farthest);
     if (search.stale())
       search.rebuild(surface, particles.position, std::vector<double>(particles.size(), 0.05), {});
-    search.look(surface);
+    search.update(surface);
     for (std::size_t k = 0; k < search.particles().size(); ++k) {
       const Vector3 &centre = particles.position[static_cast<std::size_t>(search.particles()[k])];
       const SurfacePoint s = search.closest(surface, k, centre), all = search.closest_of_all(surface, centre);

@@ -105,7 +105,7 @@ fem::Grid irregular_block(double h) {
 }
 
 // Dragged at a constant approach over edges and past vertices, in its own indentation all the way. Without
-// the compliance taken out the force swings by 5 %.
+// the compliance taken out the force oscillates by 5 %.
 TEST(pressed_block, feels_no_mesh_under_a_dragged_sphere) {
   constexpr double h = radius, a = 0.1 * radius;
   PressedBlock pressed(irregular_block(h), 1, hertz_secant(a), true);

@@ -67,7 +67,7 @@ TEST(rate_control, is_slow_while_bonds_break_though_the_slope_tells_nothing) {
   EXPECT_EQ(ride.to(1.9e-3, specimen), 1);
 }
 
-TEST(rate_control, is_quick_on_the_way_back) {
+TEST(rate_control, is_quick_on_the_path_back) {
   const Specimen specimen;
   Ride ride;
   ride.to(2.5e-3, specimen);

@@ -1,5 +1,5 @@
 // A cell whose oil presses on a rubber sleeve: the specimen feels what it feels under the same pressure on
-// its skin, the book closes, and a stop changes no bit.
+// its skin, the energy balance closes, and a stop changes no bit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
   EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
 }
 
-TEST(sleeve_cell, the_book_of_sleeve_cell_and_specimen_closes) {
+TEST(sleeve_cell, the_energy_balance_of_sleeve_cell_and_specimen_closes) {
   for (const bool bonded : {true, false}) {
     PlatenTest problem(cylinder(), in_cell(10e6, true, bonded));
     run(problem);

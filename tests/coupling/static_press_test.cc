@@ -141,7 +141,7 @@ Loaded load(PlatenTest &problem, double at) {
   return result;
 }
 
-TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_book) {
+TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_balance) {
   constexpr double strain = 5e-4;
   PlatenTest problem(small_cylinder(), breakable(1e-6)); // platens that all but stand
   const StaticPress p = start_statically(problem, strain);

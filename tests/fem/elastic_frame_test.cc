@@ -31,7 +31,7 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
   for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     ElasticSolid solid(plate(), {steel}, Clamp{}, {1, kind});
     const ElasticSolid still(plate(), {steel}, Clamp{});
-    const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to swing
+    const double dt = 0.3 / 64; // far larger than the stable step: nothing must be there to oscillate
     solid.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
     std::vector<Vector3> rate(solid.model().nodes.size(), Vector3{});
     solid.set_deformation(rate, rate); // inside moves with the frame
@@ -52,7 +52,7 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
       solid.aim(std::vector<Vector3>(solid.surface().vertices.size(), Vector3{}), 0);
     }
     EXPECT_NEAR(solid.rotation().x, std::sqrt(0.5), 1e-12); // a quarter turn about x
-    EXPECT_LT(solid.book().strain, 1e-20);
+    EXPECT_LT(solid.energy_balance().strain, 1e-20);
     for (const Stress &s : solid.stress_of_cells())
       EXPECT_LT(von_mises(s), 1e-13 * steel.young_modulus);
     const Vector3 moved = solid.displacement();
@@ -137,11 +137,11 @@ TEST(elastic_solid, a_body_on_its_seat_keeps_its_angular_momentum) {
   const Vector3 start = solid.angular_momentum();
   const double dt = 0.8 * solid.stable_step();
   solid.drift(dt, 1);
-  const double energy = total(solid.book());
+  const double energy = total(solid.energy_balance());
   for (int k = 0; k < 4000; ++k)
     solid.drift(dt, 1);
   EXPECT_LT(norm(solid.angular_momentum() - start), 1e-10 * norm(start));
-  EXPECT_NEAR(total(solid.book()), energy, 1e-4 * energy); // order dt^2 w^2 where it turns
+  EXPECT_NEAR(total(solid.energy_balance()), energy, 1e-4 * energy); // order dt^2 w^2 where it turns
 }
 
 } // namespace

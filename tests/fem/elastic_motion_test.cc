@@ -1,4 +1,4 @@
-// Explicit motion of an elastic solid: swings, steps and books.
+// Explicit motion of an elastic solid: oscillations, steps and energy balances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,10 +9,10 @@
 namespace platen::fem {
 namespace {
 
-// Rod of unit length fixed at its high end, without sideways strain: u = cos(k z), k = pi / 2, swings with
-// the period 4 L / c. Linear elements with lumped mass are too slow by (k h)^2 / 24 = 0.16 %, the step's own
-// error takes part of it back.
-TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
+// Rod of unit length fixed at its high end, without sideways strain: u = cos(k z), k = pi / 2, oscillates
+// with the period 4 L / c. Linear elements with lumped mass are too slow by (k h)^2 / 24 = 0.16 %, the step's
+// own error takes part of it back.
+TEST(elastic_solid, a_rod_oscillates_with_the_speed_of_sound) {
   for (const int degree : {1, 2}) {
     ElasticSolid rod(make_grid(BoxPlate{{0, 0, 0}, {0.1, 0.1, 1}, {1, 1, 8}}), {{2000, 8e9, 0}}, Clamp{},
                      {degree});
@@ -42,7 +42,7 @@ TEST(elastic_solid, a_rod_swings_with_the_speed_of_sound) {
 
 // Slender cantilever (Euler-Bernoulli): w = 1.8751^2 sqrt(E I / (rho A L^4)). Shear and the turning of
 // sections take 0.4 % off at L / h = 20. Degree 2, since linear elements lock in bending.
-TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
+TEST(elastic_solid, a_cantilever_oscillates_as_a_beam_does) {
   const double h = 0.05, e = 8e9, rho = 2000;
   ElasticSolid beam(make_grid(BoxPlate{{0, 0, 0}, {h, h, 1}, {1, 1, 10}}), {{rho, e, 0}}, Clamp{}, {2});
   std::vector<Vector3> u(beam.model().nodes.size(), Vector3{});
@@ -73,7 +73,7 @@ TEST(elastic_solid, a_cantilever_swings_as_a_beam_does) {
 }
 
 // Central differences keep their energy exactly: what is left is round-off of a thousand steps, on any step.
-TEST(elastic_solid, the_book_of_a_swing_closes) {
+TEST(elastic_solid, the_energy_balance_of_an_oscillation_closes) {
   for (const int degree : {1, 2})
     for (const bool damped : {false, true}) {
       ElasticOptions options{degree};
@@ -84,7 +84,7 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
       solid.set_velocity({0, 0, -0.5});
       const double dt = 0.8 * solid.stable_step();
       solid.drift(dt, 1);
-      const double start = total(solid.book());
+      const double start = total(solid.energy_balance());
       double largest = 0;
       for (int k = 0; k < 1000; ++k) {
         if (k == 300) solid.set_velocity({0, 0, 0.3});
@@ -95,10 +95,10 @@ TEST(elastic_solid, the_book_of_a_swing_closes) {
         solid.drift(dt, 1);
         put(solid, now);
         solid.kick(0.5 * dt);
-        largest = std::max(largest, solid.book().strain);
-        ASSERT_NEAR(total(solid.book()), start, 1e-8 * largest) << k;
+        largest = std::max(largest, solid.energy_balance().strain);
+        ASSERT_NEAR(total(solid.energy_balance()), start, 1e-8 * largest) << k;
       }
-      const BodyBook b = solid.book();
+      const EnergyBalance b = solid.energy_balance();
       EXPECT_NE(b.load_work, 0);
       EXPECT_NE(b.clamp_work, 0);
       EXPECT_EQ(b.dissipated != 0, damped);

@@ -34,7 +34,7 @@ inline void put(ElasticSolid &solid, const std::vector<Vector3> &loads) {
     if (norm(loads[v]) > 0) solid.add_surface_force(static_cast<int>(v), loads[v]);
 }
 
-inline double total(const BodyBook &b) {
+inline double total(const EnergyBalance &b) {
   return b.kinetic + b.strain + b.dissipated - b.load_work - b.clamp_work;
 }
 

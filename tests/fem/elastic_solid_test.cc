@@ -37,9 +37,9 @@ TEST(elastic_solid, the_clamp_bears_what_the_loads_give) {
     largest = std::max(largest, norm(p));
   for (std::size_t i = 0; i < a.size(); ++i)
     EXPECT_LT(norm(a[i] - b[i]), 1e-8 * largest);
-  const BodyBook book = slow.book();
-  EXPECT_NEAR(book.load_work, 2 * book.strain, 1e-10 * book.strain);
-  EXPECT_NEAR(total(book), 0, 1e-10 * book.strain);
+  const EnergyBalance balance = slow.energy_balance();
+  EXPECT_NEAR(balance.load_work, 2 * balance.strain, 1e-10 * balance.strain);
+  EXPECT_NEAR(total(balance), 0, 1e-10 * balance.strain);
   EXPECT_LT(norm(slow.clamp_force() - slow.total_force()), 1e-12 * size);
 }
 
@@ -69,8 +69,9 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
     const auto a = solid.deformation(), b = at_once.deformation();
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_LT(norm(a[i] - b[i]), 1e-16);
-    EXPECT_NEAR(solid.book().strain, at_once.book().strain, 1e-10 * at_once.book().strain);
-    EXPECT_NEAR(total(solid.book()), 0, 1e-9 * solid.book().strain);
+    EXPECT_NEAR(solid.energy_balance().strain, at_once.energy_balance().strain,
+                1e-10 * at_once.energy_balance().strain);
+    EXPECT_NEAR(total(solid.energy_balance()), 0, 1e-9 * solid.energy_balance().strain);
     solid.drift(dt); // there: only the machine moves it
     for (const Vector3 &v : solid.surface().velocities)
       EXPECT_EQ(v, (Vector3{0, 0, -0.1}));
@@ -122,7 +123,7 @@ TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
     EXPECT_EQ(other.surface().velocities, solid.surface().velocities);
     go(solid, 27, 60), go(other, 27, 60);
     EXPECT_TRUE(same_state(solid, other));
-    EXPECT_EQ(other.book().strain, solid.book().strain);
+    EXPECT_EQ(other.energy_balance().strain, solid.energy_balance().strain);
     EXPECT_THROW(set_state(other, State()), StateError);
   }
 }

@@ -34,7 +34,7 @@ TEST(deep_overlaps, come_to_rest) {
   constexpr double edge = 6 * radius;
   ModelSettings settings = breakable();
   settings.bond.reset();
-  settings.bond_layout.modulus = 4e7; // soft, so that a collision is not much shorter than a swing
+  settings.bond_layout.modulus = 4e7; // soft, so that a collision is not much shorter than an oscillation
   settings.contact->damping = .3;
   settings.local_damping = .5;
   settings.rotation = false; // nothing stops a sphere that spins on one contact

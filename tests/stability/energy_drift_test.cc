@@ -2,8 +2,8 @@
 //
 // Velocity Verlet does not keep E = K + U, which it shows swung by dt^2, but for linear forces to the last
 // bit E - dt^2/8 sum(F^2/m + T^2/I), the mean of what K would be with half-step velocities before and after.
-// So both are measured over what E was at the start: E by the band in which it swings, which is small where
-// the motion is smooth and (w dt)^2 / 4 of a single mode of frequency w, and what is kept by its trend.
+// So both are measured over what E was at the start: E by the band in which it oscillates, which is small
+// where the motion is smooth and (w dt)^2 / 4 of a single mode of frequency w, and what is kept by its trend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ private:
 struct Drift {
   double band = 0, kept_band = 0;   // largest distance from the start, over the energy of the start
   double slope = 0, kept_slope = 0; // per step, of the same
-  double lost = 0;                  // J, booked as lost
+  double lost = 0;                  // J, counted as lost
 };
 
 Drift drift_of(Model &model, long steps, long every) {
@@ -65,11 +65,11 @@ Drift drift_of(Model &model, long steps, long every) {
   return drift;
 }
 
-// Stretched and sheared swings of two bonded spheres, fast ones: w dt is .2 at most.
+// Stretched and sheared oscillations of two bonded spheres, fast ones: w dt is .2 at most.
 TEST(energy_drift, of_a_pair_over_a_million_steps) {
   Model model(row(1, {1, 0, 0}), bonded());
   Particles &p = model.particles;
-  const double v = 1e-3; // m/s: turns by 1e-5 in a swing
+  const double v = 1e-3; // m/s: turns by 1e-5 in an oscillation
   p.velocity[0] = {v, .5 * v, 0}, p.velocity[1] = {-v, -.5 * v, 0};
   (*p.angular_velocity)[0] = {0, .3 * v / radius, 0};
   const Drift drift = drift_of(model, 1000000, 37);

@@ -51,7 +51,7 @@ struct ElasticPlaten {
   }
   void kick(double dt) { body.kick(dt); }
   Vector3 momentum() const { return body.momentum(); }
-  double energy() const { return body.book().kinetic + body.book().strain; }
+  double energy() const { return body.energy_balance().kinetic + body.energy_balance().strain; }
 };
 
 template <class Platen>

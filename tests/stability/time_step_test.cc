@@ -83,7 +83,7 @@ Case elastic_platens() {
 
 struct Outcome {
   long stopped = -1;   // step; -1: it went on
-  double growth = 0;   // |residual of the energy book| over the work that came in
+  double growth = 0;   // |residual of the energy balance| over the work that came in
   std::string message; // where it stopped
 };
 

@@ -20,7 +20,7 @@ std::string power(double ratio) {
 }
 
 // A light sphere that touches two heavy ones, which are pressed together: each overlap is the force over the
-// stiffness of that contact, and the book closes.
+// stiffness of that contact, and the energy balance closes.
 void squeeze(double mass_ratio) {
   using dem::examples::radius;
   const double large = std::cbrt(mass_ratio) * radius;
@@ -108,13 +108,13 @@ TEST(unlike_bodies, soft_grains_between_platens_of_steel) {
 }
 
 // Steel that made all its steps between two of the grains' would meet their force as blows, some in time with
-// its own swings.
-TEST(unlike_bodies, soft_grains_between_platens_of_steel_that_swing) {
+// its own oscillations.
+TEST(unlike_bodies, soft_grains_between_platens_of_steel_that_oscillate) {
   press_column(1e2, fem::ElasticMotion::explicit_steps);
   press_column(1e3, fem::ElasticMotion::explicit_steps);
 }
 
-TEST(unlike_bodies, long_soft_grains_between_platens_of_steel_that_swing) {
+TEST(unlike_bodies, long_soft_grains_between_platens_of_steel_that_oscillate) {
   press_column(1e6, fem::ElasticMotion::explicit_steps);
 }
 
