@@ -87,7 +87,7 @@ void CompressionRun::open_files() {
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *test_, results_);
-  history_.emplace(paths_.history(), history_names(test_.get()), marks.history_bytes);
+  reopen_history();
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
     fields_.emplace(paths_.folder);
@@ -96,6 +96,16 @@ void CompressionRun::open_files() {
   earlier_seconds_ = marks.wall_seconds;
   first_step_ = test_->steps();
   log_.info("resumed at step {}, time {:.6g} s", test_->steps(), test_->time());
+}
+
+// Its rows are in the checkpoint, so that the file is written anew, with the columns of this version.
+void CompressionRun::reopen_history() {
+  WholeTable rows(paths_.history(), history_names(test_.get()));
+  for (const Sample &s : results_.samples())
+    rows.row(history_row(s, test_.get()));
+  rows.finish();
+  history_.emplace(paths_.history(), history_names(test_.get()),
+                   std::filesystem::file_size(paths_.history()));
 }
 
 void CompressionRun::sample() {
@@ -121,7 +131,6 @@ void CompressionRun::checkpoint() {
   history_->sync();
   if (cracks_) cracks_->sync();
   FileMarks marks;
-  marks.history_bytes = history_->bytes();
   marks.cracks_bytes = cracks_ ? cracks_->bytes() : 0;
   marks.last_frame = fields_ ? fields_->last_time() : -1.0;
   marks.frames = fields_ ? fields_->count() : 0;

@@ -42,6 +42,7 @@ private:
   double steps_until_due(const Interval &interval, double automatic) const;
   long steps_unobserved() const;
   void open_files();
+  void reopen_history();
   void loop();
   void start_pressed();
   dem::InstructionSet instruction_set_of_checkpoint();

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
@@ -72,6 +73,18 @@ TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   EXPECT_EQ(last.status, 0) << last.error;
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
   EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
+// An older version of the program had fewer columns; its checkpoint has the rows all the same.
+TEST_F(Determinism, a_resumed_run_writes_its_history_anew_whatever_has_become_of_the_file) {
+  crush("whole", "2");
+  const fs::path history = folder_ / "stopped/history.csv";
+  EXPECT_EQ(stop_at("stopped", 30, SIGHUP, {"-t", "1"}), 129);
+  fs::remove(history);
+  EXPECT_EQ(stop_at("stopped", 60, SIGTERM, {"-t", "1", "--resume"}), 143);
+  std::ofstream(history) << "time_s,intact_bonds\n0,7\n";
+  EXPECT_EQ(resume("stopped", "2").status, 0);
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
 }
 
 // The first is held still, so that the others meet it.

@@ -40,7 +40,6 @@ MOST_FILES, MOST_LINES = 3, 10
 
 def copy_of(source, folder):
     """The sources that the particle library needs, in a new folder."""
-    shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for name in COPIED:
         if (source / name).is_dir():
@@ -80,6 +79,8 @@ def main():
         sys.exit(__doc__)
     source, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     compiler = [f"-DCMAKE_CXX_COMPILER={sys.argv[3]}"] if len(sys.argv) > 3 else []
+    # Copies keep their times, so a build of an earlier copy would not follow them.
+    shutil.rmtree(folder, ignore_errors=True)
     copy = folder / "sources"
     copy_of(source, copy)
     small = all([add(copy, what) for what in ADDITIONS])

@@ -62,8 +62,9 @@ def run(*command, status=0):
 
 def build(source, folder, compiler):
     """The new platen-compress."""
+    # Copies keep their times, so a build of an earlier copy would not follow them.
+    shutil.rmtree(folder, ignore_errors=True)
     copy = folder / "sources"
-    shutil.rmtree(copy, ignore_errors=True)
     copy.mkdir(parents=True)
     for name in COPIED:
         if (source / name).is_dir():
