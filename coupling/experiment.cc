@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 #include "base/parallel.h"
@@ -30,6 +31,11 @@ Experiment::Experiment(const dem::Specimen &specimen, const dem::ModelSettings &
     : model(specimen, settings), shape_(specimen.shape), settings_(time_step) {}
 
 void Experiment::begin(std::unique_ptr<Program> program) {
+  std::set<std::string> names{"specimen", "program"}; // of parts of the state
+  for (const auto &boundary : boundaries_)
+    if (!names.insert(boundary->name()).second)
+      throw BadSetup("boundaries", "has two parts with the name " + boundary->name() +
+                                       ". Allowed: names of their own, not specimen or program.");
   program_ = std::move(program);
   half_lightest_ = 0.5 * *std::min_element(model.particles.mass.begin(), model.particles.mass.end());
   // Pairs that are about to touch count in the first step too.

@@ -115,8 +115,9 @@ struct PlatenTestSettings {
   PlatenSettings platens;
   LoadingSettings loading;
   TimeStepSettings time_step;
-  // Of one's own: boundaries after those that the members above make, and stages in their place. They are
-  // made when platens and lateral boundaries are there.
+  // Of one's own: boundaries after those that the members above make, and stages in their place, a cell's
+  // consolidation included: its pressure is then theirs to ask. They are made when platens and lateral
+  // boundaries are there.
   std::vector<MadeFor<Boundary>> boundaries;
   std::vector<MadeFor<Stage>> stages;
 };

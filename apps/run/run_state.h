@@ -14,7 +14,7 @@ namespace platen::apps {
 // Where the files of a run stood.
 struct FileMarks {
   std::uint64_t cracks_bytes = 0; // history.csv follows from the samples
-  double last_frame = -1; // s
+  double last_frame = -1;         // s
   std::int64_t frames = 0;
   double wall_seconds = 0; // of all runs so far
   void describe(Archive &archive);

@@ -67,8 +67,10 @@ public:
     declared_.push_back(member);
     return section_.at(under);
   }
-  // All members that have not been declared here, under the keys that follow from their names.
-  void rest() {
+  // All members that have not been declared here, but for those that another section has, under the keys that
+  // follow from their names.
+  void rest(const std::vector<std::string> &elsewhere = {}) {
+    declared_.insert(declared_.end(), elsewhere.begin(), elsewhere.end());
     std::vector<std::string> all;
     Described::describe([&](const char *name, const auto &...) { all.emplace_back(name); }, of_);
     for (const std::string &member : all)

@@ -35,6 +35,7 @@ void declare_integration(Parameters &parameters, coupling::TimeStepSettings &tim
   of("damping_form")
       .only_if([](const Scene &s) { return s.model.local_damping > 0; }, "Integration/Damping = 0");
   step("fixed_step", "Time step");
+  of.rest({"density", "density_of", "bond_dashpot"});
   step.rest();
   section.word<dem::InstructionSet>(
       "Instruction set", model.instruction_set,

@@ -39,6 +39,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
       .needed_if("Bond/Strength scatter", {"weibull"});
   layout("interaction_range").only_if("Effects/Bond", by_range).told(joined(by_range));
   layout("area_factor");
+  layout.rest();
   law.rest();
   section.at("Softening tension")
       .only_if([](const Scene &s) { return !(s.bond.number("fracture_energy_tension") > 0); },
@@ -60,6 +61,7 @@ void declare_phases(Parameters &parameters, PhasesSection &phases) {
   for (const char *member : {"aggregate_modulus_factor", "aggregate_strength_factor",
                              "interface_modulus_factor", "interface_strength_factor"})
     of(member).unless("Phases/By", {"none"});
+  of.rest();
 }
 
 } // namespace platen::apps

@@ -35,6 +35,7 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
           .only_if([](const Scene &s) { return any_weakens(s, By::velocity); },
                    "no Friction law is velocity weakening"),
       "Slip velocity", " where not given.");
+  of.rest({"friction_law"});
 }
 
 void declare_side(Parameters &parameters, const std::string &name, coupling::PlatenSide &side, Face &face) {
@@ -71,6 +72,7 @@ void declare_elastic(Section &section, Platens &platens) {
               (pad > 0 && pad < p.thickness) || (p.meshed() && given(p.elastic->pad.young_modulus));
           return s.loads() && p.deformable && wanted ? "the pad has to have one." : "";
         });
+  of.rest({"seat"});
 }
 
 } // namespace
@@ -101,6 +103,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   section.quantity("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");
   of("glued", "Attachment");
+  of.rest();
   declare_side(parameters, "Top", platens.top, platens.top_face);
   Section top(parameters, "Platens/Top");
   Members control(top, loading);
@@ -120,6 +123,7 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         in("sleeve_stiffness", "Stiffness"), in("sleeve_seat_depth", "Seat depth"), of("contact_damping"),
         of("mass_damping", "Damping"), of("mass_scaling")})
     declared.only_if("Loading/Confinement", {"sleeve"});
+  of.rest();
 }
 
 void declare_loading(Parameters &parameters, Loading &loading) {
@@ -176,6 +180,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   of("unload_to")
       .only_if([](const Scene &s) { return !s.loading.unload_at.empty(); }, "Loading/Unload at is empty");
   cell("area", "Confinement area").only_if("Loading/Confinement", {"particles"});
+  of.rest({"servo", "top_stress"});
+  cell.rest({"sleeve_stiffness", "sleeve_seat_depth"});
 }
 
 } // namespace platen::apps

@@ -101,6 +101,7 @@ void declare_contact(Parameters &parameters, dem::ContactSettings &contact) {
     of(member).only_if("Effects/Contact", {dem::LinearContact::word});
   of("restitution").only_if("Effects/Contact", {dem::HertzContact::word});
   of("rolling_friction").only_if("Effects/Tangential", {"coulomb with rolling resistance"});
+  of.rest({"tangential", "young_modulus", "poisson_ratio"});
 }
 
 } // namespace platen::apps

@@ -154,6 +154,20 @@ TEST(experiment, the_smallest_limit_of_a_boundary_sets_the_step_with_its_reason)
   EXPECT_NEAR(held.experiment.time_step(), 0.8 * 0.5 * limit, 1e-12 * limit);
 }
 
+TEST(experiment, boundaries_of_one_name_and_those_named_as_other_parts_are_refused) {
+  for (const std::string taken : {"b", "specimen", "program"}) {
+    ThreeAround s;
+    s.experiment.add(std::make_unique<Noted>(taken, s.log));
+    try {
+      s.begin();
+      FAIL() << taken << " began";
+    } catch (const BadSetup &e) {
+      EXPECT_EQ(e.member(), "boundaries");
+      EXPECT_NE(e.reason().find("the name " + taken), std::string::npos) << e.reason();
+    }
+  }
+}
+
 TEST(experiment, steps_end_early_where_the_program_is_over_and_go_on_if_asked) {
   ThreeAround s;
   s.begin(7);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Adds a scene key and a column of history.csv to a copy of the sources, as docs/extending.md says, builds and runs them.
+"""Adds a scene key, a column of history.csv, a boundary and a loading stage, each of them with a key, to a copy of the sources,
+as docs/extending.md says, builds and runs them.
 
     tests/extending/extend_apps.py SOURCE FOLDER PROGRAM [COMPILER]
 
-SOURCE is the project, FOLDER a folder to work in, PROGRAM the platen-compress that has neither: a run that it has begun is
+SOURCE is the project, FOLDER a folder to work in, PROGRAM the platen-compress that has none of them: a run that it has begun is
 gone on with by the new one. Exit status: 0; 1 where something does not build or hold, or takes another place.
 """
 
@@ -35,18 +36,49 @@ COLUMN = [
      '         return (0.5 * (p.stress_top() + p.stress_bottom()) + 2 * p.confining_pressure()) / 3;\n'
      '       }},\n      {"cell_pressure_pa",'),
 ]
+SETTINGS = "coupling/platen_test_settings.h"
+BOUNDARY = [
+    ("coupling/platen_test.cc", '#include "coupling/platens_of_test.h"\n',
+     '#include "coupling/boundaries/jacket.h"\n#include "coupling/platens_of_test.h"\n'),
+    ("coupling/platen_test.cc", "  add_lateral(mean_bond_stiffness(model));\n",
+     "  add_lateral(mean_bond_stiffness(model));\n"
+     "  if (settings_.loading.jacket_stiffness > 0)\n"
+     "    add(std::make_unique<Jacket>(model.particles, specimen.shape,\n"
+     "                                 Jacket::Parameters{settings_.loading.jacket_stiffness, 1}));\n"),
+    (SETTINGS, "  double unload_to = 0.1;\n",
+     "  double unload_to = 0.1;\n  double jacket_stiffness = 0; // N/m, of its modulus and thickness; 0: none\n"),
+    (SETTINGS, '  v("unload_to", p.unload_to,',
+     '  v("jacket_stiffness", p.jacket_stiffness, "N/m", at_least(0), "Modulus times thickness of a jacket; 0: none.");\n'
+     '  v("unload_to", p.unload_to,'),
+]
+STAGE = [
+    ("coupling/platen_test.cc", '#include "coupling/program/stages.h"\n',
+     '#include "coupling/program/stages.h"\n#include "coupling/program/standstill.h"\n'),
+    ("coupling/platen_test.cc", "  stages.push_back(axial_stage_of_settings());\n",
+     "  stages.push_back(axial_stage_of_settings());\n"
+     "  if (loading.standstill > 0) stages.push_back(std::make_unique<Standstill>(loading.standstill));\n"),
+    (SETTINGS, "  double start_strain = 0; ",
+     "  double standstill = 0; // s, that the platens stand at last\n  double start_strain = 0; "),
+    (SETTINGS, '  v("start_strain", p.start_strain,',
+     '  v("standstill", p.standstill, "s", at_least(0), "Time that the platens stand in the end.");\n'
+     '  v("start_strain", p.start_strain,'),
+]
 KEY_FILES, COLUMN_PLACES = 2, 1
+PART_FILES = 3  # of a boundary, and of a stage, its own and that of its key included
 STEP = 2e-7  # s, below what is stable
+STANDSTILL = 1e-4  # s
 
 
-def add(folder, name, changes):
-    """Makes the changes; the files that they touch."""
+def add(folder, name, changes, own=None):
+    """Makes the changes, and copies a file of its own (from, to); the files that they touch."""
+    if own is not None:
+        shutil.copy(own[0], folder / own[1])
     for file, old, new in changes:
         text = (folder / file).read_text()
         if text.count(old) != 1:
             sys.exit(f"{file}: {old!r} stands there {text.count(old)} times; docs/extending.md and this test want looking at")
         (folder / file).write_text(text.replace(old, new))
-    files = {file for file, _, _ in changes}
+    files = {file for file, _, _ in changes} | ({own[1]} if own else set())
     print(f"{name}: {len(files)} files, {len(changes)} places")
     return files
 
@@ -74,6 +106,11 @@ def build(source, folder, compiler):
     if len(add(copy, "scene key", KEY)) > KEY_FILES or len(COLUMN) > COLUMN_PLACES:
         sys.exit("a key or a column takes more places than docs/extending.md says")
     add(copy, "column", COLUMN)
+    jacket = (source / "examples/extend/jacket.h", "coupling/boundaries/jacket.h")
+    standstill = (source / "tests/extending/standstill.h", "coupling/program/standstill.h")
+    parts = add(copy, "boundary with its key", BOUNDARY, jacket), add(copy, "stage with its key", STAGE, standstill)
+    if max(map(len, parts)) > PART_FILES:
+        sys.exit("a boundary or a stage touches more files than docs/extending.md says")
     run("cmake", "-S", copy, "-B", folder / "build", "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_TESTS=OFF", "-DPLATEN_BENCH=OFF",
         *compiler)
     run("cmake", "--build", folder / "build", "--target", "platen-compress", "-j2")
@@ -106,6 +143,31 @@ def check_new(program, scene, folder):
     hold("mean stress, Pa", (axial + 2 * last["confining_pressure_pa"]) / 3, last["mean_stress_pa"])
 
 
+def check_parts(program, scene, folder):
+    """A jacket strengthens a cylinder and its energy balance closes; the platens stand for their time in the end."""
+    folder.mkdir()
+    bare = folder.with_suffix(".prm")
+    bare.write_text(scene.read_text().split("subsection Expect")[0])  # what is expected is of finer spheres
+    coarse = [bare, "--overwrite", "--quiet", "-s", "Specimen/Sphere radius = 3.5 mm"]
+    strengths = []
+    for stiffness in (0, 1e8):
+        jacket = ["-s", f"Loading/Jacket stiffness = {stiffness} N/m"]
+        run(program, *coarse, "-o", folder, *jacket, "-s", "Effects/Energy ledger = on")
+        summary = json.loads((folder / "summary.json").read_text())
+        strengths.append(summary["strength_pa"])
+        if not summary["energy_residual_relative"] < 0.01:
+            sys.exit(f"jacket of {stiffness} N/m: energy residual {summary['energy_residual_relative']}, expected below 0.01")
+    if not strengths[1] > 1.1 * strengths[0]:
+        sys.exit(f"strength bare and in a jacket: expected a gain above 10 %, found {strengths} Pa")
+    run(program, *coarse, "-o", folder, "-s", "Loading/Target strain = 0.001", "-s", f"Loading/Standstill = {STANDSTILL} s")
+    first, second, *_, last = rows(folder)
+    begin = next(row for row in rows(folder) if row["axial_strain_platen"] >= 0.001 * (1 - 1e-9))
+    interval = second["time_s"] - first["time_s"]  # the stage begins between two samples
+    hold("closure strain after the standstill", last["axial_strain_platen"], begin["axial_strain_platen"])
+    if not 0 <= STANDSTILL - (last["time_s"] - begin["time_s"]) <= interval:
+        sys.exit(f"standstill, s: expected {STANDSTILL} less up to {interval}, found {last['time_s'] - begin['time_s']}")
+
+
 def check_older(old, new, scene, folder):
     """A run that the old program has begun goes on with the new one: NaN in the column until then."""
     begun = subprocess.Popen([str(c) for c in (old, scene, "-o", folder, "--overwrite", "--quiet")])
@@ -130,7 +192,8 @@ def main():
     scene = source / "scenes/hydrostatic_concrete.prm"
     check_new(new, scene, folder / "new")
     check_older(old, new, scene, folder / "older")
-    print("key and column hold")
+    check_parts(new, source / "scenes/demo_dry.prm", folder / "parts")
+    print("key, column, boundary and stage hold")
 
 
 if __name__ == "__main__":
