@@ -75,11 +75,21 @@ def patterns_of(row):
     return row["tests"] + row.get("long", [])
 
 
+def alternatives(pattern):
+    """The pattern once for each word of its groups (a|b)."""
+    group = re.search(r"\(([^()]*\|[^()]*)\)", pattern)
+    if group is None:
+        return [pattern]
+    begin, end = pattern[: group.start()], pattern[group.end() :]
+    return [one for word in group[1].split("|") for one in alternatives(begin + word + end)]
+
+
 def check(rows, tests):
     """Faults of rows and table, as texts."""
     faults = []
     for row in rows:
-        faults += [f"row {row['row']}: no test is called {p}" for p in patterns_of(row) if not matching([p], tests)]
+        named = [one for pattern in patterns_of(row) for one in alternatives(pattern)]
+        faults += [f"row {row['row']}: no test is called {one}" for one in named if not matching([one], tests)]
         if not patterns_of(row) and "missing" not in row:
             faults.append(f"row {row['row']}: has neither tests nor a reason why")
     numbers = [row["row"] for row in rows]

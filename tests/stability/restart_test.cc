@@ -1,29 +1,17 @@
-// N + M steps against N steps, a checkpoint in its file, and M steps of a problem made from that file: the
-// same bytes of all that a checkpoint holds. By every bond law, everything that may hold the specimen, three
-// moments of its life, and any change of threads between the two.
-#include <gtest/gtest.h>
-
+// A restart by every bond law, with platens of each kind and a sleeve, at three moments of the specimen's
+// life, and with any change of threads.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/run/run_state.h"
-#include "base/parallel.h"
-#include "dem/packing/advancing_front.h"
-#include "tests/apps/io_folder.h"
 #include "tests/coupling/elastic_problem.h"
-#include "tests/measured.h"
+#include "tests/stability/restart.h"
 
 namespace platen::apps {
 namespace {
 
 using coupling::PlatenTest;
 using coupling::PlatenTestSettings;
-
-constexpr long steps_after = 300; // M
 
 enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
 enum Fixed { rigid, elastic, quasi_static, sleeve };
@@ -32,15 +20,6 @@ constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
 constexpr std::array moments{before_cracks, cracking, after_peak};
 constexpr std::array thread_counts{1, 2, 4};
-
-const dem::Specimen &specimen() {
-  static const dem::Specimen s = [] {
-    dem::Shape shape;
-    shape.radius = 4e-3, shape.height = 9e-3;
-    return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 5);
-  }();
-  return s;
-}
 
 void choose(PlatenTestSettings &s, Law law) {
   s.model.contact = dem::ContactSettings{};
@@ -107,13 +86,6 @@ double stress(const PlatenTest &p) {
   return 0.5 * (p.stress_top() + p.stress_bottom()) - p.confining_pressure();
 }
 
-void advance_to(PlatenTest &problem, long steps) {
-  while (problem.steps() < steps) {
-    problem.advance(steps - problem.steps());
-    problem.model.take_cracks();
-  }
-}
-
 // Steps at which each moment is there, found by a first run until the stress has fallen to 0.7 of its peak.
 struct Life {
   std::array<long, 3> at{};
@@ -123,7 +95,7 @@ struct Life {
 
 Life life_of(Law law, Fixed fixed) {
   constexpr long between_looks = 10, most = 20000;
-  PlatenTest problem(specimen(), settings_of(law, fixed));
+  PlatenTest problem(coarse_cylinder(), settings_of(law, fixed));
   Life life;
   while (problem.steps() < most) {
     advance_to(problem, problem.steps() + between_looks);
@@ -151,53 +123,18 @@ void expect_moment(const PlatenTest &p, const Life &life, Moment moment) {
     EXPECT_LT(stress(p), 0.75 * life.strength);
 }
 
-class Restart : public testing::ScratchFolder {
+class Restart : public RestartFolder {
 protected:
-  // All that a checkpoint holds, as its file has it.
-  std::string bytes_of(const PlatenTest &problem) { return testing::content_of(kept(problem)); }
-  std::filesystem::path kept(const PlatenTest &problem) {
-    return write_checkpoint(folder_, static_cast<std::uint64_t>(problem.steps()), [&](CheckpointWriter &to) {
-      save_state(to, problem, Results(false), FileMarks{});
-    });
-  }
-  // Of `first` threads until the moment, then, from the file, of each of `then`. Returns how many differ.
   int different(Law law, Fixed fixed, Moment moment, const Life &life, int first,
                 const std::vector<int> &then) {
-    const PlatenTestSettings settings = settings_of(law, fixed);
-    const long at = life.at[moment];
-    std::string expected, stopped;
-    {
-      const ThreadLimit threads(first);
-      PlatenTest whole(specimen(), settings);
-      advance_to(whole, at);
-      expect_moment(whole, life, moment);
-      stopped = bytes_of(whole);
-      advance_to(whole, at + steps_after);
-      expected = bytes_of(whole);
-      EXPECT_NE(expected, stopped);
-    }
-    int count = 0;
-    for (const int next : then) {
-      const ThreadLimit threads(next);
-      const std::filesystem::path file = folder_ / "stopped.platen";
-      testing::put(file, stopped);
-      PlatenTest resumed(specimen(), settings);
-      Results results(false);
-      load_state(CheckpointReader(file), resumed, results);
-      advance_to(resumed, at + steps_after);
-      const bool same = bytes_of(resumed) == expected;
-      EXPECT_TRUE(same) << "law " << law << ", fixed " << fixed << ", moment " << moment << ", threads "
-                        << first << " then " << next;
-      count += !same;
-    }
-    return count;
+    Stop stop;
+    stop.at = life.at[moment];
+    stop.what = "law " + std::to_string(law) + ", fixed " + std::to_string(fixed) + ", moment " +
+                std::to_string(moment);
+    stop.expect = [&](const PlatenTest &p) { expect_moment(p, life, moment); };
+    return RestartFolder::different(coarse_cylinder(), settings_of(law, fixed), stop, first, then);
   }
 };
-
-void note(int states, int different) {
-  measured::note_figure(1, "states_compared", states, "any");
-  measured::note_figure(1, "states_that_differ", different, "none");
-}
 
 // Each law with each hold, moments and threads in turn: every pair of them comes up.
 TEST_F(Restart, from_a_file_goes_on_to_the_same_bits) {
@@ -210,7 +147,7 @@ TEST_F(Restart, from_a_file_goes_on_to_the_same_bits) {
                        {thread_counts[(turn + 1) % 3]});
       ++states;
     }
-  note(states, off);
+  note_states(states, off);
 }
 
 TEST_F(Restart, long_from_a_file_goes_on_to_the_same_bits_by_every_law_hold_moment_and_threads) {
@@ -224,7 +161,7 @@ TEST_F(Restart, long_from_a_file_goes_on_to_the_same_bits_by_every_law_hold_mome
           states += 3;
         }
     }
-  note(states, off);
+  note_states(states, off);
 }
 
 } // namespace
