@@ -13,7 +13,7 @@ InstructionSet best_instruction_set() {
 }
 
 const char *name(InstructionSet set) {
-  return set == InstructionSet::avx512 ? "avx512" : (set == InstructionSet::avx2 ? "avx2" : "baseline");
+  return for_set<const char *>(set, "baseline", "avx2", "avx512");
 }
 
 } // namespace platen::dem

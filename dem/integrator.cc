@@ -15,15 +15,8 @@ namespace {
 
 kernels::MotionKernel kernel_of(const Integrator &how, Halves halves) {
   const kernels::MotionEffects effects{how.rotation, how.dissipation > 1};
-  switch (how.instruction_set) {
-    case InstructionSet::avx512:
-      return kernels::motion_kernel_avx512(halves, effects);
-    case InstructionSet::avx2:
-      return kernels::motion_kernel_avx2(halves, effects);
-    case InstructionSet::baseline:
-      break;
-  }
-  return kernels::motion_kernel_baseline(halves, effects);
+  return for_set(how.instruction_set, kernels::motion_kernel_baseline, kernels::motion_kernel_avx2,
+                 kernels::motion_kernel_avx512)(halves, effects);
 }
 
 kernels::MotionStep step_of(const Integrator &how, double finished, double next) {
