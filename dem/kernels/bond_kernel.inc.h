@@ -9,43 +9,6 @@ namespace {
 // What moves and what bonds resist.
 enum class Turning { none, forces, moments };
 
-// Copies of the last rows of a block, when they do not fill a pack: the last one repeated, between the spare
-// rows.
-struct Tail {
-  int first[lanes], second[lanes];
-  Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
-  double rest_length[lanes], lever[lanes], normal_stiffness[lanes], bond_radius[lanes];
-  double strength_factor[lanes];
-  double dashpot[lanes], dashpot_bending[lanes];
-
-  Tail(const BondColumns &c, std::size_t from, std::size_t to) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const bool real = from + l < to;
-      const std::size_t k = real ? from + l : to - 1;
-      first[l] = c.first[k], second[l] = c.second[k];
-      reference[l] = c.reference[k];
-      rest_length[l] = c.rest_length[k], lever[l] = c.lever[k];
-      normal_stiffness[l] = c.normal_stiffness[k], bond_radius[l] = c.bond_radius[k];
-      if (c.strength_factor != nullptr) strength_factor[l] = c.strength_factor[k];
-      if (c.dashpot == nullptr) continue;
-      dashpot[l] = real ? c.dashpot[k] : 0;
-      dashpot_force[l] = real ? c.dashpot_force[k] : Vector3{};
-      if (c.dashpot_bending == nullptr) continue;
-      dashpot_bending[l] = real ? c.dashpot_bending[k] : 0;
-      dashpot_moment[l] = real ? c.dashpot_moment[k] : Vector3{};
-    }
-  }
-  BondColumns columns(BondColumns c) {
-    c.first = first, c.second = second;
-    c.reference = reference, c.rest_length = rest_length, c.lever = lever;
-    c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
-    c.strength_factor = strength_factor;
-    c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
-    c.dashpot_force = dashpot_force, c.dashpot_moment = dashpot_moment;
-    return c;
-  }
-};
-
 template <bool factors>
 PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
   BondGeometry<Pack> g;

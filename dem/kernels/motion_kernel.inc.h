@@ -72,12 +72,14 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
   return {s * p.w, s * p.x, s * p.y, s * p.z};
 }
 
-// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `excess`:
-// what the drift had above the half-step velocity, only with a dissipative scheme.
+// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `kept`: where
+// stands what the drift had above the half-step velocity, only with a dissipative scheme.
 template <class Real, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
-                     const MotionStep &step, PartialSums<Real> &sums, const Triple<Real> &excess = {}) {
+                     const MotionStep &step, PartialSums<Real> &sums, const Vector3 *kept) {
   const Triple<Real> whole = load;
+  [[maybe_unused]] Triple<Real> excess{};
+  if constexpr (dissipative) excess = Rows<Real>::vector(kept);
   load = damped(load, v, step);
   if constexpr (dissipative) v = v - excess;
   v = v + scale(Real(0.5 * step.finished * mobility), load);
@@ -97,19 +99,16 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
   if constexpr (halves == Halves::end) sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
 }
 
-template <class Real>
+// First half kick; with a dissipative scheme the drift that follows goes further than the half-step velocity.
+template <class Real, bool dissipative>
 inline void begin_kick(Triple<Real> &v, const Triple<Real> &load, const Real &mobility,
-                       const MotionStep &step) {
+                       const MotionStep &step, [[maybe_unused]] Vector3 *kept) {
   v = v + scale(Real(0.5 * step.next * mobility), load);
-}
-
-// Lets the drift that follows go further than the half-step velocity; returns by how much.
-template <class Real>
-inline Triple<Real> add_excess(Triple<Real> &v, const Triple<Real> &load, const Real &mobility,
-                               const MotionStep &step) {
-  const Triple<Real> excess = scale(Real(step.excess * step.next * mobility), load);
-  v = v + excess;
-  return excess;
+  if constexpr (dissipative) {
+    const Triple<Real> excess = scale(Real(step.excess * step.next * mobility), load);
+    v = v + excess;
+    store(kept, excess);
+  }
 }
 
 template <class Real, bool rotation, bool dissipative, Halves halves>
@@ -117,13 +116,11 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   using R = Rows<Real>;
   Triple<Real> v = R::vector(c.velocity + i), force = R::vector(c.force + i);
   const Real mass = R::scalar(c.mass + i), mobility = 1.0 / mass;
+  [[maybe_unused]] Vector3 *const excess = dissipative ? c.excess_velocity + i : nullptr;
   if constexpr (halves == Halves::end) sums.unbalanced = sums.unbalanced + root(dot(force, force));
   if constexpr (halves != Halves::begin) {
     [[maybe_unused]] const Triple<Real> drift = v;
-    if constexpr (dissipative)
-      end_kick<Real, true, halves>(v, force, mass, mobility, step, sums, R::vector(c.excess_velocity + i));
-    else
-      end_kick<Real, false, halves>(v, force, mass, mobility, step, sums);
+    end_kick<Real, dissipative, halves>(v, force, mass, mobility, step, sums, excess);
     if (step.weight_sum) {
       const Triple<Real> g{Real(step.gravity.x), Real(step.gravity.y), Real(step.gravity.z)};
       sums.weight_work = sums.weight_work + step.finished * mass * dot(g, dissipative ? drift : v);
@@ -132,8 +129,7 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   if constexpr (halves == Halves::end) {
     store(c.force + i, force);
   } else {
-    begin_kick(v, force, mobility, step);
-    if constexpr (dissipative) store(c.excess_velocity + i, add_excess(v, force, mobility, step));
+    begin_kick<Real, dissipative>(v, force, mobility, step, excess);
     store(c.position + i, R::vector(c.position + i) + scale(Real(step.next), v));
     const Real square = dot(v, v);
     sums.speed_squares = sums.speed_squares + square;
@@ -143,16 +139,13 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
   if constexpr (rotation) {
     Triple<Real> w = R::vector(c.angular_velocity + i), torque = R::vector(c.torque + i);
     const Real inertia = R::scalar(c.inertia + i), turn_mobility = 1.0 / inertia;
-    if constexpr (halves != Halves::begin && dissipative)
-      end_kick<Real, true, halves>(w, torque, inertia, turn_mobility, step, sums,
-                                   R::vector(c.excess_spin + i));
-    if constexpr (halves != Halves::begin && !dissipative)
-      end_kick<Real, false, halves>(w, torque, inertia, turn_mobility, step, sums);
+    [[maybe_unused]] Vector3 *const excess_spin = dissipative ? c.excess_spin + i : nullptr;
+    if constexpr (halves != Halves::begin)
+      end_kick<Real, dissipative, halves>(w, torque, inertia, turn_mobility, step, sums, excess_spin);
     if constexpr (halves == Halves::end) {
       store(c.torque + i, torque);
     } else {
-      begin_kick(w, torque, turn_mobility, step);
-      if constexpr (dissipative) store(c.excess_spin + i, add_excess(w, torque, turn_mobility, step));
+      begin_kick<Real, dissipative>(w, torque, turn_mobility, step, excess_spin);
       store(c.orientation + i, turned_by(R::rotation(c.orientation + i), w, step.next));
     }
     store(c.angular_velocity + i, w);

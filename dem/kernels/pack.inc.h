@@ -80,3 +80,43 @@ inline Pack with_sign(const Pack &size, const Pack &of) {
 #else
 #include "dem/kernels/rows_of_four.inc.h"
 #endif
+
+namespace platen::dem::kernels {
+namespace {
+
+inline Triple<Pack> to_vectors(const Row *rows) {
+  const Rotation<Pack> columns = to_columns(rows);
+  return {columns.w, columns.x, columns.y};
+}
+
+inline Rotation<Pack> load(const Quaternion *from) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&from[l].w);
+  return to_columns(rows);
+}
+
+// Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
+// four doubles.
+inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[at[l]].w);
+  return to_columns(rows);
+}
+inline Triple<Pack> gather(const Vector3 *column, const int *at) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[at[l]].x);
+  return to_vectors(rows);
+}
+// column[b[l]] - column[a[l]].
+inline Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(&column[b[l]].x) - load_row(&column[a[l]].x);
+  return to_vectors(rows);
+}
+
+} // namespace
+} // namespace platen::dem::kernels

@@ -100,37 +100,6 @@ inline Rotation<Pack> to_columns(const Row *rows) {
   return {join(c[0]), join(c[1]), join(c[2]), join(c[3])};
 }
 
-inline Rotation<Pack> load(const Quaternion *from) {
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&from[l].w);
-  return to_columns(rows);
-}
-
-// Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
-// four doubles.
-inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&column[at[l]].w);
-  return to_columns(rows);
-}
-// column[b[l]] - column[a[l]].
-inline Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&column[b[l]].x) - load_row(&column[a[l]].x);
-  const Rotation<Pack> columns = to_columns(rows);
-  return {columns.w, columns.x, columns.y};
-}
-inline Triple<Pack> gather(const Vector3 *column, const int *at) {
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&column[at[l]].x);
-  const Rotation<Pack> columns = to_columns(rows);
-  return {columns.w, columns.x, columns.y};
-}
-
 // Lanes as rows {x, y, z, any}.
 inline void to_rows(const Triple<Pack> &t, Row *rows) {
   for (int h = 0; h < lanes / 4; ++h) {

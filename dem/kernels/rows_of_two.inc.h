@@ -61,35 +61,14 @@ inline void store(Vector3 *to, const Triple<Pack> &t) {
   store_two(at + 4, second_of(t.y.v, t.z.v));
 }
 
-inline Rotation<Pack> columns_of(const Row &a, const Row &b) {
+inline Rotation<Pack> to_columns(const Row *rows) {
+  const Row &a = rows[0], &b = rows[1];
   return {first_of(a.low, b.low), second_of(a.low, b.low), first_of(a.high, b.high),
           second_of(a.high, b.high)};
-}
-inline Rotation<Pack> to_columns(const Row *rows) {
-  return columns_of(rows[0], rows[1]);
-}
-inline Rotation<Pack> load(const Quaternion *from) {
-  return columns_of(load_row(&from[0].w), load_row(&from[1].w));
 }
 inline void store(Quaternion *to, const Rotation<Pack> &q) {
   store_row(&to[0].w, {first_of(q.w.v, q.x.v), first_of(q.y.v, q.z.v)});
   store_row(&to[1].w, {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)});
-}
-
-// Rows column[at[l]] for both lanes. Columns have a spare row at their end, so that a vector can be read as
-// four doubles.
-inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
-  return columns_of(load_row(&column[at[0]].w), load_row(&column[at[1]].w));
-}
-inline Triple<Pack> gather(const Vector3 *column, const int *at) {
-  const Rotation<Pack> c = columns_of(load_row(&column[at[0]].x), load_row(&column[at[1]].x));
-  return {c.w, c.x, c.y};
-}
-// column[b[l]] - column[a[l]].
-inline Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
-  const Rotation<Pack> c = columns_of(load_row(&column[b[0]].x) - load_row(&column[a[0]].x),
-                                      load_row(&column[b[1]].x) - load_row(&column[a[1]].x));
-  return {c.w, c.x, c.y};
 }
 
 // Lanes as rows {x, y, z, any}.
