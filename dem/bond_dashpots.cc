@@ -7,10 +7,6 @@
 namespace platen::dem {
 namespace {
 
-double reduced(double a, double b) {
-  return a * b / (a + b);
-}
-
 // Onate's dashpot acts along the normal alone, c_n = 2 gamma alpha (r_c/|D|) sqrt(m k_n), with alpha r_c^2
 // the square of the bond's radius (docs/theory.md).
 double fraction_of(const Bonds &b, std::size_t k, double smaller_radius, double alpha) {
@@ -39,7 +35,7 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
     dashpot_moment = &table.add<Vector3>("dashpot_moment", "N m");
   }
   for (std::size_t k = 0; k < size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+    const int i = first[k], j = second[k];
     const BondStiffness s = stiffness(k);
     (*dashpot)[k] = 2 * fraction_of(*this, k, std::min(p.radius[i], p.radius[j]), alpha) *
                     std::sqrt(s.axial * reduced(p.mass[i], p.mass[j]));

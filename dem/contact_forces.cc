@@ -9,14 +9,6 @@
 #include "dem/laws/rotating_plane.h"
 
 namespace platen::dem {
-namespace {
-
-double reduced(double a, double b) {
-  return a * b / (a + b);
-}
-
-} // namespace
-
 // What a loop has. `ledger`: sums of what is lost, which cost a loop without them up to 15 % if they are but
 // asked for (bench/results/effects.md).
 template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
@@ -56,13 +48,10 @@ template <class Effects>
 Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size_t block) {
   using Law = typename Effects::Law;
   Dissipation lost;
-  std::fill(blocks_.ghost_force.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block]),
-            blocks_.ghost_force.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block + 1]),
-            Vector3{});
-  if constexpr (Effects::rotation)
-    std::fill(blocks_.ghost_torque.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block]),
-              blocks_.ghost_torque.begin() + static_cast<std::ptrdiff_t>(blocks_.first_ghost[block + 1]),
-              Vector3{});
+  const std::size_t first_ghost = blocks_.first_ghost[block];
+  const std::size_t ghosts = blocks_.first_ghost[block + 1] - first_ghost;
+  std::fill_n(blocks_.ghost_force.data() + first_ghost, ghosts, Vector3{});
+  if constexpr (Effects::rotation) std::fill_n(blocks_.ghost_torque.data() + first_ghost, ghosts, Vector3{});
   const std::size_t first_row = block * block_rows, rows = std::min(block_rows, p.size() - first_row);
   for (std::size_t k = blocks_.first_pair[block]; k < blocks_.first_pair[block + 1]; ++k) {
     Touch t{};
@@ -101,7 +90,7 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
     force[k] = t.force;
     const std::size_t local = static_cast<std::size_t>(blocks_.ends[k].second);
     const bool inside = local < rows;
-    const std::size_t ghost = blocks_.first_ghost[block] + local - rows;
+    const std::size_t ghost = first_ghost + local - rows;
     p.force[t.i] += t.force;
     (inside ? p.force[t.j] : blocks_.ghost_force[ghost]) -= t.force;
     if constexpr (Effects::rotation) {
@@ -188,35 +177,35 @@ void Contacts::release(std::size_t k, Dissipation &lost) {
   }
 }
 
-// Choices are made one after the other.
-template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
-Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if (c.ledger) return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, true>>;
-  return &Contacts::compute_block<With<Law, tangential, dashpots, rotation, false>>;
-}
-template <class Law, TangentialContact tangential, bool dashpots>
-Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if (c.rotation) return choose<Law, tangential, dashpots, true>(c);
-  if constexpr (tangential == TangentialContact::coulomb_with_rolling)
-    throw std::invalid_argument("rolling resistance needs particles that rotate");
-  else
-    return choose<Law, tangential, dashpots, false>(c);
-}
-template <class Law, TangentialContact tangential>
-Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if (c.dashpots) return choose<Law, tangential, true>(c);
-  return choose<Law, tangential, false>(c);
-}
-template <class Law>
-Contacts::Loop Contacts::choose(const LoopChoice &c) {
-  if (c.tangential == TangentialContact::coulomb_with_rolling)
-    return choose<Law, TangentialContact::coulomb_with_rolling>(c);
-  if (c.tangential == TangentialContact::coulomb) return choose<Law, TangentialContact::coulomb>(c);
-  return choose<Law, TangentialContact::none>(c);
+// Choices are made one after the other, in the order of With.
+template <class Law, TangentialContact tangential, bool... chosen>
+Contacts::Loop Contacts::choose(const std::array<bool, 3> &effects) {
+  constexpr std::size_t made = sizeof...(chosen);
+  if constexpr (made < 3) {
+    return effects[made] ? choose<Law, tangential, chosen..., true>(effects)
+                         : choose<Law, tangential, chosen..., false>(effects);
+  } else {
+    using Effects = With<Law, tangential, chosen...>;
+    if constexpr (Effects::rolling && !Effects::rotation)
+      throw std::invalid_argument("rolling resistance needs particles that rotate");
+    else
+      return &Contacts::compute_block<Effects>;
+  }
 }
 
-Contacts::Loop Contacts::loop_for(const LoopChoice &c) {
-  return NormalContacts::with(settings_.normal, [&](auto of) { return choose<decltype(of)>(c); });
+Contacts::Loop Contacts::loop_for(const std::array<bool, 3> &effects) {
+  return NormalContacts::with(settings_.normal, [&](auto of) {
+    using Law = decltype(of);
+    switch (settings_.tangential) {
+      case TangentialContact::coulomb_with_rolling:
+        return choose<Law, TangentialContact::coulomb_with_rolling>(effects);
+      case TangentialContact::coulomb:
+        return choose<Law, TangentialContact::coulomb>(effects);
+      case TangentialContact::none:
+        break;
+    }
+    return choose<Law, TangentialContact::none>(effects);
+  });
 }
 
 } // namespace platen::dem

@@ -28,84 +28,83 @@ bool before(const RestDistance &a, const IndexPair &b) {
 } // namespace
 
 void ContactSearch::moved(double distance) {
-  state_.moved_since_wide += distance;
-  state_.moved_since_close += distance;
+  moved_since_wide_ += distance;
+  moved_since_close_ += distance;
 }
 
 bool ContactSearch::update(const Particles &particles, const Bonds *bonds) {
   // Both partners may have moved towards each other.
-  if (!state_.wide_valid || 2 * state_.moved_since_wide + close_skin_ >= wide_skin_)
+  if (!wide_valid_ || 2 * moved_since_wide_ + close_skin_ >= wide_skin_)
     rebuild_wide(particles, bonds);
-  else if (state_.close_valid && 2 * state_.moved_since_close < close_skin_)
+  else if (close_valid_ && 2 * moved_since_close_ < close_skin_)
     return false;
   rebuild_close(particles);
   return true;
 }
 
 void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds) {
-  state_.wide = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
-  if (bonds != nullptr) drop_bonded(state_.wide, *bonds);
-  state_.wide.shrink_to_fit();
-  state_.moved_since_wide = 0;
-  state_.wide_valid = true;
+  wide_ = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
+  if (bonds != nullptr) drop_bonded(wide_, *bonds);
+  wide_.shrink_to_fit();
+  moved_since_wide_ = 0;
+  wide_valid_ = true;
 }
 
 void ContactSearch::rebuild_close(const Particles &particles) {
-  state_.close.clear();
-  for (const IndexPair &p : state_.wide) {
+  close_.clear();
+  for (const IndexPair &p : wide_) {
     const double reach = particles.radius[p.first] + particles.radius[p.second] + close_skin_;
     if (norm_squared(particles.position[p.second] - particles.position[p.first]) < reach * reach)
-      state_.close.push_back(p);
+      close_.push_back(p);
   }
-  state_.moved_since_close = 0;
-  state_.close_valid = true;
+  moved_since_close_ = 0;
+  close_valid_ = true;
 }
 
 void ContactSearch::add_pair(IndexPair pair) {
-  if (!state_.wide_valid) return; // the next build finds it
-  const auto at = std::lower_bound(state_.wide.begin(), state_.wide.end(), pair);
-  if (at == state_.wide.end() || !(*at == pair)) state_.wide.insert(at, pair);
-  state_.close_valid = false;
+  if (!wide_valid_) return; // the next build finds it
+  const auto at = std::lower_bound(wide_.begin(), wide_.end(), pair);
+  if (at == wide_.end() || !(*at == pair)) wide_.insert(at, pair);
+  close_valid_ = false;
 }
 
 void ContactSearch::set_rest_distance(IndexPair pair, double distance) {
-  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before<RestDistance>);
-  if (at != state_.rest.end() && at->pair == pair)
+  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before<RestDistance>);
+  if (at != rest_.end() && at->pair == pair)
     at->distance = distance;
   else
-    state_.rest.insert(at, {pair, distance});
+    rest_.insert(at, {pair, distance});
 }
 
 double ContactSearch::rest_distance(IndexPair pair, const Particles &particles) const {
-  const auto at = std::lower_bound(state_.rest.begin(), state_.rest.end(), pair, before<RestDistance>);
-  if (at != state_.rest.end() && at->pair == pair) return at->distance;
+  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before<RestDistance>);
+  if (at != rest_.end() && at->pair == pair) return at->distance;
   return particles.radius[pair.first] + particles.radius[pair.second];
 }
 
 std::size_t ContactSearch::bytes() const {
-  return (state_.wide.capacity() + state_.close.capacity()) * sizeof(IndexPair) +
-         state_.rest.capacity() * sizeof(RestDistance);
+  return (wide_.capacity() + close_.capacity()) * sizeof(IndexPair) + rest_.capacity() * sizeof(RestDistance);
 }
 
 void ContactSearch::describe(Archive &archive) {
   archive.version(1);
-  archive("moved_since_wide", state_.moved_since_wide, "m");
-  archive("moved_since_close", state_.moved_since_close, "m");
-  archive("wide_valid", state_.wide_valid);
-  archive("close_valid", state_.close_valid);
-  archive.rows("wide", state_.wide);
-  archive.rows("close", state_.close);
+  archive("moved_since_wide", moved_since_wide_, "m");
+  archive("moved_since_close", moved_since_close_, "m");
+  archive("wide_valid", wide_valid_);
+  archive("close_valid", close_valid_);
+  archive.rows("wide", wide_);
+  archive.rows("close", close_);
   std::vector<IndexPair> pairs;
   std::vector<double> distances;
-  for (const RestDistance &rest : state_.rest)
+  for (const RestDistance &rest : rest_)
     pairs.push_back(rest.pair), distances.push_back(rest.distance);
   archive.rows("rest_pairs", pairs);
   archive.rows("rest_distances", distances, "m");
   if (!archive.reads()) return;
   if (pairs.size() != distances.size()) throw StateError("contact search: each rest pair has one distance");
-  state_.rest.clear();
+  rest_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    state_.rest.push_back({pairs[k], distances[k]});
+    rest_.push_back({pairs[k], distances[k]});
 }
 
 } // namespace platen::dem

@@ -2,7 +2,6 @@
 // them that can touch soon, rebuilt from the first. In an intact specimen the second is almost empty.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/archive.h"
@@ -27,7 +26,7 @@ public:
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
-  const std::vector<IndexPair> &close_pairs() const { return state_.close; }
+  const std::vector<IndexPair> &close_pairs() const { return close_; }
   std::size_t bytes() const;
 
   // Everything that decides when lists are rebuilt and what they hold, so that sums over rows are grouped as
@@ -39,17 +38,14 @@ private:
     IndexPair pair;
     double distance; // m
   };
-  struct State {
-    double moved_since_wide = 0, moved_since_close = 0; // m
-    bool wide_valid = false, close_valid = false;
-    std::vector<IndexPair> wide, close;
-    std::vector<RestDistance> rest; // pairs with a rest distance of their own, sorted
-  };
   void rebuild_wide(const Particles &particles, const Bonds *bonds);
   void rebuild_close(const Particles &particles);
 
   double wide_skin_, close_skin_;
-  State state_;
+  double moved_since_wide_ = 0, moved_since_close_ = 0; // m
+  bool wide_valid_ = false, close_valid_ = false;
+  std::vector<IndexPair> wide_, close_;
+  std::vector<RestDistance> rest_; // pairs with a rest distance of their own, sorted
 };
 
 } // namespace platen::dem

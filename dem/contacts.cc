@@ -5,9 +5,7 @@
 
 #include "base/parallel.h"
 #include "dem/heterogeneity.h"
-#include "dem/laws/coulomb_friction.h"
 #include "dem/laws/normal_contact.h"
-#include "dem/laws/rotating_plane.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
@@ -62,7 +60,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
   }
   dashpot_ = settings.dashpot();
   if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
-  loop_ = loop_for({settings.tangential, dashpot_ > 0, particles.has_rotation(), energy_ledger});
+  loop_ = loop_for({dashpot_ > 0, particles.has_rotation(), energy_ledger});
   // Spheres that overlap from the start touch from their initial distance, bonded or not.
   for (const IndexPair &p :
        near_pairs(particles.position.data(), particles.radius.data(), particles.size(), 0.0))
@@ -102,18 +100,6 @@ void Contacts::carry_rows(const Particles &particles) {
   }
 }
 
-std::size_t Contacts::row_of(IndexPair pair) const {
-  std::size_t low = 0, high = table.size();
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (IndexPair{first[middle], second[middle]} < pair)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
 void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt) {
   for (BrokenBond &b : broken) {
     const double ri = p.radius[b.first], rj = p.radius[b.second], c = coefficient_of(p, b.first, b.second);
@@ -126,12 +112,14 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
     search_.add_pair({b.first, b.second});
   }
   if (search_.update(p, &bonds)) carry_rows(p);
+  const std::vector<IndexPair> &pairs = search_.close_pairs(); // one row each
   for (BrokenBond &b : broken) {
     b.released = b.last.energy;
     double power = b.power;
-    const std::size_t k = row_of({b.first, b.second});
-    if (k < table.size() && IndexPair{first[k], second[k]} == IndexPair{b.first, b.second})
-      power -= start_contact(p, k, dt, b);
+    const IndexPair pair{b.first, b.second};
+    const auto row = std::lower_bound(pairs.begin(), pairs.end(), pair);
+    if (row != pairs.end() && *row == pair)
+      power -= start_contact(p, static_cast<std::size_t>(row - pairs.begin()), dt, b);
     b.released = std::max(0.0, b.released - 0.5 * dt * power);
   }
 }
@@ -180,7 +168,7 @@ Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
 double Contacts::coefficient_of(const Particles &p, int i, int j) const {
   const double c = settings_.coefficient(p.radius[i], p.radius[j], layout_);
   if (!NormalContacts::with(settings_.normal, [&](auto of) { return of.follows_bonds(settings_); })) return c;
-  return c * settings_.modulus_factors[static_cast<std::size_t>(aggregates_of_pair(p, i, j))];
+  return c * settings_.modulus_factors[aggregates_of_pair(p, i, j)];
 }
 
 ContactStiffness Contacts::stiffness_bound(const Particles &p, int i, int j, double approach) const {
@@ -211,10 +199,7 @@ double Contacts::energy() const {
 }
 
 std::size_t Contacts::touching_count() const {
-  std::size_t count = 0;
-  for (const int t : touching)
-    count += t != 0;
-  return count;
+  return table.size() - static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0));
 }
 
 void Contacts::describe(Archive &archive) {

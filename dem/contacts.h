@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "dem/bonds.h"
@@ -87,25 +86,15 @@ private:
   void release(std::size_t k, Dissipation &lost);
 
   using Loop = Dissipation (Contacts::*)(Particles &, double, std::size_t);
-  struct LoopChoice {
-    TangentialContact tangential;
-    bool dashpots, rotation, ledger;
-  };
-  Loop loop_for(const LoopChoice &choice);
-  template <class Law>
-  Loop choose(const LoopChoice &choice);
-  template <class Law, TangentialContact tangential>
-  Loop choose(const LoopChoice &choice);
-  template <class Law, TangentialContact tangential, bool dashpots>
-  Loop choose(const LoopChoice &choice);
-  template <class Law, TangentialContact tangential, bool dashpots, bool rotation>
-  Loop choose(const LoopChoice &choice);
+  // Of dashpots, rotation, ledger: whether the loop has them.
+  Loop loop_for(const std::array<bool, 3> &effects);
+  template <class Law, TangentialContact tangential, bool... chosen>
+  Loop choose(const std::array<bool, 3> &effects);
   void carry_rows(const Particles &particles);
   double coefficient_of(const Particles &particles, int first, int second) const;
   double stored_energy(std::size_t k) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
   Vector3 keep_shear(std::size_t k, double pressing, BrokenBond &broken);
-  std::size_t row_of(IndexPair pair) const;
 
   ContactSettings settings_;
   BondLayout layout_;

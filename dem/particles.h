@@ -1,6 +1,7 @@
 // The particles of a specimen as columns. Row order is the spatial order; `id` is the order of the input.
 #pragma once
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,10 +52,13 @@ std::vector<int> spatial_order(const std::vector<Vector3> &centres);
 
 // m; 1 of no particles.
 inline double mean_radius(const Particles &particles) {
-  double sum = 0;
-  for (const double r : particles.radius)
-    sum += r;
+  const double sum = std::accumulate(particles.radius.begin(), particles.radius.end(), 0.0);
   return particles.size() == 0 ? 1.0 : sum / static_cast<double>(particles.size());
+}
+
+// Of two masses, inertias or radii that a spring joins.
+inline double reduced(double a, double b) {
+  return a * b / (a + b);
 }
 
 // Thrown where a search meets a centre that is not finite; Problem says then whose it is.

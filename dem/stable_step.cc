@@ -57,9 +57,6 @@ void multiply(Mode &a, double s) {
 double dashpot(double fraction, double stiffness, double mass) {
   return 2 * fraction * std::sqrt(stiffness * mass);
 }
-double joint(double a, double b) {
-  return a * b / (a + b);
-}
 
 enum class Matrix { stiffness, damping };
 
@@ -78,8 +75,7 @@ public:
         turn_into_dashpot(springs_[k], k < bonded ? dashpots.bonds : dashpots.contacts);
       if (dashpots.surfaces == 0) ground_.clear();
       for (GroundSpring &g : ground_) {
-        g.normal_stiffness =
-            dashpot(dashpots.surfaces, g.normal_stiffness, p.mass[static_cast<std::size_t>(g.particle)]);
+        g.normal_stiffness = dashpot(dashpots.surfaces, g.normal_stiffness, p.mass[g.particle]);
         g.tangential_stiffness = g.rotational_stiffness = 0;
       }
     }
@@ -127,13 +123,21 @@ private:
   }
 
   void turn_into_dashpot(PairSpring &s, double fraction) const {
-    const double mass = joint(p_.mass[s.first], p_.mass[s.second]);
+    const double mass = reduced(p_.mass[s.first], p_.mass[s.second]);
     s.axial = dashpot(fraction, s.axial, mass);
     s.shear = dashpot(fraction, s.shear, mass);
     if (!p_.has_rotation()) return;
-    const double inertia = joint((*p_.inertia)[s.first], (*p_.inertia)[s.second]);
+    const double inertia = reduced((*p_.inertia)[s.first], (*p_.inertia)[s.second]);
     s.bending = dashpot(fraction, s.bending, inertia);
     s.twisting = dashpot(fraction, s.twisting, inertia);
+  }
+
+  // M^-1/2
+  void over_root_of_mass(Mode &x) const {
+    for_each(p_.size(), [&](std::size_t i) {
+      x.u[i] *= 1 / std::sqrt(p_.mass[i]);
+      if (turning()) x.turn[i] *= 1 / std::sqrt((*p_.inertia)[i]);
+    });
   }
 
   const Particles &p_;
@@ -147,10 +151,7 @@ private:
 Mode Operator::apply(const Mode &x) {
   const bool with_turn = turning();
   Mode scaled = x;
-  for_each(p_.size(), [&](std::size_t i) {
-    scaled.u[i] *= 1 / std::sqrt(p_.mass[i]);
-    if (with_turn) scaled.turn[i] *= 1 / std::sqrt((*p_.inertia)[i]);
-  });
+  over_root_of_mass(scaled);
   for_each(springs_.size(), [&](std::size_t k) {
     const PairSpring &s = springs_[k];
     const Vector3 d = p_.position[s.second] - p_.position[s.first], n = d / norm(d);
@@ -176,7 +177,7 @@ Mode Operator::apply(const Mode &x) {
     }
   });
   for (const GroundSpring &g : ground_) {
-    const std::size_t i = static_cast<std::size_t>(g.particle);
+    const int i = g.particle;
     Vector3 u = scaled.u[i];
     if (with_turn) u += cross(scaled.turn[i], g.arm);
     const double un = dot(u, g.normal);
@@ -184,10 +185,7 @@ Mode Operator::apply(const Mode &x) {
     y.u[i] += force;
     if (with_turn) y.turn[i] += cross(g.arm, force) + g.rotational_stiffness * scaled.turn[i];
   }
-  for_each(p_.size(), [&](std::size_t i) {
-    y.u[i] *= 1 / std::sqrt(p_.mass[i]);
-    if (with_turn) y.turn[i] *= 1 / std::sqrt((*p_.inertia)[i]);
-  });
+  over_root_of_mass(y);
   return y;
 }
 
@@ -238,7 +236,7 @@ LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
     const int n = it + 1;
     Eigen::VectorXd diagonal = Eigen::Map<Eigen::VectorXd>(alpha.data(), n), side(std::max(n - 1, 0));
     for (int k = 0; k + 1 < n; ++k)
-      side[k] = beta[static_cast<std::size_t>(k)];
+      side[k] = beta[k];
     const bool look = it < 4 || it % 5 == 4 || it + 1 == most_iterations;
     if (look) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
@@ -258,16 +256,6 @@ LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
   return result;
 }
 
-} // namespace
-
-// The dashpots see half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
-// largest eigenvalues of K and C apart (their sum is an upper bound) that is a quadratic equation for dt. A
-// dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because that mode is
-// faster than the pair. With a dissipation phi, at
-// the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
-// terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
-namespace {
-
 // What holds the particles, in words.
 std::string springs_of(const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground) {
@@ -283,6 +271,12 @@ std::string springs_of(const Bonds *bonds, const Contacts *contacts,
 
 } // namespace
 
+// The dashpots see half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
+// largest eigenvalues of K and C apart (their sum is an upper bound) that is a quadratic equation for dt. A
+// dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because that mode is
+// faster than the pair. With a dissipation phi, at
+// the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
+// terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
   StableStep result;
@@ -304,7 +298,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     x = stiffness.apply(x);
     multiply(x, 1 / std::sqrt(std::max(inner(x, x), 1e-300)));
   }
-  result.particle_id = particles.id[static_cast<std::size_t>(largest_particle(x))];
+  result.particle_id = particles.id[largest_particle(x)];
   result.reason = "2/omega of " + springs_of(bonds, contacts, ground) + ", highest mode at particle " +
                   std::to_string(result.particle_id);
   return result;

@@ -2,7 +2,6 @@
 // springs.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
