@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "dem/bonds.h"
@@ -10,27 +11,13 @@ namespace platen::dem {
 namespace {
 
 const kernels::BondKernels &kernels_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return kernels::bond_kernels_avx512;
-    case InstructionSet::avx2:
-      return kernels::bond_kernels_avx2;
-    case InstructionSet::baseline:
-      break;
-  }
-  return kernels::bond_kernels_baseline;
+  return for_set(set, kernels::bond_kernels_baseline, kernels::bond_kernels_avx2,
+                 kernels::bond_kernels_avx512);
 }
 
 const kernels::InterfaceKernel &interface_kernel_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return kernels::interface_kernel_avx512;
-    case InstructionSet::avx2:
-      return kernels::interface_kernel_avx2;
-    case InstructionSet::baseline:
-      break;
-  }
-  return kernels::interface_kernel_baseline;
+  return for_set(set, kernels::interface_kernel_baseline, kernels::interface_kernel_avx2,
+                 kernels::interface_kernel_avx512);
 }
 
 kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
@@ -76,7 +63,7 @@ kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t blo
 void add_weight(const Particles &p, const kernels::BlockColumns &rows, const Vector3 &gravity) {
   if (norm_squared(gravity) > 0)
     for (int k = 0; k < rows.own; ++k)
-      rows.force[k] += p.mass[static_cast<std::size_t>(rows.first_row + k)] * gravity;
+      rows.force[k] += p.mass[rows.first_row + k] * gravity;
 }
 
 // One block; true where a bond may be at its strength.
@@ -123,7 +110,7 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
                                const std::vector<BondBreak> &breaks) {
   std::size_t done = b.blocks.blocks();
   for (const BondBreak &broken : breaks) {
-    const std::size_t block = static_cast<std::size_t>(b.first[broken.row]) / block_rows;
+    const std::size_t block = b.first[broken.row] / block_rows;
     if (block == done) continue;
     compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
     done = block;
@@ -177,10 +164,7 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
     power[block] = kernels.add_dashpots(columns, block_of(p, b.blocks, block), b.blocks.first_pair[block],
                                         b.blocks.first_pair[block + 1]);
   });
-  double sum = 0;
-  for (const double one : power)
-    sum += one;
-  return 0.5 * dt * sum;
+  return 0.5 * dt * std::accumulate(power.begin(), power.end(), 0.0);
 }
 
 BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/pi.h"
@@ -28,6 +29,24 @@ double power_taken(const BrokenBond &b, const Particles &p) {
     power -= along(b.last.torque_i, (*p.angular_velocity)[b.first]) +
              along(b.last.torque_j, (*p.angular_velocity)[b.second]);
   return power;
+}
+
+// Pairs within the layout's range, sorted by (first, second).
+std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
+                                      const BondLayout &layout) {
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    largest = std::max(largest, radius[i]);
+  // A hair wider than the reach, so that the test below alone decides.
+  const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
+  std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);
+  const auto out_of_range = [&](const IndexPair &p) {
+    const double ri = radius[p.first], rj = radius[p.second];
+    const double gap = norm(position[p.second] - position[p.first]) - ri - rj;
+    return gap > layout.reach(ri, rj) || -gap > layout.largest_overlap(ri, rj);
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
+  return pairs;
 }
 
 } // namespace
@@ -59,28 +78,6 @@ double BondLayout::reach(double ri, double rj) const {
 double BondLayout::largest_overlap(double ri, double rj) const {
   return by_range ? interaction_range * (ri + rj) : std::numeric_limits<double>::infinity();
 }
-
-namespace {
-
-// Pairs within the layout's range, sorted by (first, second).
-std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
-                                      const BondLayout &layout) {
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    largest = std::max(largest, radius[i]);
-  // A hair wider than the reach, so that the test below alone decides.
-  const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
-  std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);
-  const auto out_of_range = [&](const IndexPair &p) {
-    const double ri = radius[p.first], rj = radius[p.second];
-    const double gap = norm(position[p.second] - position[p.first]) - ri - rj;
-    return gap > layout.reach(ri, rj) || -gap > layout.largest_overlap(ri, rj);
-  };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
-  return pairs;
-}
-
-} // namespace
 
 double packing_factor(const Specimen &s, const BondLayout &layout) {
   const double pairs =
@@ -159,6 +156,14 @@ void Bonds::describe(Archive &archive) {
   if (archive.reads()) count_and_cut();
 }
 
+// f(law, what a row remembers), of laws that do.
+template <class F>
+auto Bonds::with_memory(std::size_t k, const F &f) const {
+  return of_remembering(law, [&](const auto &one) {
+    return f(one, memory<typename std::decay_t<decltype(one)>::template State<double>>(k));
+  });
+}
+
 // What is derived from the rows.
 void Bonds::count_and_cut() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
@@ -178,21 +183,24 @@ void Bonds::compact() {
   cut_blocks();
 }
 
+BrokenBond Bonds::marked(const BondBreak &b, const Particles &particles, double time) {
+  const int k = b.row;
+  if (dashpot != nullptr) (*dashpot)[k] = 0;
+  if (dashpot_bending != nullptr) (*dashpot_bending)[k] = 0;
+  state[record[k]] = static_cast<int>(b.mode);
+  break_time[record[k]] = time;
+  const double area = pi * bond_radius[k] * bond_radius[k];
+  return {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0, 0.0};
+}
+
 std::vector<BrokenBond> Bonds::break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                           double time) {
   std::vector<BrokenBond> broken;
   broken.reserve(breaks.size());
   for (const BondBreak &b : breaks) {
-    const std::size_t k = static_cast<std::size_t>(b.row);
-    const double area = pi * bond_radius[k] * bond_radius[k];
-    broken.push_back(
-        {first[k], second[k], record[k], b.mode, rest_length[k], area, response(k, particles), 0.0, 0.0});
+    broken.push_back(marked(b, particles, time));
     broken.back().power = power_taken(broken.back(), particles);
-    normal_stiffness[k] = 0;
-    if (dashpot != nullptr) (*dashpot)[k] = 0;
-    if (dashpot_bending != nullptr) (*dashpot_bending)[k] = 0;
-    state[record[k]] = static_cast<int>(b.mode);
-    break_time[record[k]] = time;
+    normal_stiffness[b.row] = 0;
   }
   broken_rows += breaks.size();
   return broken;
@@ -203,19 +211,12 @@ std::vector<BrokenBond> Bonds::fail_rows(const std::vector<BondBreak> &breaks, c
   std::vector<BrokenBond> failed;
   failed.reserve(breaks.size());
   for (const BondBreak &b : breaks) {
-    const std::size_t k = static_cast<std::size_t>(b.row);
-    const double lost = of_remembering(law, [&](const auto &one) {
-      auto memory_of_row = memory<typename std::decay_t<decltype(one)>::template State<double>>(k);
-      const double dissipated = memory_of_row.dissipated;
-      memory_of_row.dissipated = 0;
-      set_memory(k, memory_of_row);
+    failed.push_back(marked(b, particles, time));
+    failed.back().released = with_memory(b.row, [&](const auto &, auto remembered) {
+      const double dissipated = std::exchange(remembered.dissipated, 0);
+      set_memory(b.row, remembered);
       return dissipated;
     });
-    failed.push_back({first[k], second[k], record[k], b.mode, rest_length[k], interface_geometry(k).area,
-                      response(k, particles), 0.0, lost});
-    if (dashpot != nullptr) (*dashpot)[k] = 0;
-    state[record[k]] = static_cast<int>(b.mode);
-    break_time[record[k]] = time;
   }
   failed_rows += breaks.size();
   return failed;
@@ -226,15 +227,12 @@ bool Bonds::has_failed(std::size_t k) const {
 }
 
 double Bonds::damage(std::size_t k) const {
-  return of_remembering(law, [&](const auto &one) {
-    return one.damage_of(memory<typename std::decay_t<decltype(one)>::template State<double>>(k));
-  });
+  return with_memory(k, [](const auto &of, const auto &remembered) { return of.damage_of(remembered); });
 }
 
 bool Bonds::failed_in_tension(std::size_t k) const {
-  return of_remembering(law, [&](const auto &one) {
-    return one.failed_in_tension(memory<typename std::decay_t<decltype(one)>::template State<double>>(k));
-  });
+  return with_memory(k,
+                     [](const auto &of, const auto &remembered) { return of.failed_in_tension(remembered); });
 }
 
 InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
@@ -255,12 +253,11 @@ BondStiffness Bonds::stiffness(std::size_t k) const {
 }
 
 BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
-  const std::size_t i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
+  const int i = first[k], j = second[k];
   const Triple<double> d = triple(p.position[j] - p.position[i]);
   if (has_history(law))
-    return of_remembering(law, [&](const auto &one) {
-      return one.bond_response(memory<typename std::decay_t<decltype(one)>::template State<double>>(k),
-                               interface_geometry(k), d);
+    return with_memory(k, [&](const auto &of, const auto &remembered) {
+      return of.bond_response(remembered, interface_geometry(k), d);
     });
   return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {
     if (p.has_rotation())
@@ -274,20 +271,16 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
 }
 
 BondTotals Bonds::interface_totals(const Particles &p) const {
-  return of_remembering(law, [&](const auto &of) {
-    using State = typename std::decay_t<decltype(of)>::template State<double>;
-    return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
-      BondTotals sum;
-      for (std::size_t k = from; k < to; ++k) {
+  return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
+    BondTotals sum;
+    for (std::size_t k = from; k < to; ++k)
+      sum += with_memory(k, [&](const auto &of, const auto &remembered) -> BondTotals {
         const BondResponse<double> r = response(k, p);
-        const State memory_of_row = memory<State>(k);
         const bool failed = has_failed(k);
-        sum +=
-            {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : memory_of_row.dissipated,
-             failed ? memory_of_row.dissipated : 0.0, of.plastic_work(memory_of_row, interface_geometry(k))};
-      }
-      return sum;
-    });
+        return {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : remembered.dissipated,
+                failed ? remembered.dissipated : 0.0, of.plastic_work(remembered, interface_geometry(k))};
+      });
+    return sum;
   });
 }
 

@@ -1,7 +1,6 @@
 // The bonds of a specimen as columns, and the record of every bond that ever was.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/archive.h"
@@ -161,6 +160,10 @@ struct Bonds {
 private:
   BondGeometry<double> geometry(std::size_t row) const;
   InterfaceGeometry<double> interface_geometry(std::size_t row) const;
+  // Marks the record of a row that breaks, and tells what the row holds.
+  BrokenBond marked(const BondBreak &, const Particles &particles, double time);
+  template <class F>
+  auto with_memory(std::size_t row, const F &f) const;
   void add_history();
   std::size_t particles_ = 0;
   bool rotation_ = false;
