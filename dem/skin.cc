@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -121,9 +120,7 @@ Outside::Outside(const std::vector<Vector3> &centres, const std::vector<double> 
   low_ = low;
   for (int k = 0; k < 3; ++k)
     n_[k] = std::max(1, static_cast<int>(std::ceil((high[k] - low[k]) / edge)));
-  cubes_.assign(
-      static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]),
-      Cube::pore);
+  cubes_.assign(static_cast<std::size_t>(n_[0]) * n_[1] * n_[2], Cube::pore);
   for (std::size_t i = 0; i < centres.size(); ++i)
     visit_near(centres[i], radii[i], [&](std::size_t cube) {
       cubes_[cube] = Cube::solid;
@@ -216,7 +213,7 @@ double balance(Skin &skin, const Particles &p) {
   Vector3 force, moment, centre;
   double weight = 0;
   const std::size_t n = skin.particle.size();
-  const auto at = [&](std::size_t k) { return p.position[static_cast<std::size_t>(skin.particle[k])]; };
+  const auto at = [&](std::size_t k) { return p.position[skin.particle[k]]; };
   for (std::size_t k = 0; k < n; ++k) {
     const double w = norm(skin.area[k]);
     weight += w;

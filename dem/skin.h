@@ -37,10 +37,7 @@ private:
   void visit_near(const Vector3 &point, double reach, const Visit &visit) const;
   void flood();
   std::size_t index(const int (&at)[3]) const {
-    return static_cast<std::size_t>(at[0]) +
-           static_cast<std::size_t>(n_[0]) *
-               (static_cast<std::size_t>(at[1]) +
-                static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(at[2]));
+    return (static_cast<std::size_t>(at[2]) * n_[1] + at[1]) * n_[0] + at[0];
   }
 
   double edge_ = 0; // m

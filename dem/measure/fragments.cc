@@ -4,16 +4,11 @@
 #include <numeric>
 #include <utility>
 
-#include "base/pi.h"
 #include "dem/measure/damage.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
 namespace {
-
-double sphere_volume(double radius) {
-  return 4.0 / 3 * pi * radius * radius * radius;
-}
 
 std::vector<char> sound_spheres(const BondCounts &counts, double share) {
   std::vector<char> sound(counts.intact.size(), 0);

@@ -127,7 +127,7 @@ void Front::gather_around(const Ball &base) {
   around_.clear();
   const double reach = base.radius + 2 * next_radius_;
   grid_.for_each_near(base.centre, reach + radii_.large, [&](int j) {
-    const Ball &ball = balls_[static_cast<std::size_t>(j)];
+    const Ball &ball = balls_[j];
     const double distance_squared = norm_squared(ball.centre - base.centre);
     if (distance_squared > 0 && distance_squared < (reach + ball.radius) * (reach + ball.radius))
       around_.push_back(ball);
@@ -187,11 +187,6 @@ double RadiusDistribution::draw(Random &random) const {
   const double u = random.uniform();
   if (kind == Kind::two_sizes) return u < fraction_of_large ? large : small;
   return small + (large - small) * u;
-}
-
-double RadiusDistribution::mean() const {
-  if (kind == Kind::two_sizes) return small + (large - small) * fraction_of_large;
-  return 0.5 * (small + large);
 }
 
 RadiusDistribution equal_radii(double radius) {

@@ -18,7 +18,6 @@ struct RadiusDistribution {
   double fraction_of_large = 0; // by number, two sizes only
 
   double draw(Random &random) const;
-  double mean() const; // m
 };
 
 RadiusDistribution equal_radii(double radius);                                      // m

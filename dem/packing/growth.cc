@@ -54,7 +54,7 @@ double guessed_fraction(const Shape &shape, double mean_radius) {
 }
 
 std::size_t guessed_number(const Shape &shape, double mean_radius, double spread) {
-  const double one = 4.0 / 3.0 * pi * mean_radius * mean_radius * mean_radius * mean_cube(spread);
+  const double one = sphere_volume(mean_radius) * mean_cube(spread);
   const double n = std::round(guessed_fraction(shape, mean_radius) * shape.volume() / one);
   if (n > static_cast<double>(most_spheres))
     throw std::invalid_argument("the packing would need more than " + std::to_string(most_spheres) +

@@ -26,22 +26,15 @@ public:
       const double length = std::max(extent[k] / n_[k], edge);
       per_length_[k] = 1.0 / length;
     }
-    head_.assign(
-        static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]),
-        -1);
+    head_.assign(static_cast<std::size_t>(n_[0]) * n_[1] * n_[2], -1);
   }
 
-  void clear() {
-    std::fill(head_.begin(), head_.end(), -1);
-    next_.clear();
-  }
   // The points are numbered 0, 1, 2 ... in the order they are added.
   void add(const Vector3 &p) {
     const std::size_t cell = cell_of(p);
     next_.push_back(head_[cell]);
     head_[cell] = static_cast<int>(next_.size()) - 1;
   }
-  std::size_t size() const { return next_.size(); }
 
   // visit(number) for every point in the cells that the cube of half-edge reach (m) around p meets; always
   // the same order. The caller tests the distance.
@@ -53,7 +46,7 @@ public:
     for (int c = first[2]; c <= last[2]; ++c)
       for (int b = first[1]; b <= last[1]; ++b)
         for (int a = first[0]; a <= last[0]; ++a)
-          for (int i = head_[index(a, b, c)]; i >= 0; i = next_[static_cast<std::size_t>(i)])
+          for (int i = head_[index(a, b, c)]; i >= 0; i = next_[i])
             visit(i);
   }
   std::size_t cell_of(const Vector3 &p) const { return index(slot(p.x, 0), slot(p.y, 1), slot(p.z, 2)); }
@@ -67,9 +60,7 @@ private:
     return s <= 0 ? 0 : (s >= n_[k] ? n_[k] - 1 : static_cast<int>(s));
   }
   std::size_t index(int a, int b, int c) const {
-    return static_cast<std::size_t>(a) +
-           static_cast<std::size_t>(n_[0]) *
-               (static_cast<std::size_t>(b) + static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(c));
+    return (static_cast<std::size_t>(c) * n_[1] + b) * n_[0] + a;
   }
 
   Vector3 low_;

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <tuple>
 
 #include "base/pi.h"
-#include "dem/packing/point_grid.h"
+#include "dem/cell_grid.h"
 
 namespace platen::dem {
 namespace {
@@ -68,7 +67,7 @@ void judge_contacts(const Specimen &s, const QualityMeasure &measure, PackingQua
   std::vector<Vector3> axes;
   std::size_t overlapping = 0, core_ends = 0;
   for (const TouchingPair &pair : touching_pairs(s, tolerance)) {
-    const std::size_t i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+    const int i = pair.first, j = pair.second;
     ++quality.contacts, ++held[i], ++held[j];
     core_ends += (in_core(s.centre[i]) ? 1 : 0) + (in_core(s.centre[j]) ? 1 : 0);
     if (!core || in_core(0.5 * (s.centre[i] + s.centre[j]))) axes.push_back(s.centre[j] - s.centre[i]);
@@ -124,7 +123,7 @@ double shared_area_of_discs(double a, double b, double d) {
 
 double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
   const double clearance = wall_clearance(shape, c);
-  if (clearance >= r) return 4.0 / 3.0 * pi * r * r * r;
+  if (clearance >= r) return sphere_volume(r);
   if (clearance <= -r) return 0;
   const double low = std::max(-c.z / r, -1.0), high = std::min((shape.height - c.z) / r, 1.0);
   if (low >= high) return 0;
@@ -143,21 +142,13 @@ double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
 }
 
 std::vector<TouchingPair> touching_pairs(const Specimen &s, double gap) {
-  const BoundingBox bounds = bounding_box(s);
-  const double largest = largest_radius(s);
-  PointGrid grid(bounds.low, bounds.high, 2 * largest + gap, 4 * s.size() + 1000);
+  // A hair wider than the gap, so that the test below alone decides.
+  const double margin = gap + 1e-9 * (gap + largest_radius(s));
   std::vector<TouchingPair> pairs;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    grid.for_each_near(s.centre[i], s.radius[i] + largest + gap, [&](int other) {
-      const std::size_t j = static_cast<std::size_t>(other);
-      const double between = norm(s.centre[i] - s.centre[j]) - s.radius[i] - s.radius[j];
-      if (between <= gap) pairs.push_back({other, static_cast<int>(i), between});
-    });
-    grid.add(s.centre[i]);
+  for (const auto &[i, j] : near_pairs(s.centre.data(), s.radius.data(), s.size(), margin)) {
+    const double between = norm(s.centre[j] - s.centre[i]) - s.radius[j] - s.radius[i];
+    if (between <= gap) pairs.push_back({i, j, between});
   }
-  std::sort(pairs.begin(), pairs.end(), [](const TouchingPair &a, const TouchingPair &b) {
-    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-  });
   return pairs;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "dem/cell_grid.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
@@ -64,22 +65,13 @@ bool SoftSpheres::pairs_are_stale() const {
 }
 
 void SoftSpheres::build_pairs() {
-  const BoundingBox bounds = bounding_box(shape_);
-  PointGrid grid(bounds.low, bounds.high, 2.0 * scale_ * largest_factor_ + skin);
-  for (const Vector3 &c : centre_)
-    grid.add(c);
-  first_.assign(1, 0);
+  first_.assign(centre_.size() + 1, 0);
   partner_.clear();
-  for (std::size_t i = 0; i < centre_.size(); ++i) {
-    grid.for_each_near(centre_[i], radius_[i] + scale_ * largest_factor_ + skin, [&](int other) {
-      const std::size_t j = static_cast<std::size_t>(other);
-      if (j <= i) return;
-      const double reach = radius_[i] + radius_[j] + skin;
-      if (norm_squared(centre_[j] - centre_[i]) < reach * reach) partner_.push_back(other);
-    });
-    std::sort(partner_.begin() + first_.back(), partner_.end());
-    first_.push_back(static_cast<int>(partner_.size()));
+  for (const IndexPair &pair : near_pairs(centre_.data(), radius_.data(), centre_.size(), skin)) {
+    ++first_[pair.first + 1];
+    partner_.push_back(pair.second);
   }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
   centre_at_build_ = centre_;
   scale_at_build_ = scale_;
 }
@@ -129,7 +121,7 @@ void SoftSpheres::compute_forces() {
     const double r = radius_[i];
     Vector3 sum;
     for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      const std::size_t j = static_cast<std::size_t>(partner_[static_cast<std::size_t>(k)]);
+      const std::size_t j = static_cast<std::size_t>(partner_[k]);
       const Vector3 d = centre_[j] - c;
       const double touching = r + radius_[j], square = norm_squared(d);
       // No branch: whether a listed pair touches is a coin toss, and a wrong guess costs more than the root.
@@ -163,7 +155,7 @@ std::size_t SoftSpheres::press_loose_spheres(double force, Random &random) {
   std::vector<int> contacts(centre_.size());
   for (std::size_t i = 0; i < centre_.size(); ++i) {
     for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      const std::size_t j = static_cast<std::size_t>(partner_[static_cast<std::size_t>(k)]);
+      const std::size_t j = static_cast<std::size_t>(partner_[k]);
       const double reach = radius_[i] + radius_[j];
       if (norm_squared(centre_[i] - centre_[j]) < reach * reach) ++contacts[i], ++contacts[j];
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/pi.h"
@@ -176,9 +177,7 @@ BoundingBox bounding_box(const Specimen &specimen) {
 }
 
 double mean_radius(const Specimen &specimen) {
-  double sum = 0;
-  for (const double r : specimen.radius)
-    sum += r;
+  const double sum = std::accumulate(specimen.radius.begin(), specimen.radius.end(), 0.0);
   return specimen.radius.empty() ? 0.0 : sum / static_cast<double>(specimen.radius.size());
 }
 

@@ -59,6 +59,10 @@ Specimen laid_down(const Specimen &specimen);
 // are.
 Specimen laid_along_x(const Specimen &specimen);
 
+inline double sphere_volume(double radius) { // m^3
+  return 4.0 / 3.0 * pi * radius * radius * radius;
+}
+
 struct BoundingBox {
   Vector3 low, high; // m
 };
