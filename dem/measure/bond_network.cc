@@ -23,7 +23,7 @@ struct Moments {
 
 SmallStrain small_strain(const Particles &p, const Bonds &b, std::size_t row,
                          const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn) {
-  const std::size_t i = static_cast<std::size_t>(b.first[row]), j = static_cast<std::size_t>(b.second[row]);
+  const int i = b.first[row], j = b.second[row];
   const Vector3 d = b.reference[row];
   SmallStrain s;
   s.normal = d / norm(d);
@@ -103,7 +103,7 @@ Gyration bond_gyration(const Particles &p, const Bonds &b, double low, double hi
   Moments m;
   for (std::size_t row = 0; row < b.size(); ++row) {
     const Vector3 d = b.reference[row];
-    const Vector3 middle = p.reference_position[static_cast<std::size_t>(b.first[row])] + 0.5 * d;
+    const Vector3 middle = p.reference_position[b.first[row]] + 0.5 * d;
     if (middle.z < low || middle.z > high) continue;
     const BondStiffness s = b.stiffness(row);
     const double square = norm_squared(d), n2 = d.z * d.z / square;

@@ -57,16 +57,11 @@ std::vector<Sums> sum_up(const SphereColumns &spheres, const RegularGrid &grid, 
     const double r = spheres.radius[i], volume = 4.0 / 3 * pi * r * r * r;
     std::array<std::array<int, 2>, 3> range;
     for (int d = 0; d < 3; ++d)
-      range[static_cast<std::size_t>(d)] =
-          in_reach(x[d], reach, grid.origin[d], grid.spacing, grid.nodes[static_cast<std::size_t>(d)]);
+      range[d] = in_reach(x[d], reach, grid.origin[d], grid.spacing, grid.nodes[d]);
     for (int k = range[2][0]; k < range[2][1]; ++k)
       for (int j = range[1][0]; j < range[1][1]; ++j)
         for (int n = range[0][0]; n < range[0][1]; ++n) {
-          const std::size_t node =
-              static_cast<std::size_t>(n) +
-              static_cast<std::size_t>(grid.nodes[0]) *
-                  (static_cast<std::size_t>(j) +
-                   static_cast<std::size_t>(grid.nodes[1]) * static_cast<std::size_t>(k));
+          const std::size_t node = (static_cast<std::size_t>(k) * grid.nodes[1] + j) * grid.nodes[0] + n;
           const Vector3 d = x - grid.place(node);
           const double w = volume * wendland(norm(d), reach);
           if (w > 0) add(sums[node], spheres, i, w, d);
@@ -117,7 +112,7 @@ void fit(const Sums &s, Vector3 &displacement, std::array<double, 9> &strain) {
 } // namespace
 
 Vector3 RegularGrid::place(std::size_t node) const {
-  const std::size_t nx = static_cast<std::size_t>(nodes[0]), ny = static_cast<std::size_t>(nodes[1]);
+  const std::size_t nx = nodes[0], ny = nodes[1];
   return origin + spacing * Vector3{static_cast<double>(node % nx), static_cast<double>(node / nx % ny),
                                     static_cast<double>(node / nx / ny)};
 }

@@ -13,10 +13,7 @@ struct RegularGrid {
   double spacing = 0;                // m
   std::array<int, 3> nodes{1, 1, 1}; // along x, y, z; x runs fastest
 
-  std::size_t size() const {
-    return static_cast<std::size_t>(nodes[0]) * static_cast<std::size_t>(nodes[1]) *
-           static_cast<std::size_t>(nodes[2]);
-  }
+  std::size_t size() const { return static_cast<std::size_t>(nodes[0]) * nodes[1] * nodes[2]; }
   Vector3 place(std::size_t node) const;
 };
 

@@ -54,9 +54,9 @@ Seen see(const Particles &p, const std::vector<char> &bonded, const std::vector<
     if (!bonded[i]) continue;
     Vector3 x = p.reference_position[i];
     if (end == top_end) x.z = shape.height - x.z;
-    const double r = p.radius[i], volume = 4.0 / 3 * pi * r * r * r;
+    const double r = p.radius[i];
     const bool inside = piece[i];
-    s.points.push_back({x, volume, inside});
+    s.points.push_back({x, sphere_volume(r), inside});
     s.radius.push_back(r);
     if (!inside) continue;
     ++s.spheres;
@@ -202,31 +202,18 @@ ConePiece measure(const Seen &s, const ConeRules &rules) {
 } // namespace
 
 const char *words_of(NoCone why) {
-  switch (why) {
-    case NoCone::not_measured:
-      return "not measured";
-    case NoCone::found:
-      return "a cone";
-    case NoCone::nothing_stands:
-      return "no sound piece stands on the platen";
-    case NoCone::spans:
-      return "the sound piece goes on to the other platen";
-    case NoCone::few_spheres:
-      return "the sound piece has too few spheres";
-    case NoCone::thin:
-      return "the sound piece is a thin layer";
-    case NoCone::blunt:
-      return "the sound piece has the full section over half of its height";
-    case NoCone::does_not_narrow:
-      return "the sound piece does not narrow as a cone does";
-    case NoCone::leans:
-      return "the sound piece leans to one side";
-    case NoCone::one_sided:
-      return "the sound piece has no flank all around";
-    case NoCone::ragged:
-      return "the sound piece is too ragged for a cone";
-  }
-  return "";
+  constexpr const char *words[] = {"not measured",
+                                   "a cone",
+                                   "no sound piece stands on the platen",
+                                   "the sound piece goes on to the other platen",
+                                   "the sound piece has too few spheres",
+                                   "the sound piece is a thin layer",
+                                   "the sound piece has the full section over half of its height",
+                                   "the sound piece does not narrow as a cone does",
+                                   "the sound piece leans to one side",
+                                   "the sound piece has no flank all around",
+                                   "the sound piece is too ragged for a cone"};
+  return words[static_cast<int>(why)];
 }
 
 std::array<ConePiece, 2> measure_cones(const Particles &p, const Bonds &b, const SoundPieces &pieces,

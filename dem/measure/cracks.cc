@@ -80,8 +80,7 @@ std::array<double, CrackRose::bins> CrackRose::over_isotropic() const {
   std::array<double, bins> rose{};
   for (int k = 0; k < bins; ++k) {
     const double directions = std::cos(quarter_turn * k / bins) - std::cos(quarter_turn * (k + 1) / bins);
-    rose[static_cast<std::size_t>(k)] = all > 0 ? area[static_cast<std::size_t>(k)] / all / directions
-                                                : std::numeric_limits<double>::quiet_NaN();
+    rose[k] = all > 0 ? area[k] / all / directions : std::numeric_limits<double>::quiet_NaN();
   }
   return rose;
 }

@@ -95,8 +95,8 @@ BondCounts bond_counts(const Particles &p, const Bonds &b) {
   counts.broken = counts.intact;
   for (std::size_t k = 0; k < b.initial_count(); ++k) {
     std::vector<int> &column = is_broken(b.state[k]) ? counts.broken : counts.intact;
-    ++column[static_cast<std::size_t>(b.record_first[k])];
-    ++column[static_cast<std::size_t>(b.record_second[k])];
+    ++column[b.record_first[k]];
+    ++column[b.record_second[k]];
   }
   return counts;
 }

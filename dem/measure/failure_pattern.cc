@@ -31,21 +31,8 @@ bool one_plane(const FailureMeasures &m) {
 } // namespace
 
 const char *word_of(FailurePattern pattern) {
-  switch (pattern) {
-    case FailurePattern::none:
-      return "none";
-    case FailurePattern::cones:
-      return "cones";
-    case FailurePattern::shear_plane:
-      return "shear plane";
-    case FailurePattern::splitting:
-      return "splitting";
-    case FailurePattern::crushing:
-      return "crushing";
-    case FailurePattern::undecided:
-      break;
-  }
-  return "undecided";
+  constexpr const char *words[] = {"none", "cones", "shear plane", "splitting", "crushing", "undecided"};
+  return words[static_cast<int>(pattern)];
 }
 
 FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,

@@ -17,14 +17,26 @@ double mean_motion(const Particles &p, const std::vector<int> &rows, int axis) {
   return sum / static_cast<double>(rows.size());
 }
 
+// Rows of the lowest and the highest reference centre along an axis, of those that count; -1 where none does.
+template <class Counts>
+std::array<int, 2> outermost(const Particles &p, int axis, const Counts &counts) {
+  std::array<int, 2> ends{-1, -1};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (!counts(i, x)) continue;
+    if (ends[0] < 0 || x[axis] < p.reference_position[ends[0]][axis]) ends[0] = static_cast<int>(i);
+    if (ends[1] < 0 || x[axis] > p.reference_position[ends[1]][axis]) ends[1] = static_cast<int>(i);
+  }
+  return ends;
+}
+
 } // namespace
 
 std::vector<char> ever_bonded(const Particles &p, const Bonds *bonds) {
   if (bonds == nullptr || bonds->initial_count() == 0) return std::vector<char>(p.size(), 1);
   std::vector<char> bonded(p.size(), 0);
   for (std::size_t k = 0; k < bonds->initial_count(); ++k)
-    bonded[static_cast<std::size_t>(bonds->record_first[k])] =
-        bonded[static_cast<std::size_t>(bonds->record_second[k])] = 1;
+    bonded[bonds->record_first[k]] = bonded[bonds->record_second[k]] = 1;
   return bonded;
 }
 
@@ -47,18 +59,15 @@ Gauge::Gauge(const Particles &p, const Shape &shape, const Bonds *bonds) {
     rows_.clear(); // too few particles to tell a strain
     return;
   }
-  const Eigen::Matrix3d inverse = lu.inverse();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      inverse_[3 * r + c] = inverse(r, c);
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inverse_.data()) = lu.inverse();
 }
 
 GaugeStrain Gauge::strain(const Particles &p) const {
-  return fit(p, [&](std::size_t i) { return p.position[i] - p.reference_position[i]; });
+  return fit(p, [&](int i) { return p.position[i] - p.reference_position[i]; });
 }
 
 GaugeStrain Gauge::strain_of(const Particles &p, const std::vector<Vector3> &displacement) const {
-  return fit(p, [&](std::size_t i) { return displacement[i]; });
+  return fit(p, [&](int i) { return displacement[i]; });
 }
 
 template <class Displacement>
@@ -67,7 +76,7 @@ GaugeStrain Gauge::fit(const Particles &p, const Displacement &displacement) con
   // Row k of `sum`: sum over particles of u_k (X - X_centre); gradient = sum inverse.
   Vector3 sum[3];
   for (const int i : rows_) {
-    const Vector3 x = p.reference_position[i] - centre_, u = displacement(static_cast<std::size_t>(i));
+    const Vector3 x = p.reference_position[i] - centre_, u = displacement(i);
     for (int k = 0; k < 3; ++k)
       sum[k] += u[k] * x;
   }
@@ -85,24 +94,16 @@ ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape, const Bonds
   for (int section = 1; section <= 3; ++section) {
     const double z = 0.25 * section * shape.height;
     for (int axis = 0; axis < 2; ++axis) {
-      std::array<int, 2> ends{-1, -1};
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        const Vector3 &x = p.reference_position[i];
-        // A slab two spheres thick, and near the diameter, as the thesis' figure 22 shows.
-        if (!bonded[i] || std::abs(x.z - z) > 2 * mean || std::abs(x[1 - axis]) > 2 * mean) continue;
-        if (ends[0] < 0 || x[axis] < p.reference_position[ends[0]][axis]) ends[0] = static_cast<int>(i);
-        if (ends[1] < 0 || x[axis] > p.reference_position[ends[1]][axis]) ends[1] = static_cast<int>(i);
-      }
+      // A slab two spheres thick, and near the diameter, as the thesis' figure 22 shows.
+      const std::array<int, 2> ends = outermost(p, axis, [&](std::size_t i, const Vector3 &x) {
+        return bonded[i] && std::abs(x.z - z) <= 2 * mean && std::abs(x[1 - axis]) <= 2 * mean;
+      });
       if (ends[0] >= 0 && ends[1] != ends[0]) across_.push_back(ends);
     }
   }
-  along_ = {-1, -1};
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector3 &x = p.reference_position[i];
-    if (!bonded[i] || x.x * x.x + x.y * x.y > 9 * mean * mean) continue;
-    if (along_[0] < 0 || x.z < p.reference_position[along_[0]].z) along_[0] = static_cast<int>(i);
-    if (along_[1] < 0 || x.z > p.reference_position[along_[1]].z) along_[1] = static_cast<int>(i);
-  }
+  along_ = outermost(p, 2, [&](std::size_t i, const Vector3 &x) {
+    return bonded[i] && x.x * x.x + x.y * x.y <= 9 * mean * mean;
+  });
 }
 
 double ExtremalPairs::lateral(const Particles &p) const {

@@ -16,7 +16,7 @@ namespace {
 void add(std::array<double, 9> &s, const Vector3 &arm, const Vector3 &force) {
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
-      s[static_cast<std::size_t>(3 * r + c)] += 0.5 * (arm[r] * force[c] + arm[c] * force[r]);
+      s[3 * r + c] += 0.5 * (arm[r] * force[c] + arm[c] * force[r]);
 }
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -49,21 +49,23 @@ void clip_to_circle(const Vector3 &from, const Vector3 &path, double radius, dou
   high = std::min(high, (-b + std::sqrt(square)) / a);
 }
 
+Eigen::Vector3d eigen(const Vector3 &v) {
+  return {v.x, v.y, v.z};
+}
+
 struct Sum {
-  Tensor t{};
+  Eigen::Matrix3d t = Eigen::Matrix3d::Zero();
   Sum &operator+=(const Sum &b) {
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 3; ++c)
-        t[r][c] += b.t[r][c];
+    t += b.t;
     return *this;
   }
 };
 
-Tensor symmetric(const Tensor &t) {
+Tensor symmetric(const Eigen::Matrix3d &t) {
   Tensor s;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c)
-      s[r][c] = 0.5 * (t[r][c] + t[c][r]);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      s[r][c] = 0.5 * (t(r, c) + t(c, r));
   return s;
 }
 
@@ -79,7 +81,7 @@ Eigen::Matrix<double, 6, 1> vector(const Tensor &t, double shear) {
 std::vector<std::array<double, 9>> particle_stress(const Particles &p, const Bonds *bonds,
                                                    const Contacts *contacts, double packing_fraction) {
   std::vector<std::array<double, 9>> stress(p.size(), std::array<double, 9>{});
-  const auto pair = [&](std::size_t i, std::size_t j, const Vector3 &force) {
+  const auto pair = [&](int i, int j, const Vector3 &force) {
     const Vector3 d = p.position[j] - p.position[i];
     const double lever = p.radius[i] / (p.radius[i] + p.radius[j]);
     add(stress[i], lever * d, force);
@@ -88,16 +90,13 @@ std::vector<std::array<double, 9>> particle_stress(const Particles &p, const Bon
   if (bonds != nullptr)
     for (std::size_t k = 0; k < bonds->size(); ++k) {
       const Triple<double> force = bonds->response(k, p).force;
-      pair(static_cast<std::size_t>(bonds->first[k]), static_cast<std::size_t>(bonds->second[k]),
-           {force.x, force.y, force.z});
+      pair(bonds->first[k], bonds->second[k], {force.x, force.y, force.z});
     }
   if (contacts != nullptr)
     for (std::size_t k = 0; k < contacts->table.size(); ++k)
-      if (contacts->touching[k])
-        pair(static_cast<std::size_t>(contacts->first[k]), static_cast<std::size_t>(contacts->second[k]),
-             contacts->force[k]);
+      if (contacts->touching[k]) pair(contacts->first[k], contacts->second[k], contacts->force[k]);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double r = p.radius[i], volume = 4.0 / 3.0 * pi * r * r * r / packing_fraction;
+    const double volume = sphere_volume(p.radius[i]) / packing_fraction;
     for (double &s : stress[i])
       s /= volume;
   }
@@ -108,11 +107,10 @@ std::vector<DirectionClass> bond_stress_by_direction(const Particles &p, const B
   std::vector<DirectionClass> all(static_cast<std::size_t>(classes));
   const double width = 0.5 * pi / classes;
   for (int c = 0; c < classes; ++c)
-    all[static_cast<std::size_t>(c)].low = c * width, all[static_cast<std::size_t>(c)].high = (c + 1) * width;
+    all[c].low = c * width, all[c].high = (c + 1) * width;
   for (std::size_t k = 0; k < b.size(); ++k) {
     if (b.normal_stiffness[k] == 0.0) continue;
-    const Vector3 d =
-        p.position[static_cast<std::size_t>(b.second[k])] - p.position[static_cast<std::size_t>(b.first[k])];
+    const Vector3 d = p.position[b.second[k]] - p.position[b.first[k]];
     const double angle = std::asin(std::min(1.0, std::abs(d.z) / norm(d)));
     DirectionClass &to = all[std::min(all.size() - 1, static_cast<std::size_t>(angle / width))];
     const double area = pi * b.bond_radius[k] * b.bond_radius[k];
@@ -121,7 +119,6 @@ std::vector<DirectionClass> bond_stress_by_direction(const Particles &p, const B
     to.mean += stress;
     if (stress > 0) ++to.pressed, to.mean_pressed += stress;
   }
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (DirectionClass &c : all) {
     c.mean = c.bonds > 0 ? c.mean / c.bonds : none;
     c.mean_pressed = c.pressed > 0 ? c.mean_pressed / c.pressed : none;
@@ -152,14 +149,11 @@ Tensor mean_stress(const Region &region, const Particles &p, const Bonds &b,
   const Sum sum = ordered_sum<Sum>(b.size(), [&](std::size_t first, std::size_t last) {
     Sum part;
     for (std::size_t row = first; row < last; ++row) {
-      const Vector3 &from = p.reference_position[static_cast<std::size_t>(b.first[row])],
-                    d = b.reference[row];
+      const Vector3 &from = p.reference_position[b.first[row]], d = b.reference[row];
       const double share = region.share_inside(from, from + d);
       if (share == 0) continue;
       const Vector3 force = small_force(b, row, small_strain(p, b, row, displacement, turn));
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-          part.t[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] += share * d[r] * force[c];
+      part.t += share * eigen(d) * eigen(force).transpose();
     }
     return part;
   });
@@ -174,15 +168,14 @@ Tensor mean_strain(const Region &region, const Particles &p, const std::vector<V
                    const std::vector<char> &counted) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
   std::vector<std::size_t> rows;
-  const auto eigen = [](const Vector3 &v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!region.holds(p.reference_position[i]) || (!counted.empty() && !counted[i])) continue;
     rows.push_back(i);
     centre += eigen(p.reference_position[i]);
     mean += eigen(displacement[i]);
   }
-  Tensor strain{{{none, none, none}, {none, none, none}, {none, none, none}}};
-  if (rows.size() < 4) return strain;
+  constexpr Tensor unknown{{{none, none, none}, {none, none, none}, {none, none, none}}};
+  if (rows.size() < 4) return unknown;
   centre /= static_cast<double>(rows.size());
   mean /= static_cast<double>(rows.size());
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero(), product = Eigen::Matrix3d::Zero();
@@ -192,13 +185,8 @@ Tensor mean_strain(const Region &region, const Particles &p, const std::vector<V
     product += u * x.transpose();
   }
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(moments);
-  if (!lu.isInvertible()) return strain;
-  const Eigen::Matrix3d gradient = product * lu.inverse();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      strain[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] =
-          0.5 * (gradient(r, c) + gradient(c, r));
-  return strain;
+  if (!lu.isInvertible()) return unknown;
+  return symmetric(product * lu.inverse());
 }
 
 Moduli isotropic_moduli(const std::array<Tensor, 6> &strain, const std::array<Tensor, 6> &stress) {
