@@ -1,7 +1,6 @@
 #include "dem/equilibrium.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -27,8 +26,8 @@ void check(const Particles &p, const StaticCase &load) {
   std::vector<char> prescribed(p.size(), 0);
   for (const PrescribedMotion &l : load.prescribed) {
     require_row(l.particle, "a static motion");
-    if (prescribed[static_cast<std::size_t>(l.particle)]++)
-      throw std::invalid_argument("particle " + std::to_string(p.id[static_cast<std::size_t>(l.particle)]) +
+    if (prescribed[l.particle]++)
+      throw std::invalid_argument("particle " + std::to_string(p.id[l.particle]) +
                                   " is prescribed twice. Allowed: one motion for each particle");
   }
 }
@@ -45,9 +44,7 @@ void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase 
     double forces = 0, torques = 0; // sums of sizes
   };
   std::vector<Sum> sums(pieces.particles.size());
-  const auto piece = [&](int row) -> Sum & {
-    return sums[static_cast<std::size_t>(pieces.of_particle[static_cast<std::size_t>(row)])];
-  };
+  const auto piece = [&](int row) -> Sum & { return sums[pieces.of_particle[row]]; };
   for (const Support &s : load.supports)
     piece(s.spring.particle).fixed = true;
   for (const PrescribedMotion &l : load.prescribed)
@@ -58,7 +55,7 @@ void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase 
     Sum &s = piece(static_cast<int>(i));
     const Vector3 f = load.force.empty() ? Vector3{} : load.force[i],
                   t = load.torque.empty() ? Vector3{} : load.torque[i],
-                  arm = p.position[i] - p.position[static_cast<std::size_t>(s.particle)];
+                  arm = p.position[i] - p.position[s.particle];
     s.force += f;
     s.torque += cross(arm, f) + t;
     s.forces += norm(f);
@@ -67,11 +64,10 @@ void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase 
   for (const Sum &s : sums) {
     const bool turns = p.has_rotation() && norm(s.torque) > tolerance * s.torques;
     if (s.fixed || !(norm(s.force) > tolerance * s.forces || turns)) continue;
-    const std::size_t i = static_cast<std::size_t>(s.particle);
+    const int i = s.particle;
     throw NoEquilibrium("nothing holds the piece of " +
-                        std::to_string(pieces.particles[static_cast<std::size_t>(pieces.of_particle[i])]) +
-                        " spheres with particle " + std::to_string(p.id[i]) +
-                        ", and its loads do not balance");
+                        std::to_string(pieces.particles[pieces.of_particle[i]]) + " spheres with particle " +
+                        std::to_string(p.id[i]) + ", and its loads do not balance");
   }
 }
 
@@ -126,10 +122,10 @@ private:
   void hold(const StaticCase &load) {
     std::vector<char> fixed(p_.size(), 0);
     for (const PrescribedMotion &l : load.prescribed)
-      fixed[static_cast<std::size_t>(l.particle)] = 1;
+      fixed[l.particle] = 1;
     std::vector<char> supported(p_.size(), 0);
     for (const Support &s : load.supports)
-      supported[static_cast<std::size_t>(s.spring.particle)] = 1;
+      supported[s.spring.particle] = 1;
     for (std::size_t i = 0; i < p_.size(); ++i)
       if (!supported[i] && loose(i)) fixed[i] = 1;
     if (fixed == fixed_) return;
@@ -146,7 +142,7 @@ private:
       std::copy_n(bonds_.at(diagonal_[i]), n * n, matrix_.at(diagonal_[i]));
     supported_.clear();
     for (const Support &s : load.supports) {
-      const std::size_t i = static_cast<std::size_t>(s.spring.particle);
+      const int i = s.spring.particle;
       statics::add_support<n>(p_, s.spring, matrix_.at(diagonal_[i]));
       supported_.push_back(i);
     }

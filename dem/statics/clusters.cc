@@ -18,8 +18,8 @@ Clusters<n>::Clusters(const BlockMatrix<n, double> &a, const std::vector<Vector3
     double each = 0;
     const double members = static_cast<double>(begin_[c + 1] - begin_[c]);
     for (std::size_t k = begin_[c]; k < begin_[c + 1]; ++k) {
-      mean += (1 / members) * place[static_cast<std::size_t>(member_[k])];
-      each += length[static_cast<std::size_t>(member_[k])] / members;
+      mean += (1 / members) * place[member_[k]];
+      each += length[member_[k]] / members;
     }
     place_[c] = mean;
     length_[c] = each * std::cbrt(members);
@@ -41,11 +41,10 @@ void Clusters<n>::join(const BlockMatrix<n, double> &a, const std::vector<char> 
     if (!free(i) || cluster_[i] >= 0) continue;
     bool alone = true;
     for (std::size_t k = a.begin[i]; k < a.begin[i + 1] && alone; ++k)
-      alone = cluster_[static_cast<std::size_t>(a.column[k])] < 0;
+      alone = cluster_[a.column[k]] < 0;
     if (!alone) continue;
     for (std::size_t k = a.begin[i]; k < a.begin[i + 1]; ++k)
-      if (free(static_cast<std::size_t>(a.column[k])))
-        cluster_[static_cast<std::size_t>(a.column[k])] = count;
+      if (free(static_cast<std::size_t>(a.column[k]))) cluster_[a.column[k]] = count;
     ++count;
   }
   // The rest: to the cluster of the stiffest neighbour that is in one.
@@ -54,7 +53,7 @@ void Clusters<n>::join(const BlockMatrix<n, double> &a, const std::vector<char> 
     if (!free(i) || before[i] >= 0) continue;
     double stiffest = -1;
     for (std::size_t k = a.begin[i]; k < a.begin[i + 1]; ++k) {
-      const int c = before[static_cast<std::size_t>(a.column[k])];
+      const int c = before[a.column[k]];
       double size = 0;
       for (int e = 0; e < n * n; ++e)
         size += a.at(k)[e] * a.at(k)[e];
@@ -70,7 +69,21 @@ void Clusters<n>::join(const BlockMatrix<n, double> &a, const std::vector<char> 
   member_.resize(begin_.back());
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t i = 0; i < rows; ++i)
-    if (cluster_[i] >= 0) member_[next[static_cast<std::size_t>(cluster_[i])]++] = static_cast<int>(i);
+    if (cluster_[i] >= 0) member_[next[cluster_[i]]++] = static_cast<int>(i);
+}
+
+// to += carry^T load: a member's force, and with rotation its moment, about the cluster's place.
+template <int n>
+template <class Real>
+void Clusters<n>::add_load(const Carry &carry, const Real *load, double *to) {
+  for (int e = 0; e < 3; ++e)
+    to[e] += load[e];
+  if constexpr (n == 6) {
+    const double *t = carry.arm, q = carry.ratio;
+    to[3] += q * load[3] + (t[1] * load[2] - t[2] * load[1]);
+    to[4] += q * load[4] + (t[2] * load[0] - t[0] * load[2]);
+    to[5] += q * load[5] + (t[0] * load[1] - t[1] * load[0]);
+  }
 }
 
 // to += carry_row^T block carry_column.
@@ -90,15 +103,8 @@ void Clusters<n>::add_carried(const double *block, const Carry &row, const Carry
       half[24 + r] = column.ratio * block[24 + r] + (a * s[2] - c * s[0]);
       half[30 + r] = column.ratio * block[30 + r] + (b * s[0] - a * s[1]);
     }
-    const double *t = row.arm;
-    for (int c = 0; c < 6; ++c) {
-      const double *h = half + 6 * c;
-      double *o = to + 6 * c;
-      o[0] += h[0], o[1] += h[1], o[2] += h[2];
-      o[3] += row.ratio * h[3] + (t[1] * h[2] - t[2] * h[1]);
-      o[4] += row.ratio * h[4] + (t[2] * h[0] - t[0] * h[2]);
-      o[5] += row.ratio * h[5] + (t[0] * h[1] - t[1] * h[0]);
-    }
+    for (int c = 0; c < 6; ++c)
+      add_load(row, half + 6 * c, to + 6 * c);
   }
 }
 
@@ -132,11 +138,9 @@ BlockMatrix<n, double> Clusters<n>::stiffness(const BlockMatrix<n, double> &a) c
   for_each(
       size(),
       [&](std::size_t c) {
-        const auto first = b.column.begin() + static_cast<std::ptrdiff_t>(b.begin[c]),
-                   last = b.column.begin() + static_cast<std::ptrdiff_t>(b.begin[c + 1]);
+        const int *all = b.column.data(), *first = all + b.begin[c], *last = all + b.begin[c + 1];
         for_each_entry(c, [&](std::size_t i, std::size_t j, std::size_t k, int other) {
-          const std::size_t to =
-              b.begin[c] + static_cast<std::size_t>(std::lower_bound(first, last, other) - first);
+          const std::size_t to = std::lower_bound(first, last, other) - all;
           add_carried(a.at(k), carry_[i], carry_[j], b.at(to));
         });
       },
@@ -153,14 +157,7 @@ void Clusters<n>::gather(const std::vector<float> &forces, std::vector<float> &o
         for (std::size_t k = begin_[c]; k < begin_[c + 1]; ++k) {
           const std::size_t i = static_cast<std::size_t>(member_[k]);
           const float *f = forces.data() + n * i;
-          for (int e = 0; e < 3; ++e)
-            sum[e] += f[e];
-          if constexpr (n == 6) {
-            const double *t = carry_[i].arm, q = carry_[i].ratio;
-            sum[3] += q * f[3] + (t[1] * f[2] - t[2] * f[1]);
-            sum[4] += q * f[4] + (t[2] * f[0] - t[0] * f[2]);
-            sum[5] += q * f[5] + (t[0] * f[1] - t[1] * f[0]);
-          }
+          add_load(carry_[i], f, sum);
         }
         for (std::size_t e = 0; e < n; ++e)
           of_clusters[n * c + e] = static_cast<float>(sum[e]);

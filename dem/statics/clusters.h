@@ -1,7 +1,6 @@
 // Neighbouring rows of a network's stiffness joined to clusters that move rigidly.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "base/vector3.h"
@@ -33,6 +32,8 @@ private:
     double arm[3] = {0, 0, 0}, ratio = 1;
   };
   void join(const BlockMatrix<n, double> &matrix, const std::vector<char> &fixed);
+  template <class Real>
+  static void add_load(const Carry &carry, const Real *load, double *to);
   void add_carried(const double *block, const Carry &row, const Carry &column, double *to) const;
 
   std::vector<int> cluster_; // of each row, or -1

@@ -30,20 +30,18 @@ Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inve
   std::vector<double> prescribed(size, 0.0);
   for (std::size_t k = 0; k < size; ++k)
     if (fixed[k / n]) prescribed[k] = x[k];
-  for_each_product(a, prescribed.data(), [&](std::size_t i, const double *sum) {
+  const auto residual = [&](std::size_t i, const double *sum) {
     for (std::size_t c = 0; c < n; ++c)
       r[n * i + c] = fixed[i] ? 0.0 : right[n * i + c] - sum[c];
-  });
+  };
+  for_each_product(a, prescribed.data(), residual);
   const double wanted = std::sqrt(product(r, r));
   Solution s;
   if (wanted == 0) {
     x = prescribed;
     return s;
   }
-  for_each_product(a, x.data(), [&](std::size_t i, const double *sum) {
-    for (std::size_t c = 0; c < n; ++c)
-      r[n * i + c] = fixed[i] ? 0.0 : right[n * i + c] - sum[c];
-  });
+  for_each_product(a, x.data(), residual);
   // The multigrid is not quite the same from call to call, by round-off of single precision: beta is that of
   // Polak and Ribiere, with the change of the residual.
   double rz = 0, change = 0;

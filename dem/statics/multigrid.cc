@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "dem/statics/clusters.h"
@@ -127,7 +126,7 @@ void Multigrid<n>::make_next(const BlockMatrix<n, double> &a, std::vector<Vector
     }
   const double mean = mean_diagonal(a, fixed);
   for (Eigen::Index i = 0; i < size; ++i)
-    dense(i, i) += (fixed[static_cast<std::size_t>(i / n)] ? 1 : softest) * mean;
+    dense(i, i) += (fixed[i / n] ? 1 : softest) * mean;
   direct_->factor.compute(dense);
   direct_->fixed = std::move(fixed);
   direct_->right.resize(n * rows);

@@ -44,7 +44,7 @@ BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row) {
   BondBlocks<n> blocks{};
   const BondStiffness s = b.stiffness(row);
   if (s.axial == 0) return blocks;
-  const std::size_t i = static_cast<std::size_t>(b.first[row]), j = static_cast<std::size_t>(b.second[row]);
+  const int i = b.first[row], j = b.second[row];
   const Vector3 d = p.position[j] - p.position[i], along = d / norm(d);
   const Matrix3 force = spring(along, s.axial, s.shear);
   if constexpr (n == 3) {
@@ -74,8 +74,8 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
   BlockMatrix<n, double> a;
   std::vector<std::size_t> as_second(particles, 0), as_first(particles, 0);
   for (std::size_t k = 0; k < bonds.size(); ++k) {
-    ++as_first[static_cast<std::size_t>(bonds.first[k])];
-    ++as_second[static_cast<std::size_t>(bonds.second[k])];
+    ++as_first[bonds.first[k]];
+    ++as_second[bonds.second[k]];
   }
   a.begin.reserve(particles + 1);
   for (std::size_t i = 0; i < particles; ++i)
@@ -89,11 +89,10 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
     a.column[above[i]++] = static_cast<int>(i);
   }
   for (std::size_t k = 0; k < bonds.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(bonds.first[k]),
-                      j = static_cast<std::size_t>(bonds.second[k]);
+    const int i = bonds.first[k], j = bonds.second[k];
     bond[above[i]] = bond[below[j]] = static_cast<int>(k);
-    a.column[above[i]++] = static_cast<int>(j);
-    a.column[below[j]++] = static_cast<int>(i);
+    a.column[above[i]++] = j;
+    a.column[below[j]++] = i;
   }
   // A bond is worked out for both of its rows, so that no row waits for another.
   a.block.assign(a.begin.back() * n * n, 0.0);
@@ -103,8 +102,8 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
         double *diagonal = a.at(a.begin[row] + as_second[row]);
         for (std::size_t k = a.begin[row]; k < a.begin[row + 1]; ++k) {
           if (bond[k] < 0) continue;
-          const BondBlocks<n> b = blocks_of<n>(p, bonds, static_cast<std::size_t>(bond[k]));
-          const bool first = static_cast<std::size_t>(bonds.first[static_cast<std::size_t>(bond[k])]) == row;
+          const BondBlocks<n> b = blocks_of<n>(p, bonds, bond[k]);
+          const bool first = static_cast<std::size_t>(bonds.first[bond[k]]) == row;
           double *to = a.at(k);
           for (int c = 0; c < n; ++c)
             for (int r = 0; r < n; ++r) {
@@ -119,7 +118,7 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
 
 template <int n>
 void add_support(const Particles &p, const GroundSpring &s, double *block) {
-  const double radius = p.radius[static_cast<std::size_t>(s.particle)];
+  const double radius = p.radius[s.particle];
   const Matrix3 force = spring(s.normal, s.normal_stiffness, s.tangential_stiffness);
   if constexpr (n == 3) {
     block_at<3>(block) += force;
@@ -133,7 +132,7 @@ void add_support(const Particles &p, const GroundSpring &s, double *block) {
 
 template <int n>
 void add_support_load(const Particles &p, const GroundSpring &s, const Vector3 &moved, double *load) {
-  const double radius = p.radius[static_cast<std::size_t>(s.particle)];
+  const double radius = p.radius[s.particle];
   const Matrix3 force = spring(s.normal, s.normal_stiffness, s.tangential_stiffness);
   Eigen::Map<Eigen::Matrix<double, n, 1>>(load, n) +=
       (moves(radius, s.arm).transpose() * force * eigen(moved)).template head<n>();
