@@ -27,26 +27,20 @@ struct HertzContact {
     return std::pow(2.5 * energy / coefficient, 0.4);
   }
   // Equal materials: 1/E* = 2 (1 - nu^2)/E, 1/R* = 1/R_i + 1/R_j.
-  static double coefficient(double young_modulus, double poisson_ratio, double ri, double rj) {
-    const double effective_modulus = young_modulus / (2 * (1 - poisson_ratio * poisson_ratio));
+  static double coefficient(const ContactSettings &s, double ri, double rj, const BondLayout & /*bonds*/) {
+    const double effective_modulus = s.young_modulus / (2 * (1 - s.poisson_ratio * s.poisson_ratio));
     return 4.0 / 3.0 * effective_modulus * std::sqrt(ri * rj / (ri + rj));
   }
+  static bool follows_bonds(const ContactSettings & /*s*/) { return false; }
   // k_t / k_n of equal materials, independent of the overlap.
-  static double tangential_ratio(double poisson_ratio) {
-    return 2 * (1 - poisson_ratio) / (2 - poisson_ratio);
+  static double tangential_ratio(const ContactSettings &s) {
+    return 2 * (1 - s.poisson_ratio) / (2 - s.poisson_ratio);
   }
-  // Dashpot F = 2 sqrt(5/6) xi sqrt(k m*) v that gives restitution e when it is not clamped.
-  static double damping_fraction(double restitution) {
-    const double logarithm = std::log(restitution);
+  // F = 2 sqrt(5/6) xi sqrt(k m*) v, which gives the restitution when it is not clamped.
+  static double dashpot(const ContactSettings &s) {
+    const double logarithm = std::log(s.restitution);
     return -std::sqrt(5.0 / 6.0) * logarithm / std::sqrt(logarithm * logarithm + pi * pi);
   }
-
-  static double coefficient(const ContactSettings &s, double ri, double rj, const BondLayout & /*bonds*/) {
-    return coefficient(s.young_modulus, s.poisson_ratio, ri, rj);
-  }
-  static bool follows_bonds(const ContactSettings & /*s*/) { return false; }
-  static double tangential_ratio(const ContactSettings &s) { return tangential_ratio(s.poisson_ratio); }
-  static double dashpot(const ContactSettings &s) { return damping_fraction(s.restitution); }
   // For the time step: stiffness grows with the overlap; a reserve instead of a law.
   static double dashpot_reserve(const ContactSettings & /*s*/) { return 0.5; }
 };

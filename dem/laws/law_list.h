@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <tuple>
-#include <utility>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -55,29 +55,25 @@ struct LawList {
   }
   // Those of the law in this place.
   static Parameters chosen(const AllParameters &all, std::size_t place) {
-    return chosen(all, place, std::index_sequence_for<Laws...>());
+    Parameters found;
+    std::size_t k = 0;
+    ((k++ == place ? (void)(found = std::get<typename Laws::Parameters>(all)) : void()), ...);
+    return found;
   }
   // The law of these parameters. Throws BadParameter.
-  static Law law(const Parameters &parameters) { return law(parameters, std::index_sequence_for<Laws...>()); }
+  static Law law(const Parameters &parameters) {
+    Law found;
+    std::size_t k = 0;
+    ((parameters.index() == k++ ? (void)(found = made<Laws>(parameters)) : void()), ...);
+    return found;
+  }
 
 private:
-  template <std::size_t... k>
-  static Parameters chosen(const AllParameters &all, std::size_t place, std::index_sequence<k...>) {
-    Parameters found;
-    ((k == place ? (void)found.template emplace<k>(std::get<k>(all)) : void()), ...);
-    return found;
-  }
-  template <std::size_t... k>
-  static Law law(const Parameters &parameters, std::index_sequence<k...>) {
-    Law found;
-    ((parameters.index() == k ? (void)found.template emplace<k>(checked(std::get<k>(parameters))) : void()),
-     ...);
-    return found;
-  }
   template <class One>
-  static const One &checked(const One &parameters) {
+  static One made(const Parameters &of) {
+    const auto &parameters = std::get<typename One::Parameters>(of);
     require_in_range(parameters);
-    return parameters;
+    return One(parameters);
   }
 };
 
