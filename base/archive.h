@@ -13,8 +13,6 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "base/block_type.h"

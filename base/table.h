@@ -2,9 +2,7 @@
 // resizing, checkpoints and output are written once for every present and future column.
 #pragma once
 
-#include <cassert>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,7 +60,7 @@ public:
   void permute(const std::vector<int> &order) override {
     std::vector<T> moved(order.size() + spare);
     for (std::size_t k = 0; k < order.size(); ++k)
-      moved[k] = values_[static_cast<std::size_t>(order[k])];
+      moved[k] = values_[order[k]];
     values_.swap(moved);
   }
   BlockType type() const override { return block_type<T>(unit()); }

@@ -1,6 +1,5 @@
 #include "base/thread_pool.h"
 
-#include <algorithm>
 #include <chrono>
 
 namespace platen {
@@ -137,7 +136,7 @@ void ThreadPool::do_parts(std::size_t thread) {
   do_share(shares_[thread][1], 1);
   for (const int loop : {1, 0})
     for (std::size_t k = 1; k < shares_.size(); ++k)
-      do_share(shares_[(thread + k) % shares_.size()][static_cast<std::size_t>(loop)], loop);
+      do_share(shares_[(thread + k) % shares_.size()][loop], loop);
 }
 
 void ThreadPool::do_share(Share &share, int loop) {
@@ -146,7 +145,7 @@ void ThreadPool::do_share(Share &share, int loop) {
 }
 
 void ThreadPool::do_part(int loop, std::size_t part) {
-  const Loop &work = loops_[static_cast<std::size_t>(loop)];
+  const Loop &work = loops_[loop];
   try {
     work.call(work.body, part);
   } catch (...) {

@@ -1,7 +1,6 @@
 // Pairs of spheres closer than a margin, by a grid of cells.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/vector3.h"

@@ -20,7 +20,7 @@ std::vector<char> body_of(const Particles &p, const Bonds *bonds) {
   const Fragments pieces = find_fragments(p, bonds);
   const double least = share_of_body * static_cast<double>(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
-    body[i] = pieces.particles[static_cast<std::size_t>(pieces.of_particle[i])] >= least;
+    body[i] = pieces.particles[pieces.of_particle[i]] >= least;
   return body;
 }
 
@@ -72,7 +72,7 @@ Vector3 Confinement::outward(const Vector3 &area, const Vector3 &x) const {
 double Confinement::coverage(const Particles &p, const EndPlanes &planes) const {
   double sum = 0;
   for (std::size_t k = 0; k < particle_.size(); ++k) {
-    const Vector3 x = p.position[static_cast<std::size_t>(particle_[k])], a = outward(area_[k], x);
+    const Vector3 x = p.position[particle_[k]], a = outward(area_[k], x);
     if (shape_.kind == ShapeKind::cylinder)
       sum += std::copysign(norm(a), a.x * x.x + a.y * x.y);
     else
@@ -118,7 +118,7 @@ void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &
 double Confinement::power(const Particles &p) const {
   double sum = 0;
   for (std::size_t k = 0; k < particle_.size(); ++k)
-    sum += dot(area_[k], p.velocity[static_cast<std::size_t>(particle_[k])]);
+    sum += dot(area_[k], p.velocity[particle_[k]]);
   return sum;
 }
 
@@ -135,7 +135,7 @@ void Confinement::add_forces(Particles &p, const Bonds *bonds, const EndPlanes &
   pressure_ = pressure;
   work_ -= 0.5 * dt * pressure_ * swelling;
   for (std::size_t k = 0; k < particle_.size(); ++k)
-    p.force[static_cast<std::size_t>(particle_[k])] -= pressure_ * area_[k];
+    p.force[particle_[k]] -= pressure_ * area_[k];
 }
 
 void Confinement::describe(Archive &archive) {

@@ -34,15 +34,14 @@ void mark_phases(Particles &p, const Phases &phases) {
 
 int aggregates_of_pair(const Particles &p, int first, int second) {
   if (p.phase == nullptr) return 0;
-  return (*p.phase)[static_cast<std::size_t>(first)] + (*p.phase)[static_cast<std::size_t>(second)];
+  return (*p.phase)[first] + (*p.phase)[second];
 }
 
 void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases) {
   const std::array<PhaseFactors, 3> factors = phases.factors();
   if (phases.scatters()) bonds.add_strength_factor();
   for (std::size_t k = 0; k < bonds.size(); ++k) {
-    const PhaseFactors &f =
-        factors[static_cast<std::size_t>(aggregates_of_pair(particles, bonds.first[k], bonds.second[k]))];
+    const PhaseFactors &f = factors[aggregates_of_pair(particles, bonds.first[k], bonds.second[k])];
     bonds.normal_stiffness[k] *= f.modulus;
     if (bonds.strength_factor != nullptr) (*bonds.strength_factor)[k] *= f.strength;
   }
@@ -66,7 +65,7 @@ void scatter_strengths(Bonds &bonds, const StrengthScatter &scatter) {
   bonds.add_strength_factor();
   const std::vector<double> factors = weibull_factors(bonds.records.size(), scatter);
   for (std::size_t k = 0; k < bonds.size(); ++k)
-    (*bonds.strength_factor)[k] *= factors[static_cast<std::size_t>(bonds.record[k])];
+    (*bonds.strength_factor)[k] *= factors[bonds.record[k]];
 }
 
 } // namespace platen::dem

@@ -55,8 +55,6 @@ int aggregates_of_pair(const Particles &particles, int first, int second);
 // Multiplies stiffness and strength of each bond by the factors of its kind. Bonds must be as they were laid.
 void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases);
 
-struct Bonds;
-
 struct StrengthScatter {
   double weibull_modulus = std::numeric_limits<double>::quiet_NaN(); // m > 0; large: hardly any scatter
   std::uint64_t seed = 1;

@@ -47,7 +47,7 @@ void LateralWall::add_forces(Particles &p, double distance) {
   if (!valid_ || moved_ > skin_) make_list(p);
   force_ = elastic_energy_ = 0;
   for (const Row &row : rows_) {
-    const std::size_t i = static_cast<std::size_t>(row.particle);
+    const int i = row.particle;
     const Gap g = gap(p.position[i], p.radius[i], row.side);
     const double overlap = row.rest - g.gap;
     if (overlap <= 0) continue;
@@ -66,7 +66,7 @@ std::size_t LateralWall::seats() const {
 std::vector<GroundSpring> LateralWall::ground_springs(const Particles &p) const {
   std::vector<GroundSpring> springs;
   for (const Row &row : rows_) {
-    const std::size_t i = static_cast<std::size_t>(row.particle);
+    const int i = row.particle;
     const Gap g = gap(p.position[i], p.radius[i], row.side);
     GroundSpring s;
     s.particle = row.particle;

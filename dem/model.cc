@@ -1,6 +1,5 @@
 #include "dem/model.h"
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>

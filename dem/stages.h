@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <chrono>
+
+#include "base/clock.h"
 
 namespace platen::dem {
 
@@ -16,19 +17,15 @@ public:
   // Times from construction to destruction.
   class Lap {
   public:
-    Lap(StageClock &clock, Stage stage)
-        : clock_(clock), stage_(stage), start_(std::chrono::steady_clock::now()) {}
-    ~Lap() {
-      clock_.seconds_[static_cast<int>(stage_)] +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
+    Lap(StageClock &clock, Stage stage) : clock_(clock), stage_(stage) {}
+    ~Lap() { clock_.seconds_[static_cast<int>(stage_)] += seconds_since(start_); }
     Lap(const Lap &) = delete;
     Lap &operator=(const Lap &) = delete;
 
   private:
     StageClock &clock_;
     Stage stage_;
-    std::chrono::steady_clock::time_point start_;
+    Clock::time_point start_ = Clock::now();
   };
   double seconds(Stage stage) const { return seconds_[static_cast<int>(stage)]; }
 
