@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
-#include "apps/run/app_output.h"
+#include "apps/io/numbers.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
 
 namespace platen::apps {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const char *word(BarLoad load) {
   constexpr const char *words[] = {"all", "tension", "bending", "torsion", "impact", "none"};
@@ -27,13 +24,13 @@ Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
        {&c.strain_platen, &c.strain_gauge, &c.lateral_strain, &c.volumetric_strain, &c.lateral_extremal,
         &c.axial_extremal, &c.stress_top, &c.stress_bottom, &c.confining_pressure, &c.contact, &c.body,
         &c.damping, &c.friction, &c.fracture, &c.boundary, &c.unbalanced, &c.platen_speed})
-    *unmeasured = none;
+    *unmeasured = not_given;
   c.intact_bonds = static_cast<double>(bonds) - static_cast<double>(s.broken_tension + s.broken_shear);
   c.broken_tension = static_cast<double>(s.broken_tension);
   c.broken_shear = static_cast<double>(s.broken_shear);
-  c.kinetic = ledger ? s.kinetic : none;
-  c.bond = ledger ? s.energy.total() : none;
-  c.residual = ledger ? s.kinetic + s.energy.total() - s.initial_energy : none;
+  c.kinetic = ledger ? s.kinetic : not_given;
+  c.bond = ledger ? s.energy.total() : not_given;
+  c.residual = ledger ? s.kinetic + s.energy.total() - s.initial_energy : not_given;
   c.time_step = step;
   return c;
 }
@@ -94,6 +91,12 @@ void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
   }
 }
 
+Json part_of(const BarResults &r, const LoadResult &l) {
+  Json s = l.keeps_static ? static_part(r, l) : Json::object();
+  add_dynamic(s, r, l);
+  return s;
+}
+
 Json impact_part(const BarResults &r) {
   const double by_hand = r.oscillating_rod(false).wave_speed();
   Json s;
@@ -150,33 +153,17 @@ std::vector<std::string> bar_columns() {
 
 std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger) {
   std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.of(load), ledger), nullptr);
-  cells[cells.size() - 2] = none; // grain contacts, not counted
+  cells[cells.size() - 2] = not_given; // grain contacts, not counted
   cells.insert(cells.end(), {word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist,
                              s.struck_velocity, s.far_velocity, s.quarter, s.half});
-  cells.insert(cells.end(), {ledger ? s.energy.axial : none, ledger ? s.energy.bending : none,
-                             ledger ? s.energy.torsion : none});
+  cells.insert(cells.end(), {ledger ? s.energy.axial : not_given, ledger ? s.energy.bending : not_given,
+                             ledger ? s.energy.torsion : not_given});
   return cells;
 }
 
-Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, const std::string &status) {
-  TestFigures f;
-  f.particles = r.particles;
-  f.bonds = r.bonds;
-  f.packing_fraction = r.packing_fraction;
-  f.steps = r.steps;
-  f.time_step = r.time.step;
-  f.time_step_reason = r.time.reason;
-  f.threads = costs.threads;
-  f.wall_seconds = costs.seconds;
-  f.setup_seconds = costs.setup_seconds;
-  f.stage_seconds = r.stage_seconds;
-  f.youngs_modulus = r.pulled.axial_rigidity / r.bar.bounding.area();
-  f.poisson_ratio = r.pulled.poisson_ratio;
-  f.broken_tension = r.broken_tension;
-  f.broken_shear = r.broken_shear;
-  if (r.steps > 0) f.energy_residual = r.energy_residual;
+Json summary_of(const Scene &scene, const BarResults &r, const std::string &status) {
   Json s = summary_head(scene, "platen-bar", status, effects_of(scene));
-  add_figures(s, f);
+  add_figures(s, r);
   s["mean_radius_m"] = r.bar.mean_radius;
   s["length_m"] = r.bar.length();
   s["loose_spheres"] = r.bar.loose;
@@ -194,11 +181,8 @@ Json summary_of(const Scene &scene, const BarResults &r, const BarCosts &costs, 
     s["bulk"]["poisson_ratio"] = r.bulk.poisson;
     s["bulk"]["anisotropy"] = r.bulk.anisotropy;
   }
-  for (const LoadResult &l : r.loads) {
-    Json part = l.keeps_static ? static_part(r, l) : Json::object();
-    add_dynamic(part, r, l);
-    s[word(l.load)] = part;
-  }
+  for (const LoadResult &l : r.loads)
+    s[word(l.load)] = part_of(r, l);
   if (r.impact && !r.impact->stopped) s["impact"] = impact_part(r);
   return s;
 }
@@ -217,22 +201,19 @@ std::string report_of(const BarResults &r) {
     text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", "measured", "static", "effective", "dynamic",
                         "effective");
   for (const LoadResult &l : r.loads) {
-    Json s = l.keeps_static ? static_part(r, l) : Json::object();
-    add_dynamic(s, r, l);
-    const auto figure = [&](const char *key) {
-      return percent(s.contains(key) ? s[key].get<double>() : none);
-    };
+    const Json s = part_of(r, l);
+    const auto figure = [&s](const char *key) { return percent(number_in(s, key)); };
     text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", word(l.load), figure("static_error"),
                         figure("static_error_effective"), figure("dynamic_error"),
                         figure("dynamic_error_effective"));
   }
   if (r.impact && !r.impact->stopped) {
     const Json s = impact_part(r);
+    const auto figure = [&s](const char *key) { return number_in(s, key); };
     text +=
         fmt::format("  wave {:.1f} m/s, by hand {:.1f} m/s: {}; from a quarter to half {:.1f} m/s: {}\n",
-                    s["wave_speed_m_s"].get<double>(), s["wave_speed_by_hand_m_s"].get<double>(),
-                    percent(s["wave_error"].get<double>()), s["wave_speed_quarter_to_half_m_s"].get<double>(),
-                    percent(s["wave_error_quarter_to_half"].get<double>()));
+                    figure("wave_speed_m_s"), figure("wave_speed_by_hand_m_s"), percent(figure("wave_error")),
+                    figure("wave_speed_quarter_to_half_m_s"), percent(figure("wave_error_quarter_to_half")));
   }
   return text;
 }

@@ -2,7 +2,6 @@
 // summary.json and the screen.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +9,7 @@
 #include "apps/bar/dynamic_test.h"
 #include "apps/bar/static_test.h"
 #include "apps/io/csv_writer.h"
-#include "apps/io/summary.h"
+#include "apps/run/app_output.h"
 
 namespace platen::apps {
 
@@ -22,9 +21,8 @@ struct LoadResult {
   std::optional<Oscillation> oscillation;
 };
 
-struct BarResults {
-  std::size_t particles = 0, bonds = 0;
-  double packing_fraction = 0; // spheres over the shape's volume
+// Energy residual: the largest of an oscillation or impact.
+struct BarResults : TestFigures {
   BarGeometry bar;
   BarModuli pulled;
   dem::Moduli bulk;
@@ -32,9 +30,6 @@ struct BarResults {
   std::vector<LoadResult> loads;
   std::optional<Impact> impact;
   double struck_velocity = 0; // m/s
-  long steps = 0, broken_tension = 0, broken_shear = 0;
-  double energy_residual = 0; // largest of an oscillation or impact, over its energy
-  std::array<double, dem::stage_count> stage_seconds{};
 
   // With the measured axial rigidity and Poisson ratio, on the bounding section or the effective one.
   Rod rod(bool effective) const;
@@ -46,12 +41,7 @@ std::vector<std::string> bar_columns();
 // With a ledger: energies are kept; without it their columns are NaN.
 std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger);
 
-struct BarCosts {
-  int threads = 1;
-  double seconds = 0, setup_seconds = 0; // s
-};
-Json summary_of(const Scene &scene, const BarResults &results, const BarCosts &costs,
-                const std::string &status);
+Json summary_of(const Scene &scene, const BarResults &results, const std::string &status);
 // For the screen and the log.
 std::string report_of(const BarResults &results);
 

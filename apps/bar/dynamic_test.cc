@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/scene/units.h"
 #include "base/parallel.h"
@@ -15,7 +14,6 @@ namespace {
 using dem::Model;
 using dem::Particles;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Of the clamped spheres: what pulls at them moves them by less than round-off.
 constexpr double clamp_mass = 1e15;
 // Half the thickness of the slice whose mean motion a station tells, in mean radii.
@@ -113,12 +111,6 @@ void clamp(Particles &p, const BarEnd &end) {
   }
 }
 
-double along(const EndMotion &end, BarLoad load, bool along_x) {
-  if (load == BarLoad::tension) return end.moved.z;
-  if (load == BarLoad::torsion) return end.twist;
-  return along_x ? end.moved.x : end.moved.y;
-}
-
 } // namespace
 
 BarTime bar_time_step(const Scene &scene, const Model &model) {
@@ -147,7 +139,7 @@ Oscillation release(Model &model, const BarGeometry &bar, BarLoad load, const de
   Oscillation result;
   std::vector<double> oscillation;
   const auto keep = [&](bool due) {
-    if (due) oscillation.push_back(along(run.end(), load, bar.along_x));
+    if (due) oscillation.push_back(along(load, run.end(), bar.along_x));
   };
   run.go(clocking, take, keep, result);
   result.frequency = dem::main_frequency(oscillation, clocking.step * static_cast<double>(clocking.every),

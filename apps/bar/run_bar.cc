@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/bar/bar_results.h"
 #include "apps/io/progress.h"
@@ -16,7 +15,6 @@
 namespace platen::apps {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Unless the scene says how often.
 constexpr double samples_per_period = 64, samples_of_an_impact = 400;
 
@@ -84,8 +82,12 @@ void BarRun::measure() {
     refuse(scene_, "Specimen/Height",
            "leaves too few spheres in the middle half of the bar to tell a strain, or the "
            "spheres do not hold together.");
-  r.bulk = {none, none, none};
+  r.youngs_modulus = r.pulled.axial_rigidity / r.bar.bounding.area();
+  r.poisson_ratio = r.pulled.poisson_ratio;
+  r.bulk = {not_given, not_given, not_given};
   if (dynamic()) r.time = bar_time_step(scene_, model_);
+  r.time_step = r.time.step;
+  r.time_step_reason = r.time.reason;
   planned_ = strikes() ? steps_of_impact() : 0;
   if (dynamic())
     for (const BarLoad load : loads_of(scene_.bar_test.load))
@@ -135,7 +137,8 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
 
 void BarRun::finish(const dem::Model &model, const Motion &motion) {
   results_.steps += motion.steps;
-  results_.energy_residual = std::max(results_.energy_residual, motion.energy_residual);
+  if (results_.steps > 0)
+    results_.energy_residual = std::fmax(results_.energy_residual, motion.energy_residual);
   results_.broken_tension += model.broken_tension;
   results_.broken_shear += model.broken_shear;
   for (std::size_t k = 0; k < results_.stage_seconds.size(); ++k)
@@ -180,9 +183,8 @@ void BarRun::test_impact() {
 }
 
 int BarRun::carry_out() {
-  BarCosts costs;
-  costs.threads = output_.threads();
-  costs.setup_seconds = output_.seconds();
+  results_.threads = output_.threads();
+  results_.setup_seconds = output_.seconds();
   catch_stop_signals();
   output_.open();
   output_.log.info("{}", description());
@@ -192,21 +194,21 @@ int BarRun::carry_out() {
   test_loads();
   test_impact();
   progress_.reset();
-  costs.seconds = output_.seconds();
+  results_.wall_seconds = output_.seconds();
   if (results_.broken_tension + results_.broken_shear > 0)
     output_.log.warning(
         "{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
         "test/Strain keeps it whole",
         results_.broken_tension + results_.broken_shear);
-  const Json summary = summary_of(scene_, results_, costs, signal_ != 0 ? "stopped" : "done");
+  const Json summary = summary_of(scene_, results_, signal_ != 0 ? "stopped" : "done");
   const std::string report = report_of(results_);
   if (signal_ != 0) {
     write_summary(output_.paths.summary(), summary);
     output_.log.info("{}\nstopped by a signal; a bar test keeps no checkpoint", report);
     return exit_status_of_signal(signal_);
   }
-  return output_.finish(summary, fmt::format("{}\n  {:.1f} s; results are in {}", report, costs.seconds,
-                                             output_.paths.folder.string()));
+  return output_.finish(summary, fmt::format("{}\n  {:.1f} s; results are in {}", report,
+                                             results_.wall_seconds, output_.paths.folder.string()));
 }
 
 } // namespace

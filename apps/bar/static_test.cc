@@ -1,7 +1,5 @@
 #include "apps/bar/static_test.h"
 
-#include <limits>
-
 #include "dem/stable_step.h"
 
 namespace platen::apps {
@@ -90,6 +88,12 @@ double frequency_of(const Rod &rod, BarLoad load) {
   return rod.torsion_frequency();
 }
 
+double along(BarLoad load, const EndMotion &end, bool along_x) {
+  if (load == BarLoad::tension) return end.moved.z;
+  if (load == BarLoad::bending) return dot(end.moved, across(along_x));
+  return end.twist;
+}
+
 StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
                     const dem::StaticSettings &settings) {
   dem::StaticCase at_rest;
@@ -103,9 +107,7 @@ StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad loa
   test.state = solve_static(model.particles, *model.bonds, at_rest, settings);
   test.energy = energy_shares(model.particles, *model.bonds, test.state.displacement, test.state.turn);
   const EndMotion end = motion_of(model.particles, bar.high, test.state.displacement, test.state.turn);
-  test.measured = load == BarLoad::tension   ? end.moved.z
-                  : load == BarLoad::bending ? dot(end.moved, across(bar.along_x))
-                                             : end.twist;
+  test.measured = along(load, end, bar.along_x);
   return test;
 }
 
@@ -126,14 +128,13 @@ BarModuli pull_bar(const dem::Model &model, const BarGeometry &bar, const dem::S
 
 dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const dem::Shape &shape) {
   const double mean_radius = bar.mean_radius;
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const dem::Region region = inside(shape, region_margin * mean_radius);
   const bool round = shape.kind == dem::ShapeKind::cylinder;
   const double least = mean_radius; // of the region's half-width
   if (region.shape.height < 2 * least ||
       (round ? region.shape.radius < least
              : region.shape.width_x < 2 * least || region.shape.width_y < 2 * least))
-    return {none, none, none};
+    return {not_given, not_given, not_given};
   const dem::Particles &p = model.particles;
   std::array<dem::Tensor, 6> strain, stress;
   for (std::size_t k = 0; k < 6; ++k) {

@@ -26,6 +26,9 @@ double response_of(const Rod &rod, BarLoad load, double size);
 // Its lowest frequency in that motion, 1/s; bending with shear.
 double frequency_of(const Rod &rod, BarLoad load);
 
+// What the end has moved along the load: m, rad.
+double along(BarLoad load, const EndMotion &end, bool along_x);
+
 // Throws dem::NoEquilibrium.
 StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad load, double size,
                     const dem::StaticSettings &settings = {});
