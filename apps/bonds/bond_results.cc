@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/io/csv_writer.h"
+#include "apps/io/numbers.h"
 #include "apps/run/app_output.h"
 #include "dem/laws/normal_contact.h"
 
 namespace platen::apps {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool slides(const Scene &scene) {
   return scene.pair_test.path == PairPath::shear;
@@ -35,12 +33,12 @@ double by_hand_of(const Scene &scene, const BondRun &run, std::size_t k) {
     return slides(scene) ? load.shear : load.normal;
   }
   const RigReading &row = run.path.rows[k];
-  if (row.intact < run.bonds) return none;
+  if (row.intact < run.bonds) return not_given;
   return is_pyramid(scene) ? run.strain_ratio_by_hand : load_of(scene, row) / run.stiffness_by_hand;
 }
 
 double relative(double measured, double by_hand) {
-  if (std::isnan(measured) || std::isnan(by_hand)) return none;
+  if (std::isnan(measured) || std::isnan(by_hand)) return not_given;
   return by_hand == 0 ? measured : measured / by_hand - 1; // of nothing: the difference itself
 }
 
@@ -124,7 +122,7 @@ void add_prescribed(Json &j, const BondRun &run) {
   // The first place on the prescribed path: a sheared bond is pressed first.
   const auto moved = std::find_if(run.path.rows.begin(), run.path.rows.end(),
                                   [](const RigReading &row) { return row.displacement != 0; });
-  j["stiffness"] = moved != run.path.rows.end() ? moved->force / moved->displacement : none;
+  j["stiffness"] = moved != run.path.rows.end() ? moved->force / moved->displacement : not_given;
   j["largest_difference"] = run.interface.largest_difference();
   j["work_j"] = last.measured.work;
   j["stored_j"] = last.measured.stored;
@@ -143,13 +141,13 @@ Json summary_of(const Scene &scene, const BondRun &run) {
   j["stiffness_ratio"] = run.stiffness_ratio;
   j["largest_load"] = load;                // N; N m in bending and twisting
   j["way_at_largest_load"] = displacement; // m; rad
-  j["stiffness"] = displacement != 0 ? load / displacement : none;
+  j["stiffness"] = displacement != 0 ? load / displacement : not_given;
   j["stiffness_by_hand"] = run.stiffness_by_hand;
   j["strain_ratio"] = r.strain_ratio;
   j["strain_ratio_by_hand"] = run.strain_ratio_by_hand;
   j["break_load"] = run.path.break_load;
   j["break_load_by_hand"] = run.strength_by_hand;
-  j["break_stress_pa"] = turns(scene) ? none : std::abs(run.path.break_load) / run.bond_area;
+  j["break_stress_pa"] = turns(scene) ? not_given : std::abs(run.path.break_load) / run.bond_area;
   j["fracture_work_j"] = run.fracture_work;
   j["largest_difference"] = largest_difference(scene, run);
   j["steps"] = run.steps;
@@ -195,15 +193,27 @@ void write_table(const std::filesystem::path &path, const Scene &scene, const st
     for (std::size_t n = 0; n < runs[k].path.rows.size(); ++n) {
       const BondRun &run = runs[k];
       const RigReading &r = run.path.rows[n];
-      std::vector<CsvCell> cells{k + 1, run.modulus, run.stiffness_ratio, r.force};
-      cells.insert(cells.end(), {r.displacement, r.moment, r.rotation, r.normal, r.shear, r.tension_ratio});
-      cells.insert(cells.end(), {r.shear_ratio, r.intact, r.lateral, r.strain_ratio});
-      cells.insert(cells.end(), {by_hand_of(scene, run, n), difference_of(scene, run, n)});
+      std::vector<CsvCell> cells{k + 1,
+                                 run.modulus,
+                                 run.stiffness_ratio,
+                                 r.force,
+                                 r.displacement,
+                                 r.moment,
+                                 r.rotation,
+                                 r.normal,
+                                 r.shear,
+                                 r.tension_ratio,
+                                 r.shear_ratio,
+                                 r.intact,
+                                 r.lateral,
+                                 r.strain_ratio,
+                                 by_hand_of(scene, run, n),
+                                 difference_of(scene, run, n)};
       if (is_prescribed(scene)) {
         const InterfaceRow &row = run.interface.rows[n];
         const InterfaceReading &m = row.measured;
-        cells.insert(cells.end(), {row.by_hand.shear, m.tension_damage, m.shear_damage, m.plastic_closing});
-        cells.insert(cells.end(), {m.work, m.stored, m.dissipated, row.dissipated_by_hand});
+        cells.insert(cells.end(), {row.by_hand.shear, m.tension_damage, m.shear_damage, m.plastic_closing,
+                                   m.work, m.stored, m.dissipated, row.dissipated_by_hand});
       }
       table.row(cells);
     }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
@@ -22,6 +21,27 @@ constexpr int steps_of_a_move = 40;      // in which a prescribed displacement i
 constexpr double bonded_gap = 1e-9;      // of the radius: spheres touch, whatever Bond/Gap allows beyond that
 constexpr double base_clearance = 1e-6;  // of the radius, between base spheres without a bond
 
+BondSection section_of(const dem::ModelSettings &settings, double radius) {
+  BondSection b;
+  b.sphere_radius = radius;
+  b.bond_radius = settings.bond_layout.bond_radius(radius, radius);
+  b.modulus = settings.bond_layout.modulus;
+  if (const auto *beam = std::get_if<dem::CohesiveBeam::Parameters>(&*settings.bond)) {
+    b.beam = true;
+    b.poisson_ratio = beam->poisson_ratio;
+  } else {
+    b.stiffness_ratio = std::get<dem::ParallelBond::Parameters>(*settings.bond).stiffness_ratio;
+  }
+  std::visit(
+      [&](const auto &law) {
+        b.tensile_strength = dem::never_if_zero(law.tensile_strength);
+        b.shear_strength = dem::never_if_zero(law.shear_strength);
+        if constexpr (!std::is_same_v<decltype(law), const dem::ElastoDamagePlastic::Parameters &>)
+          b.moment_contribution = law.moment_contribution;
+      },
+      *settings.bond);
+  return b;
+}
 } // namespace
 
 bool is_pyramid(const Scene &scene) {
@@ -51,32 +71,6 @@ dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiff
     bond->stiffness_ratio = stiffness_ratio;
   return settings;
 }
-
-namespace {
-
-BondSection section_of(const dem::ModelSettings &settings, double radius) {
-  BondSection b;
-  b.sphere_radius = radius;
-  b.bond_radius = settings.bond_layout.bond_radius(radius, radius);
-  b.modulus = settings.bond_layout.modulus;
-  if (const auto *beam = std::get_if<dem::CohesiveBeam::Parameters>(&*settings.bond)) {
-    b.beam = true;
-    b.poisson_ratio = beam->poisson_ratio;
-  } else {
-    b.stiffness_ratio = std::get<dem::ParallelBond::Parameters>(*settings.bond).stiffness_ratio;
-  }
-  std::visit(
-      [&](const auto &law) {
-        b.tensile_strength = dem::never_if_zero(law.tensile_strength);
-        b.shear_strength = dem::never_if_zero(law.shear_strength);
-        if constexpr (!std::is_same_v<decltype(law), const dem::ElastoDamagePlastic::Parameters &>)
-          b.moment_contribution = law.moment_contribution;
-      },
-      *settings.bond);
-  return b;
-}
-
-} // namespace
 
 BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
     : scene_(scene),
@@ -268,7 +262,7 @@ RigReading BondRig::read() const {
         std::minmax(p.id[static_cast<std::size_t>(b.first[k])], p.id[static_cast<std::size_t>(b.second[k])]);
     if (ends.first == 0 && ends.second == 1) r.normal = response.normal_force, r.shear = response.shear_force;
   }
-  r.strain_ratio = std::numeric_limits<double>::quiet_NaN();
+  r.strain_ratio = not_given;
   if (is_pyramid(scene_)) {
     const auto moved = [&](std::size_t sphere) {
       return (p.position[row_[sphere]] - p.reference_position[row_[sphere]]).x;

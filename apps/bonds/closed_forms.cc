@@ -7,11 +7,6 @@
 #include "base/pi.h"
 
 namespace platen::apps {
-namespace {
-
-const double root3 = std::sqrt(3.0);
-
-} // namespace
 
 double pair_stiffness(const BondSection &bond, PairPath path) {
   if (path == PairPath::shear) return bond.shear_stiffness();
@@ -33,11 +28,12 @@ double pair_strength(const BondSection &bond, PairPath path) {
 }
 
 // Base sphere at (R, 0), top sphere at (0, sqrt(3) R); the base sphere moves out by u and rolls outwards by
-// theta = t / R, the top one moves down by w = 1. Inclined bond: stretch u/2 - sqrt(3)/2, slip sqrt(3)/2 u +
-// 1/2
-// + t, relative rotation theta; the base bond stretches by 2u and bends by 2 theta, half of it for each half.
+// theta = t / R, the top one moves down by w = 1. Inclined bond: stretch u/2 - sqrt(3)/2, slip
+// sqrt(3)/2 u + 1/2 + t, relative rotation theta; the base bond stretches by 2u and bends by 2 theta, half of
+// it for each half.
 PyramidResponse pyramid_response(const Pyramid &pyramid) {
   const BondSection &b = pyramid.bond;
+  const double root3 = std::sqrt(3.0);
   const double k = b.shear_ratio();
   const double bending = b.bending_stiffness() / (b.axial_stiffness() * b.sphere_radius * b.sphere_radius);
   // Energy / (k_n A) = 1/2 (u a11 u + 2 u a12 t + t a22 t) + f1 u + f2 t + 1/2 c.

@@ -9,7 +9,6 @@
 namespace platen::apps {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double step = 1;        // s; places are prescribed, so that no time enters what the bond does
 constexpr double same_row = 1e-7; // share of a displacement: an equal step that close to a kink is left out
 
@@ -122,7 +121,7 @@ void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
   row.tension_ratio = response.tension_ratio;
   row.shear_ratio = response.shear_ratio;
   row.intact = static_cast<int>(model_.intact_bonds());
-  row.strain_ratio = none;
+  row.strain_ratio = not_given;
   run.path.rows.push_back(row);
   run.interface.rows.push_back({read(), now_, by_hand_.load(), by_hand_.dissipated()});
   if (row.intact > 0 && std::abs(row.force) > std::abs(run.path.largest.force)) run.path.largest = row;
@@ -139,14 +138,14 @@ void InterfaceTest::conclude(BondRun &run) const {
     InterfaceByHand fresh(section_, true, test_.slip_ratio);
     const InterfacePlace end = turning_places(test_, section_).front();
     const std::vector<double> kinks = fresh.kinks(end);
-    run.strength_by_hand = none;
+    run.strength_by_hand = not_given;
     if (!kinks.empty()) {
       fresh.go({kinks.front() * end.opening, kinks.front() * end.slip});
       run.strength_by_hand = fresh.load().normal;
     }
   }
   InterfaceResult &result = run.interface;
-  run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = none;
+  run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = not_given;
   const std::vector<RigReading> &rows = run.path.rows;
   if (rows.back().intact > 0) return;
   const auto height = [&](std::size_t k) { return slides(test_) ? std::abs(rows[k].force) : rows[k].force; };
@@ -166,7 +165,7 @@ BondRun InterfaceTest::run() {
   run.stiffness_ratio = section_.shear_stiffness() / section_.normal_stiffness();
   run.bonds = static_cast<int>(model_.intact_bonds());
   run.bond_area = section_.area;
-  run.time_step = run.strain_ratio_by_hand = none;
+  run.time_step = run.strain_ratio_by_hand = not_given;
   run.time_step_reason = "none: spheres are led without inertia";
   const std::vector<InterfacePlace> places = turning_places(test_, section_);
   double length = 0;

@@ -21,7 +21,7 @@ public:
     // A moment is Force at the arm of a radius, an angle is Displacement over it.
     peak_ = by_load_ ? test_.force * (turns ? radius : 1) : test_.displacement / (turns ? radius : 1);
     careful_ = std::isfinite(rig.section().tensile_strength) || std::isfinite(rig.section().shear_strength);
-    result_.break_load = std::numeric_limits<double>::quiet_NaN();
+    result_.break_load = not_given;
     now_.intact = rig.bonds_at_start();
   }
 

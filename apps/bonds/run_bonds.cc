@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "apps/bonds/bond_results.h"
 #include "apps/io/specimen_csv.h"
@@ -90,13 +89,13 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
   run.path = follow_path(rig, scene);
   run.add(rig.model(), rig.steps());
   const PairTest &t = scene.pair_test;
-  run.strain_ratio_by_hand = std::numeric_limits<double>::quiet_NaN();
+  run.strain_ratio_by_hand = not_given;
   if (is_pyramid(scene)) {
     const PyramidResponse by_hand =
         pyramid_response({rig.section(), t.plate, t.base_bond, scene.model.rotation});
     run.stiffness_by_hand = by_hand.stiffness;
     run.strain_ratio_by_hand = by_hand.strain_ratio;
-    run.strength_by_hand = std::numeric_limits<double>::quiet_NaN();
+    run.strength_by_hand = not_given;
   } else {
     run.stiffness_by_hand = pair_stiffness(rig.section(), t.path);
     run.strength_by_hand = pair_strength(rig.section(), t.path);
