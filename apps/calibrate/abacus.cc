@@ -1,4 +1,5 @@
 #include "apps/calibrate/search.h"
+#include "apps/io/numbers.h"
 
 namespace platen::apps {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
@@ -26,13 +25,17 @@ void append_text(std::string &line, std::string_view text) {
   line += '"';
 }
 
-std::string header_line(const std::vector<std::string> &columns) {
+std::string line_of(const std::vector<CsvCell> &cells) {
   std::string line;
-  for (const std::string &column : columns) {
-    if (!line.empty()) line += ',';
-    append_text(line, column);
+  for (const CsvCell &cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    cell.append_to(line);
   }
   return line + '\n';
+}
+
+std::string header_line(const std::vector<std::string> &columns) {
+  return line_of({columns.begin(), columns.end()});
 }
 
 // Throws CheckpointError unless `path` begins with the header and has a line end before byte `length`.
@@ -69,18 +72,10 @@ void CsvCell::append_to(std::string &line) const {
   }
 }
 
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells;
-  std::istringstream text{std::string(line)};
-  for (std::string cell; std::getline(text, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
-
 CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns)
-    : columns_(std::move(columns)), file_(path), line_(header_line(columns_)) {
+    : columns_(std::move(columns)), file_(path) {
   try {
-    write_line();
+    write(header_line(columns_));
   } catch (const OutputError &) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
@@ -101,23 +96,17 @@ void CsvWriter::row(const std::vector<CsvCell> &cells) {
   if (cells.size() != columns_.size())
     throw std::logic_error(
         fmt::format("{}: a row of {} values for {} columns", path().string(), cells.size(), columns_.size()));
-  line_.clear();
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (k > 0) line_ += ',';
-    cells[k].append_to(line_);
-  }
-  line_ += '\n';
-  write_line();
+  write(line_of(cells));
 }
 
-void CsvWriter::write_line() {
+void CsvWriter::write(const std::string &line) {
   try {
-    file_.write(line_);
+    file_.write(line);
   } catch (const OutputError &) {
     file_.try_truncate(bytes_);
     throw;
   }
-  bytes_ += line_.size();
+  bytes_ += line.size();
 }
 
 WholeTable::WholeTable(std::filesystem::path path, std::vector<std::string> columns)

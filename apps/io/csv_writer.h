@@ -35,9 +35,6 @@ private:
   std::variant<double, long long, std::string_view> value_; // text is not kept
 };
 
-// The texts between the commas of a line without quotes: "time_s,stress_pa".
-std::vector<std::string> cells_of(std::string_view line);
-
 // Each row reaches the file before row() returns. Failures throw OutputError, and the row that failed is
 // taken off again, so that the file ends with a whole row.
 class CsvWriter {
@@ -56,15 +53,13 @@ public:
   std::uint64_t bytes() const { return bytes_; } // of header and whole rows
   // Waits until the disk has all rows: before a checkpoint that states bytes().
   void sync() { file_.sync(); }
-  const std::vector<std::string> &columns() const { return columns_; }
   const std::filesystem::path &path() const { return file_.path(); }
 
 private:
-  void write_line();
+  void write(const std::string &line);
   std::vector<std::string> columns_;
   OutputFile file_;
   std::uint64_t bytes_ = 0;
-  std::string line_;
 };
 
 // A table that is written at one go: it stands under its name with all rows or not at all. Failures throw

@@ -24,12 +24,6 @@ constexpr std::string_view shape_words = "# shape:";
 constexpr std::size_t write_bytes = 1 << 20; // of text collected before it is written
 constexpr std::size_t shown = 60;            // characters of a faulty line, which may be anything
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::string shape_line(const dem::Shape &shape) {
   if (shape.kind == dem::ShapeKind::cylinder)
     return fmt::format("{} cylinder radius_m={} height_m={}\n", shape_words, shape.radius, shape.height);

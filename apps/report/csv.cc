@@ -4,7 +4,6 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "apps/io/numbers.h"
 #include "apps/scene/errors.h"
@@ -12,17 +11,10 @@
 namespace platen::apps::report {
 namespace {
 
-std::string trimmed(const std::string &text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<std::string> fields_of(const std::string &line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');)
-    fields.push_back(trimmed(field));
-  if (!line.empty() && line.back() == ',') fields.emplace_back();
+  std::vector<std::string> fields = cells_of(line);
+  for (std::string &field : fields)
+    field = std::string(trimmed(field));
   return fields;
 }
 
