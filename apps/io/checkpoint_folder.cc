@@ -62,21 +62,19 @@ std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std:
 }
 
 FoundCheckpoint newest_whole_checkpoint(const std::filesystem::path &folder) {
-  FoundCheckpoint found;
-  std::string remarks;
+  std::vector<std::string> remarks;
+  std::string damaged;
   for (const Entry &entry : entries_of(folder)) {
     try {
       CheckpointReader whole(entry.path);
-      found.path = entry.path;
-      found.step = entry.step;
-      return found;
+      return {entry.path, entry.step, remarks};
     } catch (const CheckpointError &error) {
-      found.remarks.push_back(fmt::format("checkpoint not used: {}", error.what()));
-      remarks += fmt::format("\n{}", error.what());
+      remarks.push_back(fmt::format("checkpoint not used: {}", error.what()));
+      damaged += fmt::format("\n{}", error.what());
     }
   }
-  if (remarks.empty()) throw CheckpointError(folder.string() + ": no checkpoint to go on from");
-  throw CheckpointError(folder.string() + ": no whole checkpoint to go on from" + remarks);
+  if (damaged.empty()) throw CheckpointError(folder.string() + ": no checkpoint to go on from");
+  throw CheckpointError(folder.string() + ": no whole checkpoint to go on from" + damaged);
 }
 
 } // namespace platen::apps

@@ -34,9 +34,6 @@ struct OutputPaths {
   std::filesystem::path runs() const { return folder / "runs"; }    // of a study: an output folder for each
   std::filesystem::path view() const { return folder / "view.py"; } // for ParaView
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
-  std::filesystem::path frame(const std::string &series, int index) const {
-    return folder / frame_name(series, index);
-  }
   // "frames/specimen_000012.vtu": relative to the folder, as a .pvd names it.
   static std::string frame_name(const std::string &series, int index);
 };

@@ -68,8 +68,11 @@ Progress::~Progress() {
 bool Progress::due() const {
   if (!started_) return true;
   const double now = screen_.clock();
-  const bool redraws = screen_.redraws && log_.loudness() != Loudness::quiet;
-  return (redraws && now - last_drawn_ >= redraw_interval) || now - last_plain_ >= plain_interval;
+  return redraw_due(now) || now - last_plain_ >= plain_interval;
+}
+
+bool Progress::redraw_due(double now) const {
+  return screen_.redraws && log_.loudness() != Loudness::quiet && now - last_drawn_ >= redraw_interval;
 }
 
 void Progress::update(const ProgressSample &sample) {
@@ -85,7 +88,7 @@ void Progress::update(const ProgressSample &sample) {
     older_ = newer_;
     newer_ = {now, sample.step};
   }
-  if (screen_.redraws && log_.loudness() != Loudness::quiet && now - last_drawn_ >= redraw_interval) {
+  if (redraw_due(now)) {
     draw(sample, now);
     last_drawn_ = now;
   }

@@ -52,6 +52,7 @@ private:
     double clock = 0;
     std::uint64_t step = 0;
   };
+  bool redraw_due(double now) const;
   void show(const ProgressSample &sample, double now);
   std::string plain_line(const ProgressSample &sample, double now) const;
   void draw(const ProgressSample &sample, double now);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace platen::apps {
 
@@ -12,10 +13,7 @@ void SeedStatistics::add(double value) {
 }
 
 double SeedStatistics::mean() const {
-  double sum = 0;
-  for (const double v : values_)
-    sum += v;
-  return sum / static_cast<double>(values_.size());
+  return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
 }
 
 double SeedStatistics::deviation() const {
@@ -28,9 +26,7 @@ double SeedStatistics::deviation() const {
 }
 
 double SeedStatistics::root_mean_square() const {
-  double squares = 0;
-  for (const double v : values_)
-    squares += v * v;
+  const double squares = std::inner_product(values_.begin(), values_.end(), values_.begin(), 0.0);
   return std::sqrt(squares / static_cast<double>(values_.size()));
 }
 

@@ -57,23 +57,24 @@ void set_points(vtkUnstructuredGrid &grid, const std::vector<Vector3> &points) {
   grid.SetPoints(vtk_points);
 }
 
-// Cells of `size` points each.
-void set_cells(vtkUnstructuredGrid &grid, int type, int size, const int *corners, std::size_t cells) {
-  vtkNew<vtkCellArray> array;
-  array->AllocateExact(static_cast<vtkIdType>(cells), static_cast<vtkIdType>(cells) * size);
-  for (std::size_t k = 0; k < cells; ++k) {
-    array->InsertNextCell(size);
-    for (int c = 0; c < size; ++c)
-      array->InsertCellPoint(corners[k * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)]);
-  }
-  grid.SetCells(type, array);
-}
+// Cells of so many points each, all of one type of VTK; `corners`: their points, cell by cell.
+struct Cells {
+  int type, size;
+  const int *corners;
+  std::size_t count;
+};
 
-void add_time(vtkUnstructuredGrid &grid, double time) { // as readers of single frames expect it
-  vtkNew<vtkDoubleArray> value;
-  value->SetName("TimeValue");
-  value->InsertNextValue(time);
-  grid.GetFieldData()->AddArray(value);
+void set_cells(vtkUnstructuredGrid &grid, const Cells &cells) {
+  vtkNew<vtkCellArray> array;
+  const auto count = static_cast<vtkIdType>(cells.count);
+  array->AllocateExact(count, count * cells.size);
+  const int *corner = cells.corners;
+  for (std::size_t k = 0; k < cells.count; ++k) {
+    array->InsertNextCell(cells.size);
+    for (int c = 0; c < cells.size; ++c)
+      array->InsertCellPoint(*corner++);
+  }
+  grid.SetCells(cells.type, array);
 }
 
 // Codes below VTK's own are those of the system.
@@ -106,9 +107,20 @@ void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
     throw OutputError(part.string() + ": cannot be written: the file is cut off");
 }
 
-void write_grid(const std::filesystem::path &path, vtkUnstructuredGrid &grid) {
+void write_cells(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
+                 const Cells &cells, const std::vector<Field> &point_fields,
+                 const std::vector<Field> &cell_fields) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(*grid, points);
+  set_cells(*grid, cells);
+  add_fields(grid->GetPointData(), point_fields, points.size());
+  add_fields(grid->GetCellData(), cell_fields, cells.count);
+  vtkNew<vtkDoubleArray> time_value; // as readers of single frames expect it
+  time_value->SetName("TimeValue");
+  time_value->InsertNextValue(time);
+  grid->GetFieldData()->AddArray(time_value);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(&grid);
+  writer->SetInputData(grid);
   write_vtk_aside(path, *writer);
 }
 
@@ -131,12 +143,7 @@ void write_points(const std::filesystem::path &path, double time, const std::vec
                   const std::vector<Field> &point_fields) {
   std::vector<int> corners(points.size());
   std::iota(corners.begin(), corners.end(), 0);
-  vtkNew<vtkUnstructuredGrid> grid;
-  set_points(*grid, points);
-  set_cells(*grid, VTK_VERTEX, 1, corners.data(), corners.size());
-  add_fields(grid->GetPointData(), point_fields, points.size());
-  add_time(*grid, time);
-  write_grid(path, *grid);
+  write_cells(path, time, points, {VTK_VERTEX, 1, corners.data(), corners.size()}, point_fields, {});
 }
 
 void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
@@ -145,13 +152,8 @@ void write_lines(const std::filesystem::path &path, double time, const std::vect
   const auto outside = [&](int p) { return p < 0 || static_cast<std::size_t>(p) >= points.size(); };
   for (const auto &line : lines)
     if (outside(line[0]) || outside(line[1])) throw std::logic_error("a line ends at no point");
-  vtkNew<vtkUnstructuredGrid> grid;
-  set_points(*grid, points);
-  set_cells(*grid, VTK_LINE, 2, lines.empty() ? nullptr : lines.front().data(), lines.size());
-  add_fields(grid->GetPointData(), point_fields, points.size());
-  add_fields(grid->GetCellData(), line_fields, lines.size());
-  add_time(*grid, time);
-  write_grid(path, *grid);
+  const int *ends = lines.empty() ? nullptr : lines.front().data();
+  write_cells(path, time, points, {VTK_LINE, 2, ends, lines.size()}, point_fields, line_fields);
 }
 
 } // namespace platen::apps

@@ -29,8 +29,8 @@ protected:
       put(file, "run");
     for (const char *series : {"specimen", "bonds", "platens", "sleeve", "contacts"}) {
       put(output_ / (std::string(series) + ".pvd"), "run");
-      put(paths.frame(series, 0), "run");
-      put(paths.frame(series, 1234567), "run");
+      put(paths.folder / OutputPaths::frame_name(series, 0), "run");
+      put(paths.folder / OutputPaths::frame_name(series, 1234567), "run");
     }
     put(output_ / "summary.part.json", "killed while writing");
     put(output_ / "frames" / "bonds_000003.part.vtu", "killed while writing");
