@@ -93,15 +93,24 @@ std::string table_of(const Scene &scene, const Found &f) {
   return text;
 }
 
+// Where what is found stands: in summary.json and in a scene.
+struct FoundNumber {
+  const char *key, *entry, *unit;
+  double BondChoice::*number;
+};
+constexpr FoundNumber found_numbers[] = {
+    {"bond_modulus_pa", "Modulus", " Pa", &BondChoice::modulus},
+    {"stiffness_ratio", "Stiffness ratio", "", &BondChoice::stiffness_ratio},
+    {"radius_multiplier", "Radius multiplier", "", &BondChoice::radius_multiplier},
+    {"bond_tensile_strength_pa", "Tensile strength", " Pa", &BondChoice::tensile_strength},
+    {"bond_shear_strength_pa", "Shear strength", " Pa", &BondChoice::shear_strength},
+    {"moment_contribution", "Moment contribution", "", &BondChoice::moment_contribution},
+    {"friction_angle_rad", "Friction angle", " rad", &BondChoice::friction_angle}};
+
 void tell_found(const Scene &scene, const Found &f, RunLog &log, Json &s) {
   const BondChoice &c = f.choice;
-  s["found"] = {{"bond_modulus_pa", c.modulus},
-                {"stiffness_ratio", c.stiffness_ratio},
-                {"radius_multiplier", c.radius_multiplier},
-                {"bond_tensile_strength_pa", c.tensile_strength},
-                {"bond_shear_strength_pa", c.shear_strength},
-                {"moment_contribution", c.moment_contribution},
-                {"friction_angle_rad", c.friction_angle}};
+  for (const FoundNumber &one : found_numbers)
+    s["found"][one.key] = c.*one.number;
   s["training"] = json_of(f.training);
   s["verification"] = json_of(f.unseen);
   const Measured &judged = f.unseen.young.count() > 0 ? f.unseen : f.training;
@@ -125,19 +134,11 @@ void tell_found(const Scene &scene, const Found &f, RunLog &log, Json &s) {
 
 // found.prm: the scene itself with what was found in it.
 void write_found(const CommandLine &command, const Scene &scene, const Found &f, const AppOutput &output) {
-  const BondChoice &c = f.choice;
   std::vector<std::string> overrides = command.overrides;
-  const auto set = [&](const char *key, double value, const char *unit) {
-    overrides.push_back(fmt::format("Bond/{} = {}{}", key, shortest_text(value), unit));
-  };
-  set("Modulus", c.modulus, " Pa");
-  set("Stiffness ratio", c.stiffness_ratio, "");
-  set("Radius multiplier", c.radius_multiplier, "");
-  set("Tensile strength", c.tensile_strength, " Pa");
-  set("Shear strength", c.shear_strength, " Pa");
-  set("Moment contribution", c.moment_contribution, "");
-  if (c.friction_angle != scene.bond.number("friction_angle"))
-    set("Friction angle", c.friction_angle, " rad");
+  for (const auto &[key, entry, unit, number] : found_numbers)
+    if (number != &BondChoice::friction_angle ||
+        f.choice.friction_angle != scene.bond.number("friction_angle"))
+      overrides.push_back(fmt::format("Bond/{} = {}{}", entry, shortest_text(f.choice.*number), unit));
   const Scene found = read_scene(command.scene, overrides, AppKind::calibrate);
   std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", found.name, version_line(),
                                     table_of(scene, f));

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <fstream>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <sstream>
@@ -91,9 +92,7 @@ Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog
 void Trials::read() {
   const std::filesystem::path path = paths_.folder / "trials.csv";
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream whole;
-  whole << file.rdbuf();
-  const std::string text = whole.str();
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::size_t end = text.rfind('\n'); // a row that was cut off counts for nothing
   if (!file || end == std::string::npos)
     throw InputError(path.string() + ": error: holds no trials to resume from; leave out --resume");
