@@ -1,5 +1,4 @@
 // Cases of the study of accuracy.
-#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -98,17 +97,6 @@ const NumberParameter number_parameters[] = {
     {"sleeve mass scaling", "Sleeve/Mass scaling", "Study/Sleeve mass scaling list", "",
      "sleeve_mass_scaling", Finer::smaller, &Study::sleeve_mass_scalings,
      [](const Scene &s) { return s.loading.cell->sleeve->mass_scaling; }, needs_sleeve}};
-
-// Letters and digits in lower case, one underscore for each run of anything else.
-std::string as_name(const std::string &words) {
-  std::string name;
-  for (const char c : words)
-    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    else if (!name.empty() && name.back() != '_')
-      name += '_';
-  return name;
-}
 
 void check_list(const Scene &scene, const NumberParameter &parameter, const std::vector<double> &values) {
   const auto refuse = [&](const std::string &why) { scene.parameters->refuse(parameter.list, why); };

@@ -1,6 +1,7 @@
 #include "apps/study/cases.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -121,6 +122,16 @@ StudyKind study_kind(const std::string &word) {
   const auto found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return static_cast<StudyKind>(found - words.begin());
   throw InputError("command line: error: KIND = " + word + " is not known. Allowed: " + joined(words) + ".");
+}
+
+std::string as_name(const std::string &words) {
+  std::string name;
+  for (const char c : words)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  return name;
 }
 
 std::size_t add(StudyPlan &plan, StudyCase one) {

@@ -16,11 +16,6 @@ double width(const SpecimenSection &s) {
   return s.shape == SpecimenShape::box ? std::min(s.width_x, s.width_y) : 2 * s.radius; // m
 }
 
-std::string with_underscores(std::string words) {
-  std::replace(words.begin(), words.end(), ' ', '_');
-  return words;
-}
-
 void check_test(const Scene &scene) {
   if (scene.loading.test != LoadingTest::compression)
     scene.parameters->refuse("Loading/Test", "is no test that platens end. Allowed: compression.");
@@ -83,7 +78,7 @@ std::vector<std::string> surface_entries(const Scene &scene, const StudySurface 
 }
 
 std::string surface_name(const StudySurface &of) {
-  return std::isnan(of.friction) ? with_underscores(text_of(of)) : "friction_" + in_name(of.friction);
+  return std::isnan(of.friction) ? as_name(text_of(of)) : "friction_" + in_name(of.friction);
 }
 
 // To twelve digits: three widths of 0.05 m are 0.15 m, whatever the product's last bit.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "apps/io/run_log.h"
 #include "apps/io/stop_signal.h"
 #include "apps/io/summary.h"
+#include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/values.h"
@@ -38,9 +40,7 @@ constexpr std::chrono::seconds patience_of_study{60};
 
 std::string content_of(const fs::path &path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string text_of(const Scene &scene, const fs::path &folder) {
@@ -88,9 +88,8 @@ private:
 
 std::string StudyApp::description() const {
   std::string text =
-      fmt::format("{}\n  study of {}: {} cases on seeds {} to {}, {} runs, {} at a time\n",
-                  scene_.general.title.empty() ? scene_.name : scene_.general.title, word(plan_.kind),
-                  plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(),
+      fmt::format("{}\n  study of {}: {} cases on seeds {} to {}, {} runs, {} at a time\n", title_of(scene_),
+                  word(plan_.kind), plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(),
                   std::min<std::size_t>(runs_.size(), static_cast<std::size_t>(threads())));
   for (const StudyCase &one : plan_.cases)
     text += fmt::format("  {}:{}{}\n", one.name, one.overrides.empty() ? "" : " ",
@@ -218,12 +217,7 @@ int StudyApp::finish(const StudyTables &tables) {
   study["cases"] = tables.cases();
   const std::string compared = compare(tables, study);
   write_summary(paths_.study_json(), study);
-  Json s;
-  s["status"] = study["status"];
-  s["app"] = "platen-study";
-  s["scene"] = scene_.general.title.empty() ? scene_.name : scene_.general.title;
-  s["version"] = version_line();
-  s["effects"] = effects_on(scene_);
+  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_));
   s.update(study);
   s["missed"] = missed_;
   s["threads"] = threads();

@@ -127,10 +127,7 @@ StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),
       study_(paths.study(), columns_of(plan, figures)),
       costs_(paths.costs(), columns_of(plan, costs)),
-      cases_(plan.cases.size()) {
-  for (OfCase &of : cases_)
-    of.figures.resize(figures.size());
-}
+      cases_(plan.cases.size()) {}
 
 void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   const StudyCase &of = plan_.cases[run.of];
@@ -140,10 +137,10 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   cells.insert(cells.end(), of.labels.begin(), of.labels.end());
   cells.insert(cells.end(), {run.seed, outcome.done ? "done" : "failed"});
   std::vector<CsvCell> cost_cells = cells;
-  for (std::size_t k = 0; k < figures.size(); ++k) {
-    const double value = number_in(outcome.summary, figures[k]);
+  for (const std::string &key : figures) {
+    const double value = number_in(outcome.summary, key);
     cells.emplace_back(value);
-    sums.figures[k].add(value);
+    sums.figures[key].add(value);
   }
   const std::string pattern = pattern_in(outcome.summary);
   cells.emplace_back(pattern);
@@ -169,11 +166,6 @@ int StudyTables::failed() const {
                          [](int sum, const OfCase &of) { return sum + of.failed; });
 }
 
-const SeedStatistics &StudyTables::figure(const OfCase &of, const std::string &key) const {
-  return of
-      .figures[static_cast<std::size_t>(std::find(figures.begin(), figures.end(), key) - figures.begin())];
-}
-
 Json StudyTables::cases() const {
   Json all = Json::array();
   for (std::size_t c = 0; c < cases_.size(); ++c) {
@@ -186,8 +178,8 @@ Json StudyTables::cases() const {
     one["runs"] = cases_[c].runs;
     one["failed"] = cases_[c].failed;
     if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
-    for (std::size_t k = 0; k < figures.size(); ++k)
-      one[figures[k]] = json_of(cases_[c].figures[k]);
+    for (const std::string &key : figures)
+      one[key] = json_of(cases_[c].figures.at(key));
     one["patterns"] = cases_[c].patterns;
     all.push_back(std::move(one));
   }
@@ -223,7 +215,7 @@ std::string StudyTables::text() const {
     row.push_back(of.failed == 0 ? std::to_string(of.runs)
                                  : fmt::format("{} of {}", of.runs - of.failed, of.runs));
     for (const Shown &column : measured)
-      row.push_back(text_of(figure(of, column.column), column.unit));
+      row.push_back(text_of(of.figures.at(column.column), column.unit));
     row.push_back(text_of(of.seconds, 1));
     row.push_back(of.bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * of.bytes.mean()) : "-");
     rows.push_back(std::move(row));

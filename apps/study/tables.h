@@ -40,12 +40,11 @@ public:
 private:
   struct OfCase {
     int runs = 0, failed = 0, without_peak = 0;
-    std::vector<SeedStatistics> figures;
-    std::vector<double> strengths; // Pa, by seed; NaN: failed, or without a peak
+    std::map<std::string, SeedStatistics> figures; // by key of summary.json
+    std::vector<double> strengths;                 // Pa, by seed; NaN: failed, or without a peak
     SeedStatistics seconds, bytes;
     std::map<std::string, int> patterns; // runs that failed so
   };
-  const SeedStatistics &figure(const OfCase &of, const std::string &key) const;
 
   const StudyPlan &plan_;
   CsvWriter study_, costs_;
