@@ -181,10 +181,8 @@ void write_accuracy_report(const AccuracyResults &study, const std::filesystem::
                 "Error against the reference of each knob, on the same seed, and seconds of a run; "
                 "from coarse to fine along each line. Grey: within the scatter of the seeds (mean over "
                 "the references), where more accuracy is lost among specimens.",
-                [&](const std::filesystem::path &png) {
-                  save_charts(study.title, "Error against what it costs, root mean square over the seeds",
-                              charts, std::vector<int>(charts.size(), 700), png);
-                });
+                save_charts, study.title, "Error against what it costs, root mean square over the seeds",
+                charts, std::vector<int>(charts.size(), 700));
   }
   std::vector<std::string> remarks = study.remarks;
   if (album.size() == 0) remarks.emplace_back("no run errs: there is nothing to draw");

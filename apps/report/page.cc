@@ -170,12 +170,6 @@ Album::Album(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (error) throw OutputError(folder_.string() + ": cannot be made: " + error.message());
 }
 
-void Album::add(const std::string &name, const std::string &caption,
-                const std::function<void(const std::filesystem::path &)> &draw) {
-  draw(folder_ / name);
-  sections_.back().pictures.push_back({folder_ / name, caption});
-}
-
 std::size_t Album::size() const {
   std::size_t count = 0;
   for (const Section &section : sections_)

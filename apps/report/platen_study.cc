@@ -218,13 +218,13 @@ void write_study_report(const StudyResults &study, const fs::path &folder, std::
                 "Strength against the friction of the platens, and its gain over free ends; bars: "
                 "standard deviation over the seeds, range of the laboratory." +
                     which,
-                [&, &of = cases](const fs::path &png) { draw_friction(study, of, png); });
+                draw_friction, study, cases);
     if (slendernesses.size() > 1)
       album.add("strength_slenderness" + number + ".png",
                 "Strength against height over width, and its ratio to that at 2; bars: standard "
                 "deviation over the seeds, range of the laboratory." +
                     which,
-                [&, &of = cases](const fs::path &png) { draw_slenderness(study, of, png); });
+                draw_slenderness, study, cases);
   }
   std::vector<std::string> remarks = study.remarks;
   if (album.size() == 0) remarks.push_back("one friction and one slenderness: there is no curve to draw");

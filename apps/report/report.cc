@@ -19,18 +19,18 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
   album.add("comparison_stress_strain.png",
             "Stress and broken bonds against strain. A stronger run whose bonds break later was held at its "
             "ends.",
-            [&](const fs::path &png) { draw_stress_strain(runs, png); });
+            draw_stress_strain, runs);
   if (std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.specimen.empty(); })) return;
   album.add("comparison_displacement.png",
             "Half specimens at the end, coloured by outward displacement: what is dark stood still.",
-            [&](const fs::path &png) { draw_side_by_side(runs, Quantity::outward_displacement, png); });
+            draw_side_by_side, runs, Quantity::outward_displacement);
   album.add("comparison_damage.png",
             "Half specimens coloured by the share of each sphere's bonds that is broken: grey is sound.",
-            [&](const fs::path &png) { draw_side_by_side(runs, Quantity::damage, png); });
+            draw_side_by_side, runs, Quantity::damage);
   if (std::any_of(runs.begin(), runs.end(), tells_fragments))
     album.add("comparison_fragments.png",
-              "Pieces at the end, and the cones fitted to what is sound at each platen.",
-              [&](const fs::path &png) { draw_side_by_side(runs, Quantity::pieces, png); });
+              "Pieces at the end, and the cones fitted to what is sound at each platen.", draw_side_by_side,
+              runs, Quantity::pieces);
 }
 
 void draw_curves(const Run &run, Album &album) {
@@ -39,11 +39,11 @@ void draw_curves(const Run &run, Album &album) {
             "Axial stress against strain between the platens and in the gauge; broken bonds; volume. "
             "The two axial strains differ by what the ends take up; where the volume begins to grow, cracks "
             "open. Dots: the peak. The widest lateral strains are cut off.",
-            [&](const fs::path &png) { draw_stress_strain({run}, png); });
+            draw_stress_strain, std::vector<Run>{run});
   album.add("energies.png",
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
             "line.",
-            [&](const fs::path &png) { draw_energies(run, png); });
+            draw_energies, run);
 }
 
 void draw_specimen(const Run &run, const Extent &extent, Album &album) {
@@ -51,45 +51,43 @@ void draw_specimen(const Run &run, const Extent &extent, Album &album) {
   album.add(
       "specimen_outside.png",
       "From outside, coloured by how far each sphere has gone: before the test, near the peak, at the end.",
-      [&](const fs::path &png) { draw_three_moments(run, extent, true, png); });
-  album.add("specimen_inside.png", "The same, cut in half.",
-            [&](const fs::path &png) { draw_three_moments(run, extent, false, png); });
+      draw_three_moments, run, extent, true);
+  album.add("specimen_inside.png", "The same, cut in half.", draw_three_moments, run, extent, false);
   album.add(
       "outward_displacement.png",
       "Half specimen coloured by outward displacement: cones stay dark, what they wedge aside is light.",
-      [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::outward_displacement, png); });
+      draw_pattern_and_end, run, extent, Quantity::outward_displacement);
   album.add("damage.png",
             "Half specimen coloured by the share of each sphere's bonds that is broken: grey is sound.",
-            [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::damage, png); });
+            draw_pattern_and_end, run, extent, Quantity::damage);
   if (tells_fragments(run))
-    album.add("fragments.png", fragments_caption(run),
-              [&](const fs::path &png) { draw_pattern_and_end(run, extent, Quantity::pieces, png); });
+    album.add("fragments.png", fragments_caption(run), draw_pattern_and_end, run, extent, Quantity::pieces);
 }
 
 void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, Album &album) {
   if (!run.cracks) return;
   album.begin("Cracks");
-  album.add("cracks.png", "Broken bonds as discs, in tension (left) and in shear (right).",
-            [&](const fs::path &png) { draw_cracks(run, before_test, png); });
+  album.add("cracks.png", "Broken bonds as discs, in tension (left) and in shear (right).", draw_cracks, run,
+            before_test);
   album.add(
       "crack_times.png",
       "The same discs by when they broke. What is empty on the right stood still while the rest failed.",
-      [&](const fs::path &png) { draw_crack_times(run, before_test, png); });
+      draw_crack_times, run, before_test);
   album.add("crack_density.png",
             std::string("Broken bonds over height and distance from the ") +
                 (is_plane ? "middle plane" : "axis") + "; the left half mirrors the right.",
-            [&](const fs::path &png) { draw_crack_density(run, before_test, png); });
+            draw_crack_density, run, before_test);
   if (tells_rose(run))
     album.add(
         "crack_rose.png",
         "Which way cracks face, all of the run: beyond the line there are more than if they faced all ways "
         "alike. Cracks at 90 degrees run along the specimen: it splits.",
-        [&](const fs::path &png) { draw_crack_rose(run, png); });
+        draw_crack_rose, run);
   if (run.events && run.events->rows > 0)
     album.add("acoustic.png",
               "Cracks near in place and time are one event. Where a curve leaves its line downwards there "
               "are fewer great events than a power law has: b says how the small ones fall off.",
-              [&](const fs::path &png) { draw_acoustic(run, png); });
+              draw_acoustic, run);
 }
 
 void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {
@@ -101,14 +99,14 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
         "Stress in the plane y = 0 near the peak, averaged over the spheres; on the left the vertical "
         "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
         "ones are grey.",
-        [&](const fs::path &png) { draw_stress_flow(run, before_test, png); });
+        draw_stress_flow, run, before_test);
   if (extent.form != Extent::Form::cylinder) return;
   album.add("platen_pressure.png",
             "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
             "end together by inward shear.",
-            [&](const fs::path &png) { draw_platen_profiles(run, extent, png); });
+            draw_platen_profiles, run, extent);
   album.add("stick_slip.png", "Spheres at the platens near the peak: which stick and which slide.",
-            [&](const fs::path &png) { draw_stick_and_slip(run, extent, png); });
+            draw_stick_and_slip, run, extent);
 }
 
 void draw_one_run(const Run &run, Album &album) {
@@ -139,8 +137,7 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
   draw_one_run(runs.front(), album);
   if (!costs_of(runs.front()).empty()) {
     album.begin("Where the seconds went");
-    album.add("seconds.png", machine_words(runs.front()),
-              [&](const fs::path &png) { draw_costs(runs.front(), png); });
+    album.add("seconds.png", machine_words(runs.front()), draw_costs, runs.front());
   }
   album.finish(runs.front().title, table_of_figures(runs), remarks, out);
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -32,9 +31,12 @@ public:
   // Makes the folder where it is not there. Throws OutputError.
   explicit Album(std::filesystem::path folder);
   void begin(const std::string &heading) { sections_.push_back({heading, {}}); } // empty: without a heading
-  // Draws a picture into the folder; the caption tells what to see in it.
-  void add(const std::string &name, const std::string &caption,
-           const std::function<void(const std::filesystem::path &)> &draw);
+  // Draws a picture into the folder by draw(inputs..., file); the caption tells what to see in it.
+  template <class Draw, class... Inputs>
+  void add(const std::string &name, const std::string &caption, const Draw &draw, const Inputs &...inputs) {
+    draw(inputs..., folder_ / name);
+    sections_.back().pictures.push_back({folder_ / name, caption});
+  }
   std::size_t size() const; // pictures
   // Writes report.html (title, list of sections, figures, remarks, pictures held in the page itself) and
   // prints the pictures, the page and the figures. Throws OutputError.
