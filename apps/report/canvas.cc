@@ -73,12 +73,18 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
 }
 
 Canvas::Canvas(int width, int height)
-    : width_(width), height_(height), window_(vtkSmartPointer<vtkRenderWindow>::New()) {
+    : width_(width),
+      height_(height),
+      window_(vtkSmartPointer<vtkRenderWindow>::New()),
+      overlay_(vtkSmartPointer<vtkRenderer>::New()) {
   window_->SetOffScreenRendering(1);
   window_->SetSize(oversampling * width, oversampling * height);
   window_->SetMultiSamples(0);
   window_->SetNumberOfLayers(2);
   add_renderer({0, 0, 1, 1}); // white, also where no other renderer draws
+  overlay_->SetLayer(1);
+  overlay_->InteractiveOff();
+  window_->AddRenderer(overlay_);
 }
 
 vtkRenderer *Canvas::add_renderer(const std::array<double, 4> &part) {
@@ -105,23 +111,13 @@ std::array<double, 2> Canvas::on_window(vtkRenderer *renderer, const std::array<
           part[1] + 0.5 * (1 + point[1] / point[3]) * (part[3] - part[1])};
 }
 
-vtkRenderer *Canvas::overlay() {
-  if (!overlay_) {
-    overlay_ = vtkSmartPointer<vtkRenderer>::New();
-    overlay_->SetLayer(1);
-    overlay_->InteractiveOff();
-    window_->AddRenderer(overlay_);
-  }
-  return overlay_;
-}
-
 vtkTextActor *Canvas::add_centred(const std::string &text, double x, double y) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->GetTextProperty()->SetJustificationToCentered();
   actor->GetTextProperty()->SetVerticalJustificationToCentered();
   actor->SetPosition(x * oversampling * width_, y * oversampling * height_);
-  overlay()->AddActor(actor);
+  overlay_->AddActor(actor);
   return actor;
 }
 
@@ -131,7 +127,7 @@ void Canvas::add_text(const std::string &text, double x, double y, int size, dou
   double extent[2]{};
   for (int letters = size; letters >= smallest; --letters) {
     set_letters(actor->GetTextProperty(), letters, bold);
-    actor->GetSize(overlay(), extent);
+    actor->GetSize(overlay_, extent);
     if (extent[0] <= widest * oversampling * width_) break;
   }
   const double half = 0.5 * extent[0] / (oversampling * width_), edge = 0.01;

@@ -79,11 +79,10 @@ public:
 
 private:
   vtkTextActor *add_centred(const std::string &text, double x, double y);
-  vtkRenderer *overlay(); // a layer over everything, for text
 
   int width_, height_;
   vtkSmartPointer<vtkRenderWindow> window_;
-  vtkSmartPointer<vtkRenderer> overlay_;
+  vtkSmartPointer<vtkRenderer> overlay_; // a layer over everything, for text
 };
 
 } // namespace platen::apps::report

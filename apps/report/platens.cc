@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/report/chart.h"
 
@@ -27,22 +26,15 @@ const char *word(PlatenEnd end) {
 // Shapes tell what colours tell: filled discs stick, crosses slide.
 void add_contacts(vtkChartXY &chart, const PlatenContacts &contacts, bool sliding, bool heavy, double mean) {
   std::vector<double> x, y;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (contacts.sliding[k] != sliding || (contacts.normal_force[k] > mean) != heavy) continue;
-    x.push_back(contacts.x[k] * mm_per_m);
-    y.push_back(contacts.y[k] * mm_per_m);
-  }
+  for (const PlatenContact &one : contacts)
+    if (one.sliding == sliding && (one.normal_force > mean) == heavy)
+      x.push_back(one.x * mm_per_m), y.push_back(one.y * mm_per_m);
   if (!x.empty())
     add_dots(chart, x, y, sliding ? colours::vermilion : colours::blue,
              sliding ? vtkPlotPoints::CROSS : vtkPlotPoints::CIRCLE, heavy ? 20 : 10);
 }
 
 } // namespace
-
-double PlatenContacts::sliding_share() const {
-  if (size() == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(std::count(sliding.begin(), sliding.end(), true)) / static_cast<double>(size());
-}
 
 PlatenContacts contacts_with(PlatenEnd end, const Frame &frame) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
@@ -56,11 +48,8 @@ PlatenContacts contacts_with(PlatenEnd end, const Frame &frame) {
     const double *p = grid->GetPoint(k);
     const double radius = std::hypot(p[0], p[1]);
     const double sx = shear.GetComponent(k, 0), sy = shear.GetComponent(k, 1);
-    contacts.x.push_back(p[0]);
-    contacts.y.push_back(p[1]);
-    contacts.normal_force.push_back(force.GetComponent(k, 0));
-    contacts.inward_shear.push_back(radius > 0 ? -(sx * p[0] + sy * p[1]) / radius : 0);
-    contacts.sliding.push_back(sliding.GetComponent(k, 0) != 0);
+    contacts.push_back({p[0], p[1], force.GetComponent(k, 0),
+                        radius > 0 ? -(sx * p[0] + sy * p[1]) / radius : 0, sliding.GetComponent(k, 0) != 0});
   }
   return contacts;
 }
@@ -73,12 +62,12 @@ RingProfile profile_of(const PlatenContacts &contacts, double radius, int rings)
   for (std::size_t k = 0; k < n; ++k)
     profile.middle.push_back(radius * std::sqrt((static_cast<double>(k) + 0.5) / rings));
   const double area = pi * radius * radius / rings;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double share = (contacts.x[k] * contacts.x[k] + contacts.y[k] * contacts.y[k]) / (radius * radius);
+  for (const PlatenContact &one : contacts) {
+    const double share = (one.x * one.x + one.y * one.y) / (radius * radius);
     const std::size_t ring =
         std::min(n - 1, static_cast<std::size_t>(share * rings)); // the last holds what lies beyond
-    profile.pressure[ring] += contacts.normal_force[k] / area;
-    profile.inward_shear[ring] += contacts.inward_shear[k] / area;
+    profile.pressure[ring] += one.normal_force / area;
+    profile.inward_shear[ring] += one.inward_shear / area;
   }
   return profile;
 }
@@ -114,20 +103,20 @@ void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesy
   for (const PlatenEnd end : {PlatenEnd::bottom, PlatenEnd::top}) {
     const PlatenContacts contacts = contacts_with(end, nearest(run.contacts, run.moments.peak_time));
     double mean = 0;
-    for (const double force : contacts.normal_force)
-      mean += force / static_cast<double>(contacts.size());
+    for (const PlatenContact &one : contacts)
+      mean += one.normal_force / static_cast<double>(contacts.size());
     const double start = end == PlatenEnd::bottom ? left : 2.0 * left + plot + right;
     const PlotArea area{start, foot, plot, plot};
     const auto chart = frame_chart(area);
-    for (const bool heavy : {false, true}) {
-      add_contacts(*chart, contacts, false, heavy, mean);
-      add_contacts(*chart, contacts, true, heavy, mean);
-    }
+    for (const bool heavy : {false, true})
+      for (const bool slides : {false, true})
+        add_contacts(*chart, contacts, slides, heavy, mean);
     set_axis(chart->GetAxis(vtkAxis::BOTTOM), {-reach, reach}, 6);
     set_axis(chart->GetAxis(vtkAxis::LEFT), {-reach, reach}, 6);
     charts.push_back(chart);
     add_axis_titles(canvas, area, "x (mm)", "y (mm)");
-    const auto sliding = std::count(contacts.sliding.begin(), contacts.sliding.end(), true);
+    const auto sliding =
+        std::count_if(contacts.begin(), contacts.end(), [](const PlatenContact &one) { return one.sliding; });
     canvas.add_text(fmt::format("{}: {} stick, {} slide", word(end),
                                 static_cast<long>(contacts.size()) - sliding, sliding),
                     (start + 0.5 * plot) / canvas.width(), (foot + plot + 0.5 * caption) / canvas.height(),

@@ -9,15 +9,14 @@
 
 namespace platen::apps::report {
 
-// Contacts with one platen in one frame of contacts.pvd.
-struct PlatenContacts {
-  std::vector<double> x, y;         // m
-  std::vector<double> normal_force; // N, pressing
-  std::vector<double> inward_shear; // N, on the specimen, towards the axis
-  std::vector<bool> sliding;
-  std::size_t size() const { return x.size(); }
-  double sliding_share() const; // of the contacts; NaN without any
+// A contact with a platen.
+struct PlatenContact {
+  double x, y;         // m
+  double normal_force; // N, pressing
+  double inward_shear; // N, on the specimen, towards the axis
+  bool sliding;
 };
+using PlatenContacts = std::vector<PlatenContact>; // with one platen in one frame of contacts.pvd
 
 enum class PlatenEnd { bottom, top };
 

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace platen::apps::report {
 namespace {
@@ -28,20 +27,13 @@ namespace {
 constexpr double rise = 0.12; // tangent of the angle from which the cut is seen, about 7 degrees from above
 constexpr int panel_width = 760, picture_height = 1240, bar_width = 260;
 
-std::vector<std::size_t> shown(const CutView &view) {
-  if (!view.is_whole) return kept_half(view.spheres);
-  std::vector<std::size_t> rows(view.spheres.size());
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
-  return rows;
-}
-
 vtkSmartPointer<vtkPolyData> spheres_as_points(const CutView &view) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> radius; // the mapper takes its bytes for floats, whatever they are
   vtkNew<vtkDoubleArray> value;
   radius->SetName("radius");
   value->SetName("value");
-  for (const std::size_t k : shown(view)) {
+  for (const std::size_t k : rows_shown(view.spheres, view.is_whole)) {
     points->InsertNextPoint(view.spheres.position[k].data());
     radius->InsertNextValue(static_cast<float>(view.spheres.radius[k]));
     value->InsertNextValue(view.values[k]);
@@ -89,17 +81,17 @@ void add_outlines(vtkRenderer *renderer, std::vector<Outline> outlines, double n
 
 } // namespace
 
-std::vector<std::size_t> kept_half(const Spheres &spheres) {
+std::vector<std::size_t> rows_shown(const Spheres &spheres, bool whole) {
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < spheres.size(); ++k)
-    if (spheres.initial[k][1] <= 0) rows.push_back(k);
+    if (whole || spheres.initial[k][1] <= 0) rows.push_back(k);
   return rows;
 }
 
 std::vector<double> ticks_for(const std::vector<CutView> &views) {
   std::vector<double> all;
   for (const CutView &view : views)
-    for (const std::size_t k : shown(view))
+    for (const std::size_t k : rows_shown(view.spheres, view.is_whole))
       all.push_back(view.values[k]);
   if (all.empty()) return {0, 1};
   const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));

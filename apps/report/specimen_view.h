@@ -15,9 +15,9 @@ class vtkPolyDataMapper;
 
 namespace platen::apps::report {
 
-// Rows of the spheres that stay when the half y > 0 is taken away, as the specimen lay before the test: a
-// sphere does not come and go as it moves.
-std::vector<std::size_t> kept_half(const Spheres &spheres);
+// Rows of the spheres that are seen: all, or those that stay when the half y > 0 is taken away, as the
+// specimen lay before the test: a sphere does not come and go as it moves.
+std::vector<std::size_t> rows_shown(const Spheres &spheres, bool whole);
 
 using Outline = std::vector<Position>; // a line over the cut, in front of all spheres
 
