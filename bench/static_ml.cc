@@ -32,7 +32,7 @@ std::vector<double> rigid_motions(const std::vector<Vector3> &place, const std::
 
 } // namespace
 
-MlSolution solve_by_ml(const dem::statics::BlockMatrix<6, double> &a, const std::vector<Vector3> &place,
+MlSolution solve_by_ml(const BlockMatrix<6, double> &a, const std::vector<Vector3> &place,
                        const std::vector<double> &length, const std::vector<double> &right,
                        double tolerance) {
   // Trilinos is built for MPI and does not go without.

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "base/block_matrix.h"
 #include "base/vector3.h"
-#include "dem/statics/block_matrix.h"
 
 namespace platen::bench {
 
@@ -15,7 +15,7 @@ struct MlSolution {
   std::vector<double> x;
 };
 // Displacements and rotations times `length` (m), as in dem/statics/network.h.
-MlSolution solve_by_ml(const dem::statics::BlockMatrix<6, double> &a, const std::vector<Vector3> &place,
+MlSolution solve_by_ml(const BlockMatrix<6, double> &a, const std::vector<Vector3> &place,
                        const std::vector<double> &length, const std::vector<double> &right, double tolerance);
 
 } // namespace platen::bench

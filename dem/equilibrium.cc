@@ -188,9 +188,9 @@ private:
 
   const Particles &p_;
   const Bonds &network_;
-  statics::BlockMatrix<n, double> bonds_, matrix_; // without and with supports
-  std::vector<std::size_t> diagonal_;              // block of each row
-  std::vector<std::size_t> supported_;             // rows
+  BlockMatrix<n, double> bonds_, matrix_; // without and with supports
+  std::vector<std::size_t> diagonal_;     // block of each row
+  std::vector<std::size_t> supported_;    // rows
   std::vector<char> fixed_;
   std::optional<statics::Multigrid<n>> multigrid_;
 };

@@ -1,21 +1,17 @@
 #include "dem/stable_step.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "base/lanczos.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr int most_iterations = 300;
-constexpr double tolerance = 0.01; // of omega^2: the step comes out at most 0.5 % too small
 
 // A pair spring in general form: bonds carry moments, contacts do not.
 struct PairSpring {
@@ -201,7 +197,6 @@ Mode start_mode(std::size_t n, bool turning) {
       for (int k = 0; k < 3; ++k)
         x.turn[i][k] = next();
   }
-  multiply(x, 1 / std::sqrt(inner(x, x)));
   return x;
 }
 
@@ -213,47 +208,6 @@ int largest_particle(const Mode &mode) {
     if (a > most) most = a, best = i;
   }
   return static_cast<int>(best);
-}
-
-struct LargestEigenvalue {
-  double value = 0; // from above
-  int iterations = 0;
-  Mode mode; // roughly
-};
-
-// Lanczos; the residual of the largest Ritz value is added to it.
-LargestEigenvalue largest_eigenvalue(Operator &matrix, std::size_t particles) {
-  LargestEigenvalue result;
-  Mode x = start_mode(particles, matrix.turning()), before(particles, matrix.turning());
-  std::vector<double> alpha, beta;
-  double largest = 0, residual = 0;
-  for (int it = 0; it < most_iterations; ++it) {
-    Mode y = matrix.apply(x);
-    alpha.push_back(inner(x, y));
-    add(y, -alpha.back(), x);
-    if (it > 0) add(y, -beta.back(), before);
-    const double length = std::sqrt(inner(y, y));
-    const int n = it + 1;
-    Eigen::VectorXd diagonal = Eigen::Map<Eigen::VectorXd>(alpha.data(), n), side(std::max(n - 1, 0));
-    for (int k = 0; k + 1 < n; ++k)
-      side[k] = beta[k];
-    const bool look = it < 4 || it % 5 == 4 || it + 1 == most_iterations;
-    if (look) {
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-      ritz.computeFromTridiagonal(diagonal, side);
-      largest = ritz.eigenvalues()[n - 1];
-      residual = length * std::abs(ritz.eigenvectors()(n - 1, n - 1));
-    }
-    result.iterations = n;
-    beta.push_back(length);
-    if ((look && residual <= tolerance * largest && it >= 4) || length <= 1e-14 * largest) break;
-    before = x;
-    x = y;
-    multiply(x, 1 / length);
-  }
-  result.value = largest + residual;
-  result.mode = std::move(x);
-  return result;
 }
 
 // What holds the particles, in words.
@@ -284,9 +238,14 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   result.reason = "nothing elastic in the scene limits the step";
   Operator stiffness(Matrix::stiffness, particles, bonds, contacts, ground, dashpots);
   if (particles.size() == 0 || stiffness.empty()) return result;
-  LargestEigenvalue squared = largest_eigenvalue(stiffness, particles.size());
+  // To 1 % of omega^2: the step comes out at most 0.5 % too small.
+  const Mode start = start_mode(particles.size(), particles.has_rotation());
+  const auto largest = [&](Operator &matrix) {
+    return largest_eigenvalue([&](const Mode &x) { return matrix.apply(x); }, start);
+  };
+  LargestEigenvalue<Mode> squared = largest(stiffness);
   Operator damping(Matrix::damping, particles, bonds, contacts, ground, dashpots);
-  const double rate = damping.empty() ? 0.0 : largest_eigenvalue(damping, particles.size()).value; // 1/s
+  const double rate = damping.empty() ? 0.0 : largest(damping).value; // 1/s
   result.iterations = squared.iterations;
   result.omega = std::sqrt(squared.value);
   const double holding = (1 + dashpots.local) * (2 * dashpots.scheme - 1), k = holding * squared.value,

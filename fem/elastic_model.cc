@@ -56,13 +56,12 @@ void lay_out(ElasticModel &model) {
   dealii::DynamicSparsityPattern pattern(n, n);
   dealii::DoFTools::make_sparsity_pattern(*model.numbers, pattern);
   NodeMatrix &k = model.stiffness;
-  k.begin.push_back(0);
   for (dealii::DynamicSparsityPattern::size_type row = 0; row < n; ++row) {
     for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)
       k.column.push_back(static_cast<int>(entry->column()));
     k.begin.push_back(k.column.size());
   }
-  k.values.assign(9 * k.column.size(), 0.0);
+  k.clear_blocks();
 }
 
 // One cell's blocks, row by row of nodes: lambda g_a g_b^T + mu (g_a . g_b I + g_b g_a^T), integrated. Blocks
@@ -167,10 +166,10 @@ ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> mat
     model.cell_bound = std::max(model.cell_bound, norm_of(blocks, share));
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {
-        double *sum = model.stiffness.block(static_cast<std::size_t>(model.cell_nodes[n * number + a]),
-                                            model.cell_nodes[n * number + b]);
+        double *sum = model.stiffness.find(static_cast<std::size_t>(model.cell_nodes[n * number + a]),
+                                           model.cell_nodes[n * number + b]);
         for (std::size_t k = 0; k < 9; ++k)
-          sum[k] += blocks[9 * (a * n + b) + k];
+          sum[k] += blocks[9 * (a * n + b) + 3 * (k % 3) + k / 3];
       }
   }
   return model;

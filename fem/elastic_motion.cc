@@ -201,7 +201,7 @@ void ElasticSolid::substep(double dt) {
 void ElasticSolid::find_internal_forces() {
   for (std::size_t i = 0; i < moved_.size(); ++i)
     strained_[i] = turned_ ? to_frame(arm(i)) - (model_.nodes[i] - pivot_) : moved_[i] - displacement_;
-  model_.stiffness.multiply(strained_, force_);
+  multiply(model_.stiffness, strained_, force_);
   for (Vector3 &f : force_)
     f = -1.0 * to_space(f);
 }
@@ -232,7 +232,7 @@ void ElasticSolid::damp(double dt) {
   std::vector<Vector3> relative(rate_.size()), impulse(rate_.size(), Vector3{});
   for (std::size_t i = 0; i < rate_.size(); ++i)
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
-  if (beta > 0) model_.stiffness.multiply(relative, impulse);
+  if (beta > 0) multiply(model_.stiffness, relative, impulse);
   Vector3 force{}, moment{};
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double mass = model_.mass[i];

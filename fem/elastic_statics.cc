@@ -105,10 +105,10 @@ void ElasticSolid::measure_path() {
   std::vector<Vector3> displacement(start_.size()), product;
   for (std::size_t i = 0; i < displacement.size(); ++i)
     displacement[i] = target_[i] - start_[i];
-  model_.stiffness.multiply(start_, product);
+  multiply(model_.stiffness, start_, product);
   path_[0] = 0.5 * dot(start_, product);
   path_[1] = dot(displacement, product);
-  model_.stiffness.multiply(displacement, product);
+  multiply(model_.stiffness, displacement, product);
   path_[2] = 0.5 * dot(displacement, product);
 }
 
@@ -164,7 +164,7 @@ void ElasticSolid::set_support(const std::vector<double> &vertex_stiffness) {
   for (std::size_t v = 0; v < node_of_.size(); ++v) {
     const int node = node_of_[v];
     support_[static_cast<std::size_t>(node)] = vertex_stiffness[v];
-    double *block = supported_.block(static_cast<std::size_t>(node), node);
+    double *block = supported_.find(static_cast<std::size_t>(node), node);
     for (const std::size_t k : {0, 4, 8})
       block[k] += vertex_stiffness[v];
   }

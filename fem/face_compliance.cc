@@ -111,7 +111,7 @@ private:
         const int column = place_[index(k.column[e])];
         if (column < 0) border_.push_back(k.column[e]);
         for (std::size_t i = 0; i < 9 && column >= 0; ++i)
-          matrix_[(3 * row + i / 3) * n + 3 * index(column) + i % 3] = k.values[9 * e + i];
+          matrix_[(3 * row + i % 3) * n + 3 * index(column) + i / 3] = k.at(e)[i];
       }
     std::sort(border_.begin(), border_.end());
     border_.erase(std::unique(border_.begin(), border_.end()), border_.end());

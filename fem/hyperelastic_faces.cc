@@ -170,7 +170,6 @@ std::vector<Vector3> HyperelasticSolid::stiffness_times(const std::vector<Vector
 // One block for each pair of nodes that share a cell.
 void HyperelasticSolid::lay_out_stiffness() {
   std::vector<int> beside;
-  stiffness_.begin.push_back(0);
   for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
     beside.clear();
     for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
@@ -185,15 +184,15 @@ void HyperelasticSolid::lay_out_stiffness() {
 
 // The symmetric part: that of the pressure is symmetric but for its rims.
 void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, NodeMatrix &rows) const {
-  rows.values.assign(9 * rows.column.size(), 0.0);
+  rows.clear_blocks();
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b) {
-        double *block = rows.block(index(mesh_.cell_nodes[c][a]), mesh_.cell_nodes[c][b]);
+        double *block = rows.find(index(mesh_.cell_nodes[c][a]), mesh_.cell_nodes[c][b]);
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t m = 3 * a + i, n = 3 * b + j;
-            block[3 * i + j] += 0.5 * (cells[c][24 * m + n] + cells[c][24 * n + m]);
+            block[i + 3 * j] += 0.5 * (cells[c][24 * m + n] + cells[c][24 * n + m]);
           }
       }
 }

@@ -62,7 +62,7 @@ void for_entries(const NodeMatrix &a, const Fixed &fixed, const Add &add) {
       const auto j = static_cast<std::size_t>(a.column[b]);
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c) {
-          const double value = a.values[9 * b + 3 * r + c];
+          const double value = a.at(b)[r + 3 * c];
           if (fixed[i][r] || fixed[j][c]) {
             if (i == j && r == c) add(row_of(i, r), row_of(j, c), value);
           } else {
@@ -203,7 +203,7 @@ void StaticEquations::solve(const NodeMatrix &stiffness, const std::vector<Vecto
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (fixed[i][k]) prescribed[i][k] = x[i][k];
-  stiffness.multiply(prescribed, brought);
+  multiply(stiffness, prescribed, brought);
   const Index n = 3 * static_cast<Index>(x.size());
   dealii::Vector<double> right(n), solution(n);
   for (std::size_t i = 0; i < x.size(); ++i)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vector3.h"
-#include "dem/statics/block_matrix.h"
+#include "dem/statics/block_product.h"
 
 namespace platen::dem::statics {
 

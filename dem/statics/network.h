@@ -7,7 +7,7 @@
 #include "dem/bonds.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
-#include "dem/statics/block_matrix.h"
+#include "dem/statics/block_product.h"
 
 namespace platen::dem::statics {
 

@@ -136,7 +136,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
     solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
     const std::vector<Vector3> u = solid.deformation();
     std::vector<Vector3> force;
-    solid.model().stiffness.multiply(u, force);
+    fem::multiply(solid.model().stiffness, u, force);
     Vector3 reaction{};
     for (const int node : solid.clamped_nodes())
       reaction = reaction + force[static_cast<std::size_t>(node)];

@@ -67,7 +67,7 @@ Transmitted transmitted(bool once, int inside) {
     sum = sum + f;
   const fem::ElasticModel &model = block.model();
   std::vector<Vector3> force;
-  model.stiffness.multiply(block.deformation(), force);
+  fem::multiply(model.stiffness, block.deformation(), force);
   for (const int node : block.clamped_nodes())
     reaction = reaction + force[static_cast<std::size_t>(node)];
   Transmitted result;

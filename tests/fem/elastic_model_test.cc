@@ -179,7 +179,7 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
       }
       const std::vector<Vector3> none(x.size(), Vector3{});
       StaticEquations(model.stiffness, model.nodes, fixed).solve(model.stiffness, none, x);
-      model.stiffness.multiply(x, force);
+      multiply(model.stiffness, x, force);
       double reaction = 0;
       for (const int i : nodes_on(model, low_end_tag))
         reaction += force[static_cast<std::size_t>(i)][2];
@@ -222,15 +222,15 @@ TEST(elastic_model, stiffness_is_symmetric_and_blind_to_rigid_motions) {
     NodeMatrix &k = model.stiffness;
     for (std::size_t i = 0; i < k.rows(); ++i)
       for (std::size_t b = k.begin[i]; b < k.begin[i + 1]; ++b) {
-        const double *mirror = k.block(static_cast<std::size_t>(k.column[b]), static_cast<int>(i));
+        const double *mirror = k.find(static_cast<std::size_t>(k.column[b]), static_cast<int>(i));
         for (std::size_t r = 0; r < 3; ++r)
           for (std::size_t c = 0; c < 3; ++c)
-            ASSERT_EQ(k.values[9 * b + 3 * r + c], mirror[3 * c + r]);
+            ASSERT_EQ(k.at(b)[r + 3 * c], mirror[c + 3 * r]);
       }
     std::vector<Vector3> motion(model.nodes.size()), force;
     for (std::size_t i = 0; i < motion.size(); ++i)
       motion[i] = Vector3{1, -2, 3} + cross(Vector3{3, 1, -2}, model.nodes[i]);
-    k.multiply(motion, force);
+    multiply(k, motion, force);
     for (const Vector3 &f : force)
       EXPECT_LT(norm(f), 1e-13 * steel.young_modulus * 10);
   }

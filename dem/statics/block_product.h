@@ -1,27 +1,15 @@
-// A sparse matrix of dense blocks, row by row: one block row per particle, or per cluster of particles.
+// Products of sparse matrices of dense blocks with vectors, on any number of threads.
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "base/block_matrix.h"
 #include "base/parallel.h"
 
 namespace platen::dem::statics {
 
 // Rows that a thread takes at a time; each costs some hundred multiplications.
 constexpr std::size_t rows_per_part = 128;
-
-// Square; blocks are n x n, stored by columns.
-template <int n, class Real>
-struct BlockMatrix {
-  std::vector<std::size_t> begin{0}; // first block of each row, one entry more than rows
-  std::vector<int> column;           // of each block
-  std::vector<Real> block;
-
-  std::size_t rows() const { return begin.size() - 1; }
-  Real *at(std::size_t k) { return block.data() + k * n * n; }
-  const Real *at(std::size_t k) const { return block.data() + k * n * n; }
-};
 
 // Adds a block times x to y.
 template <int n, class Real>

@@ -1,0 +1,62 @@
+// The largest eigenvalue of a symmetric matrix that is known by its products alone: Lanczos' method.
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace platen {
+
+// The largest eigenvalue of a symmetric tridiagonal matrix, and the size of the last component of its unit
+// eigenvector. `beside`: the entries beside the diagonal, one fewer; further ones are not read.
+struct LargestRitzValue {
+  double value = 0, last_component = 0;
+};
+LargestRitzValue largest_ritz_value(const std::vector<double> &diagonal, const std::vector<double> &beside);
+
+struct LanczosLimits {
+  int least = 4; // iterations before it may end: an early Ritz value may sit on a lower eigenvalue
+  int every = 5; // iterations from one Ritz value to the next
+  int most = 300;
+  double residual = 0.01; // over the Ritz value, at the end
+};
+
+template <class Vector>
+struct LargestEigenvalue {
+  double value = 0; // from above but for round-off: the Ritz value and its residual (Zhou and Li 2011)
+  int iterations = 0;
+  Vector mode; // roughly
+};
+
+// apply(x): the product of the matrix with x. `x`: where to start, not zero. Beside Vector there are
+// inner(a, b), add(a, s, b), which is a += s b, and multiply(a, s).
+template <class Vector, class Apply>
+LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const LanczosLimits &limits = {}) {
+  multiply(x, 1 / std::sqrt(inner(x, x)));
+  Vector before;
+  std::vector<double> diagonal, beside;
+  LargestRitzValue ritz;
+  double residual = 0;
+  int done = 0;
+  while (done < limits.most) {
+    Vector y = apply(x);
+    diagonal.push_back(inner(x, y));
+    add(y, -diagonal.back(), x);
+    if (done > 0) add(y, -beside.back(), before);
+    const double length = std::sqrt(inner(y, y));
+    ++done;
+    const bool look = done <= limits.least || done % limits.every == 0 || done == limits.most;
+    if (look) {
+      ritz = largest_ritz_value(diagonal, beside);
+      residual = length * ritz.last_component;
+    }
+    if (look && done > limits.least && residual <= limits.residual * ritz.value) break;
+    if (length <= 1e-14 * ritz.value) break; // x holds all that the matrix makes of it
+    beside.push_back(length);
+    before = std::exchange(x, std::move(y));
+    multiply(x, 1 / length);
+  }
+  return {ritz.value + residual, done, std::move(x)};
+}
+
+} // namespace platen

@@ -1,0 +1,102 @@
+// The largest eigenvalue of a chain of springs, which is known in closed form.
+#include "base/lanczos.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "base/pi.h"
+
+namespace platen {
+namespace {
+
+struct Chain {
+  std::vector<double> u;
+};
+
+double inner(const Chain &a, const Chain &b) {
+  return std::inner_product(a.u.begin(), a.u.end(), b.u.begin(), 0.0);
+}
+void add(Chain &a, double s, const Chain &b) {
+  for (std::size_t k = 0; k < a.u.size(); ++k)
+    a.u[k] += s * b.u[k];
+}
+void multiply(Chain &a, double s) {
+  for (double &u : a.u)
+    u *= s;
+}
+
+// Of masses between fixed ends: 2 u_k - u_(k-1) - u_(k+1).
+Chain springs(const Chain &x) {
+  Chain y = x;
+  for (std::size_t k = 0; k < x.u.size(); ++k)
+    y.u[k] = 2 * x.u[k] - (k > 0 ? x.u[k - 1] : 0) - (k + 1 < x.u.size() ? x.u[k + 1] : 0);
+  return y;
+}
+
+double largest_of_springs(std::size_t n) {
+  return 2 + 2 * std::cos(pi / (static_cast<double>(n) + 1));
+}
+
+Chain start(std::size_t n) {
+  Chain x{std::vector<double>(n)};
+  for (std::size_t k = 0; k < n; ++k)
+    x.u[k] = std::sin(static_cast<double>(7 * k * k + 1));
+  return x;
+}
+
+TEST(lanczos, of_a_chain_is_from_above_and_within_the_residual) {
+  for (const std::size_t n : {1, 2, 5, 40, 400}) {
+    const double exact = largest_of_springs(n);
+    const LargestEigenvalue<Chain> found = largest_eigenvalue(springs, start(n));
+    EXPECT_GE(found.value, exact * (1 - 1e-14)) << n;
+    EXPECT_LE(found.value, exact * 1.01) << n;
+    EXPECT_LE(found.iterations, 300) << n;
+  }
+}
+
+TEST(lanczos, a_smaller_residual_costs_more_iterations_and_is_nearer) {
+  double error = 1;
+  int iterations = 0;
+  for (const double residual : {1e-1, 1e-3, 1e-6}) {
+    LanczosLimits limits;
+    limits.residual = residual;
+    const LargestEigenvalue<Chain> found = largest_eigenvalue(springs, start(100), limits);
+    EXPECT_LT(found.value / largest_of_springs(100) - 1, error) << residual;
+    EXPECT_GT(found.iterations, iterations) << residual;
+    error = found.value / largest_of_springs(100) - 1, iterations = found.iterations;
+  }
+  EXPECT_LT(error, 1e-6);
+}
+
+// A start that is all of one mode leaves nothing to go on to.
+TEST(lanczos, ends_at_once_from_an_eigenvector) {
+  Chain mode{std::vector<double>(9)};
+  for (std::size_t k = 0; k < 9; ++k)
+    mode.u[k] = std::sin(9 * pi * static_cast<double>(k + 1) / 10);
+  const LargestEigenvalue<Chain> found = largest_eigenvalue(springs, mode);
+  EXPECT_LE(found.iterations, 2);
+  EXPECT_NEAR(found.value, largest_of_springs(9), 1e-13);
+  EXPECT_NEAR(std::abs(inner(found.mode, mode)), std::sqrt(inner(mode, mode)), 1e-12);
+}
+
+TEST(lanczos, takes_the_iterations_that_its_limits_ask_for) {
+  LanczosLimits limits;
+  limits.least = 20, limits.every = 1;
+  EXPECT_EQ(largest_eigenvalue(springs, start(400), limits).iterations, 21);
+  limits.residual = 0, limits.most = 33;
+  EXPECT_EQ(largest_eigenvalue(springs, start(400), limits).iterations, 33);
+  limits.residual = 1, limits.least = 4, limits.every = 5; // looked at after every fifth
+  EXPECT_EQ(largest_eigenvalue(springs, start(400), limits).iterations, 5);
+}
+
+TEST(lanczos, the_ritz_value_and_its_component_are_those_of_two_masses) {
+  // {{2, -1}, {-1, 3}}: (5 + sqrt 5) / 2, vector (1, 2 - value) over its length
+  const LargestRitzValue ritz = largest_ritz_value({2, 3}, {-1});
+  const double value = 0.5 * (5 + std::sqrt(5.0)), second = 2 - value;
+  EXPECT_NEAR(ritz.value, value, 1e-15 * 4);
+  EXPECT_NEAR(ritz.last_component, std::abs(second) / std::hypot(1, second), 1e-15);
+}
+
+} // namespace
+} // namespace platen
