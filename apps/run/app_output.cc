@@ -26,15 +26,22 @@ std::string title_of(const Scene &scene) {
   return scene.general.title.empty() ? scene.name : scene.general.title;
 }
 
+std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene) {
+  std::vector<std::filesystem::path> files{command.scene};
+  for (const std::string &file : {scene.specimen.file, scene.phases.file, scene.platens.top_face.mesh_file,
+                                  scene.platens.bottom_face.mesh_file})
+    if (!file.empty()) files.emplace_back(file);
+  return files;
+}
+
 AppOutput::AppOutput(const CommandLine &command, const Scene &scene)
     : paths(command.output),
       log(loudness_of(command)),
       command_(command),
       scene_(scene),
-      inputs_{command.scene},
+      inputs_(input_files(command, scene)),
       use_(command.overwrite ? FolderUse::overwrite : FolderUse::fresh),
       limit_(command.threads) {
-  if (!scene.specimen.file.empty()) inputs_.emplace_back(scene.specimen.file);
   if (!command.dry_run && !command.resume) check_output_folder(paths.folder, use_, inputs_);
 }
 

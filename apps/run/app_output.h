@@ -19,6 +19,8 @@ namespace platen::apps {
 
 // The scene's title, or its file's name.
 std::string title_of(const Scene &scene);
+// The scene and all files that it names: what a run must not write over.
+std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene);
 
 class AppOutput {
 public:

@@ -8,6 +8,7 @@
 #include "apps/io/file.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
+#include "apps/run/app_output.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
@@ -83,11 +84,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
       results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
   const FolderUse use =
       command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
-  std::vector<std::filesystem::path> inputs{command.scene};
-  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
-  for (const std::string &file :
-       {scene.phases.file, scene.platens.top_face.mesh_file, scene.platens.bottom_face.mesh_file})
-    if (!file.empty()) inputs.emplace_back(file);
+  const std::vector<std::filesystem::path> inputs = input_files(command, scene);
   if (!command.dry_run) {
     check_output_folder(paths_.folder, use, inputs);
     lock_ = lock_of_run(paths_.folder, log_);

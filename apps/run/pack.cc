@@ -16,6 +16,7 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/summary.h"
 #include "apps/io/vtu.h"
+#include "apps/run/app_output.h"
 #include "apps/run/expectations.h"
 #include "apps/run/model_setup.h"
 #include "apps/run/specimen_setup.h"
@@ -123,9 +124,7 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   if (command.resume)
     throw InputError("command line: --resume: a packing has nothing to resume; leave it out");
-  std::vector<std::filesystem::path> inputs{command.scene};
-  if (!scene.specimen.file.empty()) inputs.emplace_back(scene.specimen.file);
-  if (!scene.phases.file.empty()) inputs.emplace_back(scene.phases.file);
+  const std::vector<std::filesystem::path> inputs = input_files(command, scene);
   const OutputPaths paths(command.output);
   if (!command.dry_run) check_output_folder(paths.folder, use, inputs);
   if (command.dry_run) {

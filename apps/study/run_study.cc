@@ -128,9 +128,7 @@ void StudyApp::require_same_study() const {
 }
 
 void StudyApp::open_anew() {
-  std::vector<fs::path> inputs{command_.scene};
-  if (!scene_.specimen.file.empty()) inputs.emplace_back(scene_.specimen.file);
-  if (!scene_.phases.file.empty()) inputs.emplace_back(scene_.phases.file);
+  const std::vector<fs::path> inputs = input_files(command_, scene_);
   const FolderUse use = command_.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   check_output_folder(paths_.folder, use, inputs);
   std::error_code none;

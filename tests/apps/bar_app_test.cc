@@ -146,6 +146,17 @@ TEST_F(BarApp, what_cannot_be_is_refused_before_anything_is_written) {
   EXPECT_EQ(run("none", {}, {"--resume"}).status, 2);
 }
 
+TEST_F(BarApp, a_file_that_it_reads_is_not_written_over) {
+  put(folder_ / "a/specimen.csv", "0\n");
+  const std::string file = (folder_ / "a/specimen.csv").string();
+  for (const char *key : {"Specimen/File = ", "Phases/File = ", "Platens/Top/Mesh file = "}) {
+    const Outcome outcome = run("a", {key + file}, {"--overwrite"});
+    EXPECT_EQ(outcome.status, 2) << key;
+    EXPECT_TRUE(contains(outcome.error, "would replace " + file + ", which it reads")) << outcome.error;
+    EXPECT_EQ(content_of(file), "0\n") << key;
+  }
+}
+
 TEST_F(BarApp, a_dry_run_says_what_would_be_done_and_writes_nothing) {
   std::vector<std::string> none;
   const Outcome outcome = run("a", none, {"--dry-run"});
