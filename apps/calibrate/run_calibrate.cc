@@ -148,7 +148,7 @@ void write_found(const CommandLine &command, const Scene &scene, const Found &f,
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);)
     text += "# " + line + "\n";
-  write_text_aside(output.paths.folder / "found.prm", text + output.scene_text(found));
+  write_text_aside(output.paths.folder / "found.prm", text + scene_text(found, output.paths.folder));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "apps/run/app_output.h"
 
+#include <filesystem>
 #include <sstream>
 
 #include "apps/io/file.h"
@@ -34,6 +35,33 @@ std::vector<std::filesystem::path> input_files(const CommandLine &command, const
   return files;
 }
 
+std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
+  std::ostringstream text;
+  write_scene(scene, folder.string(), text);
+  return text.str();
+}
+
+void require_same_scene(const Scene &scene, const OutputPaths &paths) {
+  const std::string path = paths.scene().string();
+  if (!std::filesystem::exists(path))
+    throw InputError(path + ": error: is missing: the folder holds nothing to resume; leave out --resume");
+  std::istringstream before(completed_scene_text(path, paths.folder.string())),
+      now(scene_text(scene, paths.folder));
+  std::string a, b;
+  while (true) {
+    const bool more_before = static_cast<bool>(std::getline(before, a)),
+               more = static_cast<bool>(std::getline(now, b));
+    if (!more_before && !more) return;
+    if (!more_before) a.clear();
+    if (!more) b.clear();
+    if (a != b)
+      throw InputError(
+          fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
+                      "start it anew in another folder, or resume with the scene as it was",
+                      path, a, b));
+  }
+}
+
 AppOutput::AppOutput(const CommandLine &command, const Scene &scene)
     : paths(command.output),
       log(loudness_of(command)),
@@ -49,27 +77,13 @@ double AppOutput::seconds() const {
   return seconds_since(start_);
 }
 
-std::string AppOutput::scene_text(const Scene &scene) const {
-  std::ostringstream text;
-  write_scene(scene, paths.folder.string(), text);
-  return text.str();
-}
-
-void AppOutput::require_same_scene() const {
-  if (completed_scene_text(paths.scene().string(), paths.folder.string()) != scene_text(scene_))
-    throw InputError(
-        paths.scene().string() +
-        ": error: is another scene than the one given, or the folder holds no calibration; resume "
-        "with the scene as it was, or leave out --resume");
-}
-
 void AppOutput::open() {
   if (command_.resume) {
     lock_ = lock_of_run(paths.folder, log);
-    require_same_scene();
+    require_same_scene(scene_, paths);
   } else {
     open_locked(lock_, paths.folder, use_, inputs_, log);
-    write_text_aside(paths.scene(), scene_text(scene_));
+    write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
   }
   log.open(paths.log(), command_.resume, {version_text(), command_.text, threads()});
 }

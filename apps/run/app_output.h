@@ -21,6 +21,10 @@ namespace platen::apps {
 std::string title_of(const Scene &scene);
 // The scene and all files that it names: what a run must not write over.
 std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene);
+// As it is written into an output folder.
+std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
+// Throws InputError, naming the first line that differs, where the folder was begun with another scene.
+void require_same_scene(const Scene &scene, const OutputPaths &paths);
 
 class AppOutput {
 public:
@@ -36,14 +40,11 @@ public:
 
   int threads() const { return loop_threads(); }
   double seconds() const; // since the start
-  std::string scene_text(const Scene &scene) const;
 
   const OutputPaths paths;
   RunLog log;
 
 private:
-  void require_same_scene() const;
-
   const CommandLine &command_;
   const Scene &scene_;
   std::vector<std::filesystem::path> inputs_;

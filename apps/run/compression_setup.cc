@@ -1,8 +1,5 @@
 // A test as it begins: the specimen laid as the app presses it, its problem, its folder; anew or resumed.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <sstream>
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/io/file.h"
@@ -15,37 +12,11 @@
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 #include "coupling/static_press.h"
 
 namespace platen::apps {
 namespace {
-
-std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
-  std::ostringstream text;
-  write_scene(scene, folder.string(), text);
-  return text.str();
-}
-
-// A resumed run must be the same scene; the first line that differs is named.
-void require_same_scene(const Scene &scene, const OutputPaths &paths) {
-  std::istringstream before(completed_scene_text(paths.scene().string(), paths.folder.string())),
-      now(scene_text(scene, paths.folder));
-  std::string a, b;
-  while (true) {
-    const bool more_before = static_cast<bool>(std::getline(before, a)),
-               more = static_cast<bool>(std::getline(now, b));
-    if (!more_before && !more) return;
-    if (!more_before) a.clear();
-    if (!more) b.clear();
-    if (a != b)
-      throw InputError(
-          fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
-                      "start it anew in another folder, or resume with the scene as it was",
-                      paths.scene().string(), a, b));
-  }
-}
 
 // The specimen as the app presses it.
 dem::Specimen placed(const Scene &scene, Pressed pressed) {

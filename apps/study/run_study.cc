@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include "apps/io/file.h"
@@ -41,12 +40,6 @@ constexpr std::chrono::seconds patience_of_study{60};
 std::string content_of(const fs::path &path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string text_of(const Scene &scene, const fs::path &folder) {
-  std::ostringstream text;
-  write_scene(scene, folder.string(), text);
-  return text.str();
 }
 
 class StudyApp {
@@ -115,10 +108,7 @@ int StudyApp::tell_costs() const {
 }
 
 void StudyApp::require_same_study() const {
-  if (content_of(paths_.scene()) != text_of(scene_, paths_.folder))
-    throw InputError(paths_.scene().string() +
-                     ": error: is another scene than the one given, or the folder holds no study; resume "
-                     "with the scene as it was, or leave out --resume");
+  require_same_scene(scene_, paths_);
   const Json before = Json::parse(content_of(paths_.study_json()), nullptr, false);
   const std::string kind = before.is_object() ? before.value("kind", "") : "";
   if (kind != word(plan_.kind))
@@ -145,7 +135,7 @@ void StudyApp::open_anew() {
   open_output_folder(paths_.folder, use, inputs);
   take_folder();
   create_folder(paths_.runs());
-  write_text_aside(paths_.scene(), text_of(scene_, paths_.folder));
+  write_text_aside(paths_.scene(), scene_text(scene_, paths_.folder));
   write_summary(paths_.study_json(), Json{{"kind", word(plan_.kind)}, {"status", "running"}});
 }
 

@@ -162,7 +162,21 @@ TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {
   run(asked, "a", true);
   EXPECT_EQ(text_of(folder / "a/found.prm"), found);
   EXPECT_EQ(text_of(table), trials);
-  EXPECT_THROW(run({}, "a", true), InputError); // another scene
+  const auto refused = [&](const std::string &to) -> std::string {
+    try {
+      run(asked, to, true);
+    } catch (const InputError &e) {
+      return e.what();
+    }
+    return "";
+  };
+  asked.front() = "Calibrate/Poisson ratio = 0.13";
+  const std::string another_scene = refused("a");
+  EXPECT_NE(another_scene.find("the scene has changed"), std::string::npos) << another_scene;
+  EXPECT_LT(another_scene.find("was:   set Poisson ratio"), another_scene.find("= 0.12\n")) << another_scene;
+  EXPECT_NE(refused("b").find("b/scene.prm: error: is missing: the folder holds nothing to resume"),
+            std::string::npos)
+      << refused("b");
 }
 
 TEST_F(CalibrateApp, strengths_are_found) {

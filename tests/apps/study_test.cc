@@ -213,7 +213,7 @@ TEST_F(Study, faults_are_refused_before_anything_is_written) {
   refused({"-s", "Specimen/Shape = box", "-s", "Specimen/Radius =", "-s", "Specimen/Width x = 20 mm", "-s",
            "Specimen/Width y = 20 mm", "-s", "Study/Domain list = 20 mm x 5 mm"},
           "size", "holds cylinders");
-  refused({"--resume"}, "size", "holds no study");
+  refused({"--resume"}, "size", "a/scene.prm: error: is missing: the folder holds nothing to resume");
 }
 
 TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
@@ -224,7 +224,9 @@ TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
   const Outcome kind = run("a", with(quick, "--resume"), "rate");
   EXPECT_EQ(kind.status, 2);
   EXPECT_TRUE(contains(kind.error, "is of a study of size")) << kind.error;
-  EXPECT_EQ(run("a", {"--resume"}).status, 2);
+  const Outcome scene = run("a", {"--resume"});
+  EXPECT_EQ(scene.status, 2);
+  EXPECT_TRUE(contains(scene.error, "the scene has changed")) << scene.error;
   EXPECT_EQ(run("a", quick).status, 2);
   EXPECT_EQ(table("a"), before);
   fs::remove_all(folder_ / "b");
