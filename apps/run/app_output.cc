@@ -1,11 +1,13 @@
 #include "apps/run/app_output.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <sstream>
 
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
-#include "apps/run/expectations.h"
+#include "apps/scene/expect.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 
@@ -62,36 +64,48 @@ void require_same_scene(const Scene &scene, const OutputPaths &paths) {
   }
 }
 
-AppOutput::AppOutput(const CommandLine &command, const Scene &scene)
+AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_checkpoint)
     : paths(command.output),
       log(loudness_of(command)),
       command_(command),
       scene_(scene),
       inputs_(input_files(command, scene)),
-      use_(command.overwrite ? FolderUse::overwrite : FolderUse::fresh),
+      use_(command.resume      ? FolderUse::resume
+           : command.overwrite ? FolderUse::overwrite
+                               : FolderUse::fresh),
       limit_(command.threads) {
-  if (!command.dry_run && !command.resume) check_output_folder(paths.folder, use_, inputs_);
+  if (command.dry_run) return;
+  if (!command.resume || from_checkpoint) check_output_folder(paths.folder, use_, inputs_);
+  lock_ = lock_of_run(paths.folder, log);
+  if (command.resume) require_same_scene(scene, paths);
 }
 
 double AppOutput::seconds() const {
   return seconds_since(start_);
 }
 
-void AppOutput::open() {
-  if (command_.resume) {
-    lock_ = lock_of_run(paths.folder, log);
-    require_same_scene(scene_, paths);
-  } else {
+void AppOutput::open(int working_threads) {
+  if (!command_.resume) {
     open_locked(lock_, paths.folder, use_, inputs_, log);
     write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
   }
-  log.open(paths.log(), command_.resume, {version_text(), command_.text, threads()});
+  log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
 }
 
 int AppOutput::finish(const Json &summary, const std::string &report) {
   write_summary(paths.summary(), summary);
   log.info("{}", report);
-  return tell_expectations(scene_, summary, log);
+  return tell_expectations(summary);
+}
+
+int AppOutput::tell_expectations(const Json &summary) {
+  const ExpectationCheck check = check_expectations(scene_, summary);
+  for (const std::string &line : check.failed)
+    log.error("expected: {}", line);
+  if (!check.unchecked.empty())
+    log.info("expected, but measured by another app and not checked here: {}",
+             fmt::join(check.unchecked, ", "));
+  return check.failed.empty() ? status_done : status_check_failed;
 }
 
 Json summary_head(const Scene &scene, const std::string &app, const std::string &status,

@@ -28,15 +28,19 @@ void require_same_scene(const Scene &scene, const OutputPaths &paths);
 
 class AppOutput {
 public:
-  // Takes the time and the threads; nothing is written yet. Throws FolderError where the run, other than a
-  // dry or a resumed one, must not write there.
-  AppOutput(const CommandLine &command, const Scene &scene);
+  // Takes the time, the threads and, but for a dry run, the folder where it is there; nothing is written yet.
+  // Throws FolderError where the run must not write there, or where one that goes on `from_checkpoint` has
+  // none, and InputError where the folder of a resumed run was begun with another scene.
+  AppOutput(const CommandLine &command, const Scene &scene, bool from_checkpoint = false);
 
-  // Locks and opens the folder, and leaves scene.prm and the head of run.log. A resumed run only goes on with
-  // its log; throws InputError where the folder was begun with another scene.
-  void open();
+  // Opens the folder, and leaves scene.prm and the head of run.log with the threads that work. A resumed run
+  // only goes on with its log.
+  void open(int working_threads = loop_threads());
   // Writes summary.json, says `report`, and checks what the scene expects; returns the exit status.
   int finish(const Json &summary, const std::string &report);
+  // Tells each expectation that does not hold, and those that another app would have to check; returns the
+  // exit status, status_done or status_check_failed.
+  int tell_expectations(const Json &summary);
 
   int threads() const { return loop_threads(); }
   double seconds() const; // since the start

@@ -6,7 +6,6 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
-#include "apps/run/expectations.h"
 #include "apps/run/quasi_static.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -15,8 +14,8 @@ namespace platen::apps {
 
 RunCosts CompressionRun::costs() const {
   RunCosts c;
-  c.threads = loop_threads();
-  c.wall_seconds = earlier_seconds_ + seconds_since(start_);
+  c.threads = output_.threads();
+  c.wall_seconds = earlier_seconds_ + output_.seconds();
   c.setup_seconds = setup_seconds_;
   c.steps_here = test_->steps() - first_step_;
   c.step_seconds = seconds_since(loop_start_);
@@ -81,7 +80,7 @@ int CompressionRun::run() {
     return exit_status_of_signal(signal_);
   }
   log_.info("results are in {}", paths_.folder.string());
-  return tell_expectations(scene_, summary_of_run("done", scene_, *test_, results_, costs()), log_);
+  return output_.tell_expectations(summary_of_run("done", scene_, *test_, results_, costs()));
 }
 
 int run_compression(const CommandLine &command, const Scene &scene) {

@@ -32,13 +32,8 @@ const std::vector<std::string> crack_columns{"time_s",   "axial_strain", "x_m", 
 
 std::string CompressionRun::description() const {
   const dem::Model &model = test_->model;
-  std::string on, off;
-  for (const std::string &word : effects_on(scene_))
-    on += (on.empty() ? "" : ", ") + word;
-  for (const std::string &word : effects_off(scene_))
-    off += (off.empty() ? "" : ", ") + word;
   const double bonds = model.bonds ? static_cast<double>(model.bonds->initial_count()) : 0.0;
-  std::string text = fmt::format("{}\n", scene_.general.title.empty() ? scene_.name : scene_.general.title);
+  std::string text = title_of(scene_) + "\n";
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, test_->coordination_number(),
                       test_->facts().packing_fraction);
@@ -46,7 +41,8 @@ std::string CompressionRun::description() const {
                       test_->top().layer().seats());
   text += text_of(scene_.general.quality, *scene_.parameters);
   text += text_of(scene_.platens);
-  text += fmt::format("  effects on:  {}\n  effects off: {}\n", on, off);
+  text += fmt::format("  effects on:  {}\n  effects off: {}\n", fmt::join(effects_on(scene_), ", "),
+                      fmt::join(effects_off(scene_), ", "));
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", test_->time_step(),
                       test_->time_step_reason(), expected_steps_);
   if (const coupling::SkinPressure *pressed = test_->skin())

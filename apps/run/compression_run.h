@@ -6,17 +6,12 @@
 #include <string>
 
 #include "apps/io/csv_writer.h"
-#include "apps/io/output_folder.h"
 #include "apps/io/progress.h"
-#include "apps/io/run_log.h"
+#include "apps/run/app_output.h"
 #include "apps/run/fields.h"
 #include "apps/run/history.h"
 #include "apps/run/results.h"
 #include "apps/run/summary_of_run.h"
-#include "apps/scene/command_line.h"
-#include "apps/scene/scene.h"
-#include "base/clock.h"
-#include "base/parallel.h"
 #include "coupling/platen_test.h"
 
 namespace platen::apps {
@@ -61,11 +56,10 @@ private:
 
   const CommandLine &command_;
   const Scene &scene_;
-  Clock::time_point start_ = Clock::now(), last_checkpoint_ = Clock::now(), loop_start_ = Clock::now();
-  OutputPaths paths_;
-  std::unique_ptr<FolderLock> lock_;
-  RunLog log_;
-  ThreadLimit threads_;
+  Clock::time_point last_checkpoint_ = Clock::now(), loop_start_ = Clock::now();
+  AppOutput output_;
+  const OutputPaths &paths_ = output_.paths;
+  RunLog &log_ = output_.log;
   std::unique_ptr<coupling::PlatenTest> test_;
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there

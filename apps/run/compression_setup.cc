@@ -2,17 +2,13 @@
 #include <algorithm>
 
 #include "apps/io/checkpoint_folder.h"
-#include "apps/io/file.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
-#include "apps/run/app_output.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
-#include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/version.h"
 #include "coupling/static_press.h"
 
 namespace platen::apps {
@@ -40,45 +36,27 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
   return specimen;
 }
 
-Loudness loudness(const CommandLine &c) {
-  return c.quiet ? Loudness::quiet : (c.verbose ? Loudness::verbose : Loudness::normal);
-}
-
 } // namespace
 
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
     : command_(command),
       scene_(scene),
-      paths_(command.output),
-      log_(loudness(command)),
-      threads_(command.threads),
+      output_(command, scene, true),
       results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
-  const FolderUse use =
-      command.resume ? FolderUse::resume : (command.overwrite ? FolderUse::overwrite : FolderUse::fresh);
-  const std::vector<std::filesystem::path> inputs = input_files(command, scene);
-  if (!command.dry_run) {
-    check_output_folder(paths_.folder, use, inputs);
-    lock_ = lock_of_run(paths_.folder, log_);
-  }
-  if (command.resume && !command.dry_run) require_same_scene(scene, paths_);
+  const bool resumes = command.resume && !command.dry_run;
   // A resumed run takes the packing that the first part wrote, to the last bit.
-  const dem::Specimen specimen =
-      command.resume && !command.dry_run ? resumed(scene, paths_) : placed(scene, pressed);
+  const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
   coupling::PlatenTestSettings settings = problem_settings(scene);
-  if (command.resume && !command.dry_run) settings.model.instruction_set = instruction_set_of_checkpoint();
+  if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   sampler_ = std::make_unique<Sampler>(*test_);
-  if (scene.loading.start_strain > 0 && (!command.resume || command.dry_run)) start_pressed();
+  if (scene.loading.start_strain > 0 && !resumes) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());
-  setup_seconds_ = seconds_since(start_);
+  setup_seconds_ = output_.seconds();
   if (command.dry_run) return;
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
-  open_locked(lock_, paths_.folder, use, inputs, log_);
-  log_.open(paths_.log(), command.resume, {version_text(), command.text, costs().threads});
-  if (!command.resume) {
-    write_text_aside(paths_.scene(), scene_text(scene, paths_.folder));
-    write_specimen_csv(paths_.specimen_csv(), specimen);
-  }
+  output_.open();
+  if (!resumes) write_specimen_csv(paths_.specimen_csv(), specimen);
 }
 
 dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {

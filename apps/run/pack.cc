@@ -2,27 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/io/csv_writer.h"
-#include "apps/io/file.h"
 #include "apps/io/machine.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
 #include "apps/io/specimen_csv.h"
-#include "apps/io/summary.h"
 #include "apps/io/vtu.h"
 #include "apps/run/app_output.h"
-#include "apps/run/expectations.h"
-#include "apps/run/model_setup.h"
 #include "apps/run/specimen_setup.h"
-#include "apps/scene/errors.h"
 #include "apps/scene/version.h"
-#include "base/clock.h"
 #include "dem/packing/quality.h"
 #include "dem/packing/specimen.h"
 
@@ -59,7 +49,7 @@ Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
   Json s;
   s["status"] = "done";
   s["app"] = "platen-pack";
-  s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
+  s["scene"] = title_of(scene);
   s["version"] = version_line();
   s["particles"] = q.spheres;
   s["mean_radius_m"] = q.mean_radius;
@@ -121,16 +111,12 @@ std::string report_of(const Judgement &j, double seconds) {
 } // namespace
 
 int run_pack(const CommandLine &command, const Scene &scene) {
-  const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   if (command.resume)
     throw InputError("command line: --resume: a packing has nothing to resume; leave it out");
-  const std::vector<std::filesystem::path> inputs = input_files(command, scene);
-  const OutputPaths paths(command.output);
-  if (!command.dry_run) check_output_folder(paths.folder, use, inputs);
+  AppOutput output(command, scene);
   if (command.dry_run) {
     const dem::Shape shape = specimen_shape(scene);
-    fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n",
-               scene.general.title.empty() ? scene.name : scene.general.title, 1e6 * shape.volume(),
+    fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n", title_of(scene), 1e6 * shape.volume(),
                1e3 * scene.specimen.sphere_radius);
     return status_done;
   }
@@ -139,21 +125,16 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   const double seconds = seconds_since(start);
   const Judgement judgement = judge(specimen, scene);
 
-  open_output_folder(paths.folder, use, inputs);
-  RunLog log(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal));
-  log.open(paths.log(), false, {version_text(), command.text, 1});
-  write_stream_aside(paths.scene(),
-                     [&](std::ostream &out) { write_scene(scene, paths.folder.string(), out); });
+  output.open(1);
+  const OutputPaths &paths = output.paths;
   write_specimen_csv(paths.specimen_csv(), specimen);
   std::vector<int> id(specimen.size());
   std::iota(id.begin(), id.end(), 0);
   write_points(paths.specimen_vtu(), 0.0, specimen.centre, {{"radius", specimen.radius}, {"id", id}});
   write_directions(paths, judgement.quality.directions);
-  const Json summary = summary_of(scene, judgement, seconds);
-  write_summary(paths.summary(), summary);
-  log.info("{}", report_of(judgement, seconds));
-  log.info("results are in {}", paths.folder.string());
-  return tell_expectations(scene, summary, log);
+  return output.finish(
+      summary_of(scene, judgement, seconds),
+      fmt::format("{}\nresults are in {}", report_of(judgement, seconds), paths.folder.string()));
 }
 
 } // namespace platen::apps

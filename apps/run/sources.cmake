@@ -6,7 +6,6 @@ set(PLATEN_RUN_SOURCES
   run/compression_schedule.cc
   run/compression_setup.cc
   run/estimate.cc
-  run/expectations.cc
   run/failure_summary.cc
   run/fields.cc
   run/history.cc

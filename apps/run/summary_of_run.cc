@@ -3,19 +3,17 @@
 #include <cmath>
 
 #include "apps/io/machine.h"
+#include "apps/run/app_output.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
-#include "apps/scene/version.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json stage_seconds(const dem::StageClock &clock) {
   Json stages;
@@ -142,12 +140,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
                     const Results &results, const RunCosts &costs) {
   const dem::Model &model = problem.model;
   const double particles = static_cast<double>(model.particles.size());
-  Json s;
-  s["status"] = status;
-  s["app"] = app_of(problem);
-  s["scene"] = scene.general.title.empty() ? scene.name : scene.general.title;
-  s["version"] = version_line();
-  s["effects"] = effects_on(scene);
+  Json s = summary_head(scene, app_of(problem), status, effects_on(scene));
   s["effects_off"] = effects_off(scene);
   s["test"] = word_of(scene.loading.test);
   s["particles"] = model.particles.size();
