@@ -1,5 +1,6 @@
 // Numbers and words of summary.json that a scene may state beforehand.
 #include "apps/scene/sections.h"
+#include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {
 namespace {
@@ -89,9 +90,6 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"impact/wave_error", "1"},
 };
 
-// Of `pattern` in summary.json (dem::word_of).
-const std::vector<std::string> patterns{"none", "cones", "shear plane", "splitting", "crushing", "undecided"};
-
 } // namespace
 
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
@@ -100,7 +98,8 @@ void declare_expect(Parameters &parameters, std::vector<Expectation> &expect) {
     section.expectation(number.key, expect, number.unit,
                         "Range of the number in summary.json, one side may be left out; empty: not checked.");
   for (const char *key : {"pattern", "final_pattern"})
-    section.expected_words(key, expect, patterns, "Words of which summary.json has one; empty: not checked.");
+    section.expected_words(key, expect, {dem::pattern_words.begin(), dem::pattern_words.end()},
+                           "Words of which summary.json has one; empty: not checked.");
 }
 
 } // namespace platen::apps

@@ -30,11 +30,6 @@ bool one_plane(const FailureMeasures &m) {
 
 } // namespace
 
-const char *word_of(FailurePattern pattern) {
-  constexpr const char *words[] = {"none", "cones", "shear plane", "splitting", "crushing", "undecided"};
-  return words[static_cast<int>(pattern)];
-}
-
 FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,
                                 const Soundness &soundness) {
   FailureMeasures m;

@@ -27,6 +27,11 @@ FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, 
                                 const Soundness &soundness = {});
 
 enum class FailurePattern : std::int64_t { none, cones, shear_plane, splitting, crushing, undecided };
+inline constexpr std::array<const char *, 6> pattern_words{"none",      "cones",    "shear plane",
+                                                           "splitting", "crushing", "undecided"};
+inline const char *word_of(FailurePattern pattern) {
+  return pattern_words[static_cast<std::size_t>(pattern)];
+}
 enum class DecidedBy : std::int64_t {
   nothing,      // no rule below holds
   two_cones,    // a cone on each platen
@@ -41,7 +46,6 @@ struct FailureVerdict {
   FailurePattern pattern = FailurePattern::undecided;
   DecidedBy by = DecidedBy::nothing;
 };
-const char *word_of(FailurePattern pattern);
 
 // The first rule that holds, in the order of DecidedBy from `two_cones` on. The plane of `one_plane` splits
 // where it lies within 15 degrees of the axis and shears up to 65 degrees. The bounds of damage (0.3 of an

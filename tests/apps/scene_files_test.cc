@@ -9,6 +9,7 @@
 #include "apps/scene/declare.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/scene_files.h"
+#include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {
 namespace {
@@ -281,6 +282,8 @@ TEST_F(SceneFiles, an_expected_word_is_one_of_those_given) {
   EXPECT_NE(failed({{"pattern", nullptr}})[0].find("pattern was not measured"), std::string::npos);
   EXPECT_EQ(check_expectations(scene, {{"steps", 1}}).unchecked, std::vector<std::string>{"pattern"});
   EXPECT_THROW(read("b.prm", concrete, {"Expect/pattern = cone"}), InputError);
+  for (const char *word : dem::pattern_words)
+    EXPECT_NO_THROW(read("b.prm", concrete, {std::string("Expect/pattern = ") + word})) << word;
 }
 
 TEST_F(SceneFiles, continued_lines_are_joined) {
