@@ -50,7 +50,7 @@ void SceneCheck::specimen() const {
     refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
   if (specimen.seat && !scene_.model.rotation)
     refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
-  if (!packs()) return;
+  if (app_ == AppKind::bonds) return;
   cross_section();
   if (specimen.packing == PackingKind::file) {
     readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");

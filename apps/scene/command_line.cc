@@ -48,14 +48,6 @@ void check(const CommandLine &line, const AppDescription &app) {
   if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
   if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
   if (line.output_given && line.output.empty()) fail("--output is empty. Allowed: the name of a folder.");
-  if (app.reads_folder) {
-    if (line.folder.empty())
-      fail("no folder is given. Allowed: " + app.name + " FOLDER [options], see --help.");
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(line.folder, ignored))
-      throw InputError(line.folder + ": error: is not a folder that can be read.");
-    return;
-  }
   const std::string kind = app.kinds.empty() ? "" : "KIND ";
   if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {
     const std::string nearest = nearest_word(line.kind, app.kinds);
@@ -78,23 +70,18 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   bool version = false;
   if (!app.kinds.empty())
     parser.add_option("KIND", line.kind, "What to sweep: " + joined(app.kinds))->type_name("");
-  if (app.reads_folder)
-    parser.add_option("FOLDER", line.folder, "Output folder of a run or a study")->type_name("");
-  else
-    parser.add_option("SCENE", line.scene, "Scene file, .prm or .json")->type_name("");
+  parser.add_option("SCENE", line.scene, "Scene file, .prm or .json")->type_name("");
   CLI::Option *output =
       parser.add_option("-o,--output", line.output, "Output folder [results/<name of the scene>]")
           ->type_name("DIR");
-  if (!app.reads_folder) {
-    parser.add_option("-s,--set", line.overrides, "\"Section/Key = value\", overrides one entry; repeatable")
-        ->allow_extra_args(false)
-        ->type_name("ENTRY");
-    parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it")->type_name("N");
-    parser.add_flag("--resume", line.resume, "Go on from the newest whole checkpoint");
-    parser.add_flag("--dry-run", line.dry_run, "Check and tell what would run");
-    parser.add_flag("--print-parameters", line.print_parameters, "Print every parameter and exit");
-    parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
-  }
+  parser.add_option("-s,--set", line.overrides, "\"Section/Key = value\", overrides one entry; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ENTRY");
+  parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it")->type_name("N");
+  parser.add_flag("--resume", line.resume, "Go on from the newest whole checkpoint");
+  parser.add_flag("--dry-run", line.dry_run, "Check and tell what would run");
+  parser.add_flag("--print-parameters", line.print_parameters, "Print every parameter and exit");
+  parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
   parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
   parser.add_flag("--quiet", line.quiet, "Print errors only");
   parser.add_flag("--verbose", line.verbose, "Print more");

@@ -12,16 +12,14 @@ namespace platen::apps {
 
 struct AppDescription {
   AppKind kind = AppKind::compress;
-  std::string name;               // "platen-compress"
-  std::string purpose;            // one sentence for --help
-  std::vector<std::string> kinds; // words of which the first argument must be one; none: no such argument
-  bool reads_folder = false;      // takes a folder of results instead of a scene
+  std::string name;                    // "platen-compress"
+  std::string purpose;                 // one sentence for --help
+  std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
 };
 
 struct CommandLine {
   std::string kind;   // one of AppDescription::kinds
   std::string scene;  // path of the scene; "" only with print_parameters
-  std::string folder; // AppDescription::reads_folder: the folder to read
   std::string output; // output folder; "results/<name of the scene>" where not given
   bool output_given = false;
   std::vector<std::string> overrides; // "Section/Key = value", in order
@@ -39,13 +37,13 @@ struct PrintAndExit {
 // Throws InputError for a bad command line, PrintAndExit for --help and --version.
 CommandLine read_command_line(int argc, const char *const *argv, const AppDescription &app);
 
-// The work of an app; returns the exit status. For an app that reads a folder the scene is the default one.
+// The work of an app; returns the exit status.
 using AppBody = std::function<int(const CommandLine &, const Scene &)>;
 
 // Reads command line and scene, answers --help, --version and --print-parameters, calls body and turns what
 // it throws into the exit statuses: InputError, std::invalid_argument 2; OutputError, file system errors 4;
-// CheckFailed 1; everything else 3. The message goes to standard error once, without a stack trace. Notes on
-// entries without effect go to standard error unless --quiet.
+// everything else 3. The message goes to standard error once, without a stack trace. Notes on entries without
+// effect go to standard error unless --quiet.
 int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body);
 
 } // namespace platen::apps

@@ -28,10 +28,4 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// A number that the scene expects did not come out: exit status 1.
-class CheckFailed : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
-
 } // namespace platen::apps

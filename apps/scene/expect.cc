@@ -32,18 +32,6 @@ std::string fault_of_word(const Expectation &expected, const Json &found) {
 
 } // namespace
 
-std::vector<std::string> failed_expectations(const Scene &scene,
-                                             const std::function<double(const std::string &)> &value_of) {
-  std::vector<std::string> failed;
-  for (const Expectation &expected : scene.expect) {
-    const bool word = !expected.words.empty();
-    const std::string fault =
-        word ? not_measured(expected) : fault_of_number(expected, value_of(expected.key));
-    if (!fault.empty()) failed.push_back(fault);
-  }
-  return failed;
-}
-
 ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
   ExpectationCheck check;
   for (const Expectation &expected : scene.expect) {

@@ -55,8 +55,6 @@ int run_app(int argc, char **argv, const AppDescription &app, const AppBody &bod
     return status_done;
   } catch (const InputError &error) {
     return tell(error.what(), status_bad_input);
-  } catch (const CheckFailed &error) {
-    return tell(error.what(), status_check_failed);
   } catch (const OutputError &error) {
     return tell(std::string("error: ") + error.what(), status_output);
   } catch (const std::filesystem::filesystem_error &error) {

@@ -22,7 +22,7 @@ class Parameters;
 
 // Which app reads the scene: it decides which entries must be given (a compression test needs an axial rate,
 // a test of one bond needs no specimen).
-enum class AppKind { pack, bonds, bar, compress, brazilian, calibrate, study, report };
+enum class AppKind { pack, bonds, bar, compress, brazilian, calibrate, study };
 
 struct General { // section Scene
   std::string title;

@@ -36,7 +36,6 @@ public:
   void notes();
 
 private:
-  bool packs() const { return app_ != AppKind::bonds && app_ != AppKind::report; }
   bool loads() const { return Situation{scene_, parameters_, app_}.loads(); }
   [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
     parameters_.refuse(path, reason);

@@ -11,7 +11,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   LawMembers law(section, bond.laws);
   layout("modulus").needed_if([](const Situation &s) -> std::string {
     const bool lists = s.app == AppKind::bonds && !s.scene.pair_test.moduli.empty();
-    const bool bonds = s.scene.bond.bonded() && s.app != AppKind::pack && s.app != AppKind::report && !lists;
+    const bool bonds = s.scene.bond.bonded() && s.app != AppKind::pack && !lists;
     return bonds ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
   });
   for (const char *member : {"stiffness_ratio", "poisson_ratio", "tensile_strength", "shear_strength",

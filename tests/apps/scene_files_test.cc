@@ -254,8 +254,8 @@ TEST_F(SceneFiles, entries_without_effect_are_told) {
 TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
   const Scene scene = read("a.prm", concrete);
   const auto failures = [&](double strength, double angle) {
-    return failed_expectations(
-        scene, [&](const std::string &key) { return key == "strength_pa" ? strength : angle; });
+    return check_expectations(scene, {{"strength_pa", strength}, {"cone_top", {{"half_angle_deg", angle}}}})
+        .failed;
   };
   EXPECT_TRUE(failures(35e6, 16).empty());
   EXPECT_TRUE(failures(50e6, 89).empty());
