@@ -11,11 +11,6 @@
 namespace platen::apps {
 namespace {
 
-const char *word(BarLoad load) {
-  constexpr const char *words[] = {"all", "tension", "bending", "torsion", "impact", "none"};
-  return words[static_cast<int>(load)];
-}
-
 // A bar knows no platens: their columns are not measured.
 Sample common(const BarSample &s, std::size_t bonds, double step, bool ledger) {
   Sample c;
@@ -154,8 +149,8 @@ std::vector<std::string> bar_columns() {
 std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults &results, bool ledger) {
   std::vector<CsvCell> cells = history_row(common(s, results.bonds, results.time.of(load), ledger), nullptr);
   cells[cells.size() - 2] = not_given; // grain contacts, not counted
-  cells.insert(cells.end(), {word(load), s.end.moved.x, s.end.moved.y, s.end.moved.z, s.end.twist,
-                             s.struck_velocity, s.far_velocity, s.quarter, s.half});
+  cells.insert(cells.end(), {word_of(bar_loads, load), s.end.moved.x, s.end.moved.y, s.end.moved.z,
+                             s.end.twist, s.struck_velocity, s.far_velocity, s.quarter, s.half});
   cells.insert(cells.end(), {ledger ? s.energy.axial : not_given, ledger ? s.energy.bending : not_given,
                              ledger ? s.energy.torsion : not_given});
   return cells;
@@ -182,7 +177,7 @@ Json summary_of(const Scene &scene, const BarResults &r, const std::string &stat
     s["bulk"]["anisotropy"] = r.bulk.anisotropy;
   }
   for (const LoadResult &l : r.loads)
-    s[word(l.load)] = part_of(r, l);
+    s[word_of(bar_loads, l.load)] = part_of(r, l);
   if (r.impact && !r.impact->stopped) s["impact"] = impact_part(r);
   return s;
 }
@@ -203,8 +198,8 @@ std::string report_of(const BarResults &r) {
   for (const LoadResult &l : r.loads) {
     const Json s = part_of(r, l);
     const auto figure = [&s](const char *key) { return percent(number_in(s, key)); };
-    text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", word(l.load), figure("static_error"),
-                        figure("static_error_effective"), figure("dynamic_error"),
+    text += fmt::format("  {:<10}{:>14}{:>12}{:>14}{:>12}\n", word_of(bar_loads, l.load),
+                        figure("static_error"), figure("static_error_effective"), figure("dynamic_error"),
                         figure("dynamic_error_effective"));
   }
   if (r.impact && !r.impact->stopped) {

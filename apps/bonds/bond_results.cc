@@ -167,11 +167,6 @@ std::vector<std::string> effects_of(const Scene &scene) {
 
 } // namespace
 
-const char *word(PairPath path) {
-  constexpr const char *words[] = {"tension",  "compression", "shear",   "bending",
-                                   "twisting", "cyclic",      "combined"};
-  return words[static_cast<int>(path)];
-}
 bool turns(const Scene &scene) {
   return scene.pair_test.path == PairPath::bending || scene.pair_test.path == PairPath::twisting;
 }
@@ -244,7 +239,7 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, int thread
     list.push_back(summary_of(scene, run));
   }
   Json s = summary_head(scene, "platen-bonds", "done", effects_of(scene));
-  s["path"] = word(scene.pair_test.path);
+  s["path"] = word_of(pair_paths, scene.pair_test.path);
   add_figures(s, f);
   s["largest_difference"] = largest;
   s["runs"] = list;

@@ -10,7 +10,6 @@
 
 namespace platen::apps {
 
-const char *word(PairPath path);
 bool turns(const Scene &scene); // whether the path is a rotation
 // A bond that remembers: its places are prescribed (interface_test.h).
 bool is_prescribed(const Scene &scene);

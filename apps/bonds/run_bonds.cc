@@ -50,16 +50,11 @@ void check(const Scene &scene) {
         "= off needs Effects/Contact = none: the base spheres touch, and the closed form knows no contact.");
 }
 
-const char *word(PairPlate plate) {
-  constexpr const char *words[] = {"frictionless", "rolling", "sticking"};
-  return words[static_cast<int>(plate)];
-}
-
 std::string description(const Scene &scene) {
   const PairTest &t = scene.pair_test;
   std::string text = title_of(scene);
   text += fmt::format("\n  {} spheres of radius {:g} m, {}", t.particles, scene.specimen.sphere_radius,
-                      word(t.path));
+                      word_of(pair_paths, t.path));
   if (!std::isnan(t.force))
     text += fmt::format(" up to {:g} {}", t.force * (turns(scene) ? scene.specimen.sphere_radius : 1),
                         turns(scene) ? "N m" : "N");
@@ -70,7 +65,8 @@ std::string description(const Scene &scene) {
                         turns(scene) ? "rad" : "m");
   text += fmt::format(" in {} steps\n", t.steps);
   if (is_pyramid(scene))
-    text += fmt::format("  plate {}, base bond {}\n", word(t.plate), t.base_bond ? "on" : "off");
+    text +=
+        fmt::format("  plate {}, base bond {}\n", word_of(pair_plates, t.plate), t.base_bond ? "on" : "off");
   text += fmt::format("  rotation {}; {} moduli, {} stiffness ratios\n", scene.model.rotation ? "on" : "off",
                       t.moduli.size(), t.stiffness_ratios.size());
   return text;

@@ -18,16 +18,11 @@
 namespace platen::apps {
 namespace {
 
-const char *word(CalibrateMode mode) {
-  constexpr const char *words[] = {"bounds", "abacus", "search"};
-  return words[static_cast<int>(mode)];
-}
-
 std::string description(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   std::string text = title_of(scene);
-  text += fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word(c.mode), c.seeds,
-                      c.mode == CalibrateMode::search ? c.verification_seeds : 0);
+  text += fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
+                      c.seeds, c.mode == CalibrateMode::search ? c.verification_seeds : 0);
   const auto say = [&](const char *what, double value, const char *unit, double factor) {
     if (!std::isnan(value)) text += fmt::format("  wanted: {} {:.5g}{}\n", what, factor * value, unit);
   };
@@ -164,7 +159,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   output.log.info("{}", description(scene));
   const CalibrateMode mode = scene.calibrate.mode;
   Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
-  s["mode"] = word(mode);
+  s["mode"] = word_of(calibrate_modes, mode);
   s["threads"] = output.threads();
   try {
     Trials trials(scene, output.paths, command.resume, output.log);

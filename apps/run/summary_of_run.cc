@@ -30,22 +30,6 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   to[start + "end_spread"] = p.failure.end_spread;
 }
 
-const char *word_of(LoadingTest test) {
-  switch (test) {
-    case LoadingTest::tension:
-      return "tension";
-    case LoadingTest::hydrostatic:
-      return "hydrostatic";
-    case LoadingTest::uniaxial_strain:
-      return "uniaxial strain";
-    case LoadingTest::three_point_bending:
-      return "three point bending";
-    case LoadingTest::compression:
-      break;
-  }
-  return "compression";
-}
-
 // Of a pressure on the lateral surface: where it acts, and what the hydrostatic stage says.
 void add_cell(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (!problem.cell()) return;
@@ -142,7 +126,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   const double particles = static_cast<double>(model.particles.size());
   Json s = summary_head(scene, app_of(problem), status, effects_on(scene));
   s["effects_off"] = effects_off(scene);
-  s["test"] = word_of(scene.loading.test);
+  s["test"] = word_of(loading_tests, scene.loading.test);
   s["particles"] = model.particles.size();
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();

@@ -1,6 +1,10 @@
 // Values of a scene that a number alone does not state.
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
+#include "base/describe.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::apps {
@@ -14,5 +18,13 @@ struct Interval {
 
 using dem::Gap;
 using dem::Stiffness;
+
+// The first word of a value. Throws std::logic_error for one that has none.
+template <class Enum>
+const std::string &word_of(const Words<Enum> &words, Enum value) {
+  for (const auto &[word, meant] : words)
+    if (meant == value) return word;
+  throw std::logic_error("a value without a word");
+}
 
 } // namespace platen::apps

@@ -10,7 +10,14 @@
 namespace platen::apps {
 
 enum class PairPath { tension, compression, shear, bending, twisting, cyclic, combined };
+inline const Words<PairPath> pair_paths{
+    {"tension", PairPath::tension},  {"compression", PairPath::compression}, {"shear", PairPath::shear},
+    {"bending", PairPath::bending},  {"twisting", PairPath::twisting},       {"cyclic", PairPath::cyclic},
+    {"combined", PairPath::combined}};
 enum class PairPlate { frictionless, rolling, sticking };
+inline const Words<PairPlate> pair_plates{{"frictionless", PairPlate::frictionless},
+                                          {"rolling", PairPlate::rolling},
+                                          {"sticking", PairPlate::sticking}};
 
 struct PairTest { // platen-bonds
   int particles = 2;
@@ -29,6 +36,8 @@ struct PairTest { // platen-bonds
 };
 
 enum class CalibrateMode { bounds, abacus, search };
+inline const Words<CalibrateMode> calibrate_modes{
+    {"bounds", CalibrateMode::bounds}, {"abacus", CalibrateMode::abacus}, {"search", CalibrateMode::search}};
 
 struct Calibrate { // platen-calibrate
   CalibrateMode mode = CalibrateMode::search;
@@ -52,6 +61,9 @@ struct Calibrate { // platen-calibrate
 };
 
 enum class BarLoad { all, tension, bending, torsion, impact, none };
+inline const Words<BarLoad> bar_loads{{"all", BarLoad::all},         {"tension", BarLoad::tension},
+                                      {"bending", BarLoad::bending}, {"torsion", BarLoad::torsion},
+                                      {"impact", BarLoad::impact},   {"none", BarLoad::none}};
 enum class BarMethod { both, at_rest, dynamic };
 enum class BarSide { x, y };
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "apps/scene/quantities.h"
 #include "coupling/platen_test_settings.h"
 
 namespace platen::apps {
@@ -32,6 +33,11 @@ struct Platens : coupling::PlatenSettings {
 };
 
 enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain, three_point_bending };
+inline const Words<LoadingTest> loading_tests{{"compression", LoadingTest::compression},
+                                              {"tension", LoadingTest::tension},
+                                              {"hydrostatic", LoadingTest::hydrostatic},
+                                              {"uniaxial strain", LoadingTest::uniaxial_strain},
+                                              {"three point bending", LoadingTest::three_point_bending}};
 enum class ConfinementKind { none, particles, sleeve };
 
 struct Loading : coupling::LoadingSettings {

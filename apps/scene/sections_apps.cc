@@ -51,20 +51,8 @@ void declare_accuracy_lists(Section &section, Study &study) {
 void declare_pair_test(Parameters &parameters, PairTest &pair) {
   Section section(parameters, "Pair test");
   section.integer("Particles", pair.particles, 2, 3, "Two in a row, or three as a pyramid.");
-  section.word<PairPath>("Path", pair.path,
-                         {{"tension", PairPath::tension},
-                          {"compression", PairPath::compression},
-                          {"shear", PairPath::shear},
-                          {"bending", PairPath::bending},
-                          {"twisting", PairPath::twisting},
-                          {"cyclic", PairPath::cyclic},
-                          {"combined", PairPath::combined}},
-                         "How the upper particle is moved against the lower ones.");
-  section.word<PairPlate>("Plate", pair.plate,
-                          {{"frictionless", PairPlate::frictionless},
-                           {"rolling", PairPlate::rolling},
-                           {"sticking", PairPlate::sticking}},
-                          "Three particles: what the lower two stand on.");
+  section.word("Path", pair.path, pair_paths, "How the upper particle is moved against the lower ones.");
+  section.word("Plate", pair.plate, pair_plates, "Three particles: what the lower two stand on.");
   section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
   section.quantity("Force", pair.force, "N", above(0), "Largest force.");
   section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
@@ -83,12 +71,8 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
 
 void declare_calibrate(Parameters &parameters, Calibrate &c) {
   Section section(parameters, "Calibrate");
-  section.word<CalibrateMode>(
-      "Mode", c.mode,
-      {{"bounds", CalibrateMode::bounds},
-       {"abacus", CalibrateMode::abacus},
-       {"search", CalibrateMode::search}},
-      "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+  section.word("Mode", c.mode, calibrate_modes,
+               "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
   section.quantity("Young modulus", c.young_modulus, "Pa", above(0),
                    "Wanted of the specimen's middle; may be left out.");
   section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
@@ -150,14 +134,8 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
 
 void declare_bar_test(Parameters &parameters, BarTest &bar) {
   Section section(parameters, "Bar test");
-  section.word<BarLoad>("Load", bar.load,
-                        {{"all", BarLoad::all},
-                         {"tension", BarLoad::tension},
-                         {"bending", BarLoad::bending},
-                         {"torsion", BarLoad::torsion},
-                         {"impact", BarLoad::impact},
-                         {"none", BarLoad::none}},
-                        "What is done to a bar clamped at its lower end; none: its moduli alone.");
+  section.word("Load", bar.load, bar_loads,
+               "What is done to a bar clamped at its lower end; none: its moduli alone.");
   section.word<BarMethod>(
       "Method", bar.method,
       {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},

@@ -131,13 +131,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   Members of(section, loading);
   Members cell(section, *loading.cell);
   const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
-  section.word<LoadingTest>(
-      "Test", loading.test,
-      {{"compression", LoadingTest::compression},
-       {"tension", LoadingTest::tension},
-       {"hydrostatic", LoadingTest::hydrostatic},
-       {"uniaxial strain", LoadingTest::uniaxial_strain},
-       {"three point bending", LoadingTest::three_point_bending}},
+  section.word(
+      "Test", loading.test, loading_tests,
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
       "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
