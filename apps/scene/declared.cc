@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/scene/scene.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 namespace {
@@ -16,13 +17,6 @@ std::string alternatives(const std::vector<std::string> &words) {
   std::string text;
   for (std::size_t k = 0; k < words.size(); ++k)
     text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
-  return text;
-}
-
-std::string joined(const std::vector<std::string> &words) {
-  std::string text;
-  for (const std::string &word : words)
-    text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 

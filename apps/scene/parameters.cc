@@ -189,16 +189,13 @@ std::string Parameters::contents_of(const std::string &section) const {
 void Parameters::refuse_unknown(const std::string &path, const Origin &origin) const {
   const std::string section = section_of(path);
   if (!section.empty()) enter(section, origin);
-  std::vector<std::string> here, everywhere, last_names;
+  const std::string key = last_name(path);
+  std::vector<std::string> keys, everywhere, last_names;
   for (const Entry &entry : entries_) {
-    if (section_of(entry.path) == section) here.push_back(entry.path);
-    if (a_slip_apart(last_name(entry.path), last_name(path))) last_names.push_back(entry.path);
+    if (section_of(entry.path) == section) keys.push_back(last_name(entry.path));
+    if (a_slip_apart(last_name(entry.path), key)) last_names.push_back(entry.path);
     everywhere.push_back(entry.path);
   }
-  const std::string key = last_name(path);
-  std::vector<std::string> keys;
-  for (const std::string &known : here)
-    keys.push_back(last_name(known));
   std::string nearest = nearest_word(key, keys);
   if (!nearest.empty())
     nearest = (section.empty() ? "" : section + "/") + nearest;
@@ -208,16 +205,14 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
     nearest = nearest_word(path, everywhere);
   const std::string message = origin.text() + ": error: " + shown(path) + " is not a parameter.";
   if (nearest.empty()) throw InputError(message + "\n" + contents_of(section));
-  const Entry *entry = find(nearest);
-  const std::string about = entry == nullptr ? "" : limits(*entry);
+  const std::string about = limits(at(nearest));
   throw InputError(message + " Did you mean \"" + nearest + "\"" + (about.empty() ? "" : " (" + about + ")") +
                    "?");
 }
 
 void Parameters::set(const std::string &path, const std::string &text, const Origin &origin) {
-  const std::size_t k = position(path);
-  if (k == entries_.size()) refuse_unknown(path, origin);
-  Entry &entry = entries_[k];
+  if (find(path) == nullptr) refuse_unknown(path, origin);
+  Entry &entry = declared(path);
   if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
     throw InputError(origin.text() + ": error: " + path + " = " + shown(trimmed(text)) +
                      " is set twice: it was set to \"" + shown(entry.text) + "\" in " + entry.origin.text() +
@@ -243,7 +238,7 @@ void Parameters::supply(const std::string &path, const std::string &text) {
 }
 
 void Parameters::supply(const std::string &path, const std::string &text, const Origin &word) {
-  Entry &entry = entries_.at(position(path));
+  Entry &entry = declared(path);
   if (!entry.origin.file.empty() && entry.origin.depth <= word.depth) return;
   entry.read(text);
   entry.text = text;

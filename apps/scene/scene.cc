@@ -49,6 +49,23 @@ void keep(Scene &scene, Parameters &parameters) {
   scene.parameters = std::make_shared<const Parameters>(std::move(parameters));
 }
 
+// A null `app` leaves contradictions be.
+Scene read(const std::string &path, const std::vector<std::string> &overrides, const AppKind *app) {
+  Scene scene;
+  Parameters parameters;
+  declare_scene(parameters, scene);
+  parameters.set_source(path);
+  scene.path = path;
+  scene.name = std::filesystem::path(path).stem().string();
+  read_scene_file(path, parameters);
+  for (std::size_t k = 0; k < overrides.size(); ++k)
+    parameters.override_entry(overrides[k], static_cast<int>(k) + 1);
+  inherit(scene, parameters);
+  if (app != nullptr) check_scene(scene, parameters, *app);
+  keep(scene, parameters);
+  return scene;
+}
+
 } // namespace
 
 Scene default_scene() {
@@ -61,32 +78,13 @@ Scene default_scene() {
 }
 
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app) {
-  Scene scene;
-  Parameters parameters;
-  declare_scene(parameters, scene);
-  parameters.set_source(path);
-  scene.path = path;
-  scene.name = std::filesystem::path(path).stem().string();
-  read_scene_file(path, parameters);
-  for (std::size_t k = 0; k < overrides.size(); ++k)
-    parameters.override_entry(overrides[k], static_cast<int>(k) + 1);
-  inherit(scene, parameters);
-  check_scene(scene, parameters, app);
-  keep(scene, parameters);
-  return scene;
+  return read(path, overrides, &app);
 }
 
 std::string completed_scene_text(const std::string &path, const std::string &folder) {
   std::ostringstream text;
   try {
-    Scene scene;
-    Parameters parameters;
-    declare_scene(parameters, scene);
-    parameters.set_source(path);
-    read_scene_file(path, parameters);
-    inherit(scene, parameters);
-    keep(scene, parameters);
-    write_scene(scene, folder, text);
+    write_scene(read(path, {}, nullptr), folder, text);
   } catch (const InputError &) {
     text.str("");
     text << std::ifstream(path, std::ios::binary).rdbuf();

@@ -11,6 +11,8 @@
 #include <memory>
 #include <string_view>
 
+#include "apps/scene/parameters.h"
+
 namespace platen::apps {
 namespace {
 
@@ -112,11 +114,6 @@ bool is_angle(const ut_unit *unit) {
   return length > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
 }
 
-std::string without_blanks(const std::string &text) {
-  const auto first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 struct Dimension {
   const char *name, *example;
 };
@@ -146,7 +143,7 @@ std::string name_of_dimension(const std::string &si_unit) {
 }
 
 NumberWithUnit split_number(const std::string &text) {
-  const std::string stripped = without_blanks(text);
+  const std::string stripped = trimmed(text);
   if (stripped.empty()) throw ValueError("has no value");
   const bool plus = stripped[0] == '+' && stripped.size() > 1 && stripped[1] != '-';
   const char *first = stripped.data() + (plus ? 1 : 0), *last = stripped.data() + stripped.size();
@@ -157,7 +154,7 @@ NumberWithUnit split_number(const std::string &text) {
   if (!std::isfinite(number.value)) throw ValueError("is not a finite number");
   if (end != last && *end == ',')
     throw ValueError("is not a number: the decimal sign is a point, not a comma");
-  number.unit = without_blanks(std::string(end, last));
+  number.unit = trimmed(std::string(end, last));
   return number;
 }
 
