@@ -34,14 +34,14 @@ Declared Section::declare(const std::string &key, const std::string &default_tex
   return {parameters_, path};
 }
 
-Declared Section::quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
-                           const std::string &documentation) {
+Declared Section::entry(const std::string &key, double &to, const std::string &si_unit, const Range &range,
+                        const std::string &documentation) {
   return declare(
       key, shortest_text(to), si_unit, range.text(), documentation,
       [&to, si_unit, range](const std::string &text) { to = read_quantity(text, si_unit, range); });
 }
 
-Declared Section::flag(const std::string &key, bool &to, const std::string &documentation) {
+Declared Section::entry(const std::string &key, bool &to, const std::string &documentation) {
   return declare(key, to ? "on" : "off", "", "on, off", documentation,
                  [&to](const std::string &text) { to = read_flag(text); });
 }
@@ -55,12 +55,12 @@ Declared Section::file(const std::string &key, std::string &to, const std::strin
       key, to, "", "path of a file", documentation, [&to](const std::string &given) { to = given; }, true);
 }
 
-Declared Section::interval(const std::string &key, Interval &to, const std::string &documentation) {
+Declared Section::entry(const std::string &key, Interval &to, const std::string &documentation) {
   return declare(key, text_of(to), "", "steps (a whole number), or a time with its unit; 0 or more",
                  documentation, [&to](const std::string &text) { to = read_interval(text); });
 }
 
-Declared Section::gap(const std::string &key, Gap &to, const std::string &documentation) {
+Declared Section::entry(const std::string &key, Gap &to, const std::string &documentation) {
   return declare(key, text_of(to), "", "\"0.05 R_min\", or a length (m); 0 or more", documentation,
                  [&to](const std::string &text) { to = read_gap(text); });
 }
@@ -73,8 +73,8 @@ Declared Section::stiffness(const std::string &key, Stiffness &to, bool bulk_all
                  [&to, bulk_allowed](const std::string &text) { to = read_stiffness(text, bulk_allowed); });
 }
 
-Declared Section::list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
-                       const Range &range, const std::string &documentation) {
+Declared Section::entry(const std::string &key, std::vector<double> &to, const std::string &si_unit,
+                        const Range &range, const std::string &documentation) {
   return declare(key, "", si_unit, "numbers with commas between them, each " + range.text(), documentation,
                  [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
 }

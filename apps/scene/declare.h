@@ -14,15 +14,21 @@ namespace platen::apps {
 
 class Section {
 public:
-  // Members given to the functions below must live until parameters.release().
+  // Members given to the functions below must live until parameters.release(). What an entry reads follows
+  // from the member and from what is said of it, as in base/describe.h.
   Section(Parameters &parameters, std::string name) : parameters_(parameters), name_(std::move(name)) {}
 
   // A number with its dimension; NaN beforehand: there is no default, and "" means not given.
-  Declared quantity(const std::string &key, double &to, const std::string &si_unit, const Range &range,
-                    const std::string &documentation);
+  Declared entry(const std::string &key, double &to, const std::string &si_unit, const Range &range,
+                 const std::string &documentation);
   // A number without dimension ("20 %" is 0.2).
   Declared number(const std::string &key, double &to, const Range &range, const std::string &documentation) {
-    return quantity(key, to, "1", range, documentation);
+    return entry(key, to, "1", range, documentation);
+  }
+  Declared entry(const std::string &key, std::vector<double> &to, const std::string &si_unit,
+                 const Range &range, const std::string &documentation);
+  Declared entry(const std::string &key, int &to, const Range &range, const std::string &documentation) {
+    return integer(key, to, range.low, range.high, documentation);
   }
   template <class Integer>
   Declared integer(const std::string &key, Integer &to, double low, double high,
@@ -32,16 +38,17 @@ public:
         key, std::to_string(to), "", "whole, " + range.text(), documentation,
         [&to, range](const std::string &text) { to = static_cast<Integer>(read_integer(text, range)); });
   }
-  Declared flag(const std::string &key, bool &to, const std::string &documentation);
+  Declared entry(const std::string &key, bool &to, const std::string &documentation);
   Declared text(const std::string &key, std::string &to, const std::string &documentation);
   // A path; what is stored is the text, resolved later against the folder of the scene.
   Declared file(const std::string &key, std::string &to, const std::string &documentation);
-  Declared interval(const std::string &key, Interval &to, const std::string &documentation);
-  Declared gap(const std::string &key, Gap &to, const std::string &documentation);
+  Declared entry(const std::string &key, Interval &to, const std::string &documentation);
+  Declared entry(const std::string &key, Gap &to, const std::string &documentation);
+  Declared entry(const std::string &key, Stiffness &to, const std::string &documentation) {
+    return stiffness(key, to, true, documentation);
+  }
   Declared stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
                      const std::string &documentation);
-  Declared list(const std::string &key, std::vector<double> &to, const std::string &si_unit,
-                const Range &range, const std::string &documentation);
   // What read(text) makes of it; there is no default.
   template <class Value>
   Declared value(const std::string &key, Value &to, const std::string &unit, const std::string &allowed,
@@ -57,8 +64,8 @@ public:
                           const std::vector<std::string> &words, const std::string &documentation);
   // One word of several.
   template <class Enum>
-  Declared word(const std::string &key, Enum &to, const Words<Enum> &words,
-                const std::string &documentation) {
+  Declared entry(const std::string &key, Enum &to, const Words<Enum> &words,
+                 const std::string &documentation) {
     std::vector<std::string> names;
     std::string by_default;
     for (const auto &[name, value] : words) {

@@ -16,41 +16,13 @@ namespace platen::apps {
 // "stiffness_ratio" is the key "Stiffness ratio".
 std::string key_of(const std::string &member);
 
-// An entry for each kind of member.
-inline Declared declare(Section &section, const std::string &key, double &to, const char *unit,
-                        const Range &range, const char *sentence) {
-  return section.quantity(key, to, unit, range, sentence);
-}
-inline Declared declare(Section &section, const std::string &key, std::vector<double> &to, const char *unit,
-                        const Range &range, const char *sentence) {
-  return section.list(key, to, unit, range, sentence);
-}
-inline Declared declare(Section &section, const std::string &key, int &to, const Range &range,
-                        const char *sentence) {
-  return section.integer(key, to, range.low, range.high, sentence);
-}
-template <class Enum>
-Declared declare(Section &section, const std::string &key, Enum &to, const Words<Enum> &words,
-                 const char *sentence) {
-  return section.word(key, to, words, sentence);
-}
-inline Declared declare(Section &section, const std::string &key, bool &to, const char *sentence) {
-  return section.flag(key, to, sentence);
-}
-inline Declared declare(Section &section, const std::string &key, Gap &to, const char *sentence) {
-  return section.gap(key, to, sentence);
-}
-inline Declared declare(Section &section, const std::string &key, Stiffness &to, const char *sentence) {
-  return section.stiffness(key, to, true, sentence);
-}
-
 // Declares the member of that name, if there is one.
 template <class Described>
 void declare_member(Section &section, Described &of, const std::string &member, const std::string &key) {
   Described::describe(
       [&](const char *name, auto &to, const auto &...about) {
         if (name == member)
-          declare(section, key, to, about...).member(std::string(Described::name) + "." + member);
+          section.entry(key, to, about...).member(std::string(Described::name) + "." + member);
       },
       of);
 }

@@ -14,7 +14,7 @@ void declare_general(Parameters &parameters, General &general) {
   Words<Quality> words;
   for (const QualityWord &one : quality_words())
     words.emplace_back(one.word, one.kind);
-  section.word<Quality>(
+  section.entry<Quality>(
       "Quality", general.quality, words,
       "Accuracy against time: entries that a word stands for, each where the scene does not "
       "give it; custom: none. " +
@@ -37,7 +37,7 @@ void declare_integration(Parameters &parameters, coupling::TimeStepSettings &tim
   step("fixed_step", "Time step");
   of.rest({"density", "density_of", "bond_dashpot"});
   step.rest();
-  section.word<dem::InstructionSet>(
+  section.entry<dem::InstructionSet>(
       "Instruction set", model.instruction_set,
       {{"best", dem::best_instruction_set()}, {"baseline", dem::InstructionSet::baseline}},
       "Baseline repeats to the bit on every x86-64 processor.");
@@ -45,13 +45,12 @@ void declare_integration(Parameters &parameters, coupling::TimeStepSettings &tim
 
 void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint) {
   Section section(parameters, "Output");
-  section.interval("Every", output.every,
-                   "Rows of history.csv: steps or simulated time; 0: chosen by the app.");
+  section.entry("Every", output.every, "Rows of history.csv: steps or simulated time; 0: chosen by the app.");
   section
-      .interval("Fields every", output.fields_every,
-                "Frames for ParaView: steps or simulated time; 0: chosen by the app.")
+      .entry("Fields every", output.fields_every,
+             "Frames for ParaView: steps or simulated time; 0: chosen by the app.")
       .unless("Output/Fields", {"off", "false", "no"});
-  section.flag("Fields", output.fields, "Write frames for ParaView.");
+  section.entry("Fields", output.fields, "Write frames for ParaView.");
   section.number("Sound share", output.sound_share, between(0.01, 1),
                  "Share of its bonds that a sphere has kept to be of a cone.");
   section.number(
@@ -60,8 +59,8 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
   section.number("Event time", output.event_time, between(0, 1000),
                  "And this soon after each other, in times that a wave takes over the reach.");
   Section checkpoints(parameters, "Checkpoint");
-  checkpoints.interval("Every", checkpoint.every,
-                       "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");
+  checkpoints.entry("Every", checkpoint.every,
+                    "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");
 }
 
 void declare_scene(Parameters &parameters, Scene &scene) {

@@ -18,24 +18,24 @@ Range friction_angle() {
 
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {
-  section.list(
+  section.entry(
       "Safety list", study.safeties, "1", above_up_to(0, 1),
       "Study of accuracy, in place of Integration/Safety. All lists of such a study go from coarse to "
       "fine; the last value is the reference of the others.");
-  section.list("Wave crossings list", study.wave_transits, "1", above(0),
-               "Study of accuracy, in place of Loading/Wave crossings.");
-  section.list("Hurry list", study.rate_multipliers, "1", between(1, 100),
-               "Study of accuracy, in place of Loading/Hurry.");
-  section.list("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
-               "Study of accuracy, in place of Integration/Mass scaling.");
-  section.list("Platen mesh list", study.platen_elements, "1", between(1, 1000),
-               "Study of accuracy, in place of Platens/Elements across (Kind = deformable).");
-  section.list("Steps per solve list", study.steps_per_solve, "1", between(1, 100000),
-               "Study of accuracy, in place of Platens/Steps per solve (Motion = quasi-static).");
-  section.list("Sleeve mesh list", study.sleeve_elements, "1", between(8, 10000),
-               "Study of accuracy, in place of Sleeve/Elements around.");
-  section.list("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
-               "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
+  section.entry("Wave crossings list", study.wave_transits, "1", above(0),
+                "Study of accuracy, in place of Loading/Wave crossings.");
+  section.entry("Hurry list", study.rate_multipliers, "1", between(1, 100),
+                "Study of accuracy, in place of Loading/Hurry.");
+  section.entry("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
+                "Study of accuracy, in place of Integration/Mass scaling.");
+  section.entry("Platen mesh list", study.platen_elements, "1", between(1, 1000),
+                "Study of accuracy, in place of Platens/Elements across (Kind = deformable).");
+  section.entry("Steps per solve list", study.steps_per_solve, "1", between(1, 100000),
+                "Study of accuracy, in place of Platens/Steps per solve (Motion = quasi-static).");
+  section.entry("Sleeve mesh list", study.sleeve_elements, "1", between(8, 10000),
+                "Study of accuracy, in place of Sleeve/Elements around.");
+  section.entry("Sleeve mass scaling list", study.sleeve_mass_scalings, "1", at_least(1),
+                "Study of accuracy, in place of Sleeve/Mass scaling: how seldom the sleeve is stepped.");
   section.value("Quality list", study.qualities, "", "words of Scene/Quality with commas between them",
                 read_qualities,
                 "Study of accuracy, in place of Scene/Quality; the scene leaves open what it stands for.");
@@ -51,60 +51,59 @@ void declare_accuracy_lists(Section &section, Study &study) {
 void declare_pair_test(Parameters &parameters, PairTest &pair) {
   Section section(parameters, "Pair test");
   section.integer("Particles", pair.particles, 2, 3, "Two in a row, or three as a pyramid.");
-  section.word("Path", pair.path, pair_paths, "How the upper particle is moved against the lower ones.");
-  section.word("Plate", pair.plate, pair_plates, "Three particles: what the lower two stand on.");
-  section.flag("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
-  section.quantity("Force", pair.force, "N", above(0), "Largest force.");
-  section.quantity("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
-  section.list("Turns", pair.turns, "m", any_number(),
-               "Displacements at which the path turns, opening positive, the last one its end; instead of "
-               "Displacement (elasto damage plastic).");
-  section.quantity("Pressure", pair.pressure, "Pa", at_least(0),
-                   "Presses the bond while it is sheared (elasto damage plastic).");
+  section.entry("Path", pair.path, pair_paths, "How the upper particle is moved against the lower ones.");
+  section.entry("Plate", pair.plate, pair_plates, "Three particles: what the lower two stand on.");
+  section.entry("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
+  section.entry("Force", pair.force, "N", above(0), "Largest force.");
+  section.entry("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
+  section.entry("Turns", pair.turns, "m", any_number(),
+                "Displacements at which the path turns, opening positive, the last one its end; instead of "
+                "Displacement (elasto damage plastic).");
+  section.entry("Pressure", pair.pressure, "Pa", at_least(0),
+                "Presses the bond while it is sheared (elasto damage plastic).");
   section.number("Slip ratio", pair.slip_ratio, above(0),
                  "Slip over opening of the combined path (elasto damage plastic).");
-  section.list("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", pair.stiffness_ratios, "1", stiffness_ratio(),
-               "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
+  section.entry("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
+  section.entry("Stiffness ratio list", pair.stiffness_ratios, "1", stiffness_ratio(),
+                "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
 
 void declare_calibrate(Parameters &parameters, Calibrate &c) {
   Section section(parameters, "Calibrate");
-  section.word("Mode", c.mode, calibrate_modes,
-               "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
-  section.quantity("Young modulus", c.young_modulus, "Pa", above(0),
-                   "Wanted of the specimen's middle; may be left out.");
+  section.entry("Mode", c.mode, calibrate_modes,
+                "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+  section.entry("Young modulus", c.young_modulus, "Pa", above(0),
+                "Wanted of the specimen's middle; may be left out.");
   section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
                  "Wanted of the specimen's middle; may be left out.");
-  section.quantity("Compressive strength", c.compressive_strength, "Pa", above(0),
-                   "Wanted between the platens of the scene; may be left out.");
-  section.quantity("Tensile strength", c.tensile_strength, "Pa", above(0),
-                   "Wanted between glued ends; may be left out.");
-  section.quantity(
-      "Triaxial strength", c.triaxial_strength, "Pa", above(0),
-      "Wanted at the confining pressure, as largest axial stress (the pressure included); may be "
-      "left out.");
-  section.quantity("Confining pressure", c.confining_pressure, "Pa", above(0),
-                   "Of the triaxial strength; it acts as Loading/Confinement = particles.");
+  section.entry("Compressive strength", c.compressive_strength, "Pa", above(0),
+                "Wanted between the platens of the scene; may be left out.");
+  section.entry("Tensile strength", c.tensile_strength, "Pa", above(0),
+                "Wanted between glued ends; may be left out.");
+  section.entry("Triaxial strength", c.triaxial_strength, "Pa", above(0),
+                "Wanted at the confining pressure, as largest axial stress (the pressure included); may be "
+                "left out.");
+  section.entry("Confining pressure", c.confining_pressure, "Pa", above(0),
+                "Of the triaxial strength; it acts as Loading/Confinement = particles.");
   section.integer("Seeds", c.seeds, 1, 1000, "Packings to calibrate on: Scene/Seed and those after it.");
   section.integer("Verification seeds", c.verification_seeds, 0, 1000,
                   "Packings after those, on which what was found is judged.");
   section.number("Strain", c.strain, above_up_to(0, 0.01), "Closure over height in the static solves.");
-  section.quantity("Tension rate", c.tension_rate, "m/s", above(0),
-                   "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
-                   "tensile over compressive strength (a tenth where one is not wanted).");
+  section.entry("Tension rate", c.tension_rate, "m/s", above(0),
+                "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
+                "tensile over compressive strength (a tenth where one is not wanted).");
   section.integer("Most trials", c.most_trials, 1, 1000, "Sets of strengths that are tried.");
   section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
                  "Relative difference of the strengths that ends the search.");
-  section.list("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
-  section.list("Stiffness ratio list", c.stiffness_ratios, "1", stiffness_ratio(),
-               "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
-  section.list("Radius multiplier list", c.radius_multipliers, "1", radius_multiplier(),
-               "Abacus; empty: Bond/Radius multiplier.");
-  section.list("Poisson ratio list", c.poisson_ratios, "1",
-               range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
-               "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
+  section.entry("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
+  section.entry("Stiffness ratio list", c.stiffness_ratios, "1", stiffness_ratio(),
+                "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
+  section.entry("Radius multiplier list", c.radius_multipliers, "1", radius_multiplier(),
+                "Abacus; empty: Bond/Radius multiplier.");
+  section.entry("Poisson ratio list", c.poisson_ratios, "1",
+                range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
+                "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
   section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
   section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
@@ -122,27 +121,26 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search for compressive over tensile strength.");
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
                  "Search for compressive over tensile strength.");
-  section.quantity(
+  section.entry(
       "Smallest friction angle", c.friction_low, "rad", friction_angle(),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
       "a triaxial strength is wanted.");
-  section.quantity(
-      "Largest friction angle", c.friction_high, "rad", friction_angle(),
-      "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
-      "degree if a triaxial strength is wanted.");
+  section.entry("Largest friction angle", c.friction_high, "rad", friction_angle(),
+                "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
+                "degree if a triaxial strength is wanted.");
 }
 
 void declare_bar_test(Parameters &parameters, BarTest &bar) {
   Section section(parameters, "Bar test");
-  section.word("Load", bar.load, bar_loads,
-               "What is done to a bar clamped at its lower end; none: its moduli alone.");
-  section.word<BarMethod>(
+  section.entry("Load", bar.load, bar_loads,
+                "What is done to a bar clamped at its lower end; none: its moduli alone.");
+  section.entry<BarMethod>(
       "Method", bar.method,
       {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},
       "Static: the bar at rest under the load. Dynamic: it is let go from there and oscillates; an impact is "
       "dynamic.");
-  section.word<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
-                        "The way in which bending pushes the free end.");
+  section.entry<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
+                         "The way in which bending pushes the free end.");
   section.number("Strain", bar.strain, above_up_to(0, 0.01),
                  "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "
                  "speed of the struck end over that of the wave.");
@@ -150,8 +148,8 @@ void declare_bar_test(Parameters &parameters, BarTest &bar) {
                  "Spheres whose surface is within this many mean radii of an end plane are clamped, loaded "
                  "or struck.");
   section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.");
-  section.flag("Bulk moduli", bar.bulk_moduli,
-               "Measure the moduli of the interior too, under six strains of its skin.");
+  section.entry("Bulk moduli", bar.bulk_moduli,
+                "Measure the moduli of the interior too, under six strains of its skin.");
 }
 
 void declare_study(Parameters &parameters, Study &study) {
@@ -162,11 +160,11 @@ void declare_study(Parameters &parameters, Study &study) {
                 read_surfaces,
                 "Study of friction: platens, in place of all that Platens says of friction; "
                 "custom: what the scene says. A number: constant friction of that coefficient.");
-  section.list("Slenderness list", study.slendernesses, "1", between(0.1, 20),
-               "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
-  section.list("Confining pressure list", study.pressures, "Pa", at_least(0),
-               "Studies of friction and slenderness, in place of Loading/Confining pressure; 0: no cell.");
-  section.list(
+  section.entry("Slenderness list", study.slendernesses, "1", between(0.1, 20),
+                "Studies of friction and slenderness: heights over the width, in place of Specimen/Height.");
+  section.entry("Confining pressure list", study.pressures, "Pa", at_least(0),
+                "Studies of friction and slenderness, in place of Loading/Confining pressure; 0: no cell.");
+  section.entry(
       "Sphere radius list", study.sphere_radii, "m", above(0),
       "Studies of size, friction, slenderness and accuracy: mean radii, in place of Specimen/Sphere radius. "
       "Study of size with Domain list empty too: 0.5, 0.75, 1 and 1.25 mm (Tannu 2017).");
@@ -176,12 +174,12 @@ void declare_study(Parameters &parameters, Study &study) {
   section.value("Gap list", study.gaps, "",
                 "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
                 "Study of the packing, in place of Bond/Gap.");
-  section.list("Radius multiplier list", study.radius_multipliers, "1", radius_multiplier(),
-               "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
-  section.list("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
-               "Study of the packing, in place of Specimen/Radius spread.");
-  section.list("Axial rate list", study.axial_rates, "m/s", above(0),
-               "Studies of rate and accuracy, in place of Loading/Axial rate.");
+  section.entry("Radius multiplier list", study.radius_multipliers, "1", radius_multiplier(),
+                "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
+  section.entry("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
+                "Study of the packing, in place of Specimen/Radius spread.");
+  section.entry("Axial rate list", study.axial_rates, "m/s", above(0),
+                "Studies of rate and accuracy, in place of Loading/Axial rate.");
   declare_accuracy_lists(section, study);
 }
 

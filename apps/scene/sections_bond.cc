@@ -27,8 +27,8 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   layout("gap").unless("Effects/Bond", by_range);
   Members(section, model)("bond_dashpot", "Damping");
   section
-      .word<bool>("Strength scatter", bond.scattered, {{"none", false}, {"weibull", true}},
-                  "Weibull: a random factor of mean 1 multiplies both strengths of each bond.")
+      .entry<bool>("Strength scatter", bond.scattered, {{"none", false}, {"weibull", true}},
+                   "Weibull: a random factor of mean 1 multiplies both strengths of each bond.")
       .only_if(
           [](const Scene &s) {
             return s.bond.number("tensile_strength") > 0 || s.bond.number("shear_strength") > 0;
@@ -52,9 +52,9 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
 void declare_phases(Parameters &parameters, PhasesSection &phases) {
   Section section(parameters, "Phases");
   Members of(section, phases.phases);
-  section.word<PhasesBy>("By", phases.by,
-                         {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
-                         "What tells the spheres of the aggregate from those of the matrix.");
+  section.entry<PhasesBy>("By", phases.by,
+                          {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
+                          "What tells the spheres of the aggregate from those of the matrix.");
   of("radius_above").only_if("Phases/By", {"radius"}).needed_if("Phases/By", {"radius"});
   section.file("File", phases.file, "Ids of the spheres that are aggregate, one a line.")
       .only_if("Phases/By", {"file"});

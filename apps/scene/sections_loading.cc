@@ -25,8 +25,8 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
     of("friction_law");
   else
     laws.insert(laws.begin(), {"common", By::nothing}),
-        section.word("Friction law", friction.weakening.by, laws,
-                     "As " + common + "Friction law; common: as both.");
+        section.entry("Friction law", friction.weakening.by, laws,
+                      "As " + common + "Friction law; common: as both.");
   own(of("slip_length")
           .only_if([](const Scene &s) { return any_weakens(s, By::slip); },
                    "no Friction law is slip weakening"),
@@ -40,8 +40,8 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
 
 void declare_side(Parameters &parameters, const std::string &name, coupling::PlatenSide &side, Face &face) {
   Section section(parameters, "Platens/" + name);
-  section.word<SurfaceKind>("Surface", face.surface, surface_words(true),
-                            "As Platens/Surface, of this platen alone; common: as both.");
+  section.entry<SurfaceKind>("Surface", face.surface, surface_words(true),
+                             "As Platens/Surface, of this platen alone; common: as both.");
   declare_friction(section, side, "Platens/");
   section
       .file("Mesh file", face.mesh_file,
@@ -80,12 +80,12 @@ void declare_elastic(Section &section, Platens &platens) {
 void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading) {
   Section section(parameters, "Platens");
   Members of(section, platens);
-  section.word<bool>("Kind", platens.deformable, {{"rigid", false}, {"deformable", true}},
-                     "Rigid bodies, or elastic ones by finite elements.");
-  section.word<SurfaceKind>("Surface", platens.surface, surface_words(false),
-                            "What both platens' faces are: the entries that a word stands for, each where "
-                            "the scene does not give it. " +
-                                surface_documentation());
+  section.entry<bool>("Kind", platens.deformable, {{"rigid", false}, {"deformable", true}},
+                      "Rigid bodies, or elastic ones by finite elements.");
+  section.entry<SurfaceKind>("Surface", platens.surface, surface_words(false),
+                             "What both platens' faces are: the entries that a word stands for, each where "
+                             "the scene does not give it. " +
+                                 surface_documentation());
   declare_friction(section, platens.both, "");
   section.stiffness("Stiffness", platens.stiffness, false,
                     "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
@@ -100,7 +100,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   for (const char *member : {"young_modulus", "poisson_ratio"})
     of(member).unless("Platens/Kind", {"rigid"});
   declare_elastic(section, platens);
-  section.quantity("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
+  section.entry("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");
   of("glued", "Attachment");
   of.rest();
@@ -131,7 +131,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   Members of(section, loading);
   Members cell(section, *loading.cell);
   const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
-  section.word(
+  section.entry(
       "Test", loading.test, loading_tests,
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
       "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
@@ -157,7 +157,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       .unless("Loading/Test", {"hydrostatic"});
   of("servo_gain").only_if(driven, "Platens/Top/Control = motion");
   section
-      .word<ConfinementKind>(
+      .entry<ConfinementKind>(
           "Confinement", loading.confinement,
           {{"none", ConfinementKind::none},
            {"particles", ConfinementKind::particles},

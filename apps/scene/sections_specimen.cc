@@ -7,7 +7,7 @@ namespace platen::apps {
 
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   Section section(parameters, "Specimen");
-  section.word<SpecimenShape>(
+  section.entry<SpecimenShape>(
       "Shape", specimen.shape,
       {{"cylinder", SpecimenShape::cylinder},
        {"box", SpecimenShape::box},
@@ -16,15 +16,15 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
       "Shape of the specimen; its axis is z. A bar is round (Radius) or rectangular; a disc (Radius, Height) "
       "is laid on its rim by platen-brazilian. Test = three point bending bends a box that is long along x, "
       "or lays a rectangular bar down along x with its x up.");
-  section.quantity("Radius", specimen.radius, "m", above(0), "Radius of a cylinder or round bar.");
-  section.quantity("Height", specimen.height, "m", above(0), "Extent along z.");
-  section.quantity("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
-  section.quantity("Width y", specimen.width_y, "m", above(0), "Width of a box or rectangular bar along y.");
-  section.quantity("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.")
+  section.entry("Radius", specimen.radius, "m", above(0), "Radius of a cylinder or round bar.");
+  section.entry("Height", specimen.height, "m", above(0), "Extent along z.");
+  section.entry("Width x", specimen.width_x, "m", above(0), "Width of a box or rectangular bar along x.");
+  section.entry("Width y", specimen.width_y, "m", above(0), "Width of a box or rectangular bar along y.");
+  section.entry("Sphere radius", specimen.sphere_radius, "m", above(0), "Mean radius of the spheres.")
       .member("specimen.radius");
   section.number("Radius spread", specimen.radius_spread, between(0, 1.5),
                  "Kappa, largest minus smallest radius over the mean (Radius distribution = uniform).");
-  section.word<RadiusKind>(
+  section.entry<RadiusKind>(
       "Radius distribution", specimen.radius_distribution,
       {{"equal", RadiusKind::equal}, {"two sizes", RadiusKind::two_sizes}, {"uniform", RadiusKind::uniform}},
       "How radii are drawn; uniform with a spread of 0 is equal spheres.");
@@ -36,14 +36,14 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
       .number("Second fraction", specimen.second_fraction, between(0, 1),
               "Share of the number of spheres that has the smaller radius.")
       .only_if("Specimen/Radius distribution", {"two sizes"});
-  section.word<PackingKind>("Packing", specimen.packing,
-                            {{"advancing front", PackingKind::advancing_front},
-                             {"random close", PackingKind::random_close},
-                             {"file", PackingKind::file}},
-                            "How the spheres are placed; file takes them from File.");
+  section.entry<PackingKind>("Packing", specimen.packing,
+                             {{"advancing front", PackingKind::advancing_front},
+                              {"random close", PackingKind::random_close},
+                              {"file", PackingKind::file}},
+                             "How the spheres are placed; file takes them from File.");
   section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
   section
-      .word<dem::EndPreparation>(
+      .entry<dem::EndPreparation>(
           "Ends", specimen.ends,
           {{"as packed", dem::EndPreparation::as_packed}, {"ground", dem::EndPreparation::ground}},
           "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
@@ -54,7 +54,7 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
               "Depth of the ground layer in mean sphere radii; it decides the strength below 1.")
       .unless("Specimen/Ends", {"as packed"})
       .member("end_layer");
-  section.flag("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
+  section.entry("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
 }
 
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact) {
@@ -77,20 +77,20 @@ void declare_effects(Parameters &parameters, Scene &scene) {
   Words<int> laws{{"none", Bond::none}};
   for (const char *word : dem::BondLaws::words)
     laws.emplace_back(word, static_cast<int>(laws.size()) - 1);
-  section.word<int>("Bond", scene.bond.law, laws, "What holds the grains together.");
+  section.entry<int>("Bond", scene.bond.law, laws, "What holds the grains together.");
   Words<std::optional<dem::NormalContact>> contacts{{"none", std::nullopt}};
   for (const auto &[word, law] : dem::NormalContacts::words())
     contacts.emplace_back(word, law);
-  section.word("Contact", scene.effects.contact, contacts,
-               "Normal force between grains that touch without a bond.");
+  section.entry("Contact", scene.effects.contact, contacts,
+                "Normal force between grains that touch without a bond.");
   Members(section, scene.contact)("tangential");
-  section.flag("Rotation", scene.model.rotation,
-               "Grains turn; without it bonds and contacts carry no moments.");
+  section.entry("Rotation", scene.model.rotation,
+                "Grains turn; without it bonds and contacts carry no moments.");
   LawMembers(section, scene.bond.laws)("bond_moments");
-  section.flag("Gravity", scene.effects.gravity, "9.80665 m/s2 along -z.");
-  section.flag("Energy ledger", scene.model.energy_ledger,
-               "Energies and works in history.csv; without it their columns are nan.");
-  section.flag("Crack log", scene.model.crack_log, "cracks.csv; without it broken bonds are counted alone.");
+  section.entry("Gravity", scene.effects.gravity, "9.80665 m/s2 along -z.");
+  section.entry("Energy ledger", scene.model.energy_ledger,
+                "Energies and works in history.csv; without it their columns are nan.");
+  section.entry("Crack log", scene.model.crack_log, "cracks.csv; without it broken bonds are counted alone.");
 }
 
 void declare_contact(Parameters &parameters, dem::ContactSettings &contact) {
