@@ -105,23 +105,8 @@ double Results::bulk_modulus() const {
 double Results::gained_at_peak(double Sample::*value) const {
   return peak_ > 0 ? sign_ * (samples_[peak_row()].*value - zero().*value) : not_measured;
 }
-double Results::strain_at_peak_platen() const {
-  return gained_at_peak(&Sample::strain_platen);
-}
-double Results::strain_at_peak_gauge() const {
-  return gained_at_peak(&Sample::strain_gauge);
-}
-double Results::opening_at_peak() const {
-  return peak_ > 0 ? samples_[peak_row()].opening : not_measured;
-}
-double Results::deflection_at_peak() const {
-  return peak_ > 0 ? samples_[peak_row()].deflection : not_measured;
-}
-double Results::midspan_moment_at_peak() const {
-  return peak_ > 0 ? samples_[peak_row()].midspan_moment : not_measured;
-}
-double Results::time_at_peak() const {
-  return peak_ > 0 ? samples_[peak_row()].time : not_measured;
+double Results::at_peak(double Sample::*value) const {
+  return peak_ > 0 ? samples_[peak_row()].*value : not_measured;
 }
 
 double Results::axial_time_to_peak() const {
@@ -144,29 +129,17 @@ double Results::at(const Crossing &c, double Sample::*value) const {
 double Results::gained(const Crossing &c, double Sample::*value) const {
   return at(c, value) - zero().*value;
 }
-double Results::youngs_modulus_gauge() const {
+double Results::secant(double Sample::*value) const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_gauge)) : not_measured;
-}
-double Results::youngs_modulus_platen() const {
-  const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / (sign_ * gained(c, &Sample::strain_platen)) : not_measured;
-}
-double Results::stress_per_deflection() const {
-  const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / gained(c, &Sample::deflection) : not_measured;
+  return c.found ? modulus_share * peak_ / (sign_ * gained(c, value)) : not_measured;
 }
 double Results::lateral_over_axial() const {
   const Crossing c = ascending(modulus_share);
   return c.found ? at(c, &Sample::confining_pressure) / (modulus_share * peak_) : not_measured;
 }
-double Results::poisson_ratio() const {
+double Results::bulging(double Sample::*across, double Sample::*along) const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? -gained(c, &Sample::lateral_strain) / gained(c, &Sample::strain_gauge) : not_measured;
-}
-double Results::poisson_ratio_extremal() const {
-  const Crossing c = ascending(modulus_share);
-  return c.found ? -gained(c, &Sample::lateral_extremal) / gained(c, &Sample::axial_extremal) : not_measured;
+  return c.found ? -gained(c, across) / gained(c, along) : not_measured;
 }
 
 // Without an axial stage the energy balance is read from half the pressure on.

@@ -54,21 +54,27 @@ public:
   double deviator_strength() const; // Pa, positive
   // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
   double bulk_modulus() const;
-  double strain_at_peak_platen() const, strain_at_peak_gauge() const;
-  double youngs_modulus_gauge() const, youngs_modulus_platen() const; // Pa, secant at 40 % of the strength
-  double lateral_over_axial() const;     // pressure on a wall over axial stress, at 40 % of its largest value
-  double poisson_ratio() const;          // gauge, at 40 % of the strength
-  double poisson_ratio_extremal() const; // Tannu's way, there
+  double strain_at_peak_platen() const { return gained_at_peak(&Sample::strain_platen); }
+  double strain_at_peak_gauge() const { return gained_at_peak(&Sample::strain_gauge); }
+  // Pa, secant at 40 % of the strength.
+  double youngs_modulus_gauge() const { return secant(&Sample::strain_gauge); }
+  double youngs_modulus_platen() const { return secant(&Sample::strain_platen); }
+  double lateral_over_axial() const; // pressure on a wall over axial stress, at 40 % of its largest value
+  // At 40 % of the strength: gauge, and Tannu's way.
+  double poisson_ratio() const { return bulging(&Sample::lateral_strain, &Sample::strain_gauge); }
+  double poisson_ratio_extremal() const {
+    return bulging(&Sample::lateral_extremal, &Sample::axial_extremal);
+  }
   // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
   double energy_residual_relative() const;
   double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
-  double opening_at_peak() const;         // m, of a disc
-  double deflection_at_peak() const;      // m, of a bent bar
-  double midspan_moment_at_peak() const;  // N m, of a bent bar
+  double opening_at_peak() const { return at_peak(&Sample::opening); }               // m, of a disc
+  double deflection_at_peak() const { return at_peak(&Sample::deflection); }         // m, of a bent bar
+  double midspan_moment_at_peak() const { return at_peak(&Sample::midspan_moment); } // N m, of a bent bar
   // Flexural stress over deflection, secant at 40 % of the strength; Pa/m.
-  double stress_per_deflection() const;
-  double time_at_peak() const;       // s
-  double axial_time_to_peak() const; // s, from the end of the hydrostatic stage
+  double stress_per_deflection() const { return secant(&Sample::deflection); }
+  double time_at_peak() const { return at_peak(&Sample::time); } // s
+  double axial_time_to_peak() const;                             // s, from the end of the hydrostatic stage
   // Samples from a tenth of the peak stress to the peak; none where there is no peak.
   std::vector<Sample> rise() const;
 
@@ -94,6 +100,11 @@ private:
   const Sample &zero() const; // where the strains of the axial stage begin
   double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
   double gained_at_peak(double Sample::*value) const;
+  double at_peak(double Sample::*value) const;
+  // Stress over what is gained, and minus what is gained across over what is gained along, at the share of
+  // the strength where moduli are told.
+  double secant(double Sample::*value) const;
+  double bulging(double Sample::*across, double Sample::*along) const;
   std::size_t whole_balance_from() const; // first sample where the balance says more than noise
 
   double sign_;
