@@ -13,8 +13,6 @@ constexpr double pattern_share = 0.8;
 // Moduli are secants at this share of the strength (Bamforth; Tannu 2017).
 constexpr double modulus_share = 0.4;
 
-} // namespace
-
 Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness) {
   Pattern p;
   p.time = problem.time();
@@ -26,6 +24,8 @@ Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundnes
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
   return p;
 }
+
+} // namespace
 
 bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   samples_.push_back(sample);

@@ -21,7 +21,6 @@ struct Pattern {
   double broken_tension = not_measured, broken_shear = not_measured;
   void describe(Archive &archive);
 };
-Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness);
 
 // What cracks told while they came.
 struct Emission {

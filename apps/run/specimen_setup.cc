@@ -11,6 +11,7 @@
 #include "apps/scene/units.h"
 #include "base/pi.h"
 #include "dem/packing/advancing_front.h"
+#include "dem/packing/growth.h"
 
 namespace platen::apps {
 namespace {
@@ -129,7 +130,7 @@ void check_count(const Scene &scene, const dem::Shape &shape) {
              spheres, std::cbrt(room / most), 1e-9 * memory));
 }
 
-dem::Specimen place_spheres(const Scene &scene, dem::GrowthReport *growth) {
+dem::Specimen place_spheres(const Scene &scene) {
   const SpecimenSection &specimen = scene.specimen;
   if (specimen.packing == PackingKind::file) return read_specimen(scene);
   const dem::Shape shape = specimen_shape(scene);
@@ -143,13 +144,13 @@ dem::Specimen place_spheres(const Scene &scene, dem::GrowthReport *growth) {
         "front.");
   const bool equal = specimen.radius_distribution == RadiusKind::equal;
   return dem::random_close_packing(shape, specimen.sphere_radius, equal ? 0.0 : specimen.radius_spread,
-                                   scene.general.seed, growth);
+                                   scene.general.seed);
 }
 
 } // namespace
 
-dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth) {
-  dem::Specimen specimen = place_spheres(scene, growth);
+dem::Specimen make_specimen(const Scene &scene) {
+  dem::Specimen specimen = place_spheres(scene);
   check_phases(scene, specimen);
   return specimen;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "apps/scene/scene.h"
-#include "dem/packing/growth.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {
@@ -12,13 +11,13 @@ namespace platen::apps {
 dem::Shape specimen_shape(const Scene &scene);
 
 // Packs the spheres of a scene, or reads them from Specimen/File; the seed of the scene decides all random
-// numbers. `growth` takes the report of a random close packing, where that is asked for.
+// numbers.
 // A file's own shape holds; dimensions in the scene must agree with it within 1e-6, and are needed where the
 // file states none. Throws InputError: the file is malformed, holds spheres that coincide or reach out of the
 // shape by more than 0.01 mean radii, contradicts the scene; or the scene asks for two sizes in a random
 // close packing. Throws std::invalid_argument and std::runtime_error as the packers do (does not fit, does
 // not jam).
-dem::Specimen make_specimen(const Scene &scene, dem::GrowthReport *growth = nullptr);
+dem::Specimen make_specimen(const Scene &scene);
 
 // The phases of the scene fit this specimen: none is empty, and every id of Phases/File is a sphere's.
 // make_specimen sees to it; for specimens that come from elsewhere. Throws InputError, naming the line.

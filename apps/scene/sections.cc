@@ -4,6 +4,7 @@
 #include "apps/scene/members.h"
 
 namespace platen::apps {
+namespace {
 
 void declare_general(Parameters &parameters, General &general) {
   Section section(parameters, "Scene");
@@ -62,6 +63,8 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
   checkpoints.entry("Every", checkpoint.every,
                     "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");
 }
+
+} // namespace
 
 void declare_scene(Parameters &parameters, Scene &scene) {
   declare_general(parameters, scene.general);

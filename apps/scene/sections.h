@@ -8,7 +8,6 @@
 
 namespace platen::apps {
 
-void declare_general(Parameters &parameters, General &general);
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen);
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact);
 void declare_effects(Parameters &parameters, Scene &scene);
@@ -18,9 +17,6 @@ void declare_contact(Parameters &parameters, dem::ContactSettings &contact);
 void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading);
 void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell);
 void declare_loading(Parameters &parameters, Loading &loading);
-void declare_integration(Parameters &parameters, coupling::TimeStepSettings &time_step,
-                         dem::ModelSettings &model);
-void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
 void declare_pair_test(Parameters &parameters, PairTest &pair);
 void declare_calibrate(Parameters &parameters, Calibrate &c);

@@ -136,11 +136,12 @@ const Dimension &dimension(const std::string &si_unit) {
   return found == dimensions.end() ? other : found->second;
 }
 
-} // namespace
-
+// In words, for messages: "a pressure (Pa)".
 std::string name_of_dimension(const std::string &si_unit) {
   return std::string(dimension(si_unit).name) + (si_unit == "1" ? "" : " (" + si_unit + ")");
 }
+
+} // namespace
 
 NumberWithUnit split_number(const std::string &text) {
   const std::string stripped = trimmed(text);

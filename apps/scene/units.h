@@ -32,7 +32,4 @@ NumberWithUnit split_number(const std::string &text);
 double to_si(const NumberWithUnit &number, const std::string &si_unit);
 double to_si(const std::string &text, const std::string &si_unit);
 
-// The dimension in words, for messages: "a pressure (Pa)".
-std::string name_of_dimension(const std::string &si_unit);
-
 } // namespace platen::apps
