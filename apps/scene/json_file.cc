@@ -2,10 +2,10 @@
 // texts and true / false are values. An entry may also be an object with a "value", as --print-parameters
 // --json and ParameterHandler write it.
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "apps/scene/file_text.h"
@@ -14,43 +14,12 @@
 namespace platen::apps {
 namespace {
 
-// Hands characters to the parser and remembers how far it has read, which tells the line of every event.
-class Reading {
-public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char *;
-  using reference = const char &;
-
-  Reading(const char *at, const char **furthest) : at_(at), furthest_(furthest) {}
-  reference operator*() const { return *at_; }
-  Reading &operator++() {
-    *furthest_ = ++at_;
-    return *this;
-  }
-  Reading operator++(int) {
-    const Reading before = *this;
-    ++*this;
-    return before;
-  }
-  bool operator==(const Reading &other) const { return at_ == other.at_; }
-  bool operator!=(const Reading &other) const { return at_ != other.at_; }
-
-private:
-  const char *at_;
-  const char **furthest_;
-};
-
 class JsonReader : public nlohmann::json_sax<nlohmann::json> {
 public:
   JsonReader(const std::string &text, const std::string &name, Parameters &parameters)
-      : text_(text), furthest_(text.data()), counted_(text.data()), name_(name), parameters_(parameters) {}
+      : text_(text), stream_(text), name_(name), parameters_(parameters) {}
 
-  void read() {
-    const char *last = text_.data() + text_.size();
-    nlohmann::json::sax_parse(Reading(text_.data(), &furthest_), Reading(last, &furthest_), this);
-  }
+  void read() { nlohmann::json::sax_parse(stream_, this); }
 
   bool null() override { fail("null is no value; leave the key out instead."); }
   bool boolean(bool value) override { return scalar(value ? "on" : "off"); }
@@ -76,9 +45,11 @@ private:
     std::set<std::string> keys;
   };
 
+  // Of the event that is told, which is where the parser has read to.
   int line() {
-    for (; counted_ < furthest_; ++counted_)
-      line_ += *counted_ == '\n' ? 1 : 0;
+    const std::streamoff read_to = stream_.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
+    line_ += static_cast<int>(std::count(text_.begin() + counted_, text_.begin() + read_to, '\n'));
+    counted_ = read_to;
     return line_;
   }
   std::string path(std::size_t levels) const {
@@ -95,7 +66,8 @@ private:
   bool scalar(const std::string &value);
 
   const std::string &text_;
-  const char *furthest_, *counted_;
+  std::istringstream stream_;
+  std::streamoff counted_ = 0; // bytes, of which line_ tells the end
   int line_ = 1;
   const std::string &name_;
   Parameters &parameters_;
