@@ -109,17 +109,9 @@ void CsvWriter::write(const std::string &line) {
   bytes_ += line.size();
 }
 
-WholeTable::WholeTable(std::filesystem::path path, std::vector<std::string> columns)
-    : path_(std::move(path)), rows_(part_path(path_), std::move(columns)) {}
-
 WholeTable::~WholeTable() {
-  std::error_code ignored;
-  if (!finished_) std::filesystem::remove(rows_.path(), ignored);
-}
-
-void WholeTable::finish() {
-  make_current(rows_.path(), path_);
-  finished_ = true;
+  std::error_code ignored; // a finished one has another name
+  std::filesystem::remove(path(), ignored);
 }
 
 } // namespace platen::apps

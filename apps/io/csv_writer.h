@@ -64,20 +64,15 @@ private:
 
 // A table that is written at one go: it stands under its name with all rows or not at all. Failures throw
 // OutputError, and a former file stays.
-class WholeTable {
+class WholeTable : public CsvWriter {
 public:
-  WholeTable(std::filesystem::path path, std::vector<std::string> columns);
+  WholeTable(const std::filesystem::path &path, std::vector<std::string> columns)
+      : CsvWriter(part_path(path), std::move(columns)), whole_(path) {}
   ~WholeTable(); // without finish(): nothing is left
-  WholeTable(const WholeTable &) = delete;
-  WholeTable &operator=(const WholeTable &) = delete;
-
-  void row(const std::vector<CsvCell> &cells) { rows_.row(cells); }
-  void finish(); // gives it its name
+  void finish() { make_current(path(), whole_); }
 
 private:
-  std::filesystem::path path_;
-  CsvWriter rows_;
-  bool finished_ = false;
+  std::filesystem::path whole_;
 };
 
 } // namespace platen::apps
