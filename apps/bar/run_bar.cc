@@ -136,13 +136,9 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
 }
 
 void BarRun::finish(const dem::Model &model, const Motion &motion) {
-  results_.steps += motion.steps;
+  results_.add(model, motion.steps);
   if (results_.steps > 0)
     results_.energy_residual = std::fmax(results_.energy_residual, motion.energy_residual);
-  results_.broken_tension += model.broken_tension;
-  results_.broken_shear += model.broken_shear;
-  for (std::size_t k = 0; k < results_.stage_seconds.size(); ++k)
-    results_.stage_seconds[k] += model.clock.seconds(static_cast<dem::Stage>(k));
 }
 
 void BarRun::test_loads() {

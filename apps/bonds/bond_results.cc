@@ -7,7 +7,6 @@
 
 #include "apps/io/csv_writer.h"
 #include "apps/io/numbers.h"
-#include "apps/run/app_output.h"
 #include "dem/laws/normal_contact.h"
 
 namespace platen::apps {
@@ -33,7 +32,7 @@ double by_hand_of(const Scene &scene, const BondRun &run, std::size_t k) {
     return slides(scene) ? load.shear : load.normal;
   }
   const RigReading &row = run.path.rows[k];
-  if (row.intact < run.bonds) return not_given;
+  if (row.intact < static_cast<int>(run.bonds)) return not_given;
   return is_pyramid(scene) ? run.strain_ratio_by_hand : load_of(scene, row) / run.stiffness_by_hand;
 }
 
@@ -222,7 +221,7 @@ std::string report(const Scene &scene, const std::vector<BondRun> &runs) {
 Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, int threads, double seconds) {
   TestFigures f;
   f.particles = static_cast<std::size_t>(scene.pair_test.particles);
-  f.bonds = static_cast<std::size_t>(runs.front().bonds);
+  f.bonds = runs.front().bonds;
   f.time_step = runs.front().time_step;
   f.time_step_reason = runs.front().time_step_reason;
   f.threads = threads;
@@ -234,7 +233,7 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, int thread
     f.broken_tension += run.broken_tension;
     f.broken_shear += run.broken_shear;
     for (std::size_t k = 0; k < f.stage_seconds.size(); ++k)
-      f.stage_seconds[k] += run.clock.seconds(static_cast<dem::Stage>(k));
+      f.stage_seconds[k] += run.stage_seconds[k];
     largest = std::max(largest, largest_difference(scene, run));
     list.push_back(summary_of(scene, run));
   }

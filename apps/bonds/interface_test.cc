@@ -163,7 +163,7 @@ BondRun InterfaceTest::run() {
   BondRun run;
   run.modulus = section_.modulus;
   run.stiffness_ratio = section_.shear_stiffness() / section_.normal_stiffness();
-  run.bonds = static_cast<int>(model_.intact_bonds());
+  run.bonds = model_.intact_bonds();
   run.bond_area = section_.area;
   run.time_step = run.strain_ratio_by_hand = not_given;
   run.time_step_reason = "none: spheres are led without inertia";
@@ -189,6 +189,7 @@ BondRun InterfaceTest::run() {
   }
   conclude(run);
   run.add(model_, steps_);
+  run.fracture_work = model_.works.fracture;
   return run;
 }
 

@@ -6,7 +6,6 @@
 
 #include "apps/bonds/bond_results.h"
 #include "apps/io/specimen_csv.h"
-#include "apps/run/app_output.h"
 
 namespace platen::apps {
 namespace {
@@ -78,12 +77,13 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
   BondRun run;
   run.modulus = modulus;
   run.stiffness_ratio = rig.section().shear_ratio();
-  run.bonds = rig.bonds_at_start();
+  run.bonds = static_cast<std::size_t>(rig.bonds_at_start());
   run.bond_area = rig.section().area();
   run.time_step = rig.time_step();
   run.time_step_reason = rig.time_step_reason();
   run.path = follow_path(rig, scene);
   run.add(rig.model(), rig.steps());
+  run.fracture_work = rig.model().works.fracture;
   const PairTest &t = scene.pair_test;
   run.strain_ratio_by_hand = not_given;
   if (is_pyramid(scene)) {
@@ -100,14 +100,6 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
 }
 
 } // namespace
-
-void BondRun::add(const dem::Model &model, long steps_made) {
-  steps = steps_made;
-  clock = model.clock;
-  fracture_work = model.works.fracture;
-  broken_tension = model.broken_tension;
-  broken_shear = model.broken_shear;
-}
 
 std::vector<BondRun> run_bond_tests(const Scene &scene) {
   check(scene);

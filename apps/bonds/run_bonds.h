@@ -6,29 +6,22 @@
 
 #include "apps/bonds/interface_test.h"
 #include "apps/bonds/load_path.h"
+#include "apps/run/app_output.h"
 #include "apps/scene/command_line.h"
 
 namespace platen::apps {
 
 // One pair of bond modulus and stiffness ratio.
-struct BondRun {
+struct BondRun : TestFigures {
   double modulus = 0, stiffness_ratio = 0; // Pa, 1
   PathResult path;
   InterfaceResult interface; // only of a bond that remembers
-  long steps = 0;
-  double time_step = 0; // s
-  std::string time_step_reason;
-  double fracture_work = 0; // J
-  int bonds = 0;
-  long broken_tension = 0, broken_shear = 0;
-  double bond_area = 0; // m^2
-  dem::StageClock clock;
+  double fracture_work = 0;  // J
+  double bond_area = 0;      // m^2
 
   // The same by closed forms: stiffness (N/m or N m), breaking load (N or N m; infinite, or NaN where none is
   // known) and strain ratio (three spheres, else NaN).
   double stiffness_by_hand = 0, strength_by_hand = 0, strain_ratio_by_hand = 0;
-
-  void add(const dem::Model &model, long steps_made); // what the model counts
 };
 
 // Runs every combination of the scene's moduli and stiffness ratios. Throws InputError where the scene asks

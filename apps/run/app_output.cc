@@ -119,6 +119,14 @@ Json summary_head(const Scene &scene, const std::string &app, const std::string 
   return s;
 }
 
+void TestFigures::add(const dem::Model &model, long steps_made) {
+  steps += steps_made;
+  broken_tension += model.broken_tension;
+  broken_shear += model.broken_shear;
+  for (std::size_t k = 0; k < stage_seconds.size(); ++k)
+    stage_seconds[k] += model.clock.seconds(static_cast<dem::Stage>(k));
+}
+
 void add_figures(Json &s, const TestFigures &f) {
   const double particles = static_cast<double>(f.particles);
   s["particles"] = f.particles;

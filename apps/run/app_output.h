@@ -72,6 +72,9 @@ struct TestFigures {
   double youngs_modulus = none, poisson_ratio = none; // Pa, 1
   long broken_tension = 0, broken_shear = 0;
   double energy_residual = none; // over the energy
+
+  // What a model has stepped through and broken, and where its seconds went.
+  void add(const dem::Model &model, long steps_made);
 };
 
 // The keys that every summary begins with.
