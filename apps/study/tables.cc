@@ -6,35 +6,19 @@
 #include <cmath>
 #include <numeric>
 
+#include "apps/io/numbers.h"
+
 namespace platen::apps {
 namespace {
 
 // Numbers of summary.json that do not depend on the machine's speed; a member of an object after "/".
-const std::vector<std::string> figures{"particles",
-                                       "bonds",
-                                       "packing_fraction",
-                                       "coordination_number",
-                                       "strength_pa",
-                                       "strain_at_peak_platen",
-                                       "strain_at_peak_gauge",
-                                       "youngs_modulus_gauge_pa",
-                                       "youngs_modulus_platen_pa",
-                                       "poisson_ratio",
-                                       "broken_tension",
-                                       "broken_shear",
-                                       "end_damage_top",
-                                       "end_damage_bottom",
-                                       "middle_damage",
-                                       "end_spread",
-                                       "cone_top/half_angle_deg",
-                                       "cone_bottom/half_angle_deg",
-                                       "final_cone_top/half_angle_deg",
-                                       "final_cone_bottom/half_angle_deg",
-                                       "acoustic/b_before",
-                                       "acoustic/b_after",
-                                       "kinetic_to_internal_max",
-                                       "wave_crossings_to_peak",
-                                       "energy_residual_relative"};
+const std::vector<std::string> figures = cells_of(
+    "particles,bonds,packing_fraction,coordination_number,strength_pa,strain_at_peak_platen,"
+    "strain_at_peak_gauge,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,poisson_ratio,broken_tension,"
+    "broken_shear,end_damage_top,end_damage_bottom,middle_damage,end_spread,cone_top/half_angle_deg,"
+    "cone_bottom/half_angle_deg,final_cone_top/half_angle_deg,final_cone_bottom/half_angle_deg,"
+    "acoustic/b_before,acoustic/b_after,kinetic_to_internal_max,wave_crossings_to_peak,"
+    "energy_residual_relative");
 // And those that do.
 const std::vector<std::string> costs{"steps", "wall_seconds", "setup_seconds", "particle_steps_per_second",
                                      "peak_memory_bytes"};
@@ -145,12 +129,13 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   const std::string pattern = pattern_in(outcome.summary);
   cells.emplace_back(pattern);
   if (!pattern.empty()) ++sums.patterns[pattern];
-  for (const std::string &key : costs)
-    cost_cells.emplace_back(number_in(outcome.summary, key));
+  for (const std::string &key : costs) {
+    const double value = number_in(outcome.summary, key);
+    cost_cells.emplace_back(value);
+    sums.figures[key].add(value);
+  }
   study_.row(cells);
   costs_.row(cost_cells);
-  sums.seconds.add(number_in(outcome.summary, "wall_seconds"));
-  sums.bytes.add(number_in(outcome.summary, "peak_memory_bytes"));
   sums.strengths.push_back(peaked(outcome.summary) ? number_in(outcome.summary, "strength_pa") : not_given);
   if (outcome.done && !peaked(outcome.summary)) ++sums.without_peak;
   ++sums.runs;
@@ -216,8 +201,9 @@ std::string StudyTables::text() const {
                                  : fmt::format("{} of {}", of.runs - of.failed, of.runs));
     for (const Shown &column : measured)
       row.push_back(text_of(of.figures.at(column.column), column.unit));
-    row.push_back(text_of(of.seconds, 1));
-    row.push_back(of.bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * of.bytes.mean()) : "-");
+    row.push_back(text_of(of.figures.at("wall_seconds"), 1));
+    const SeedStatistics &bytes = of.figures.at("peak_memory_bytes");
+    row.push_back(bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * bytes.mean()) : "-");
     rows.push_back(std::move(row));
   }
   return aligned(rows) + "  mean +- standard deviation over the seeds\n";

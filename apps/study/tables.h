@@ -42,8 +42,7 @@ private:
     int runs = 0, failed = 0, without_peak = 0;
     std::map<std::string, SeedStatistics> figures; // by key of summary.json
     std::vector<double> strengths;                 // Pa, by seed; NaN: failed, or without a peak
-    SeedStatistics seconds, bytes;
-    std::map<std::string, int> patterns; // runs that failed so
+    std::map<std::string, int> patterns;           // runs that failed so
   };
 
   const StudyPlan &plan_;
