@@ -54,13 +54,8 @@ LaboratoryFigure of_astm(double slenderness, double factor) {
 }
 
 LaboratoryFigure of_rilem(bool teflon, double slenderness, double low, double high) {
-  return {PlatenEffect::relative_strength,
-          teflon,
-          slenderness,
-          0.5 * (low + high),
-          low,
-          high,
-          "RILEM TC 148-SSC (van Mier et al. 1997), from memory"};
+  constexpr const char *source = "RILEM TC 148-SSC (van Mier et al. 1997), from memory";
+  return {PlatenEffect::relative_strength, teflon, slenderness, 0.5 * (low + high), low, high, source};
 }
 
 std::vector<LaboratoryFigure> all_figures() {
