@@ -172,7 +172,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     }
     s["trials"] = trials.made();
     s["failed_trials"] = trials.failed();
-  } catch (const Trials::Stopped &stopped) {
+  } catch (const Stopped &stopped) {
     output.log.info("stopped by a signal; go on with: platen-calibrate {} -o {} --resume", command.scene,
                     command.output);
     return exit_status_of_signal(stopped.signal);

@@ -41,10 +41,6 @@ public:
   long made() const { return made_; }     // here, not read
   long failed() const { return failed_; } // of all that were asked for
 
-  struct Stopped {
-    int signal = 0;
-  };
-
 private:
   TrialResult run(const Trial &trial) const;
   void read();

@@ -12,6 +12,11 @@ void catch_stop_signals();
 // The signal that asked the run to stop, 0 while none did.
 int stop_requested();
 
+// Thrown where all that was under way has been brought to rest.
+struct Stopped {
+  int signal;
+};
+
 // 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
 inline int exit_status_of_signal(int signal) {
   return 128 + signal;

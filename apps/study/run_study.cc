@@ -60,7 +60,6 @@ private:
   int tell_costs() const;
   void open();
   void open_anew();
-  void take_folder(); // where it is there
   void require_same_study() const;
   void keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome);
   // What the kind of study alone leaves: added to study.json, told.
@@ -132,22 +131,17 @@ void StudyApp::open_anew() {
     open_output_folder(entry.path(), FolderUse::overwrite, inputs);
     fs::remove(entry.path(), none); // only where nothing of the user's is left in it
   }
-  open_output_folder(paths_.folder, use, inputs);
-  take_folder();
+  open_locked(lock_, paths_.folder, use, inputs, log_);
   create_folder(paths_.runs());
   write_text_aside(paths_.scene(), scene_text(scene_, paths_.folder));
   write_summary(paths_.study_json(), Json{{"kind", word(plan_.kind)}, {"status", "running"}});
 }
 
-void StudyApp::take_folder() {
-  if (lock_ == nullptr && fs::is_directory(paths_.folder))
+void StudyApp::open() {
+  if (fs::is_directory(paths_.folder))
     lock_ = std::make_unique<FolderLock>(paths_.folder, patience_of_study, [&] {
       log_.info("waits for runs of an earlier study in {}", paths_.folder.string());
     });
-}
-
-void StudyApp::open() {
-  take_folder();
   if (command_.resume)
     require_same_study();
   else
@@ -231,7 +225,7 @@ int StudyApp::run() {
   try {
     carry_out(runs_, threads(), log_,
               [&](std::size_t k, const RunOutcome &outcome) { keep(tables, k, outcome); });
-  } catch (const StudyStopped &stopped) {
+  } catch (const Stopped &stopped) {
     log_.info("stopped by a signal; go on with: platen-study {} {} -o {} --resume", command_.kind,
               command_.scene, command_.output);
     return exit_status_of_signal(stopped.signal);

@@ -147,7 +147,7 @@ void Processes::work(const std::function<void(std::size_t, const RunOutcome &)> 
     for (; kept < runs_.size() && outcomes_[kept]; ++kept)
       keep(kept, *outcomes_[kept]);
     if (kept == runs_.size()) return;
-    if (active_.empty() && signal_ != 0) throw StudyStopped{signal_};
+    if (active_.empty() && signal_ != 0) throw Stopped{signal_};
     if (active_.size() == at_a_time_ || next_ == runs_.size() || signal_ != 0)
       std::this_thread::sleep_for(glance);
   }

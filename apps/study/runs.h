@@ -38,16 +38,12 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               const std::vector<std::string> &overrides, const OutputPaths &paths,
                               int threads);
 
-struct StudyStopped {
-  int signal = 0;
-};
-
 // Carries out all runs, at most `at_a_time` at once, started in their order; `keep` is called for each in
 // that order as soon as it and all before it have ended. A run whose summary says done is kept; one with
 // checkpoints goes on from the newest; any other is made anew. A run that fails is an outcome, no exception;
 // but where one cannot write, no other could: those under way are stopped with their checkpoints, and
 // OutputError is thrown. A signal that asks this program to stop is passed on; when the runs have written
-// their checkpoints, StudyStopped is thrown.
+// their checkpoints, Stopped is thrown.
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
                const std::function<void(std::size_t, const RunOutcome &)> &keep);
 
