@@ -187,22 +187,10 @@ void write_table(const std::filesystem::path &path, const Scene &scene, const st
     for (std::size_t n = 0; n < runs[k].path.rows.size(); ++n) {
       const BondRun &run = runs[k];
       const RigReading &r = run.path.rows[n];
-      std::vector<CsvCell> cells{k + 1,
-                                 run.modulus,
-                                 run.stiffness_ratio,
-                                 r.force,
-                                 r.displacement,
-                                 r.moment,
-                                 r.rotation,
-                                 r.normal,
-                                 r.shear,
-                                 r.tension_ratio,
-                                 r.shear_ratio,
-                                 r.intact,
-                                 r.lateral,
-                                 r.strain_ratio,
-                                 by_hand_of(scene, run, n),
-                                 difference_of(scene, run, n)};
+      std::vector<CsvCell> cells{k + 1, run.modulus, run.stiffness_ratio};
+      cells.insert(cells.end(), {r.force, r.displacement, r.moment, r.rotation, r.normal, r.shear,
+                                 r.tension_ratio, r.shear_ratio, r.intact, r.lateral, r.strain_ratio,
+                                 by_hand_of(scene, run, n), difference_of(scene, run, n)});
       if (is_prescribed(scene)) {
         const InterfaceRow &row = run.interface.rows[n];
         const InterfaceReading &m = row.measured;
