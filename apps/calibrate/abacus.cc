@@ -8,10 +8,6 @@ constexpr const char *columns =
     "seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,youngs_modulus_gauge_pa,"
     "youngs_modulus_platen_pa,poisson_ratio,voigt_modulus_pa,voigt_poisson,reuss_modulus_pa,reuss_poisson";
 
-std::vector<double> or_own(const std::vector<double> &list, double own) {
-  return list.empty() ? std::vector<double>{own} : list;
-}
-
 std::vector<BondChoice> combinations(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
   std::vector<BondChoice> all;

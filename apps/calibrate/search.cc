@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "apps/calibrate/strengths.h"
-#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
@@ -16,10 +15,6 @@ namespace {
 // Of Poisson's ratio; static solves have no scatter but that of the packings.
 constexpr double poisson_tolerance = 1e-4;
 constexpr int most_elastic = 30;
-constexpr double degree = pi / 180; // rad
-bool wanted(double value) {
-  return !std::isnan(value);
-}
 
 class Search {
 public:

@@ -7,7 +7,6 @@
 
 #include "apps/calibrate/response_model.h"
 #include "apps/scene/errors.h"
-#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
@@ -30,10 +29,6 @@ constexpr double compressive_by_ratio = 0.25, compressive_by_moments = -2.5, com
 constexpr double triaxial_by_ratio = 0.5, triaxial_by_friction = 0.5;
 constexpr double largest_friction =
     1.0471975511965976; // rad; where a triaxial strength alone frees the angle
-
-bool wanted(double value) {
-  return !std::isnan(value);
-}
 
 class Search {
 public:
@@ -169,7 +164,6 @@ std::string Search::story(const FoundStrengths &found, const Eigen::VectorXd &mi
   if (may_.moments)
     text += fmt::format("; moment contribution {:.4g} (searched from {:.4g} to {:.4g})",
                         c.moment_contribution, c_.moments_low, start_.moment_contribution);
-  const double degree = pi / 180;
   if (may_.friction)
     text += fmt::format("; friction angle {:.4g} degree (searched from {:.4g} to {:.4g})",
                         c.friction_angle / degree, may_.friction_low / degree, may_.friction_high / degree);

@@ -1,13 +1,22 @@
 // Strengths of bonds for wanted strengths of a specimen.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/calibrate/trial.h"
+#include "base/pi.h"
 
 namespace platen::apps {
+
+constexpr double degree = pi / 180; // rad
+
+// Whether the scene wants such a number.
+inline bool wanted(double value) {
+  return !std::isnan(value);
+}
 
 // Of a specimen, means over the seeds; NaN where none was asked for or no run came to a peak.
 struct Strengths {

@@ -86,6 +86,12 @@ struct StudySurface { // a word, or a coefficient of friction
   double friction = not_given; // static and dynamic; not given: what the word says
 };
 
+// The list, or the one value that the scene has.
+template <class Value>
+std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
+  return list.empty() ? std::vector<Value>{own} : list;
+}
+
 struct Study {                        // platen-study; a list that is empty leaves the scene's own value
   int seeds = 5;                      // runs of each case: Scene/Seed and those after it
   std::vector<StudySurface> surfaces; // friction

@@ -98,10 +98,4 @@ inline std::string in_name(double value) {
 // For a name: letters and digits in lower case, one underscore for each run of anything else.
 std::string as_name(const std::string &words);
 
-// The list, or the one value that the scene has.
-template <class Value>
-std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
-  return list.empty() ? std::vector<Value>{own} : list;
-}
-
 } // namespace platen::apps
