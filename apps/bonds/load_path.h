@@ -9,8 +9,7 @@
 namespace platen::apps {
 
 // Turning points over the largest load, tension positive: {1}; {-1}; {.5, 0, -.5, 0, 1} for a cycle of two
-// spheres,
-// {-.5, 0, -1} for one of three, which only stand on their plate.
+// spheres, {-.5, 0, -1} for one of three, which only stand on their plate.
 std::vector<double> turning_points(const PairTest &test);
 
 struct PathResult {

@@ -47,9 +47,8 @@ enum class FolderUse { fresh, overwrite, resume };
 // Throws FolderError, and touches nothing, where a run must not write into `folder`:
 //   fresh      it holds an earlier run;
 //   resume     it holds no checkpoint;
-//   any        it cannot be created or written; or one of `inputs` (scene, specimen file) is a file that a
-//   fresh or
-//              overwriting run would replace.
+//   others     one of `inputs` (scene, specimen file) is a file that the run would replace;
+//   any        it cannot be created or written.
 void check_output_folder(const std::filesystem::path &folder, FolderUse use,
                          const std::vector<std::filesystem::path> &inputs = {});
 

@@ -1,6 +1,8 @@
 // Text files that list spheres: specimens, one sphere a row in full precision, and lists of ids.
-//   # shape: cylinder radius_m=0.025 height_m=0.1          or: # shape: box width_x_m=... width_y_m=...
-//   height_m=... x_m,y_m,z_m,radius_m 0.001,-0.0024,0.0013,0.0012
+//   # shape: cylinder radius_m=0.025 height_m=0.1
+//   x_m,y_m,z_m,radius_m
+//   0.001,-0.0024,0.0013,0.0012
+// or, in the first line, "box width_x_m=... width_y_m=... height_m=...", "disc radius_m=... thickness_m=...".
 #pragma once
 
 #include <cstddef>
