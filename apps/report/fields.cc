@@ -163,10 +163,7 @@ dem::SphereColumns stressed_spheres(const Run &run, double time) {
     columns.position.push_back({now[0], now[1], now[2]});
     columns.displacement.push_back({now[0] - before[0], now[1] - before[1], now[2] - before[2]});
     columns.damage.push_back(spheres.damage(k));
-    std::array<double, 9> s;
-    for (int c = 0; c < 9; ++c)
-      s[static_cast<std::size_t>(c)] = stress.GetComponent(static_cast<vtkIdType>(k), c);
-    columns.stress.push_back(s);
+    stress.GetTuple(static_cast<vtkIdType>(k), columns.stress.emplace_back().data());
     row_of_id[spheres.id[k]] = k;
   }
   columns.radius = spheres.radius;
