@@ -51,7 +51,7 @@ PyramidResponse pyramid_response(const Pyramid &pyramid) {
     u = t = -(f1 + f2) / (a11 + 2 * a12 + a22);
   } // sticking: neither moves nor turns
   const double energy = .5 * (a11 * u * u + 2 * a12 * u * t + a22 * t * t) + f1 * u + f2 * t + .5 * c;
-  return {2 * 2 * energy * b.axial_stiffness(), root3 * u, t / b.sphere_radius}; // two halves; F = 2 E / w
+  return {2 * 2 * energy * b.axial_stiffness(), root3 * u}; // two halves; F = 2 E / w
 }
 
 } // namespace platen::apps

@@ -48,7 +48,6 @@ struct Pyramid {
 struct PyramidResponse {
   double stiffness = 0;    // N/m, load on the top sphere over its path down
   double strain_ratio = 0; // sqrt(3) u / w: lateral strain of the base over the vertical strain
-  double turn = 0;         // rad m^-1, rotation of a base sphere over w
 };
 // Minimum of the elastic energy of the three bonds over the spread u of each base sphere and its rotation,
 // for the top sphere pressed down by w (Tannu 2017's arrangement; the strain ratio falls as k_s / k_n grows).

@@ -82,7 +82,6 @@ public:
   explicit CheckpointReader(const std::filesystem::path &path);
   ~CheckpointReader() override;
 
-  const std::filesystem::path &path() const { return path_; }
   std::vector<std::string> names() const override; // in the order of the file
   std::optional<StoredBlock> find(const std::string &name) const override;
   void read(const std::string &name, void *data) const override;

@@ -1,7 +1,6 @@
 // Time series of frames for ParaView (.pvd): which file belongs to which time.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,7 +22,6 @@ public:
   // where the .pvd is damaged, or one of its frames is missing. A .pvd that is not there has no frames.
   void resume(double up_to_time);
 
-  std::size_t size() const { return frames_.size(); }
   const std::filesystem::path &path() const { return path_; }
 
 private:

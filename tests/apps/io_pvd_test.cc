@@ -63,8 +63,7 @@ TEST_F(Pvd, of_a_resumed_run_equals_that_of_an_uninterrupted_one) {
   for (const int last : {9, 5, 0}) {
     PvdSeries series(path_);
     series.resume(time_of(last)); // a checkpoint at the very time of a frame: the frame stays
-    ASSERT_EQ(series.size(), static_cast<std::size_t>(last) + 1);
-    EXPECT_EQ(listed().size(), series.size());
+    ASSERT_EQ(listed().size(), static_cast<std::size_t>(last) + 1);
     for (int k = last + 1; k < 10; ++k)
       frame(series, k);
     EXPECT_EQ(content_of(path_), whole);
@@ -78,7 +77,6 @@ TEST_F(Pvd, resumed_before_its_first_frame_starts_anew) {
   }
   PvdSeries series(path_);
   series.resume(0);
-  EXPECT_EQ(series.size(), 0u);
   EXPECT_TRUE(listed().empty());
   fs::remove(path_);
   PvdSeries none(path_);
@@ -128,7 +126,7 @@ TEST_F(Pvd, survives_names_that_mean_something_in_xml) {
   EXPECT_EQ(listed()[0].second, name);
   PvdSeries series(path_);
   EXPECT_NO_THROW(series.resume(1));
-  EXPECT_EQ(series.size(), 1u);
+  EXPECT_EQ(listed().size(), 1u);
 }
 
 TEST_F(Pvd, on_a_full_disk_stays_as_it_was) {
