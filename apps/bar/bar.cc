@@ -1,7 +1,7 @@
 #include "apps/bar/bar.h"
 
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "dem/measure/bond_network.h"
@@ -29,35 +29,32 @@ BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double 
   return end;
 }
 
-// Mean of the positive (sign 1) or negative side of what lies within `depth` of a flat wall.
-double mean_at_wall(const Particles &p, int axis, int sign, double half_width, double depth) {
+// Mean distance from the middle of what lies within `depth` of a wall at that distance; nothing of none.
+template <class Distance>
+std::optional<double> mean_at_wall(const Particles &p, double wall, double depth, const Distance &distance) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double x = sign * p.reference_position[i][axis];
-    if (half_width - x - p.radius[i] > depth) continue;
+    const double x = distance(p.reference_position[i]);
+    if (wall - x - p.radius[i] > depth) continue;
     sum += x;
     ++count;
   }
-  return count > 0 ? sum / count : half_width;
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 Section bounding_section(const Particles &p, const dem::Shape &shape, double mean_radius, double depth) {
+  const auto width = [&](int axis, double half) {
+    double sum = 2 * mean_radius;
+    for (const int sign : {1, -1})
+      sum += mean_at_wall(p, half, depth, [&](const Vector3 &x) { return sign * x[axis]; }).value_or(half);
+    return sum;
+  };
   if (shape.kind == dem::ShapeKind::box)
-    return {false, 0,
-            2 * mean_radius + mean_at_wall(p, 0, 1, 0.5 * shape.width_x, depth) +
-                mean_at_wall(p, 0, -1, 0.5 * shape.width_x, depth),
-            2 * mean_radius + mean_at_wall(p, 1, 1, 0.5 * shape.width_y, depth) +
-                mean_at_wall(p, 1, -1, 0.5 * shape.width_y, depth)};
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double r = std::hypot(p.reference_position[i].x, p.reference_position[i].y);
-    if (shape.radius - r - p.radius[i] > depth) continue;
-    sum += r;
-    ++count;
-  }
-  return {true, count > 0 ? mean_radius + sum / count : shape.radius, 0, 0};
+    return {false, 0, width(0, 0.5 * shape.width_x), width(1, 0.5 * shape.width_y)};
+  const auto mean =
+      mean_at_wall(p, shape.radius, depth, [](const Vector3 &x) { return std::hypot(x.x, x.y); });
+  return {true, mean ? mean_radius + *mean : shape.radius, 0, 0};
 }
 
 double own_inertia(const Particles &p, std::size_t i) { // over the mass
