@@ -118,10 +118,7 @@ std::vector<std::string> study_kinds() {
 }
 
 StudyKind study_kind(const std::string &word) {
-  const std::vector<std::string> words = study_kinds();
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<StudyKind>(found - words.begin());
-  throw InputError("command line: error: KIND = " + word + " is not known. Allowed: " + joined(words) + ".");
+  return static_cast<StudyKind>(read_word(word, study_kinds()));
 }
 
 std::string as_name(const std::string &words) {

@@ -46,7 +46,7 @@ struct StudyPlan {
 };
 
 const char *word(StudyKind kind);
-// The words of all kinds, and the kind of a word. Throws InputError for any other.
+// The words of all kinds, and the kind of a word: the command line has refused any other.
 std::vector<std::string> study_kinds();
 StudyKind study_kind(const std::string &word);
 
