@@ -4,10 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+
+#include "base/clock.h"
 
 namespace platen::apps {
 namespace {
@@ -16,10 +17,6 @@ constexpr double redraw_interval = 0.2; // s
 constexpr double plain_interval = 10;   // s
 constexpr double rate_interval = 5;     // s; shorter spans make the rate flicker
 constexpr int bar_width = 20;
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -46,7 +43,7 @@ std::string duration_text(double seconds) {
 ProgressScreen standard_screen() {
   ProgressScreen screen;
   screen.stream = &std::cerr;
-  screen.clock = steady_seconds;
+  screen.clock = [] { return seconds_since(Clock::time_point{}); };
   const char *terminal = std::getenv("TERM"), *no_colour = std::getenv("NO_COLOR");
   screen.redraws = ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string(terminal) != "dumb";
   screen.colour = screen.redraws && (no_colour == nullptr || *no_colour == '\0');
