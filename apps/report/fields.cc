@@ -1,5 +1,6 @@
 #include "apps/report/fields.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -8,7 +9,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -91,22 +91,14 @@ void empty_outside(FieldFrame &frame) {
 dem::RegularGrid grid_through(const Run &run, const Spheres &before_test) {
   const Extent extent = extent_of(before_test);
   const double spacing = mean_radius(before_test);
-  double box[] = {-extent.half_width, extent.half_width, -extent.half_depth,
-                  extent.half_depth,  extent.bottom,     extent.top};
-  if (!run.platens.empty()) {
-    const auto platens = read_frame(run.platens.front());
-    const double *bounds = platens->GetBounds();
-    for (int d = 0; d < 3; ++d) {
-      box[2 * d] = std::min(box[2 * d], bounds[2 * d]);
-      box[2 * d + 1] = std::max(box[2 * d + 1], bounds[2 * d + 1]);
-    }
-  }
+  vtkBoundingBox box(-extent.half_width, extent.half_width, -extent.half_depth, extent.half_depth,
+                     extent.bottom, extent.top);
+  if (!run.platens.empty()) box.AddBounds(read_frame(run.platens.front())->GetBounds());
   dem::RegularGrid grid;
   grid.spacing = spacing;
   for (int d = 0; d < 3; ++d) {
-    grid.origin[d] = box[2 * d] - spacing;
-    grid.nodes[static_cast<std::size_t>(d)] =
-        3 + static_cast<int>(std::ceil((box[2 * d + 1] - box[2 * d]) / spacing));
+    grid.origin[d] = box.GetMinPoint()[d] - spacing;
+    grid.nodes[static_cast<std::size_t>(d)] = 3 + static_cast<int>(std::ceil(box.GetLength(d) / spacing));
   }
   return grid;
 }
