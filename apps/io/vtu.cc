@@ -16,7 +16,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <numeric>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
@@ -57,26 +56,6 @@ void set_points(vtkUnstructuredGrid &grid, const std::vector<Vector3> &points) {
   grid.SetPoints(vtk_points);
 }
 
-// Cells of so many points each, all of one type of VTK; `corners`: their points, cell by cell.
-struct Cells {
-  int type, size;
-  const int *corners;
-  std::size_t count;
-};
-
-void set_cells(vtkUnstructuredGrid &grid, const Cells &cells) {
-  vtkNew<vtkCellArray> array;
-  const auto count = static_cast<vtkIdType>(cells.count);
-  array->AllocateExact(count, count * cells.size);
-  const int *corner = cells.corners;
-  for (std::size_t k = 0; k < cells.count; ++k) {
-    array->InsertNextCell(cells.size);
-    for (int c = 0; c < cells.size; ++c)
-      array->InsertCellPoint(*corner++);
-  }
-  grid.SetCells(cells.type, array);
-}
-
 // Codes below VTK's own are those of the system.
 std::string reason(unsigned long code) {
   if (code == vtkErrorCode::OutOfDiskSpaceError) return std::strerror(ENOSPC);
@@ -107,14 +86,15 @@ void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
     throw OutputError(part.string() + ": cannot be written: the file is cut off");
 }
 
-void write_cells(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
-                 const Cells &cells, const std::vector<Field> &point_fields,
+// Cells of one type of VTK.
+void write_cells(const std::filesystem::path &path, double time, const std::vector<Vector3> &points, int type,
+                 vtkCellArray *cells, const std::vector<Field> &point_fields,
                  const std::vector<Field> &cell_fields) {
   vtkNew<vtkUnstructuredGrid> grid;
   set_points(*grid, points);
-  set_cells(*grid, cells);
+  grid->SetCells(type, cells);
   add_fields(grid->GetPointData(), point_fields, points.size());
-  add_fields(grid->GetCellData(), cell_fields, cells.count);
+  add_fields(grid->GetCellData(), cell_fields, static_cast<std::size_t>(cells->GetNumberOfCells()));
   vtkNew<vtkDoubleArray> time_value; // as readers of single frames expect it
   time_value->SetName("TimeValue");
   time_value->InsertNextValue(time);
@@ -141,19 +121,22 @@ void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer) {
 
 void write_points(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                   const std::vector<Field> &point_fields) {
-  std::vector<int> corners(points.size());
-  std::iota(corners.begin(), corners.end(), 0);
-  write_cells(path, time, points, {VTK_VERTEX, 1, corners.data(), corners.size()}, point_fields, {});
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType k = 0; k < static_cast<vtkIdType>(points.size()); ++k)
+    vertices->InsertNextCell(1, &k);
+  write_cells(path, time, points, VTK_VERTEX, vertices, point_fields, {});
 }
 
 void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
                  const std::vector<Field> &line_fields) {
   const auto outside = [&](int p) { return p < 0 || static_cast<std::size_t>(p) >= points.size(); };
-  for (const auto &line : lines)
+  vtkNew<vtkCellArray> cells;
+  for (const auto &line : lines) {
     if (outside(line[0]) || outside(line[1])) throw std::logic_error("a line ends at no point");
-  const int *ends = lines.empty() ? nullptr : lines.front().data();
-  write_cells(path, time, points, {VTK_LINE, 2, ends, lines.size()}, point_fields, line_fields);
+    cells->InsertNextCell({line[0], line[1]});
+  }
+  write_cells(path, time, points, VTK_LINE, cells, point_fields, line_fields);
 }
 
 } // namespace platen::apps
