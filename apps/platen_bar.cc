@@ -3,9 +3,9 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  AppDescription app;
-  app.kind = AppKind::bar;
-  app.name = "platen-bar";
-  app.purpose = "Pulls, bends, twists and strikes a bonded bar and compares it with strength of materials.";
-  return run_app(argc, argv, app, run_bar);
+  return run_app(
+      argc, argv,
+      {AppKind::bar, "platen-bar",
+       "Pulls, bends, twists and strikes a bonded bar and compares it with strength of materials."},
+      run_bar);
 }

@@ -3,9 +3,8 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  AppDescription app;
-  app.kind = AppKind::bonds;
-  app.name = "platen-bonds";
-  app.purpose = "Tests bonds between two or three spheres and compares them with closed forms.";
-  return run_app(argc, argv, app, run_bonds);
+  return run_app(argc, argv,
+                 {AppKind::bonds, "platen-bonds",
+                  "Tests bonds between two or three spheres and compares them with closed forms."},
+                 run_bonds);
 }

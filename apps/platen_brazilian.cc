@@ -3,9 +3,8 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  AppDescription app;
-  app.kind = AppKind::brazilian;
-  app.name = "platen-brazilian";
-  app.purpose = "Splits a disc of bonded spheres along its diameter between two flat platens or strips.";
-  return run_app(argc, argv, app, run_brazilian);
+  return run_app(argc, argv,
+                 {AppKind::brazilian, "platen-brazilian",
+                  "Splits a disc of bonded spheres along its diameter between two flat platens or strips."},
+                 run_brazilian);
 }

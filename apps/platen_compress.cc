@@ -3,9 +3,8 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  AppDescription app;
-  app.kind = AppKind::compress;
-  app.name = "platen-compress";
-  app.purpose = "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens.";
-  return run_app(argc, argv, app, run_compression);
+  return run_app(argc, argv,
+                 {AppKind::compress, "platen-compress",
+                  "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens."},
+                 run_compression);
 }

@@ -4,12 +4,11 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  AppDescription app;
-  app.kind = AppKind::study;
-  app.name = "platen-study";
-  app.purpose =
-      "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
-      "time, each on several seeds, and tables the results.";
-  app.kinds = study_kinds();
-  return run_app(argc, argv, app, run_study);
+  return run_app(
+      argc, argv,
+      {AppKind::study, "platen-study",
+       "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
+       "time, each on several seeds, and tables the results.",
+       study_kinds()},
+      run_study);
 }
