@@ -14,16 +14,16 @@
 namespace platen::apps {
 namespace {
 
-Loudness loudness_of(const CommandLine &command) {
-  return command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal);
-}
-
 void clear(Json &summary, std::initializer_list<const char *> keys) {
   for (const char *unmeasured : keys)
     summary[unmeasured] = TestFigures::none;
 }
 
 } // namespace
+
+Loudness loudness_of(const CommandLine &command) {
+  return command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal);
+}
 
 std::string title_of(const Scene &scene) {
   return scene.general.title.empty() ? scene.name : scene.general.title;
@@ -35,12 +35,6 @@ std::vector<std::filesystem::path> input_files(const CommandLine &command, const
                                   scene.platens.bottom_face.mesh_file})
     if (!file.empty()) files.emplace_back(file);
   return files;
-}
-
-std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
-  std::ostringstream text;
-  write_scene(scene, folder.string(), text);
-  return text.str();
 }
 
 void require_same_scene(const Scene &scene, const OutputPaths &paths) {

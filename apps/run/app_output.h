@@ -17,12 +17,12 @@
 
 namespace platen::apps {
 
+// As loud as the command line wants it.
+Loudness loudness_of(const CommandLine &command);
 // The scene's title, or its file's name.
 std::string title_of(const Scene &scene);
 // The scene and all files that it names: what a run must not write over.
 std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene);
-// As it is written into an output folder.
-std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
 // Throws InputError, naming the first line that differs, where the folder was begun with another scene.
 void require_same_scene(const Scene &scene, const OutputPaths &paths);
 

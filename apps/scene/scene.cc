@@ -82,14 +82,13 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 }
 
 std::string completed_scene_text(const std::string &path, const std::string &folder) {
-  std::ostringstream text;
   try {
-    write_scene(read(path, {}, nullptr), folder, text);
+    return scene_text(read(path, {}, nullptr), folder);
   } catch (const InputError &) {
-    text.str("");
+    std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
   }
-  return text.str();
 }
 
 void refuse(const Scene &scene, const std::string &entry, const std::string &reason) {
@@ -97,7 +96,7 @@ void refuse(const Scene &scene, const std::string &entry, const std::string &rea
   throw InputError("error: " + entry + " " + reason);
 }
 
-void write_scene(const Scene &scene, const std::string &folder, std::ostream &out) {
+std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
   std::vector<Entry> entries = scene.parameters->entries();
   for (Entry &entry : entries) {
     if (!entry.is_file || entry.text.empty()) continue;
@@ -113,7 +112,9 @@ void write_scene(const Scene &scene, const std::string &folder, std::ostream &ou
                        error.what() + ".");
     }
   }
-  write_prm(entries, false, out);
+  std::ostringstream text;
+  write_prm(entries, false, text);
+  return text.str();
 }
 
 void print_parameters(const Scene &scene, bool as_json, std::ostream &out) {

@@ -2,6 +2,7 @@
 // structs, one for each section of the file. NaN means "not given" where a member says so.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <limits>
 #include <memory>
@@ -90,7 +91,7 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 
 // All parameters as used, defaults included, as a .prm that reads back to the same numbers bit for bit; paths
 // of files are written so that they hold from `folder`, where the text will lie.
-void write_scene(const Scene &scene, const std::string &folder, std::ostream &out);
+std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
 
 // Every parameter with value, default, unit, range and meaning: as .prm, or as JSON (readable as a scene
 // too).

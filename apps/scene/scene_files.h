@@ -24,7 +24,7 @@ void read_json_text(const std::string &text, const std::string &name, Parameters
 void write_prm(const std::vector<Entry> &entries, bool with_documentation, std::ostream &out);
 void write_json(const std::vector<Entry> &entries, std::ostream &out);
 
-// The text of a scene that write_scene wrote into `folder`, as this program writes it: entries that it lacks,
+// The text of a scene that scene_text gave for `folder`, as this program writes it: entries that it lacks,
 // because the program that wrote it had none, stand there with their defaults. As it is where it cannot be
 // read.
 std::string completed_scene_text(const std::string &path, const std::string &folder);

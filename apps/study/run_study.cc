@@ -50,7 +50,7 @@ public:
         plan_(plan_study(study_kind(command.kind), scene, command.overrides)),
         paths_(command.output),
         runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads())),
-        log_(command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal)) {}
+        log_(loudness_of(command)) {}
 
   int run();
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char *const scene_text = R"(subsection Scene
+const char *const calibration_text = R"(subsection Scene
   set Seed = 4
 end
 subsection Specimen
@@ -63,7 +63,7 @@ protected:
   CalibrateApp() : folder(fs::temp_directory_path() / ("platen_calibrate_" + std::to_string(::getpid()))) {
     fs::remove_all(folder);
     fs::create_directories(folder);
-    std::ofstream(folder / "case.prm") << scene_text;
+    std::ofstream(folder / "case.prm") << calibration_text;
   }
   ~CalibrateApp() override { fs::remove_all(folder); }
 

@@ -152,13 +152,10 @@ TEST_F(SceneFiles, a_written_scene_gives_the_same_bits) {
       read("concrete.prm", concrete,
            {"Contact/Stiffness = 0.01 bulk", "Bond/Gap = 0.123456789 mm", "Checkpoint/Every = 7 min",
             "Pair test/Modulus list = 1 GPa, 0.3 GPa", "Integration/Damping = 0.1"});
-  std::ostringstream text;
-  write_scene(scene, (folder_ / "results").string(), text);
-  const Scene again = read("results/scene.prm", text.str());
+  const std::string text = scene_text(scene, folder_ / "results");
+  const Scene again = read("results/scene.prm", text);
   EXPECT_EQ(values_of(again), values_of(scene));
-  std::ostringstream second;
-  write_scene(again, (folder_ / "results").string(), second);
-  EXPECT_EQ(second.str(), text.str());
+  EXPECT_EQ(scene_text(again, folder_ / "results"), text);
 }
 
 TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
@@ -166,11 +163,10 @@ TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
   const Scene scene = read(
       "cases/a.prm", concrete,
       {"Specimen/Packing = file", "Specimen/File = " + (folder_ / "cases/packings/spheres  a.csv").string()});
-  std::ostringstream text;
-  write_scene(scene, (folder_ / "results/deep/a").string(), text);
-  EXPECT_EQ(text.str().find(folder_.string()), std::string::npos)
+  const std::string text = scene_text(scene, folder_ / "results/deep/a");
+  EXPECT_EQ(text.find(folder_.string()), std::string::npos)
       << "the folders could no longer be moved together";
-  const Scene again = read("results/deep/a/scene.prm", text.str());
+  const Scene again = read("results/deep/a/scene.prm", text);
   EXPECT_TRUE(fs::equivalent(again.specimen.file, scene.specimen.file)) << again.specimen.file;
 }
 
@@ -178,8 +174,7 @@ TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
 TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lacks) {
   const std::string folder = (folder_ / "results").string(), file = folder + "/scene.prm";
   const Scene scene = read("concrete.prm", concrete);
-  std::ostringstream whole;
-  write_scene(scene, folder, whole);
+  const std::string whole = scene_text(scene, folder);
   const auto completed = [&](std::string text, const std::string &key, const std::string &line) {
     const std::size_t at = text.find("  set " + key);
     EXPECT_NE(at, std::string::npos) << key;
@@ -187,9 +182,9 @@ TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lac
     put("results/scene.prm", text);
     return completed_scene_text(file, folder);
   };
-  EXPECT_EQ(completed(whole.str(), "Safety", ""), whole.str());
-  EXPECT_NE(completed(whole.str(), "Safety", "  set Safety = 0.7\n"), whole.str());
-  EXPECT_NE(completed(whole.str(), "Sphere radius", ""), whole.str()) << "a given value, not the default";
+  EXPECT_EQ(completed(whole, "Safety", ""), whole);
+  EXPECT_NE(completed(whole, "Safety", "  set Safety = 0.7\n"), whole);
+  EXPECT_NE(completed(whole, "Sphere radius", ""), whole) << "a given value, not the default";
   EXPECT_EQ(completed("  set Safety = broken\n", "Safety", "what is no scene\n"), "what is no scene\n");
   EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder), "");
 }

@@ -74,12 +74,11 @@ TEST(ParameterHandler, both_readers_see_the_same_values) {
 }
 
 TEST(ParameterHandler, reads_what_we_write) {
-  std::ostringstream text;
-  write_scene(default_scene(), ".", text);
-  EXPECT_EQ(values_by_deal_ii(text.str()), values_by_us(text.str()));
+  const std::string text = scene_text(default_scene(), ".");
+  EXPECT_EQ(values_by_deal_ii(text), values_by_us(text));
   std::ostringstream documented;
   print_parameters(default_scene(), false, documented);
-  EXPECT_EQ(values_by_deal_ii(documented.str()), values_by_us(text.str()));
+  EXPECT_EQ(values_by_deal_ii(documented.str()), values_by_us(text));
 }
 
 TEST(ParameterHandler, writes_json_that_we_read) {

@@ -54,10 +54,7 @@ TEST(Quality, without_a_word_nothing_is_set_and_the_rate_has_to_be_given) {
 TEST(Quality, a_scene_written_with_it_reads_back_to_the_same) {
   const Scene scene = scene_with({"Scene/Quality = reference", "Loading/Axial rate ="});
   const fs::path copy = fs::temp_directory_path() / "platen_quality_copy.prm";
-  {
-    std::ofstream file(copy);
-    write_scene(scene, copy.parent_path().string(), file);
-  }
+  std::ofstream(copy) << scene_text(scene, copy.parent_path());
   const Scene again = read_scene(copy.string(), {}, AppKind::compress);
   fs::remove(copy);
   EXPECT_EQ(again.time_step.safety, scene.time_step.safety);
