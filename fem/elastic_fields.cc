@@ -95,32 +95,20 @@ void add(Stress &sum, double weight, const Stress &s) {
 } // namespace
 
 NodeSurface node_surface(const ElasticModel &model) {
-  NodeSurface result;
-  std::vector<int> vertex(model.nodes.size(), -1);
+  SurfaceMesh all;
+  all.vertices = model.nodes;
   const auto side = static_cast<std::size_t>(model.degree + 1);
   for_boundary_faces(model, [&](const auto &face, const std::vector<int> &lattice, bool outward) {
-    for (const int node : lattice)
-      vertex[static_cast<std::size_t>(node)] = 0;
     for (std::size_t j = 0; j + 1 < side; ++j)
       for (std::size_t i = 0; i + 1 < side; ++i) {
         const std::size_t k = j * side + i;
         std::array<int, 4> ring = {lattice[k], lattice[k + 1], lattice[k + side + 1], lattice[k + side]};
         if (!outward) std::swap(ring[1], ring[3]);
-        result.surface.faces.push_back(ring);
-        result.surface.face_tags.push_back(static_cast<int>(face->boundary_id()));
+        all.faces.push_back(ring);
+        all.face_tags.push_back(static_cast<int>(face->boundary_id()));
       }
   });
-  for (std::size_t i = 0; i < vertex.size(); ++i) {
-    if (vertex[i] < 0) continue;
-    vertex[i] = static_cast<int>(result.node.size());
-    result.node.push_back(static_cast<int>(i));
-    result.surface.vertices.push_back(model.nodes[i]);
-  }
-  for (auto &ring : result.surface.faces)
-    for (int &corner : ring)
-      corner = vertex[static_cast<std::size_t>(corner)];
-  result.surface.velocities.assign(result.node.size(), Vector3{});
-  return result;
+  return node_surface(all);
 }
 
 std::vector<int> nodes_on(const ElasticModel &model, int tag) {

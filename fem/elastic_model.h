@@ -42,10 +42,6 @@ ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> mat
 
 // The boundary with every node on it as a vertex, so that loads on vertices are loads on nodes: each face of
 // a cell of degree 2 is split in four at its nodes.
-struct NodeSurface {
-  SurfaceMesh surface;   // velocities zero
-  std::vector<int> node; // of each vertex, ascending
-};
 NodeSurface node_surface(const ElasticModel &model);
 
 // Nodes on boundary faces of this tag, ascending.

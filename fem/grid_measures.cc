@@ -150,36 +150,39 @@ std::string inverted_cell(const Grid &grid) {
   return "";
 }
 
-GridSurface extract_surface(const Grid &grid) {
-  GridSurface result;
-  std::vector<int> surface_vertex(grid->n_vertices(), -1);
-  std::vector<std::array<unsigned int, 4>> corners;
+std::vector<BoundaryFace> boundary_faces(const Grid &grid) {
+  std::vector<BoundaryFace> faces;
   for (const auto &cell : grid->active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
       const auto face = cell->face(f);
-      std::array<unsigned int, 4> ring = {face->vertex_index(0), face->vertex_index(1), face->vertex_index(3),
-                                          face->vertex_index(2)};
+      if (!face->at_boundary()) continue;
+      std::array<unsigned int, 4> ring = {0, 1, 3, 2};
       const auto diagonals =
           dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
       if (diagonals * (face->center() - cell->center()) < 0) std::swap(ring[1], ring[3]);
-      corners.push_back(ring);
-      result.surface.face_tags.push_back(static_cast<int>(face->boundary_id()));
-      for (const unsigned int v : ring)
-        surface_vertex[v] = 0;
+      BoundaryFace &own = faces.emplace_back();
+      own.tag = static_cast<int>(face->boundary_id());
+      own.cell = static_cast<int>(cell->active_cell_index());
+      for (std::size_t k = 0; k < 4; ++k) {
+        own.nodes[k] = static_cast<int>(face->vertex_index(ring[k]));
+        for (const unsigned int corner : cell->vertex_indices())
+          if (cell->vertex_index(corner) == face->vertex_index(ring[k]))
+            own.corners[k] = static_cast<int>(corner);
+      }
     }
-  for (std::size_t v = 0; v < surface_vertex.size(); ++v) {
-    if (surface_vertex[v] < 0) continue;
-    surface_vertex[v] = static_cast<int>(result.grid_vertex.size());
-    result.grid_vertex.push_back(static_cast<int>(v));
-    const dealii::Point<3> &p = grid->get_vertices()[v];
-    result.surface.vertices.push_back({p[0], p[1], p[2]});
+  return faces;
+}
+
+NodeSurface extract_surface(const Grid &grid, const std::vector<int> &tags) {
+  SurfaceMesh all;
+  for (const dealii::Point<3> &p : grid->get_vertices())
+    all.vertices.push_back({p[0], p[1], p[2]});
+  for (const BoundaryFace &face : boundary_faces(grid)) {
+    if (!tags.empty() && std::find(tags.begin(), tags.end(), face.tag) == tags.end()) continue;
+    all.faces.push_back(face.nodes);
+    all.face_tags.push_back(face.tag);
   }
-  for (const auto &ring : corners)
-    result.surface.faces.push_back(
-        {surface_vertex[ring[0]], surface_vertex[ring[1]], surface_vertex[ring[2]], surface_vertex[ring[3]]});
-  result.surface.velocities.assign(result.surface.vertices.size(), Vector3{});
-  return result;
+  return node_surface(all);
 }
 
 VolumeMoments volume_moments(const Grid &grid) {

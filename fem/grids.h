@@ -79,12 +79,18 @@ Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> 
 // place of its middle; empty where there is none.
 std::string inverted_cell(const Grid &grid);
 
-// The boundary of a grid as a surface of quadrilaterals.
-struct GridSurface {
-  SurfaceMesh surface;          // velocities zero
-  std::vector<int> grid_vertex; // vertex index in the grid, one per surface vertex, ascending
+// A face of the boundary.
+struct BoundaryFace {
+  std::array<int, 4> nodes;   // vertices of the grid, counter-clockwise seen from outside
+  int tag;                    // boundary id
+  int cell;                   // that it belongs to
+  std::array<int, 4> corners; // of that cell
 };
-GridSurface extract_surface(const Grid &grid);
+std::vector<BoundaryFace> boundary_faces(const Grid &grid);
+
+// The boundary of a grid as a surface of quadrilaterals: the faces of some tags, or all of them where `tags`
+// is empty. Nodes are the vertices of the grid.
+NodeSurface extract_surface(const Grid &grid, const std::vector<int> &tags = {});
 
 // Integrals over the volume of a grid, exact for its trilinear cells.
 struct VolumeMoments {

@@ -27,7 +27,7 @@ HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const st
   material_.law = NeoHookean::from_moduli(material.law.shear_modulus, material.law.bulk_modulus);
   for (const int tag : contact_tags)
     require(!mesh_.nodes_of(tag).empty(), "solid: no face has the contact tag " + std::to_string(tag));
-  PartSurface part = part_surface(mesh_, contact_tags);
+  NodeSurface part = extract_surface(grid_, contact_tags);
   set_surface(std::move(part.surface));
   surface_node_ = std::move(part.node);
   const std::size_t nodes = mesh_.nodes.size();

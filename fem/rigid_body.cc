@@ -14,9 +14,9 @@ namespace platen::fem {
 RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
   require(grid_ != nullptr, "body: no grid");
   check(material, "body");
-  GridSurface extracted = extract_surface(grid_);
+  NodeSurface extracted = extract_surface(grid_);
   set_surface(std::move(extracted.surface));
-  grid_vertex_ = std::move(extracted.grid_vertex);
+  grid_vertex_ = std::move(extracted.node);
   reference_vertices_ = surface_.vertices;
   surface_.only_shifted = true;
 

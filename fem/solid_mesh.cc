@@ -47,29 +47,6 @@ void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
   }
 }
 
-void read_faces(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
-  int number = 0;
-  for (const auto &cell : grid.active_cell_iterators()) {
-    for (const unsigned int f : cell->face_indices()) {
-      const auto face = cell->face(f);
-      if (!face->at_boundary()) continue;
-      BoundaryFace own{{}, static_cast<int>(face->boundary_id()), number, {}};
-      const std::array<unsigned int, 4> ring = {face->vertex_index(0), face->vertex_index(1),
-                                                face->vertex_index(3), face->vertex_index(2)};
-      const auto out =
-          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
-      const bool turned = out * (face->center() - cell->center()) < 0;
-      for (std::size_t k = 0; k < 4; ++k)
-        own.nodes[k] = static_cast<int>(ring[turned ? (4 - k) % 4 : k]);
-      const auto &all = mesh.cell_nodes[static_cast<std::size_t>(number)];
-      for (std::size_t k = 0; k < 4; ++k)
-        own.corners[k] = static_cast<int>(std::find(all.begin(), all.end(), own.nodes[k]) - all.begin());
-      mesh.faces.push_back(own);
-    }
-    ++number;
-  }
-}
-
 void list_corners(SolidMesh &mesh) {
   mesh.first_corner.assign(mesh.nodes.size() + 1, 0);
   for (const auto &nodes : mesh.cell_nodes)
@@ -96,7 +73,7 @@ SolidMesh read_mesh(const Grid &grid) {
   read_cells(*grid, mesh);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     require(mesh.node_volume[n] > 0, "solid: node " + std::to_string(n) + " belongs to no cell");
-  read_faces(*grid, mesh);
+  mesh.faces = boundary_faces(grid);
   list_corners(mesh);
   return mesh;
 }
@@ -108,33 +85,6 @@ std::vector<int> SolidMesh::nodes_of(int tag) const {
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
-}
-
-PartSurface part_surface(const SolidMesh &mesh, const std::vector<int> &tags) {
-  PartSurface part;
-  std::vector<const BoundaryFace *> chosen;
-  std::vector<int> vertex(mesh.nodes.size(), -1);
-  for (const BoundaryFace &face : mesh.faces) {
-    if (!tags.empty() && std::find(tags.begin(), tags.end(), face.tag) == tags.end()) continue;
-    chosen.push_back(&face);
-    for (const int n : face.nodes)
-      vertex[static_cast<std::size_t>(n)] = 0;
-  }
-  for (std::size_t n = 0; n < vertex.size(); ++n) {
-    if (vertex[n] < 0) continue;
-    vertex[n] = static_cast<int>(part.node.size());
-    part.node.push_back(static_cast<int>(n));
-    part.surface.vertices.push_back(mesh.nodes[n]);
-  }
-  for (const BoundaryFace *face : chosen) {
-    std::array<int, 4> ring;
-    for (std::size_t k = 0; k < 4; ++k)
-      ring[k] = vertex[static_cast<std::size_t>(face->nodes[k])];
-    part.surface.faces.push_back(ring);
-    part.surface.face_tags.push_back(face->tag);
-  }
-  part.surface.velocities.assign(part.node.size(), Vector3{});
-  return part;
 }
 
 } // namespace platen::fem

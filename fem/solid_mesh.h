@@ -10,14 +10,6 @@
 
 namespace platen::fem {
 
-// A face of the boundary.
-struct BoundaryFace {
-  std::array<int, 4> nodes;   // counter-clockwise seen from outside
-  int tag;                    // boundary id
-  int cell;                   // that it belongs to
-  std::array<int, 4> corners; // of that cell
-};
-
 // Nodes are the vertices of the grid, with its numbers.
 struct SolidMesh {
   std::vector<Vector3> nodes; // m, reference places
@@ -41,12 +33,5 @@ struct SolidMesh {
 
 // Throws std::invalid_argument where a cell is folded (naming it) or the grid has hanging or loose nodes.
 SolidMesh read_mesh(const Grid &grid);
-
-// The faces of some tags as a surface of their own; all faces where `tags` is empty.
-struct PartSurface {
-  SurfaceMesh surface;
-  std::vector<int> node; // of each vertex, ascending
-};
-PartSurface part_surface(const SolidMesh &mesh, const std::vector<int> &tags);
 
 } // namespace platen::fem

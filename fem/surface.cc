@@ -52,6 +52,27 @@ LoadedSurface::Traction traction(const std::map<int, Vector3> &sides, const Vect
 
 } // namespace
 
+NodeSurface node_surface(const SurfaceMesh &all) {
+  NodeSurface result;
+  std::vector<int> vertex(all.vertices.size(), -1);
+  for (const auto &face : all.faces)
+    for (const int node : face)
+      vertex[static_cast<std::size_t>(node)] = 0;
+  for (std::size_t n = 0; n < vertex.size(); ++n) {
+    if (vertex[n] < 0) continue;
+    vertex[n] = static_cast<int>(result.node.size());
+    result.node.push_back(static_cast<int>(n));
+    result.surface.vertices.push_back(all.vertices[n]);
+  }
+  result.surface.faces = all.faces;
+  for (auto &face : result.surface.faces)
+    for (int &corner : face)
+      corner = vertex[static_cast<std::size_t>(corner)];
+  result.surface.face_tags = all.face_tags;
+  result.surface.velocities.assign(result.node.size(), Vector3{});
+  return result;
+}
+
 Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face) {
   const Vector3 first = corner(surface, face, 2) - corner(surface, face, 0);
   const Vector3 second = corner(surface, face, 3) - corner(surface, face, 1);

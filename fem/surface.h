@@ -23,6 +23,14 @@ struct SurfaceMesh {
   bool only_shifted = false;
 };
 
+// Nodes of a body as its surface.
+struct NodeSurface {
+  SurfaceMesh surface;   // velocities zero
+  std::vector<int> node; // of each vertex, ascending
+};
+// Of a surface whose vertices are all nodes of the body: those that a face has.
+NodeSurface node_surface(const SurfaceMesh &all);
+
 // (i, j): normal displacement of corner i of a face per normal force on corner j (m/N); symmetric. With the
 // weights w that a force at a place gives the corners, that place gives way by w^T C w.
 using FaceCompliance = std::array<std::array<double, 4>, 4>;
