@@ -55,6 +55,41 @@ struct CellField {
   std::vector<double> values; // one per cell
 };
 
+VertexField field(const char *name, const std::vector<double> &values) {
+  return {name, 1, values};
+}
+// Of vectors (3) or tensors (9), one per vertex.
+template <std::size_t parts, class Value>
+VertexField field(const char *name, const std::vector<Value> &of) {
+  VertexField f{name, parts, {}};
+  for (const Value &value : of)
+    for (std::size_t k = 0; k < parts; ++k)
+      f.values.push_back(value[k]);
+  return f;
+}
+
+// What contacts put on each node of a body, zero off its surface.
+struct ContactFields {
+  std::vector<double> pressure, slip; // Pa, m
+  std::vector<Vector3> shear;         // Pa
+};
+
+// `node`: of each vertex of the surface. `slip` is one value per vertex, or empty.
+ContactFields contact_fields(const std::string &who, const LoadedSurface &body, const std::vector<int> &node,
+                             std::size_t nodes, const std::vector<double> &slip) {
+  if (!slip.empty() && slip.size() != node.size())
+    throw std::invalid_argument(who + ": slip must have one value per surface vertex");
+  ContactFields fields{std::vector<double>(nodes), std::vector<double>(nodes), std::vector<Vector3>(nodes)};
+  const std::vector<LoadedSurface::Traction> tractions = body.contact_tractions();
+  for (std::size_t v = 0; v < node.size(); ++v) {
+    const auto n = static_cast<std::size_t>(node[v]);
+    fields.pressure[n] = tractions[v].pressure;
+    fields.shear[n] = tractions[v].shear;
+    if (!slip.empty()) fields.slip[n] = slip[v];
+  }
+  return fields;
+}
+
 DataComponentInterpretation kind_of(std::size_t parts) {
   return parts == 9   ? dealii::DataComponentInterpretation::component_is_part_of_tensor
          : parts == 3 ? dealii::DataComponentInterpretation::component_is_part_of_vector
@@ -112,20 +147,12 @@ void write_picture(std::ostream &stream, const Grid &grid, const std::vector<Ver
 } // namespace
 
 void ElasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
-  if (!slip.empty() && slip.size() != load_.size())
-    throw std::invalid_argument("elastic solid: slip must have one value per surface vertex");
   const std::vector<Vector3> u = deformation();
+  const ContactFields contact = contact_fields("elastic solid", *this, node_of_, u.size(), slip);
   const std::vector<Stress> stress = nodal_stress(model_, u);
-  std::vector<Vector3> displacement(u.size()), shear(u.size(), Vector3{});
-  std::vector<double> pressure(u.size(), 0.0), slipped(u.size(), 0.0);
+  std::vector<Vector3> displacement(u.size());
   for (std::size_t i = 0; i < u.size(); ++i)
     displacement[i] = carried(i) + to_space(u[i]);
-  const std::vector<Traction> tractions = contact_tractions();
-  for (std::size_t v = 0; v < node_of_.size(); ++v) {
-    const auto node = static_cast<std::size_t>(node_of_[v]);
-    pressure[node] = tractions[v].pressure, shear[node] = tractions[v].shear;
-    if (!slip.empty()) slipped[node] = slip[v];
-  }
   const auto node = [&](std::size_t entry) { return static_cast<std::size_t>(model_.cell_nodes[entry]); };
 
   const auto degree = static_cast<unsigned int>(model_.degree);
@@ -149,9 +176,9 @@ void ElasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &sl
 
   dealii::Vector<double> moves, shears, pressures, slips, tensor, mises;
   fill(vectors, moves, [&](std::size_t k, unsigned int c) { return displacement[node(k)][c]; });
-  fill(vectors, shears, [&](std::size_t k, unsigned int c) { return shear[node(k)][c]; });
-  fill(scalars, pressures, [&](std::size_t k, unsigned int) { return pressure[node(k)]; });
-  fill(scalars, slips, [&](std::size_t k, unsigned int) { return slipped[node(k)]; });
+  fill(vectors, shears, [&](std::size_t k, unsigned int c) { return contact.shear[node(k)][c]; });
+  fill(scalars, pressures, [&](std::size_t k, unsigned int) { return contact.pressure[node(k)]; });
+  fill(scalars, slips, [&](std::size_t k, unsigned int) { return contact.slip[node(k)]; });
   fill(tensors, tensor, [&](std::size_t k, unsigned int c) { return stress_at(k)[voigt[c]]; });
   fill(jumps, mises, [&](std::size_t k, unsigned int) { return von_mises(stress_at(k)); });
 
@@ -170,28 +197,14 @@ void ElasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &sl
 }
 
 void RigidBody::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
-  if (!slip.empty() && slip.size() != load_.size())
-    throw std::invalid_argument("body: slip must have one value per surface vertex");
   const std::vector<dealii::Point<3>> &places = grid_->get_vertices();
-  VertexField displacement{"displacement", 3, std::vector<double>(3 * places.size())};
-  VertexField shear{"contact_shear", 3, std::vector<double>(3 * places.size())};
-  VertexField pressure{"contact_pressure", 1, std::vector<double>(places.size())};
-  VertexField slipped{"slip", 1, std::vector<double>(places.size())};
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    const Vector3 reference = {places[n][0], places[n][1], places[n][2]},
-                  moved = current_position(reference) - reference;
-    for (std::size_t k = 0; k < 3; ++k)
-      displacement.values[3 * n + k] = moved[k];
-  }
-  const std::vector<Traction> tractions = contact_tractions();
-  for (std::size_t v = 0; v < grid_vertex_.size(); ++v) {
-    const std::size_t n = static_cast<std::size_t>(grid_vertex_[v]);
-    for (std::size_t k = 0; k < 3; ++k)
-      shear.values[3 * n + k] = tractions[v].shear[k];
-    pressure.values[n] = tractions[v].pressure;
-    if (!slip.empty()) slipped.values[n] = slip[v];
-  }
-  write_picture(stream, grid_, {displacement, shear, pressure, slipped});
+  std::vector<Vector3> displacement;
+  for (const dealii::Point<3> &p : places)
+    displacement.push_back(current_position({p[0], p[1], p[2]}) - Vector3{p[0], p[1], p[2]});
+  const ContactFields contact = contact_fields("body", *this, grid_vertex_, places.size(), slip);
+  write_picture(stream, grid_,
+                {field<3>("displacement", displacement), field<3>("contact_shear", contact.shear),
+                 field("contact_pressure", contact.pressure), field("slip", contact.slip)});
 }
 
 std::vector<CellStress> HyperelasticSolid::cell_stresses() const {
@@ -220,47 +233,21 @@ std::vector<Tensor> HyperelasticSolid::node_stresses() const {
 }
 
 void HyperelasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &slip) const {
-  if (!slip.empty() && slip.size() != load_.size())
-    throw std::invalid_argument("solid: slip must have one value per surface vertex");
+  const ContactFields contact = contact_fields("solid", *this, surface_node_, mesh_.nodes.size(), slip);
   const std::vector<Tensor> stress = node_stresses();
-  const std::vector<Traction> tractions = contact_tractions();
-  const auto at_vertex = [&](std::size_t n, const auto &value) {
-    return vertex_of_[n] < 0 ? 0.0 : value(index(vertex_of_[n]));
-  };
-  const std::size_t nodes = mesh_.nodes.size();
-  const auto field = [&](const char *name, std::size_t parts, const auto &value) { // value(node, component)
-    VertexField f{name, parts, std::vector<double>(parts * nodes)};
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t k = 0; k < parts; ++k)
-        f.values[parts * n + k] = value(n, k);
-    return f;
-  };
+  std::vector<double> mises, pressure;
+  for (const Tensor &s : stress) {
+    mises.push_back(von_mises({s[0], s[4], s[8], s[1], s[5], s[2]}));
+    pressure.push_back(-(s[0] + s[4] + s[8]) / 3);
+  }
   CellField ratio{"J", {}};
   for (const CellStress &cell : cell_stresses())
     ratio.values.push_back(cell.volume_ratio);
   write_picture(
       stream, grid_,
-      {field("displacement", 3, [&](std::size_t n, std::size_t k) { return displacement_[n][k]; }),
-       field("stress", 9, [&](std::size_t n, std::size_t k) { return stress[n][k]; }),
-       field("contact_shear", 3,
-             [&](std::size_t n, std::size_t k) {
-               return at_vertex(n, [&](std::size_t v) { return tractions[v].shear[k]; });
-             }),
-       field("von_mises", 1,
-             [&](std::size_t n, std::size_t) {
-               const Tensor &s = stress[n];
-               return von_mises({s[0], s[4], s[8], s[1], s[5], s[2]});
-             }),
-       field("pressure", 1,
-             [&](std::size_t n, std::size_t) { return -(stress[n][0] + stress[n][4] + stress[n][8]) / 3; }),
-       field("contact_pressure", 1,
-             [&](std::size_t n, std::size_t) {
-               return at_vertex(n, [&](std::size_t v) { return tractions[v].pressure; });
-             }),
-       field("slip", 1,
-             [&](std::size_t n, std::size_t) {
-               return at_vertex(n, [&](std::size_t v) { return slip.empty() ? 0.0 : slip[v]; });
-             })},
+      {field<3>("displacement", displacement_), field<9>("stress", stress),
+       field<3>("contact_shear", contact.shear), field("von_mises", mises), field("pressure", pressure),
+       field("contact_pressure", contact.pressure), field("slip", contact.slip)},
       {ratio});
 }
 
