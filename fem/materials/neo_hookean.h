@@ -69,41 +69,11 @@ struct NeoHookean {
     const double root = std::cbrt(j);
     return shear_modulus / (root * root);
   }
-  double shape_energy(const Tensor &f, double j) const { // J/m^3
-    return 0.5 * (shape_factor(j) * squared_norm(f) - 3 * shear_modulus);
-  }
   double volume_energy(double j) const { // J/m^3
     return 0.5 * bulk_modulus * (0.5 * (j * j - 1) - std::log(j));
   }
   double volume_stress(double j) const { return 0.5 * bulk_modulus * (j - 1 / j); }        // Pa, U'(J)
   double volume_modulus(double j) const { return 0.5 * bulk_modulus * (1 + 1 / (j * j)); } // Pa, U''(J)
-
-  // At one point with its own J in both parts. F must not be inverted.
-  double energy(const Tensor &f) const { // J/m^3
-    const double j = determinant(f);
-    return shape_energy(f, j) + volume_energy(j);
-  }
-  // First Piola-Kirchhoff stress dW/dF, Pa.
-  Tensor first_piola(const Tensor &f) const {
-    const Tensor cof = cofactor(f);
-    const double j = determinant(f, cof), shape = shape_factor(j);
-    const double along = volume_stress(j) - shape * squared_norm(f) / (3 * j);
-    Tensor p;
-    for (std::size_t k = 0; k < 9; ++k)
-      p[k] = shape * f[k] + along * cof[k];
-    return p;
-  }
-  // Kirchhoff stress P F', Pa; over J it is Cauchy's.
-  Tensor kirchhoff(const Tensor &f) const {
-    const double j = determinant(f), shape = shape_factor(j), third = squared_norm(f) / 3;
-    Tensor tau{};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double b = f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] + f[3 * i + 2] * f[3 * k + 2];
-        tau[3 * i + k] = shape * (b - (i == k ? third : 0.0)) + (i == k ? j * volume_stress(j) : 0.0);
-      }
-    return tau;
-  }
 };
 
 } // namespace platen::fem
