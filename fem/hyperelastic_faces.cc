@@ -152,21 +152,6 @@ CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
   return k;
 }
 
-std::vector<Vector3> HyperelasticSolid::stiffness_times(const std::vector<Vector3> &direction) const {
-  std::vector<Vector3> result(direction.size(), Vector3{});
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    const CellStiffness k = total_stiffness(c);
-    const Corners own = mesh_.gather(c, direction);
-    for (std::size_t m = 0; m < 24; ++m) {
-      double sum = 0;
-      for (std::size_t n = 0; n < 24; ++n)
-        sum += k[24 * m + n] * own[n / 3][n % 3];
-      result[index(mesh_.cell_nodes[c][m / 3])][m % 3] += sum;
-    }
-  }
-  return result;
-}
-
 // One block for each pair of nodes that share a cell.
 void HyperelasticSolid::lay_out_stiffness() {
   std::vector<int> beside;

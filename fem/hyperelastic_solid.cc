@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t cell_grain = 64; // per part of a loop: some tens of microseconds
 
-bool is_finite(const std::vector<Vector3> &values) {
-  return std::all_of(values.begin(), values.end(), [](const Vector3 &p) {
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-  });
-}
-
 } // namespace
 
 HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
@@ -231,13 +225,6 @@ void HyperelasticSolid::set_displacement(const std::vector<Vector3> &displacemen
   displacement_ = displacement;
   place_surface();
   update_forces();
-}
-
-void HyperelasticSolid::set_velocity(const std::vector<Vector3> &velocity) {
-  require(velocity.size() == velocity_.size() && is_finite(velocity),
-          "solid: one finite velocity per node is needed");
-  velocity_ = velocity;
-  place_surface();
 }
 
 void HyperelasticSolid::describe(Archive &archive) {

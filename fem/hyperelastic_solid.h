@@ -104,9 +104,6 @@ public:
   // Places all nodes and updates the forces; counts no work. Throws InvertedElement, then nothing has
   // changed.
   void set_displacement(const std::vector<Vector3> &displacement);
-  void set_velocity(const std::vector<Vector3> &velocity);
-  // Derivative of (internal - pressure) forces times a vector, one per node.
-  std::vector<Vector3> stiffness_times(const std::vector<Vector3> &direction) const;
 
   // Cauchy stress (Pa), tension positive. Node values are means over the cells around, by current volume.
   std::vector<CellStress> cell_stresses() const;

@@ -70,7 +70,7 @@ TEST(hyperelastic_solid, particles_see_the_inner_face_alone) {
   }
   EXPECT_LT(norm(solid.total_force()), 1e-11);
   EXPECT_LT(norm(solid.moment({1, 2, 3})), 1e-11);
-  solid.set_velocity(std::vector<Vector3>(solid.mesh().nodes.size(), Vector3{0, 0, 2}));
+  set_velocity(solid, std::vector<Vector3>(solid.mesh().nodes.size(), Vector3{0, 0, 2}));
   EXPECT_EQ(surface.velocities[5], (Vector3{0, 0, 2}));
   EXPECT_EQ(solid.largest_move(0.5), 1);
   EXPECT_THROW(sleeve(rubber, {77}), std::invalid_argument);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fem/hyperelastic_solid.h"
+#include "tests/fem/tangent.h"
 
 namespace platen::fem {
 
@@ -122,7 +123,7 @@ private:
         std::vector<Vector3> probe(prescribed_.size(), Vector3{});
         for (std::size_t n = 0; n < probe.size(); ++n)
           if (colour_[n] == c) probe[n][k] = 1;
-        const std::vector<Vector3> forces = solid_.stiffness_times(probe);
+        const std::vector<Vector3> forces = stiffness_times(solid_, probe);
         for (std::size_t n = 0; n < probe.size(); ++n) {
           if (colour_[n] != c) continue;
           if (prescribed_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/hyperelastic_solid.h"
+#include "tests/same_state.h"
 
 namespace platen::fem {
 
@@ -64,6 +65,11 @@ inline HyperelasticSolid held_sleeve(double pressure, double poisson = 0.45) {
   solid.set_pressure(inner_tag, pressure);
   solid.update_forces();
   return solid;
+}
+
+inline void set_velocity(HyperelasticSolid &solid,
+                         const std::vector<Vector3> &velocity) { // m/s, of each node
+  set_state(solid, with_rows(state_of(solid), "state/node_velocity", velocity));
 }
 
 inline void step(HyperelasticSolid &solid, double dt, int steps) {
