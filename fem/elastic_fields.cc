@@ -46,26 +46,6 @@ void for_boundary_faces(const ElasticModel &model, const Visit &visit) {
     }
 }
 
-Vector3 point(const dealii::Point<3> &p) {
-  return {p[0], p[1], p[2]};
-}
-
-// visit(shape functions at a place, number of the place, nodes of the cell), for a rule that integrates
-// forces which vary within cells.
-template <class Visit>
-void at_gauss_points(const ElasticModel &model, const Visit &visit) {
-  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2);
-  dealii::FEValues<3> values(
-      model.numbers->get_fe(), gauss,
-      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-  for (const auto &cell : model.numbers->active_cell_iterators()) {
-    values.reinit(cell);
-    const int *nodes = &model.cell_nodes[nodes_per_cell(model) * cell->active_cell_index()];
-    for (const unsigned int q : values.quadrature_point_indices())
-      visit(values, q, nodes);
-  }
-}
-
 // Displacement gradients of a cell at quadrature points, as stress.
 void stresses(const ElasticModel &model, const dealii::FEValues<3> &values, std::size_t cell,
               const std::vector<Vector3> &displacement, std::vector<Stress> &result) {
@@ -125,53 +105,23 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag) {
 std::vector<Vector3> body_load(const ElasticModel &model,
                                const std::function<Vector3(const Vector3 &)> &density) {
   std::vector<Vector3> load(model.nodes.size(), Vector3{});
-  at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
-    const Vector3 force = values.JxW(q) * density(point(values.quadrature_point(q)));
-    for (const unsigned int a : values.dof_indices()) {
-      Vector3 &sum = load[static_cast<std::size_t>(nodes[a])];
-      sum = sum + values.shape_value(a, q) * force;
-    }
-  });
-  return load;
-}
-
-std::vector<Vector3> face_load(const ElasticModel &model, int tag,
-                               const std::function<Vector3(const Vector3 &, const Vector3 &)> &traction) {
-  std::vector<Vector3> load(model.nodes.size(), Vector3{});
-  const std::size_t n = nodes_per_cell(model);
-  const dealii::QGauss<2> gauss(static_cast<unsigned int>(model.degree) + 2);
-  const NoCellReuse same_for_any_threads;
-  const dealii::MappingQ<3> mapping(1);
-  dealii::FEFaceValues<3> values(mapping, model.numbers->get_fe(), gauss,
-                                 dealii::update_values | dealii::update_quadrature_points |
-                                     dealii::update_normal_vectors | dealii::update_JxW_values);
-  for (const auto &cell : model.numbers->active_cell_iterators())
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary() || static_cast<int>(cell->face(f)->boundary_id()) != tag) continue;
-      values.reinit(cell, f);
-      for (const unsigned int q : values.quadrature_point_indices()) {
-        const auto &normal = values.normal_vector(q);
-        const Vector3 force =
-            values.JxW(q) * traction(point(values.quadrature_point(q)), {normal[0], normal[1], normal[2]});
-        for (std::size_t a = 0; a < n; ++a) {
-          Vector3 &sum = load[static_cast<std::size_t>(model.cell_nodes[n * cell->active_cell_index() + a])];
-          sum = sum + values.shape_value(static_cast<unsigned int>(a), q) * force;
-        }
+  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2); // of forces that vary in cells
+  dealii::FEValues<3> values(
+      model.numbers->get_fe(), gauss,
+      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+  for (const auto &cell : model.numbers->active_cell_iterators()) {
+    values.reinit(cell);
+    const int *nodes = &model.cell_nodes[nodes_per_cell(model) * cell->active_cell_index()];
+    for (const unsigned int q : values.quadrature_point_indices()) {
+      const dealii::Point<3> &p = values.quadrature_point(q);
+      const Vector3 force = values.JxW(q) * density({p[0], p[1], p[2]});
+      for (const unsigned int a : values.dof_indices()) {
+        Vector3 &sum = load[static_cast<std::size_t>(nodes[a])];
+        sum = sum + values.shape_value(a, q) * force;
       }
     }
+  }
   return load;
-}
-
-double integral(const ElasticModel &model, const std::vector<Vector3> &field,
-                const std::function<double(const Vector3 &, const Vector3 &)> &f) {
-  double sum = 0;
-  at_gauss_points(model, [&](const dealii::FEValues<3> &values, unsigned int q, const int *nodes) {
-    Vector3 here{};
-    for (const unsigned int a : values.dof_indices())
-      here = here + values.shape_value(a, q) * field[static_cast<std::size_t>(nodes[a])];
-    sum += values.JxW(q) * f(point(values.quadrature_point(q)), here);
-  });
-  return sum;
 }
 
 double von_mises(const Stress &s) {

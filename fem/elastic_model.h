@@ -51,15 +51,6 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag);
 std::vector<Vector3> body_load(const ElasticModel &model,
                                const std::function<Vector3(const Vector3 &)> &density);
 
-// Nodal loads (N) that do the work of a traction (Pa) at a place with an outward normal, on the faces of a
-// tag.
-std::vector<Vector3> face_load(const ElasticModel &model, int tag,
-                               const std::function<Vector3(const Vector3 &, const Vector3 &)> &traction);
-
-// Integral over the reference volume of f(place, value of a field given at the nodes).
-double integral(const ElasticModel &model, const std::vector<Vector3> &field,
-                const std::function<double(const Vector3 &, const Vector3 &)> &f);
-
 // Stress xx, yy, zz, yz, zx, xy (Pa), tension positive.
 using Stress = std::array<double, 6>;
 double von_mises(const Stress &stress); // Pa

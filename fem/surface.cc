@@ -79,26 +79,6 @@ Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face) {
   return 0.5 * cross(first, second);
 }
 
-Vector3 total_area_vector(const SurfaceMesh &surface) {
-  Vector3 sum{};
-  for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    sum = sum + face_area_vector(surface, f);
-  return sum;
-}
-
-double enclosed_volume(const SurfaceMesh &surface) {
-  if (surface.vertices.empty()) return 0;
-  const Vector3 origin = surface.vertices[0]; // any point does; a near one loses fewer digits
-  double sum = 0;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    Vector3 middle{};
-    for (std::size_t k = 0; k < 4; ++k)
-      middle = middle + 0.25 * (corner(surface, f, k) - origin);
-    sum += dot(middle, face_area_vector(surface, f)) / 3.0;
-  }
-  return sum;
-}
-
 std::vector<int> zero_area_faces(const SurfaceMesh &surface) {
   std::vector<int> empty;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -139,13 +119,6 @@ Vector3 LoadedSurface::moment(const Vector3 &about) const {
   Vector3 sum{};
   for (const int v : loaded_)
     sum = sum + cross(surface_.vertices[static_cast<std::size_t>(v)] - about, contact_load(v));
-  return sum;
-}
-
-double LoadedSurface::load_power() const {
-  double sum = 0;
-  for (const int v : loaded_)
-    sum += dot(contact_load(v), surface_.velocities[static_cast<std::size_t>(v)]);
   return sum;
 }
 

@@ -38,12 +38,6 @@ using FaceCompliance = std::array<std::array<double, 4>, 4>;
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
 Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face);
 
-// Sum of all area vectors (m^2): zero for a closed surface.
-Vector3 total_area_vector(const SurfaceMesh &surface);
-
-// Volume inside a closed surface (m^3), by the divergence theorem; exact for flat faces.
-double enclosed_volume(const SurfaceMesh &surface);
-
 // Faces without area (|area vector| below 1e-12 of their longest diagonal squared): no normal can be given to
 // them.
 std::vector<int> zero_area_faces(const SurfaceMesh &surface);
@@ -65,7 +59,6 @@ public:
   const std::vector<int> &loaded_vertices() const { return loaded_; } // in the order of their first load
   Vector3 total_force() const;                                        // N
   Vector3 moment(const Vector3 &about) const;                         // N m
-  double load_power() const; // W, sum of load . vertex velocity: what the particles do to the body
 
   // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
   // that it is pressed on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "fem/static_equations.h"
+#include "tests/fem/quadrature.h"
+#include "tests/surface_sums.h"
 
 namespace platen::fem {
 namespace {

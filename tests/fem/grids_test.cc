@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "tests/surface_sums.h"
+
 namespace platen::fem {
 namespace {
 
