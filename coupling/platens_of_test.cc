@@ -23,40 +23,6 @@ double platen_plane(const dem::Specimen &s, bool above, Ends ends) {
 
 namespace {
 
-// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
-struct Strips {
-  std::vector<double> middles;     // m, x
-  double width = 0;                // m, along x
-  double length = 0;               // m, along y, about y = 0
-  double z_low = 0, thickness = 0; // m
-  int elements_across = 8;         // along x and along y
-  bool presses_from_above = false; // its lower face meets the bar, else its upper one
-};
-
-fem::Grid make_grid(const Strips &s) {
-  std::vector<fem::BoxPlate> boxes;
-  for (const double x : s.middles)
-    boxes.push_back({{x - 0.5 * s.width, -0.5 * s.length, s.z_low},
-                     {x + 0.5 * s.width, 0.5 * s.length, s.z_low + s.thickness},
-                     {s.elements_across, s.elements_across, 2}});
-  return fem::make_grid(boxes);
-}
-
-// Each strip has a sphere of the specimen within `depth` (m) of its face.
-bool each_meets_a_sphere(const Strips &strips, const dem::Specimen &specimen, double depth) {
-  const auto meets = [&](double middle) {
-    for (std::size_t i = 0; i < specimen.size(); ++i) {
-      const Vector3 &c = specimen.centre[i];
-      const double r = specimen.radius[i];
-      const double gap =
-          strips.presses_from_above ? strips.z_low - c.z - r : c.z - r - strips.z_low - strips.thickness;
-      if (gap <= depth && std::abs(c.x - middle) <= 0.5 * strips.width) return true;
-    }
-    return false;
-  };
-  return std::all_of(strips.middles.begin(), strips.middles.end(), meets);
-}
-
 void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
   const PlatenSettings &p = settings.platens;
   if (settings.ends != Ends::ground)
@@ -75,19 +41,29 @@ void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
                                        text_of(shape.width_x - p.strip_width) + " m.");
 }
 
-Strips bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings, bool top) {
+// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
+std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
+                                          bool top) {
   const PlatenSettings &p = settings.platens;
   require_bar(s.shape, settings);
-  Strips strips;
-  strips.middles = top ? std::vector<double>{0} : std::vector<double>{-0.5 * p.span, 0.5 * p.span};
-  strips.width = p.strip_width;
-  strips.length = p.overhang * s.shape.width_y;
-  strips.z_low =
-      top ? platen_plane(s, true, settings.ends) : platen_plane(s, false, settings.ends) - p.thickness;
-  strips.thickness = p.thickness;
-  strips.elements_across = p.elements_across;
-  strips.presses_from_above = top;
+  const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * s.shape.width_y;
+  std::vector<fem::BoxPlate> strips;
+  for (const double middle : top ? std::vector{0.0} : std::vector{-0.5 * p.span, 0.5 * p.span})
+    strips.push_back({{middle - x, -y, low},
+                      {middle + x, y, low + p.thickness},
+                      {p.elements_across, p.elements_across, 2}});
   return strips;
+}
+
+// A sphere of the specimen lies within `depth` (m) of the strip's face.
+bool meets_a_sphere(const fem::BoxPlate &strip, const dem::Specimen &specimen, bool top, double depth) {
+  for (std::size_t i = 0; i < specimen.size(); ++i) {
+    const Vector3 &c = specimen.centre[i];
+    const double gap = (top ? strip.low.z - c.z : c.z - strip.high.z) - specimen.radius[i];
+    if (gap <= depth && c.x >= strip.low.x && c.x <= strip.high.x) return true;
+  }
+  return false;
 }
 
 // Elements of elastic platens are about as thick as wide; a sheet of one would not bulge at degree 1.
@@ -106,7 +82,7 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
   const PlatenSettings &p = settings.platens;
   const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
   if (const fem::Grid &given = top ? p.top.grid : p.bottom.grid) return fem::laid_platen(given, !top, plane);
-  if (p.span > 0) return make_grid(bending_strips(s, settings, top));
+  if (p.span > 0) return fem::make_grid(bending_strips(s, settings, top));
   if (s.shape.kind == dem::ShapeKind::cylinder) {
     const fem::CylinderPlate plate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2};
     return p.elastic ? fem::make_grid(plate, layers_of(p, plate.radius, top)) : fem::make_grid(plate);
@@ -213,9 +189,10 @@ PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings
 
 void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSettings &settings, double depth) {
   for (const bool above : {true, false})
-    if (!each_meets_a_sphere(bending_strips(specimen, settings, above), specimen, depth))
-      throw BadSetup("platens.strip_width",
-                     "leaves a strip without a sphere. Allowed: wider strips, or a deeper `end_layer`.");
+    for (const fem::BoxPlate &strip : bending_strips(specimen, settings, above))
+      if (!meets_a_sphere(strip, specimen, above, depth))
+        throw BadSetup("platens.strip_width",
+                       "leaves a strip without a sphere. Allowed: wider strips, or a deeper `end_layer`.");
 }
 
 // Without bonds the stiffness that a bond would have still measures the grains; N/m.
