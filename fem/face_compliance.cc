@@ -144,23 +144,21 @@ std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const Nod
                                             const Fixed &fixed) {
   const std::vector<Vector3> normal = vertex_normals(surface);
   const auto &faces = surface.surface.faces;
-  std::vector<std::vector<std::size_t>> faces_of(surface.node.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const int v : faces[f])
-      faces_of[index(v)].push_back(f);
+  const std::vector<std::vector<int>> faces_of = faces_of_vertices(surface.surface);
   std::vector<FaceCompliance> compliance(faces.size(), FaceCompliance{});
   Patch patch(model, fixed);
   for (std::size_t v = 0; v < surface.node.size(); ++v) {
     patch.push(surface.node[v], normal[v]);
-    for (const std::size_t f : faces_of[v])
+    for (const int f : faces_of[v])
       for (std::size_t i = 0; i < 4; ++i) {
-        if (index(faces[f][i]) != v) continue;
+        const std::array<int, 4> &corners = faces[index(f)];
+        if (index(corners[i]) != v) continue;
         for (std::size_t j = 0; j < 4; ++j) {
           // Each pair is seen from both sides; what lies beyond differs a little.
-          const std::size_t w = index(faces[f][j]);
+          const std::size_t w = index(corners[j]);
           const double half = 0.5 * patch.moves(surface.node[w], normal[w], normal[v]);
-          compliance[f][i][j] += half;
-          compliance[f][j][i] += half;
+          compliance[index(f)][i][j] += half;
+          compliance[index(f)][j][i] += half;
         }
       }
   }

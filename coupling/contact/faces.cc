@@ -131,10 +131,7 @@ bool FlatFaces::foot(int index, const Vector3 &centre, ClosestPoint &local, Vect
 
 // Flat faces that share a corner and lie in the plane of the piece's first face.
 void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
-  std::vector<std::vector<int>> around(surface.vertices.size());
-  for (std::size_t face = 0; face < faces_.size(); ++face)
-    for (const int v : surface.faces[face])
-      around[static_cast<std::size_t>(v)].push_back(static_cast<int>(face));
+  const std::vector<std::vector<int>> around = fem::faces_of_vertices(surface);
   piece_.assign(faces_.size(), -1);
   for (int first = 0; first < static_cast<int>(faces_.size()); ++first) {
     if (piece(first) >= 0) continue;

@@ -183,12 +183,7 @@ Vector3 SurfaceSearch::edge_normal(const SurfaceMesh &surface, int face, const C
   const double along = local.weights[(k + 1) % 4]; // share of b
   const double corner_u[4] = {0, 1, 1, 0}, corner_v[4] = {0, 0, 1, 1};
   Vector3 sum;
-  for (int n = first_face_of_vertex_[static_cast<std::size_t>(a)];
-       n < first_face_of_vertex_[static_cast<std::size_t>(a) + 1]; ++n) {
-    const int other = faces_of_vertex_[static_cast<std::size_t>(n)];
-    if (n > first_face_of_vertex_[static_cast<std::size_t>(a)] &&
-        other == faces_of_vertex_[static_cast<std::size_t>(n - 1)])
-      continue; // a triangle, written as a quad with one corner twice
+  for (const int other : faces_of_vertex_[static_cast<std::size_t>(a)]) {
     const std::array<int, 4> &ring = corners_of(surface, other);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
@@ -208,9 +203,7 @@ Vector3 SurfaceSearch::vertex_normal(const SurfaceMesh &surface, int face, int c
                                      const Vector3 &centre) const {
   const std::size_t v = static_cast<std::size_t>(corners_of(surface, face)[static_cast<std::size_t>(corner)]);
   Vector3 sum;
-  for (int n = first_face_of_vertex_[v]; n < first_face_of_vertex_[v + 1]; ++n) {
-    const int other = faces_of_vertex_[static_cast<std::size_t>(n)];
-    if (n > first_face_of_vertex_[v] && other == faces_of_vertex_[static_cast<std::size_t>(n - 1)]) continue;
+  for (const int other : faces_of_vertex_[v]) {
     const std::array<int, 4> &ring = corners_of(surface, other);
     const Quad q = face_corners(surface, other, centre);
     for (std::size_t i = 0; i < 4; ++i) {

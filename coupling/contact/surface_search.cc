@@ -23,20 +23,11 @@ Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
 }
 
 SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin)
-    : skin_(skin), tree_(face_boxes(surface)), flat_(surface) {
+    : skin_(skin),
+      tree_(face_boxes(surface)),
+      flat_(surface),
+      faces_of_vertex_(fem::faces_of_vertices(surface)) {
   if (!(skin > 0)) throw std::invalid_argument("surface search: the skin must be positive");
-  first_face_of_vertex_.assign(surface.vertices.size() + 1, 0);
-  const auto count = [&](int v) -> int & { return first_face_of_vertex_[static_cast<std::size_t>(v) + 1]; };
-  for (const auto &face : surface.faces)
-    for (const int v : face)
-      ++count(v);
-  for (std::size_t v = 1; v < first_face_of_vertex_.size(); ++v)
-    first_face_of_vertex_[v] += first_face_of_vertex_[v - 1];
-  faces_of_vertex_.resize(static_cast<std::size_t>(first_face_of_vertex_.back()));
-  std::vector<int> next(first_face_of_vertex_.begin(), first_face_of_vertex_.end() - 1);
-  for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    for (const int v : surface.faces[f])
-      faces_of_vertex_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<int>(f);
 }
 
 std::vector<Box> SurfaceSearch::face_boxes(const SurfaceMesh &surface) const {

@@ -143,7 +143,7 @@ private:
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;
   FlatFaces flat_;
-  std::vector<int> first_face_of_vertex_, faces_of_vertex_; // faces around each vertex, ascending
+  std::vector<std::vector<int>> faces_of_vertex_;
   long lists_made_ = 0;
   std::vector<int> particles_;
   std::vector<std::size_t> first_near_; // entry k has near_[first_near_[k] ... first_near_[k + 1])
