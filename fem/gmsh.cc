@@ -76,14 +76,8 @@ Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
   auto grid = std::make_shared<dealii::Triangulation<3>>();
   read(stream, options, *grid);
   dealii::GridTools::scale(options.unit, *grid);
-  double across = 0, low = grid->get_vertices()[0][2], high = low;
-  for (unsigned int k = 0; k < 3; ++k) {
-    double least = grid->get_vertices()[0][k], most = least;
-    for (const dealii::Point<3> &p : grid->get_vertices())
-      least = std::min(least, p[k]), most = std::max(most, p[k]);
-    across = std::max(across, most - least);
-    if (k == 2) low = least, high = most;
-  }
+  const auto [low, high] = dealii::GridTools::compute_bounding_box(*grid).get_boundary_points();
+  const double across = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   if (!(across > smallest && across < largest))
     refuse(options, "the body is " + text_of(across) + " m across; allowed are " + text_of(smallest) +
                         " to " + text_of(largest) + " m. Is " + text_of(options.unit) +
@@ -91,7 +85,7 @@ Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
   const std::string inverted = inverted_cell(grid);
   if (!inverted.empty()) refuse(options, inverted + " is inverted or warped through itself");
   count_materials(*grid);
-  tag_ends_if_unnamed(*grid, low, high);
+  tag_ends_if_unnamed(*grid, low[2], high[2]);
   return grid;
 }
 

@@ -219,10 +219,8 @@ VolumeMoments volume_moments(const Grid &grid) {
 }
 
 Grid laid_platen(const Grid &grid, bool faces_up, double plane) {
-  const auto &points = grid->get_vertices();
-  double low = points[0][2], high = low;
-  for (const dealii::Point<3> &p : points)
-    low = std::min(low, p[2]), high = std::max(high, p[2]);
+  const auto box = dealii::GridTools::compute_bounding_box(*grid).get_boundary_points();
+  const double low = box.first[2], high = box.second[2];
   const double shift = plane - (faces_up ? high : low), near = in_plane * (high - low);
   const double fixed = (faces_up ? low : high) + shift;
   const Grid laid = moved_grid(grid, [&](const Vector3 &p) {
