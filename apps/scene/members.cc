@@ -4,11 +4,11 @@ namespace platen::apps {
 namespace {
 
 template <class Parameters>
-bool holds(const std::vector<std::string> Names::*of, const std::string &member) {
-  Names names;
-  Parameters empty;
-  Parameters::describe(names, empty);
-  return std::find((names.*of).begin(), (names.*of).end(), member) != (names.*of).end();
+bool has(const std::string &member) {
+  bool found = false;
+  const Parameters empty{};
+  Parameters::describe([&](const char *name, const auto &...) { found = found || name == member; }, empty);
+  return found;
 }
 
 } // namespace
@@ -25,10 +25,8 @@ Declared LawMembers::operator()(const std::string &member) {
   section_.join(true);
   std::apply([&](auto &...of) { (declare_member(section_, of, member, key), ...); }, laws_);
   section_.join(false);
-  const std::vector<std::string> having = dem::BondLaws::words_where([&](auto *law) {
-    using Of = typename std::remove_pointer_t<decltype(law)>::Parameters;
-    return holds<Of>(&Names::all, member) || holds<Of>(&Names::flags, member);
-  });
+  const std::vector<std::string> having = dem::BondLaws::words_where(
+      [&](auto *law) { return has<typename std::remove_pointer_t<decltype(law)>::Parameters>(member); });
   Declared declared = section_.at(key);
   if (having.size() == dem::BondLaws::size) return declared.unless("Effects/Bond", {"none"});
   declared.only_if("Effects/Bond", having);
@@ -36,9 +34,12 @@ Declared LawMembers::operator()(const std::string &member) {
 }
 
 void LawMembers::rest() {
-  Names names;
-  std::apply([&](auto &...of) { (std::decay_t<decltype(of)>::describe(names, of), ...); }, laws_);
-  for (const std::string &member : names.all)
+  std::vector<std::string> names;
+  const auto take = [&](const char *name, const auto &value, const auto &...) {
+    if (!std::is_same_v<std::decay_t<decltype(value)>, bool>) names.emplace_back(name);
+  };
+  std::apply([&](auto &...of) { (std::decay_t<decltype(of)>::describe(take, of), ...); }, laws_);
+  for (const std::string &member : names)
     if (section_.parameters().find(section_.name() + "/" + key_of(member)) == nullptr) (*this)(member);
 }
 

@@ -87,15 +87,6 @@ Words<Enum> words_of(const std::string &member) {
   return words;
 }
 
-// A list of the names of what is described.
-struct Names {
-  std::vector<std::string> all, flags;
-  template <class Member, class... Rest>
-  void operator()(const char *name, const Member &, const Rest &...) {
-    (std::is_same_v<Member, bool> ? flags : all).emplace_back(name);
-  }
-};
-
 // Entries made of the parameters of all bond laws: one of a name sets it in each law that has it, and has an
 // effect with these alone.
 class LawMembers {

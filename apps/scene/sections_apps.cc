@@ -5,17 +5,6 @@
 namespace platen::apps {
 namespace {
 
-// What an entry of section Bond may be.
-Range stiffness_ratio() {
-  return range_of<dem::ParallelBond::Parameters>("stiffness_ratio");
-}
-Range radius_multiplier() {
-  return range_of<dem::BondLayout>("radius_multiplier");
-}
-Range friction_angle() {
-  return range_of<dem::ParallelBond::Parameters>("friction_angle");
-}
-
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {
   section.entry(
@@ -64,13 +53,16 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.number("Slip ratio", pair.slip_ratio, above(0),
                  "Slip over opening of the combined path (elasto damage plastic).");
   section.entry("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
-  section.entry("Stiffness ratio list", pair.stiffness_ratios, "1", stiffness_ratio(),
+  section.entry("Stiffness ratio list", pair.stiffness_ratios, "1",
+                range_of<dem::ParallelBond::Parameters>("stiffness_ratio"),
                 "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
 
 void declare_calibrate(Parameters &parameters, Calibrate &c) {
   Section section(parameters, "Calibrate");
+  auto &parallel = range_of<dem::ParallelBond::Parameters>;
+  const Range multipliers = range_of<dem::BondLayout>("radius_multiplier");
   section.entry("Mode", c.mode, calibrate_modes,
                 "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
   section.entry("Young modulus", c.young_modulus, "Pa", above(0),
@@ -97,9 +89,9 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
                  "Relative difference of the strengths that ends the search.");
   section.entry("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
-  section.entry("Stiffness ratio list", c.stiffness_ratios, "1", stiffness_ratio(),
+  section.entry("Stiffness ratio list", c.stiffness_ratios, "1", parallel("stiffness_ratio"),
                 "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
-  section.entry("Radius multiplier list", c.radius_multipliers, "1", radius_multiplier(),
+  section.entry("Radius multiplier list", c.radius_multipliers, "1", multipliers,
                 "Abacus; empty: Bond/Radius multiplier.");
   section.entry("Poisson ratio list", c.poisson_ratios, "1",
                 range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
@@ -108,13 +100,12 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search for Poisson's ratio (parallel bond).");
   section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
                  "Search for Poisson's ratio (parallel bond).");
-  section.number("Smallest radius multiplier", c.multiplier_low, radius_multiplier(),
+  section.number("Smallest radius multiplier", c.multiplier_low, multipliers,
                  "Search for Poisson's ratio (cohesive beam).");
-  section.number("Largest radius multiplier", c.multiplier_high, radius_multiplier(),
+  section.number("Largest radius multiplier", c.multiplier_high, multipliers,
                  "Search for Poisson's ratio (cohesive beam).");
   section.number(
-      "Smallest moment contribution", c.moments_low,
-      range_of<dem::ParallelBond::Parameters>("moment_contribution"),
+      "Smallest moment contribution", c.moments_low, parallel("moment_contribution"),
       "Search for compressive over tensile strength (parallel bond, cohesive beam); the largest is the "
       "bond's own.");
   section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
@@ -122,10 +113,10 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
   section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
                  "Search for compressive over tensile strength.");
   section.entry(
-      "Smallest friction angle", c.friction_low, "rad", friction_angle(),
+      "Smallest friction angle", c.friction_low, "rad", parallel("friction_angle"),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
       "a triaxial strength is wanted.");
-  section.entry("Largest friction angle", c.friction_high, "rad", friction_angle(),
+  section.entry("Largest friction angle", c.friction_high, "rad", parallel("friction_angle"),
                 "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
                 "degree if a triaxial strength is wanted.");
 }
@@ -174,7 +165,8 @@ void declare_study(Parameters &parameters, Study &study) {
   section.value("Gap list", study.gaps, "",
                 "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
                 "Study of the packing, in place of Bond/Gap.");
-  section.entry("Radius multiplier list", study.radius_multipliers, "1", radius_multiplier(),
+  section.entry("Radius multiplier list", study.radius_multipliers, "1",
+                range_of<dem::BondLayout>("radius_multiplier"),
                 "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");
   section.entry("Radius spread list", study.radius_spreads, "1", between(0, 1.5),
                 "Study of the packing, in place of Specimen/Radius spread.");

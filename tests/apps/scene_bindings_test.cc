@@ -21,10 +21,14 @@ Scene scene_with(const std::vector<std::string> &overrides) {
 
 template <class Parameters>
 std::vector<std::string> members_of() {
-  Names names;
-  Parameters empty;
-  Parameters::describe(names, empty);
-  return names.all;
+  std::vector<std::string> names; // flags are effects
+  const Parameters empty{};
+  Parameters::describe(
+      [&](const char *name, const auto &value, const auto &...) {
+        if (!std::is_same_v<std::decay_t<decltype(value)>, bool>) names.emplace_back(name);
+      },
+      empty);
+  return names;
 }
 
 TEST(SceneBindings, every_number_of_every_bond_law_has_an_entry_that_sets_it_in_all_laws) {
