@@ -79,6 +79,16 @@ Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face) {
   return 0.5 * cross(first, second);
 }
 
+std::vector<std::vector<int>> faces_of_vertices(const SurfaceMesh &surface) {
+  std::vector<std::vector<int>> around(surface.vertices.size());
+  for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face)
+    for (const int v : surface.faces[static_cast<std::size_t>(face)]) {
+      std::vector<int> &faces = around[static_cast<std::size_t>(v)];
+      if (faces.empty() || faces.back() != face) faces.push_back(face);
+    }
+  return around;
+}
+
 std::vector<int> zero_area_faces(const SurfaceMesh &surface) {
   std::vector<int> empty;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {

@@ -38,6 +38,9 @@ using FaceCompliance = std::array<std::array<double, 4>, 4>;
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
 Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face);
 
+// The faces around each vertex, ascending; once also a triangle, written as a quad with one corner twice.
+std::vector<std::vector<int>> faces_of_vertices(const SurfaceMesh &surface);
+
 // Faces without area (|area vector| below 1e-12 of their longest diagonal squared): no normal can be given to
 // them.
 std::vector<int> zero_area_faces(const SurfaceMesh &surface);
