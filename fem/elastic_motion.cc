@@ -254,18 +254,4 @@ void ElasticSolid::damp(double dt) {
   if (turns_freely()) place_held();
 }
 
-Vector3 ElasticSolid::momentum() const {
-  Vector3 sum{};
-  for (std::size_t i = 0; i < rate_.size(); ++i)
-    sum = sum + model_.mass[i] * rate_[i];
-  return sum;
-}
-
-Vector3 ElasticSolid::angular_momentum() const {
-  Vector3 sum{};
-  for (std::size_t i = 0; i < rate_.size(); ++i)
-    sum = sum + model_.mass[i] * cross(arm(i), rate_[i]);
-  return sum;
-}
-
 } // namespace platen::fem

@@ -94,23 +94,11 @@ public:
   void set_support(const std::vector<double> &vertex_stiffness);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
 
-  // What the body puts on the machine: force (N), and moment (N m) about the centre or seat. At rest that of
-  // the loads.
-  Vector3 clamp_force() const;
-  Vector3 clamp_moment() const;
-
-  double kinetic_energy() const;                                     // J
-  double internal_energy() const { return energy_balance().strain; } // J
+  double kinetic_energy() const; // J
   EnergyBalance energy_balance() const override;
-  Vector3 momentum() const;         // kg m/s, clamp nodes included; explicit
-  Vector3 angular_momentum() const; // kg m^2/s about centre or seat; explicit
 
   // Displacement of each node in the frame's axes (m): what is strained.
   std::vector<Vector3> deformation() const;
-  // Sets a deformation (m) and, for an explicit body, its rate (m/s) in the frame's axes; fixed nodes are
-  // ignored. The energy balance starts anew.
-  void set_deformation(const std::vector<Vector3> &displacement, const std::vector<Vector3> &rate);
-  std::vector<Stress> stress_of_cells() const { return cell_stress(model_, deformation()); } // Pa
 
   // To be taken between steps.
   void describe(Archive &archive) override;

@@ -15,30 +15,6 @@ std::vector<Vector3> ElasticSolid::deformation() const {
   return u;
 }
 
-void ElasticSolid::set_deformation(const std::vector<Vector3> &displacement,
-                                   const std::vector<Vector3> &rate) {
-  const std::size_t n = model_.nodes.size();
-  if (displacement.size() != n || (!is_static() && rate.size() != n))
-    throw std::invalid_argument("elastic solid: a deformation has one vector per node");
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector3 u = free_part(i, displacement[i]), w = is_static() ? Vector3{} : free_part(i, rate[i]);
-    if (is_static()) {
-      start_[i] = target_[i] = u;
-    } else {
-      moved_[i] = carried(i) + to_space(u);
-      rate_[i] = carried_velocity(arm(i)) + to_space(w);
-    }
-  }
-  elapsed_ = duration_ = last_step_ = 0;
-  on_the_path_ = false;
-  load_work_ = clamp_work_ = dissipated_ = 0;
-  if (is_static())
-    measure_path();
-  else
-    find_internal_forces();
-  place_surface();
-}
-
 EnergyBalance ElasticSolid::energy_balance() const {
   EnergyBalance balance;
   balance.load_work = load_work_, balance.clamp_work = clamp_work_, balance.dissipated = dissipated_;
@@ -71,30 +47,6 @@ double ElasticSolid::kinetic_energy() const {
   for (std::size_t i = 0; i < rate_.size(); ++i)
     twice += model_.mass[i] * dot(rate_[i], rate_[i]);
   return 0.5 * twice;
-}
-
-Vector3 ElasticSolid::clamp_force() const {
-  if (is_static()) return total_force();
-  Vector3 sum{};
-  for (std::size_t i = 0; i < force_.size(); ++i)
-    sum = sum - free_part(i, force_[i]);
-  for (const int v : loaded_) {
-    const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
-    sum = sum + (contact_load(v) - free_part(node, contact_load(v)));
-  }
-  return sum;
-}
-
-Vector3 ElasticSolid::clamp_moment() const {
-  if (is_static()) return moment(centre());
-  Vector3 sum{};
-  for (std::size_t i = 0; i < force_.size(); ++i)
-    sum = sum - cross(arm(i), free_part(i, force_[i]));
-  for (const int v : loaded_) {
-    const auto node = static_cast<std::size_t>(node_of_[static_cast<std::size_t>(v)]);
-    sum = sum + cross(arm(node), contact_load(v) - free_part(node, contact_load(v)));
-  }
-  return sum;
 }
 
 double ElasticSolid::path_strain() const {

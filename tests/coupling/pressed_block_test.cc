@@ -5,6 +5,8 @@
 #include <array>
 #include <random>
 
+#include "tests/elastic_nodes.h"
+
 namespace platen::coupling {
 namespace {
 
@@ -134,7 +136,7 @@ TEST(pressed_block, is_a_plane_to_a_sphere_where_it_is_evenly_strained) {
   std::vector<Vector3> u;
   for (const Vector3 &node : pressed.block.model().nodes)
     u.push_back(strained(node));
-  pressed.block.set_deformation(u, {});
+  fem::set_deformation(pressed.block, u, {});
   // Normal of the plane that the face is in, from where it goes along x and y.
   const Vector3 along_x{1.01, 0, 0.02}, along_y{0.02, 0.99, -0.01};
   const Vector3 n = cross(along_x, along_y) / norm(cross(along_x, along_y));

@@ -73,7 +73,7 @@ Transmitted transmitted(bool once, int inside) {
   Transmitted result;
   result.reaction = norm(reaction + sum) / norm(sum);
   const double pressure = norm(sum) / (across * across * edge * edge);
-  const std::vector<fem::Stress> stress = block.stress_of_cells();
+  const std::vector<fem::Stress> stress = cell_stress(block.model(), block.deformation());
   for (std::size_t c = 0; c < stress.size(); ++c) {
     Vector3 middle{};
     for (std::size_t k = 0; k < 8; ++k)

@@ -12,6 +12,7 @@
 #include "fem/grids.h"
 #include "fem/rigid_body.h"
 #include "tests/dem/examples.h"
+#include "tests/elastic_nodes.h"
 #include "tests/measured.h"
 
 namespace platen::coupling {
@@ -46,11 +47,11 @@ struct ElasticPlaten {
 
   explicit ElasticPlaten(double v) {
     const std::size_t nodes = body.model().nodes.size();
-    body.set_deformation(std::vector<Vector3>(nodes, Vector3{}),
+    fem::set_deformation(body, std::vector<Vector3>(nodes, Vector3{}),
                          std::vector<Vector3>(nodes, Vector3{0, 0, -v}));
   }
   void kick(double dt) { body.kick(dt); }
-  Vector3 momentum() const { return body.momentum(); }
+  Vector3 momentum() const { return fem::momenta(body).linear; }
   double energy() const { return body.energy_balance().kinetic + body.energy_balance().strain; }
 };
 
