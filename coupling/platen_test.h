@@ -60,7 +60,6 @@ public:
   // Laboratory signs: compression positive (tension tests: still compression positive).
   double closure_strain() const override; // platen to platen, over the height; elastic: of the faces, on the
                                           // mean over what the specimen covered at the start
-  double clamp_closure() const;           // m, of what the machine moves; rigid: of the platens
   double axial_closure() const { return program().axial_closure(); } // since the platens took over
   // Pa, load of the particles over nominal_area(), whatever the platens' own inertia makes of it.
   double stress_top() const, stress_bottom() const;

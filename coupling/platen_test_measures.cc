@@ -22,10 +22,6 @@ double PlatenTest::closure_strain() const {
   return (bottom_->face_rise() - top_->face_rise()) / shape().height;
 }
 
-double PlatenTest::clamp_closure() const {
-  return bottom_->body().displacement()[2] - top_->body().displacement()[2];
-}
-
 double PlatenTest::platen_speed() const {
   return bottom_->body().velocity()[2] - top_->body().velocity()[2];
 }

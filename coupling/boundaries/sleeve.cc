@@ -154,7 +154,9 @@ void Sleeve::write_vtu(std::ostream &stream) const {
 }
 
 double Sleeve::axial_force_beyond_pressure() const {
-  return 0.5 * (axial_force_bottom() - axial_force_top()) - pressure() * ring_;
+  const double bottom = solid_->prescribed_force(bottom_motion_)[2], // N, of the platens on the sleeve
+      top = solid_->prescribed_force(top_motion_)[2];
+  return 0.5 * (bottom - top) - pressure() * ring_;
 }
 
 // Of the elements, and of the contacts that press now: the sum of a row of the contacts' stiffness at a
@@ -217,10 +219,6 @@ void Sleeve::move(double dt, const RimMotion &rims) {
   elapsed_ += dt;
   solid_->place_surface_ahead(elapsed_);
   solid_->clear_loads();
-}
-
-double Sleeve::largest_move(double dt) const {
-  return solid_->largest_move(dt);
 }
 
 // The loads of the last step stand on the surface.

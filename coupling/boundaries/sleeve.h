@@ -91,7 +91,7 @@ public:
   bool follows_others() const override { return true; }
   bool can_be_carried() const override { return false; }
   StepLimit limit(const dem::Particles &) const override { return {limit_, reason_of_limit}; }
-  double known_limit() const override { return limit_; }
+  double known_limit() const override { return limit_; } // s, stability limit of the next interval
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
@@ -107,8 +107,6 @@ public:
   // Each step of the particles, after their drift over dt (s) and before forces: moves the surface. Begins an
   // interval where the last one has ended.
   void move(double dt, const RimMotion &rims);
-  // Bound on how far the surface moves over dt (m).
-  double largest_move(double dt) const;
   // After the contact layer has given its forces: ends the interval where it is due. Throws
   // fem::InvertedElement before an element is used that would be inside out.
   void take_loads();
@@ -117,12 +115,7 @@ public:
   fem::HyperelasticSolid &solid() { return *solid_; }
 
   int steps_of_interval() const { return planned_; }
-  int steps_of_next_interval(double dt) const;       // of dt (s) each
-  double longest_interval() const { return limit_; } // s, stability limit of the next one
-  double axial_force_top() const {
-    return solid_->prescribed_force(top_motion_)[2];
-  } // N, of the platen on the sleeve
-  double axial_force_bottom() const { return solid_->prescribed_force(bottom_motion_)[2]; } // N
+  int steps_of_next_interval(double dt) const;                                    // of dt (s) each
   double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); } // m^3, of the specimen
   // Of the volume within it, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
@@ -139,7 +132,7 @@ public:
   void describe(Archive &archive) override;
 
 protected:
-  double farthest(const Step &step) const override { return largest_move(step.dt); }
+  double farthest(const Step &step) const override { return solid_->largest_move(step.dt); }
 
 private:
   void begin_interval(double dt, const RimMotion &rims);

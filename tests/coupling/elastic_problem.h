@@ -26,4 +26,9 @@ inline PlatenTestSettings elastic_settings(double end_layer,
   return s;
 }
 
+// m, of what the machine moves; rigid: of the platens.
+inline double clamp_closure(const PlatenTest &test) {
+  return test.bottom().body().displacement()[2] - test.top().body().displacement()[2];
+}
+
 } // namespace platen::coupling

@@ -54,7 +54,7 @@ struct Cell {
     model.begin_step(dt);
     const double x = std::min(1.0, model.time / ramp);
     sleeve.move(dt, {{}, {}, pressure * x * x * (3 - 2 * x)});
-    sleeve.layer().moved(model.last_motion().fastest * dt + sleeve.largest_move(dt));
+    sleeve.layer().moved(model.last_motion().fastest * dt + sleeve.solid().largest_move(dt));
     model.compute_forces(dt);
     sleeve.layer().add_forces(model.particles, sleeve.solid(), dt);
     sleeve.solid().add_surface_force(struck, blow);

@@ -209,7 +209,7 @@ Outcome run_in_sleeve(double share, long steps, double mass_scaling = 1e4, doubl
       << problem.time_step_reason();
   const Outcome o = run(problem, steps);
   if (share < 1) {
-    EXPECT_LE(problem.time_step(), problem.sleeve()->longest_interval());
+    EXPECT_LE(problem.time_step(), problem.sleeve()->known_limit());
   }
   return o;
 }
