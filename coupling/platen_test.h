@@ -4,8 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"

@@ -1,7 +1,6 @@
 #include "coupling/static_press.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "dem/measure/gauge.h"
 

@@ -1,5 +1,4 @@
 // What an elastic solid stores and bears, and its shape without inertia.
-#include <cmath>
 #include <stdexcept>
 
 #include "fem/elastic_model.h"

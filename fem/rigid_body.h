@@ -2,7 +2,6 @@
 // picture.
 #pragma once
 
-#include <array>
 #include <iosfwd>
 #include <vector>
 

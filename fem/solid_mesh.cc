@@ -8,7 +8,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 namespace platen::fem {

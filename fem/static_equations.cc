@@ -17,7 +17,6 @@
 #include <mpi.h>
 #include <Teuchos_ParameterList.hpp>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "base/pi.h"
 #include "base/require.h"
-#include "base/shortest_text.h"
 #include "coupling/boundary.h"
 
 namespace platen::coupling {

@@ -18,7 +18,6 @@
 
 #include <array>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "base/archive.h"

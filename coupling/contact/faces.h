@@ -2,7 +2,6 @@
 // out once, so that the foot of a particle on a platen costs a few products.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "coupling/contact/closest_point.h"

@@ -1,7 +1,6 @@
 // Which particles are near a body's surface, and where on it each finds its closest point.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "coupling/contact/transfer.h"
 
 #include <array>
-#include <cmath>
 
 namespace platen::coupling {
 

@@ -2,8 +2,6 @@
 // radius.
 #pragma once
 
-#include <vector>
-
 #include "dem/bonds.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"

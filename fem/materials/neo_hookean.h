@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 
 namespace platen::fem {
