@@ -69,7 +69,7 @@ public:
 
   // A step, in this order. Takes a command and moves what is its own over the step.
   virtual void drift(const Step &step, const Command &command) = 0;
-  // What of its contacts has to be looked at, in how many parts. Throws std::runtime_error where a particle
+  // Finds the contacts that are due; in how many parts they are. Throws std::runtime_error where a particle
   // may have passed through it unseen.
   virtual std::size_t prepare(const dem::Particles &, const Step &) { return 0; }
   // The forces of one part, in any order, on any thread and beside the bonds; writes nothing of others.
@@ -101,7 +101,7 @@ public:
   virtual double dashpots() const { return 0; }
   virtual StepLimit limit(const dem::Particles &) const { return {}; }
   virtual double known_limit() const { return std::numeric_limits<double>::infinity(); } // s
-  // Contacts listed, and closed, whose growth is a reason to look at the step again.
+  // Contacts listed, and closed, whose growth is a reason to choose the step anew.
   virtual std::size_t near() const { return 0; }
   virtual std::size_t closed() const { return 0; }
   // Once, when the first time step (s) has been chosen: sets itself up for it.

@@ -54,7 +54,7 @@ public:
   // Before the first step: carries the particles by displacements (m) and turns (rad; empty without rotation)
   // and each boundary by what is given for it (m), so slowly that nothing is left in motion, as a solve
   // without inertia has it. Bonds, contacts, friction springs and the energy balance are then as after a very
-  // slow loading; the clock stands at zero. Throws BadSetup where a bond breaks on the way, and
+  // slow loading; the clock stands at zero. Throws BadSetup where a bond breaks meanwhile, and
   // std::logic_error after the first step or where a boundary has inertia.
   void carry(const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn,
              const std::vector<Vector3> &of_boundaries);

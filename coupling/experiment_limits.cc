@@ -90,7 +90,7 @@ std::size_t Experiment::contacts_closed() const {
   return sum;
 }
 
-// Lists are made now, so that it is the same whether the run was stopped and resumed on its way or not.
+// Lists are made now, so that it is the same whether the run was stopped and resumed or not.
 dem::StableStep Experiment::limit_now() {
   std::vector<dem::GroundSpring> springs;
   double dashpots = 0;

@@ -21,7 +21,7 @@ struct StaticPress {
 };
 
 // Closes the platens by `strain` (positive) of the height against the intact network in its present state,
-// which is left as it is. A sphere that its platen touches now, or reaches on the way, presses and, where
+// which is left as it is. A sphere that its platen touches now, or reaches meanwhile, presses and, where
 // there is friction, sticks; one that would have to be pulled is let go, until no sphere changes. Linear
 // otherwise: stress grows with strain alone where the set of contacts does not change. Glued ends hold in
 // either sense. Throws NumericsStopped where the set does not settle or no equilibrium is found.

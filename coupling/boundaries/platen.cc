@@ -14,7 +14,7 @@ namespace {
 constexpr int parts = 8;
 
 // A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
-// side may be looked at alone.
+// side may be taken by itself.
 constexpr double share_of_body = 0.25;
 
 } // namespace

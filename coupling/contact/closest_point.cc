@@ -12,7 +12,7 @@ namespace {
 constexpr double parallel_twist = 1e-14;
 // A quad whose twist leaves its plane by more than this share of the diagonals may have several local minima.
 constexpr double warped = 1e-9;
-// Below this share of (sum of squares)^2 the two tangents do not span a plane: only edges are looked at
+// Below this share of (sum of squares)^2 the two tangents do not span a plane: only edges are searched
 // there.
 constexpr double no_area = 1e-28;
 
@@ -110,7 +110,7 @@ void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across
 }
 
 // Minimises 1/2 |x(u, v)|^2 inside the unit square from a start, by Newton steps on the exact Hessian where
-// it is positive definite and damped Gauss-Newton steps elsewhere. False where the way leads to the rim for
+// it is positive definite and damped Gauss-Newton steps elsewhere. False where it leads to the rim for
 // good.
 bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
   Vector3 r = point_at(q, u, v);

@@ -94,8 +94,8 @@ public:
   // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
   void add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt);
 
-  // The stage in three pieces, for who has other work for threads that wait. What has to be looked at, in how
-  // many parts:
+  // The stage in three pieces, for who has other work for threads that wait. The contacts that are due, in
+  // how many parts:
   std::size_t prepare(const dem::Particles &particles, const fem::LoadedSurface &body);
   // the forces of one part, in any order and on any thread, from particles and body as they are then; writes
   // nothing but the layer's own rows;
@@ -199,7 +199,7 @@ private:
 
   double travelled_ = 0;             // m, sum of the distances told to moved()
   std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
-  std::vector<std::size_t> due_;     // rows to look at in this step
+  std::vector<std::size_t> due_;     // rows to work out in this step
   std::vector<RowLoad> loads_;       // of them
   std::vector<RowContact> contacts_; // of them
   double elastic_energy_ = 0;

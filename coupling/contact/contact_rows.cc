@@ -41,8 +41,8 @@ bool ContactLayer::holds_history(std::size_t row) const {
          (seat_spring_ != nullptr && norm_squared((*seat_spring_)[row]) > 0);
 }
 
-// A row is passed over while nothing can have brought its particle to the surface since it was last looked
-// at.
+// A row is passed over while nothing can have brought its particle to the surface since it was last worked
+// out.
 void ContactLayer::find_due_rows() {
   due_.clear();
   for (std::size_t row = 0; row < table_.size(); ++row)

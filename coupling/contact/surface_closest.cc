@@ -140,7 +140,7 @@ SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vec
 SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, const ClosestPoint &local,
                                         const Vector3 &centre) const {
   SurfacePoint s;
-  // The same formula as the short way of closest(), so that the way does not show in a single bit.
+  // The same formula as in closest() itself, so that no bit tells which of them it was.
   if (local.feature == Feature::face && foot(surface, face, centre, s)) return s;
   s.face = face;
   s.local = local;

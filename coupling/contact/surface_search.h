@@ -95,7 +95,7 @@ public:
   void rebuild(const fem::SurfaceMesh &surface, const Column<Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
 
-  // Looks at the faces near particles as they are now, so that until moved() is called again closest() need
+  // Sets up the faces near particles as they are now, so that until moved() is called again closest() need
   // not do so for each particle. Nothing to do for a surface that only shifts.
   void update(const fem::SurfaceMesh &surface);
 

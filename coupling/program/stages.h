@@ -43,8 +43,8 @@ private:
   Servo servo_;
 };
 
-// The axial loading of a test, beside a lateral pressure where there is a cell: at a rate, with unloading on
-// its way, or by a stress on the top platen.
+// The axial loading of a test, beside a lateral pressure where there is a cell: at a rate, with unloading in
+// between, or by a stress on the top platen.
 
 // The pressure of a cell while the platens load: held, or led along a stress path.
 class LateralPressure {
