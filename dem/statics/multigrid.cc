@@ -24,17 +24,15 @@ constexpr double softest = 1e-6;
 
 template <int n>
 struct Multigrid<n>::Level {
+  std::vector<float> right, solution;
+  // Of all levels but the last one:
   BlockMatrix<n, float> matrix;
   std::vector<float> inverse; // of the diagonal blocks; 0 where fixed
   Clusters<n> clusters;
-  std::vector<float> right, solution, residual, direction;
-};
-
-template <int n>
-struct Multigrid<n>::Direct {
+  std::vector<float> residual, direction;
+  // Of the last one:
   Eigen::LDLT<Eigen::MatrixXd> factor;
   std::vector<char> fixed;
-  std::vector<float> right, solution;
 };
 
 namespace {
@@ -99,22 +97,21 @@ template <int n>
 void Multigrid<n>::make_next(const BlockMatrix<n, double> &a, std::vector<Vector3> place,
                              std::vector<double> length, std::vector<char> fixed) {
   const std::size_t rows = a.rows();
-  Clusters<n> clusters;
-  if (rows > few_rows) clusters = Clusters<n>(a, place, length, fixed);
-  if (rows > few_rows && 2 * clusters.size() < rows) {
-    Level level;
+  Level &level = levels_.emplace_back();
+  level.right.resize(n * rows);
+  level.solution.resize(n * rows);
+  if (rows > few_rows) level.clusters = Clusters<n>(a, place, length, fixed);
+  if (rows > few_rows && 2 * level.clusters.size() < rows) {
     level.inverse = inverse_of_diagonal(a, fixed);
     level.matrix = in_single(a);
-    level.clusters = std::move(clusters);
-    for (std::vector<float> *v : {&level.right, &level.solution, &level.residual, &level.direction})
-      v->resize(n * rows);
-    levels_.push_back(std::move(level));
-    const Clusters<n> &c = levels_.back().clusters;
+    level.residual.resize(n * rows);
+    level.direction.resize(n * rows);
+    const Clusters<n> &c = level.clusters;
     const std::vector<char> none(c.size(), 0);
     make_next(c.stiffness(a), c.place(), c.length(), none);
     return;
   }
-  direct_ = std::make_unique<Direct>();
+  level.clusters = {};
   const Eigen::Index size = n * static_cast<Eigen::Index>(rows);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = 0; i < rows; ++i)
@@ -127,25 +124,22 @@ void Multigrid<n>::make_next(const BlockMatrix<n, double> &a, std::vector<Vector
   const double mean = mean_diagonal(a, fixed);
   for (Eigen::Index i = 0; i < size; ++i)
     dense(i, i) += (fixed[i / n] ? 1 : softest) * mean;
-  direct_->factor.compute(dense);
-  direct_->fixed = std::move(fixed);
-  direct_->right.resize(n * rows);
-  direct_->solution.resize(n * rows);
+  level.factor.compute(dense);
+  level.fixed = std::move(fixed);
 }
 
 // solution = (about the inverse) right, on a level; what is left of it in `residual`, if it is wanted.
 template <int n>
 void Multigrid<n>::cycle(std::size_t at, bool rest) {
-  if (at == levels_.size()) {
-    Direct &d = *direct_;
-    const Eigen::Map<const Eigen::VectorXf> right(d.right.data(), static_cast<Eigen::Index>(d.right.size()));
-    Eigen::Map<Eigen::VectorXf>(d.solution.data(), right.size()) =
-        d.factor.solve(right.cast<double>()).template cast<float>();
-    for (std::size_t k = 0; k < d.solution.size(); ++k)
-      if (d.fixed[k / n]) d.solution[k] = 0;
+  Level &l = levels_[at];
+  if (at + 1 == levels_.size()) {
+    const Eigen::Map<const Eigen::VectorXf> right(l.right.data(), static_cast<Eigen::Index>(l.right.size()));
+    Eigen::Map<Eigen::VectorXf>(l.solution.data(), right.size()) =
+        l.factor.solve(right.cast<double>()).template cast<float>();
+    for (std::size_t k = 0; k < l.solution.size(); ++k)
+      if (l.fixed[k / n]) l.solution[k] = 0;
     return;
   }
-  Level &l = levels_[at];
   const std::size_t rows = l.matrix.rows();
   const double middle = 0.5 * largest * (1 + 1 / smoothed), half = 0.5 * largest * (1 - 1 / smoothed);
   // Each turn: direction = a direction + b D^-1 residual, solution += direction, residual -= A direction.
@@ -186,21 +180,18 @@ void Multigrid<n>::cycle(std::size_t at, bool rest) {
 // The next level's answer to the residual, twice (once where it is exact), is added to the solution.
 template <int n>
 void Multigrid<n>::visit_next(std::size_t at) {
-  Level &l = levels_[at];
-  const bool last = at + 1 == levels_.size();
-  std::vector<float> &right = last ? direct_->right : levels_[at + 1].right;
-  std::vector<float> &answer = last ? direct_->solution : levels_[at + 1].solution;
-  l.clusters.gather(l.residual, right);
+  Level &l = levels_[at], &next = levels_[at + 1];
+  const bool last = at + 2 == levels_.size();
+  l.clusters.gather(l.residual, next.right);
   cycle(at + 1, !last);
   if (!last) {
-    Level &next = levels_[at + 1];
-    const std::vector<float> first = answer;
+    const std::vector<float> first = next.solution;
     std::swap(next.right, next.residual);
     cycle(at + 1, false);
-    for (std::size_t k = 0; k < answer.size(); ++k)
-      answer[k] += first[k];
+    for (std::size_t k = 0; k < first.size(); ++k)
+      next.solution[k] += first[k];
   }
-  l.clusters.spread(answer, static_cast<float>(correction), l.direction);
+  l.clusters.spread(next.solution, static_cast<float>(correction), l.direction);
   for_each_product(l.matrix, l.direction.data(), [&](std::size_t i, const float *sum) {
     for (std::size_t c = 0; c < n; ++c) {
       l.solution[i * n + c] += l.direction[i * n + c];
@@ -211,7 +202,7 @@ void Multigrid<n>::visit_next(std::size_t at) {
 
 template <int n>
 void Multigrid<n>::apply(const std::vector<double> &r, std::vector<double> &z) {
-  std::vector<float> &right = levels_.empty() ? direct_->right : levels_.front().right;
+  Level &finest = levels_.front();
   // Single precision has a short range: the residual enters with a largest entry of one.
   double size = 0;
   for (const double a : r)
@@ -221,11 +212,10 @@ void Multigrid<n>::apply(const std::vector<double> &r, std::vector<double> &z) {
     return;
   }
   for_each(
-      r.size(), [&](std::size_t k) { right[k] = static_cast<float>(r[k] / size); }, 1 << 14);
+      r.size(), [&](std::size_t k) { finest.right[k] = static_cast<float>(r[k] / size); }, 1 << 14);
   cycle(0, false);
-  const std::vector<float> &solution = levels_.empty() ? direct_->solution : levels_.front().solution;
   for_each(
-      z.size(), [&](std::size_t k) { z[k] = size * static_cast<double>(solution[k]); }, 1 << 14);
+      z.size(), [&](std::size_t k) { z[k] = size * static_cast<double>(finest.solution[k]); }, 1 << 14);
 }
 
 template class Multigrid<3>;

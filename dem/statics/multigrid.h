@@ -6,7 +6,6 @@
 // approximate anyway and bound by memory.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "base/vector3.h"
@@ -30,14 +29,12 @@ public:
 
 private:
   struct Level;
-  struct Direct;
   void make_next(const BlockMatrix<n, double> &matrix, std::vector<Vector3> place, std::vector<double> length,
                  std::vector<char> fixed);
   void cycle(std::size_t level, bool rest);
   void visit_next(std::size_t level);
 
   std::vector<Level> levels_;
-  std::unique_ptr<Direct> direct_;
 };
 
 } // namespace platen::dem::statics
