@@ -9,6 +9,7 @@
 #include <voro++/voro++.hh>
 
 #include "base/parallel.h"
+#include "dem/eigen.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
@@ -225,11 +226,11 @@ double balance(Skin &skin, const Particles &p) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); // sum |a| (y.y 1 - y y)
   for (std::size_t k = 0; k < n; ++k) {
     const Vector3 y = at(k) - centre;
-    const Eigen::Vector3d v(y.x, y.y, y.z);
+    const Eigen::Vector3d v = eigen(y);
     spread += norm(skin.area[k]) * (v.dot(v) * Eigen::Matrix3d::Identity() - v * v.transpose());
     moment += cross(y, skin.area[k]);
   }
-  const Eigen::Vector3d turn = spread.fullPivLu().solve(Eigen::Vector3d(-moment.x, -moment.y, -moment.z));
+  const Eigen::Vector3d turn = spread.fullPivLu().solve(eigen(-moment));
   const Vector3 shift = force * (-1 / weight), w{turn.x(), turn.y(), turn.z()};
   for (std::size_t k = 0; k < n; ++k)
     skin.area[k] += norm(skin.area[k]) * (shift + cross(w, at(k) - centre));

@@ -1,14 +1,19 @@
 #include "dem/measure/coarse_grain.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
+#include "dem/eigen.h"
+#include "dem/packing/specimen.h"
 
 namespace platen::dem {
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Of the determinant of the spheres' scatter about a node over the cube of its mean; below it they lie in a
 // plane or on a line.
@@ -17,29 +22,23 @@ constexpr double flat = 1e-4;
 // Sums over the spheres in reach of a node, w = V W, d from the node.
 struct Sums {
   double w = 0, damage = 0;
-  Vector3 d, u;
-  std::array<double, 9> dd{}, ud{}, stress{};
+  std::array<double, 9> stress{};
+  Vector3d d = Vector3d::Zero(), u = Vector3d::Zero();
+  Matrix3d dd = Matrix3d::Zero(), ud = Matrix3d::Zero();
 };
 
-std::size_t at(int r, int c) {
-  return static_cast<std::size_t>(3 * r + c);
-}
-
-void add(Sums &s, const SphereColumns &spheres, std::size_t i, double w, const Vector3 &d) {
+void add(Sums &s, const SphereColumns &spheres, std::size_t i, double w, const Vector3d &d) {
   s.w += w;
   if (!spheres.damage.empty()) s.damage += w * spheres.damage[i];
   if (!spheres.stress.empty())
     for (std::size_t c = 0; c < 9; ++c)
       s.stress[c] += w * spheres.stress[i][c];
   if (spheres.displacement.empty()) return;
-  const Vector3 &u = spheres.displacement[i];
-  s.d += w * d;
-  s.u += w * u;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      s.dd[at(r, c)] += w * d[r] * d[c];
-      s.ud[at(r, c)] += w * u[r] * d[c];
-    }
+  const Vector3d u = eigen(spheres.displacement[i]), wd = w * d, wu = w * u;
+  s.d += wd;
+  s.u += wu;
+  s.dd += wd * d.transpose();
+  s.ud += wu * d.transpose();
 }
 
 // Nodes of one direction within `reach` of x: first, and one past the last.
@@ -54,7 +53,7 @@ std::vector<Sums> sum_up(const SphereColumns &spheres, const RegularGrid &grid, 
   std::vector<Sums> sums(grid.size());
   for (std::size_t i = 0; i < spheres.position.size(); ++i) {
     const Vector3 &x = spheres.position[i];
-    const double r = spheres.radius[i], volume = 4.0 / 3 * pi * r * r * r;
+    const double volume = sphere_volume(spheres.radius[i]);
     std::array<std::array<int, 2>, 3> range;
     for (int d = 0; d < 3; ++d)
       range[d] = in_reach(x[d], reach, grid.origin[d], grid.spacing, grid.nodes[d]);
@@ -64,49 +63,38 @@ std::vector<Sums> sum_up(const SphereColumns &spheres, const RegularGrid &grid, 
           const std::size_t node = (static_cast<std::size_t>(k) * grid.nodes[1] + j) * grid.nodes[0] + n;
           const Vector3 d = x - grid.place(node);
           const double w = volume * wendland(norm(d), reach);
-          if (w > 0) add(sums[node], spheres, i, w, d);
+          if (w > 0) add(sums[node], spheres, i, w, eigen(d));
         }
   }
   return sums;
 }
 
 // Inverse of a symmetric matrix by cofactors; false where it is as good as singular.
-bool invert(const std::array<double, 9> &m, std::array<double, 9> &inverse) {
+bool invert(const Matrix3d &m, Matrix3d &inverse) {
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-      inverse[at(c, r)] = m[at(r1, c1)] * m[at(r2, c2)] - m[at(r1, c2)] * m[at(r2, c1)];
-    }
-  const double determinant = m[0] * inverse[0] + m[1] * inverse[3] + m[2] * inverse[6];
-  const double mean = (m[0] + m[4] + m[8]) / 3;
+    inverse.col(r) = m.row((r + 1) % 3).cross(m.row((r + 2) % 3)).transpose();
+  const double determinant = m(0, 0) * inverse(0, 0) + m(0, 1) * inverse(1, 0) + m(0, 2) * inverse(2, 0);
+  const double mean = (m(0, 0) + m(1, 1) + m(2, 2)) / 3;
   if (!(determinant > flat * mean * mean * mean)) return false;
-  for (double &value : inverse)
-    value /= determinant;
+  inverse /= determinant;
   return true;
 }
 
 // The linear field nearest to the displacements: at the node, and its gradient's symmetric part.
 void fit(const Sums &s, Vector3 &displacement, std::array<double, 9> &strain) {
-  const Vector3 d = (1 / s.w) * s.d, u = (1 / s.w) * s.u;
-  std::array<double, 9> scatter, moved, inverse, gradient;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      scatter[at(r, c)] = s.dd[at(r, c)] / s.w - d[r] * d[c];
-      moved[at(r, c)] = s.ud[at(r, c)] / s.w - u[r] * d[c];
-    }
-  displacement = u;
-  strain.fill(nan);
-  if (!invert(scatter, inverse)) return;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      double &g = gradient[at(r, c)] = 0;
-      for (int k = 0; k < 3; ++k)
-        g += moved[at(r, k)] * inverse[at(k, c)];
-      displacement[r] -= g * d[c];
-    }
-  for (int r = 0; r < 3; ++r)
+  const Vector3d d = (1 / s.w) * s.d, u = (1 / s.w) * s.u;
+  const Matrix3d scatter = s.dd / s.w - d * d.transpose(), moved = s.ud / s.w - u * d.transpose();
+  Matrix3d inverse, gradient = Matrix3d::Constant(nan);
+  Vector3d at_node = u;
+  if (invert(scatter, inverse)) {
+    gradient.setZero();
+    for (int k = 0; k < 3; ++k) // in this order
+      gradient += moved.col(k) * inverse.row(k);
     for (int c = 0; c < 3; ++c)
-      strain[at(r, c)] = 0.5 * (gradient[at(r, c)] + gradient[at(c, r)]);
+      at_node -= d[c] * gradient.col(c);
+  }
+  displacement = {at_node.x(), at_node.y(), at_node.z()};
+  Eigen::Map<Matrix3d>(strain.data()) = 0.5 * (gradient + gradient.transpose());
 }
 
 } // namespace

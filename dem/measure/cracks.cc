@@ -10,6 +10,7 @@
 
 #include "base/pi.h"
 #include "dem/cell_grid.h"
+#include "dem/eigen.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 
@@ -25,8 +26,7 @@ CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vect
     plane.centre += points[k] / static_cast<double>(members.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const int k : members) {
-    const Vector3 d = points[k] - plane.centre;
-    const Eigen::Vector3d v(d.x, d.y, d.z);
+    const Eigen::Vector3d v = eigen(points[k] - plane.centre);
     scatter += v * v.transpose() / static_cast<double>(members.size());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter); // ascending

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dem/eigen.h"
+
 namespace platen::dem {
 namespace {
 
@@ -50,8 +52,7 @@ Gauge::Gauge(const Particles &p, const Shape &shape, const Bonds *bonds) {
   if (!rows_.empty()) centre_ *= 1.0 / static_cast<double>(rows_.size());
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const int i : rows_) {
-    const Vector3 x = p.reference_position[i] - centre_;
-    const Eigen::Vector3d v(x.x, x.y, x.z);
+    const Eigen::Vector3d v = eigen(p.reference_position[i] - centre_);
     moments += v * v.transpose();
   }
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(moments);

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/pi.h"
+#include "dem/eigen.h"
 #include "dem/measure/bond_network.h"
 
 namespace platen::dem {
@@ -47,10 +48,6 @@ void clip_to_circle(const Vector3 &from, const Vector3 &path, double radius, dou
   }
   low = std::max(low, (-b - std::sqrt(square)) / a);
   high = std::min(high, (-b + std::sqrt(square)) / a);
-}
-
-Eigen::Vector3d eigen(const Vector3 &v) {
-  return {v.x, v.y, v.z};
 }
 
 struct Sum {

@@ -1,6 +1,6 @@
 #include "dem/statics/network.h"
 
-#include <Eigen/Core>
+#include "dem/eigen.h"
 
 namespace platen::dem::statics {
 namespace {
@@ -9,9 +9,6 @@ using Matrix3 = Eigen::Matrix3d;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Vector3d eigen(const Vector3 &a) {
-  return {a.x, a.y, a.z};
-}
 Matrix3 skew(const Vector3 &a) {
   Matrix3 m;
   m << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0;
