@@ -31,6 +31,16 @@ double integral(double from, double to, const Function &f) {
   return half * sum;
 }
 
+// Area (m^2) of the part two discs of radii a and b share; distance d of their centres in m.
+double shared_area_of_discs(double a, double b, double d) {
+  const double small = std::min(a, b);
+  if (d <= std::abs(a - b)) return pi * small * small;
+  if (d >= a + b) return 0;
+  const double angle_a = std::acos(std::clamp((d * d + a * a - b * b) / (2 * d * a), -1.0, 1.0));
+  const double angle_b = std::acos(std::clamp((d * d + b * b - a * a) / (2 * d * b), -1.0, 1.0));
+  return a * a * (angle_a - 0.5 * std::sin(2 * angle_a)) + b * b * (angle_b - 0.5 * std::sin(2 * angle_b));
+}
+
 // Part of a disc inside the rectangle [-half_x, half_x] x [-half_y, half_y].
 double area_in_rectangle(double x, double y, double r, double half_x, double half_y) {
   const bool inside = std::abs(x) + r <= half_x && std::abs(y) + r <= half_y;
@@ -53,6 +63,16 @@ double clearance_of_side(const Shape &shape, const Vector3 &c, double from_axis)
 }
 
 constexpr int contacts_that_hold = 4; // a frictionless sphere needs four to be at rest in space
+
+// The shape of the core: every wall and end moved inwards by margin (m); measures <= 0 where nothing is left.
+// Its z axis starts at 0 like that of every shape: shift centres by -margin along z to use it.
+Shape core_of(const Shape &shape, double margin) {
+  Shape core = shape;
+  core.height -= 2 * margin;
+  if (shape.kind == ShapeKind::cylinder) core.radius -= margin;
+  if (shape.kind == ShapeKind::box) core.width_x -= 2 * margin, core.width_y -= 2 * margin;
+  return core;
+}
 
 bool has_core(const Shape &core) {
   return smallest_width(core) > 0;
@@ -112,15 +132,6 @@ double core_fraction(const Specimen &s, double margin) {
 
 } // namespace
 
-double shared_area_of_discs(double a, double b, double d) {
-  const double small = std::min(a, b);
-  if (d <= std::abs(a - b)) return pi * small * small;
-  if (d >= a + b) return 0;
-  const double angle_a = std::acos(std::clamp((d * d + a * a - b * b) / (2 * d * a), -1.0, 1.0));
-  const double angle_b = std::acos(std::clamp((d * d + b * b - a * a) / (2 * d * b), -1.0, 1.0));
-  return a * a * (angle_a - 0.5 * std::sin(2 * angle_a)) + b * b * (angle_b - 0.5 * std::sin(2 * angle_b));
-}
-
 double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
   const double clearance = wall_clearance(shape, c);
   if (clearance >= r) return sphere_volume(r);
@@ -150,14 +161,6 @@ std::vector<TouchingPair> touching_pairs(const Specimen &s, double gap) {
     if (between <= gap) pairs.push_back({i, j, between});
   }
   return pairs;
-}
-
-Shape core_of(const Shape &shape, double margin) {
-  Shape core = shape;
-  core.height -= 2 * margin;
-  if (shape.kind == ShapeKind::cylinder) core.radius -= margin;
-  if (shape.kind == ShapeKind::box) core.width_x -= 2 * margin, core.width_y -= 2 * margin;
-  return core;
 }
 
 PackingQuality judge_packing(const Specimen &specimen, const QualityMeasure &measure) {

@@ -15,9 +15,6 @@ namespace platen::dem {
 // rectangle), with an error below 1e-4 of the sphere.
 double clipped_volume(const Vector3 &centre, double radius, const Shape &shape);
 
-// Area (m^2) of the part two discs share; distance of their centres in m.
-double shared_area_of_discs(double radius_a, double radius_b, double distance);
-
 struct TouchingPair {
   int first = 0, second = 0; // first < second
   double gap = 0;            // m, negative where they overlap
@@ -56,9 +53,5 @@ struct PackingQuality {
 // Throws std::invalid_argument on a specimen that check_specimen() refuses for its numbers (empty, radii not
 // positive, centres not finite) or on a negative tolerance or margin.
 PackingQuality judge_packing(const Specimen &specimen, const QualityMeasure &measure = {});
-
-// The shape of the core: every wall and end moved inwards by margin (m); measures <= 0 where nothing is left.
-// Its z axis starts at 0 like that of every shape: shift centres by -margin along z to use it.
-Shape core_of(const Shape &shape, double margin);
 
 } // namespace platen::dem
