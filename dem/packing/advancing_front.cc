@@ -197,12 +197,9 @@ RadiusDistribution two_radii(double small, double large, double fraction_of_larg
   return checked({RadiusDistribution::Kind::two_sizes, small, large, fraction_of_large});
 }
 
-RadiusDistribution uniform_radii(double smallest, double largest) {
-  return checked({RadiusDistribution::Kind::uniform, smallest, largest, 0});
-}
-
 RadiusDistribution uniform_radii_of_spread(double mean, double spread) {
-  return uniform_radii(mean * (1 - 0.5 * spread), mean * (1 + 0.5 * spread));
+  return checked(
+      {RadiusDistribution::Kind::uniform, mean * (1 - 0.5 * spread), mean * (1 + 0.5 * spread), 0});
 }
 
 Specimen advancing_front(const Shape &shape, const RadiusDistribution &radii, std::uint64_t seed) {

@@ -22,7 +22,6 @@ struct RadiusDistribution {
 
 RadiusDistribution equal_radii(double radius);                                      // m
 RadiusDistribution two_radii(double small, double large, double fraction_of_large); // m, m, by number
-RadiusDistribution uniform_radii(double smallest, double largest);                  // m
 // Even between (1 - spread/2) and (1 + spread/2) of the mean (m); spread = (largest - smallest) / mean in [0,
 // 2).
 RadiusDistribution uniform_radii_of_spread(double mean, double spread);

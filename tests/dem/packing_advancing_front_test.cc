@@ -61,7 +61,8 @@ TEST(AdvancingFront, fills_a_handful_of_spheres_in_the_published_trend) {
 
 TEST(AdvancingFront, gives_each_sphere_three_earlier_contacts_and_no_overlap) {
   expect_no_overlap_and_three_earlier_contacts(advancing_front(cylinder(5, 10), equal_radii(0.4), 3));
-  expect_no_overlap_and_three_earlier_contacts(advancing_front(box(8, 6, 9), uniform_radii(0.3, 0.6), 3));
+  expect_no_overlap_and_three_earlier_contacts(
+      advancing_front(box(8, 6, 9), uniform_radii_of_spread(0.45, 2.0 / 3), 3));
   expect_no_overlap_and_three_earlier_contacts(advancing_front(box(8, 6, 9), two_radii(0.3, 0.6, 0.5), 3));
 }
 
@@ -92,7 +93,7 @@ TEST(AdvancingFront, draws_the_wanted_radii) {
 
 TEST(AdvancingFront, repeats_bit_for_bit_from_its_seed) {
   const Shape shape = cylinder(5, 10);
-  const RadiusDistribution radii = uniform_radii(0.3, 0.6);
+  const RadiusDistribution radii = uniform_radii_of_spread(0.45, 2.0 / 3);
   const Specimen a = advancing_front(shape, radii, 7), b = advancing_front(shape, radii, 7),
                  other = advancing_front(shape, radii, 8);
   ASSERT_EQ(a.size(), b.size());
@@ -109,7 +110,7 @@ TEST(AdvancingFront, refuses_what_cannot_be_packed) {
   EXPECT_THROW(advancing_front(cylinder(1, -1), equal_radii(0.1), 1), std::invalid_argument);
   EXPECT_THROW(equal_radii(0), std::invalid_argument);
   EXPECT_THROW(equal_radii(std::nan("")), std::invalid_argument);
-  EXPECT_THROW(uniform_radii(2, 1), std::invalid_argument);
+  EXPECT_THROW(uniform_radii_of_spread(1.5, -2.0 / 3), std::invalid_argument);
   EXPECT_THROW(two_radii(1, 2, 1.5), std::invalid_argument);
   EXPECT_THROW(uniform_radii_of_spread(1, 2), std::invalid_argument);
 }
