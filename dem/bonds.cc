@@ -34,9 +34,7 @@ double power_taken(const BrokenBond &b, const Particles &p) {
 // Pairs within the layout's range, sorted by (first, second).
 std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
                                       const BondLayout &layout) {
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    largest = std::max(largest, radius[i]);
+  const double largest = n > 0 ? *std::max_element(radius, radius + n) : 0;
   // A hair wider than the reach, so that the test below alone decides.
   const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
   std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);

@@ -57,8 +57,7 @@ struct Grid {
       cell[s] = index(range(centres[spheres[s]], 0).from);
       ++start[cell[s] + 1];
     }
-    for (std::size_t c = 1; c < start.size(); ++c)
-      start[c] += start[c - 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
     member.resize(spheres.size());
     std::vector<int> next(start.begin(), start.end() - 1);
     for (std::size_t s = 0; s < spheres.size(); ++s)
