@@ -7,7 +7,9 @@
 
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
+#include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
+#include "apps/scene/parameters.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 
@@ -29,11 +31,11 @@ std::string title_of(const Scene &scene) {
   return scene.general.title.empty() ? scene.name : scene.general.title;
 }
 
-std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene) {
-  std::vector<std::filesystem::path> files{command.scene};
-  for (const std::string &file : {scene.specimen.file, scene.phases.file, scene.platens.top_face.mesh_file,
-                                  scene.platens.bottom_face.mesh_file})
-    if (!file.empty()) files.emplace_back(file);
+std::vector<std::filesystem::path> input_files(const Scene &scene) {
+  const std::vector<std::string> &sources = scene.parameters->sources();
+  std::vector<std::filesystem::path> files(sources.begin(), sources.end());
+  for (const Entry &entry : scene.parameters->entries())
+    if (entry.is_file && !entry.text.empty()) files.emplace_back(resolved_path(entry));
   return files;
 }
 
@@ -63,7 +65,7 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_c
       log(loudness_of(command)),
       command_(command),
       scene_(scene),
-      inputs_(input_files(command, scene)),
+      inputs_(input_files(scene)),
       use_(command.resume      ? FolderUse::resume
            : command.overwrite ? FolderUse::overwrite
                                : FolderUse::fresh),

@@ -21,8 +21,8 @@ namespace platen::apps {
 Loudness loudness_of(const CommandLine &command);
 // The scene's title, or its file's name.
 std::string title_of(const Scene &scene);
-// The scene and all files that it names: what a run must not write over.
-std::vector<std::filesystem::path> input_files(const CommandLine &command, const Scene &scene);
+// The scene, what it includes and all files that it names: what a run must not write over.
+std::vector<std::filesystem::path> input_files(const Scene &scene);
 // Throws InputError, naming the first line that differs, where the folder was begun with another scene.
 void require_same_scene(const Scene &scene, const OutputPaths &paths);
 

@@ -40,6 +40,7 @@ void read_scene_file(const std::string &path, Parameters &parameters) {
   if (ending != ".prm" && ending != ".json")
     throw InputError(path +
                      ": error: is no scene file by its name. Allowed: names that end in .prm or .json.");
+  parameters.add_source(path);
   const std::string text = read_text(path);
   if (ending == ".json")
     read_json_text(text, path, parameters);

@@ -266,7 +266,8 @@ void Parameters::override_entry(const std::string &assignment, int number) {
 
 void Parameters::refuse(const std::string &path, const std::string &reason) const {
   const Entry &entry = at(path);
-  const std::string place = entry.origin.file.empty() ? source_ : entry.origin.text();
+  const std::string scene = sources_.empty() ? "" : sources_.front();
+  const std::string place = entry.origin.file.empty() ? scene : entry.origin.text();
   throw InputError((place.empty() ? "" : place + ": ") + "error: " + path +
                    (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason);
 }

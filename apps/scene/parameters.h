@@ -84,8 +84,9 @@ public:
   // With every member in backquotes replaced by its entry.
   std::string with_entries(const std::string &message) const;
 
-  // The scene file, for messages about entries that it does not set.
-  void set_source(const std::string &path) { source_ = path; }
+  // A file that is read, the scene itself first; included ones follow.
+  void add_source(const std::string &path) { sources_.push_back(path); }
+  const std::vector<std::string> &sources() const { return sources_; }
 
   // Forgets how values are converted: what remains is texts.
   void release();
@@ -98,7 +99,7 @@ private:
 
   std::vector<Entry> entries_;
   std::vector<std::string> sections_;
-  std::string source_;
+  std::vector<std::string> sources_;
 };
 
 // Throws ValueError for a text that a .prm cannot hold and give back.

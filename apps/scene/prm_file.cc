@@ -126,6 +126,7 @@ void PrmReader::include(const std::string &file, const Origin &origin) {
   } catch (const InputError &error) {
     fail(origin, "include " + file + ": " + error.what());
   }
+  parameters_.add_source(included);
   read(text, included, origin.depth + 1);
 }
 

@@ -54,7 +54,6 @@ Scene read(const std::string &path, const std::vector<std::string> &overrides, c
   Scene scene;
   Parameters parameters;
   declare_scene(parameters, scene);
-  parameters.set_source(path);
   scene.path = path;
   scene.name = std::filesystem::path(path).stem().string();
   read_scene_file(path, parameters);

@@ -117,7 +117,7 @@ void StudyApp::require_same_study() const {
 }
 
 void StudyApp::open_anew() {
-  const std::vector<fs::path> inputs = input_files(command_, scene_);
+  const std::vector<fs::path> inputs = input_files(scene_);
   const FolderUse use = command_.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   check_output_folder(paths_.folder, use, inputs);
   std::error_code none;

@@ -76,5 +76,15 @@ TEST_F(BondsApp, an_earlier_run_is_not_overwritten_unasked) {
   EXPECT_EQ(run(scene, "a", true), status_done);
 }
 
+TEST_F(BondsApp, an_included_file_is_not_overwritten) {
+  ASSERT_EQ(run(scene, "a"), status_done);
+  const fs::path again = folder / "again.prm", included = folder / "a/scene.prm";
+  std::ofstream(again) << "include a/scene.prm\n";
+  const std::string before = text_of(included);
+  EXPECT_THROW(run(again.string(), "a", true), InputError);
+  EXPECT_EQ(text_of(included), before);
+  EXPECT_EQ(run(again.string(), "b"), status_done);
+}
+
 } // namespace
 } // namespace platen::apps
