@@ -71,7 +71,7 @@ double largest_eigenvalue(const NodeMatrix &stiffness, const std::vector<double>
         y.u[i][c] = fixed[i][c] ? 0.0 : y.u[i][c] / std::sqrt(mass[i]);
     return y;
   };
-  return std::min(platen::largest_eigenvalue(apply, start, {20, 1}).value, bound);
+  return std::min(platen::largest_eigenvalue(apply, start, {20, 1}, bisected_ritz_value).value, bound);
 }
 
 } // namespace platen::fem

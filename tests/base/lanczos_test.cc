@@ -91,11 +91,24 @@ TEST(lanczos, takes_the_iterations_that_its_limits_ask_for) {
 }
 
 TEST(lanczos, the_ritz_value_and_its_component_are_those_of_two_masses) {
-  // {{2, -1}, {-1, 3}}: (5 + sqrt 5) / 2, vector (1, 2 - value) over its length
-  const LargestRitzValue ritz = largest_ritz_value({2, 3}, {-1});
-  const double value = 0.5 * (5 + std::sqrt(5.0)), second = 2 - value;
-  EXPECT_NEAR(ritz.value, value, 1e-15 * 4);
-  EXPECT_NEAR(ritz.last_component, std::abs(second) / std::hypot(1, second), 1e-15);
+  // {{2, 1}, {1, 3}}: (5 + sqrt 5) / 2, vector (1, value - 2) over its length
+  const double value = 0.5 * (5 + std::sqrt(5.0)), second = value - 2;
+  for (const FindRitzValue find : {largest_ritz_value, bisected_ritz_value}) {
+    const LargestRitzValue ritz = find({2, 3}, {1});
+    EXPECT_NEAR(ritz.value, value, 1e-15 * 4);
+    EXPECT_NEAR(ritz.last_component, second / std::hypot(1, second), 1e-15);
+  }
+}
+
+TEST(lanczos, bisection_finds_the_ritz_value_of_a_long_matrix_and_its_component) {
+  // 2 beside 1s, n rows: 2 + 2 cos(pi / (n + 1)), components sqrt(2 / (n + 1)) sin(k pi / (n + 1))
+  for (const std::size_t n : {1, 2, 3, 30, 300}) {
+    const std::vector<double> diagonal(n, 2), beside(n, 1); // the last of `beside` is not read
+    const LargestRitzValue ritz = bisected_ritz_value(diagonal, beside);
+    const double parts = static_cast<double>(n) + 1, last = std::sqrt(2 / parts) * std::sin(pi / parts);
+    EXPECT_NEAR(ritz.value, largest_of_springs(n), 1e-14) << n;
+    EXPECT_NEAR(ritz.last_component, last, 1e-9) << n;
+  }
 }
 
 } // namespace
