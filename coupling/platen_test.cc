@@ -76,14 +76,18 @@ void PlatenTest::require_in_range() const {
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {
-  for (const bool above : {false, true}) {
-    PlatenOfTest made = make_platen(specimen, settings_, above, model);
-    (above ? top_ : bottom_) = made.platen.get();
-    if (above) elastic_top_ = made.elastic;
+  require_sides(specimen, settings_);
+  for (const Side side : all_sides) {
+    if (settings_.platens.side(side) == nullptr) continue;
+    PlatenOfTest made = make_platen(specimen, settings_, side, model);
+    platens_[static_cast<std::size_t>(side)] = made.platen.get();
+    if (has_neighbours(settings_.platens, side))
+      made.platen->set_room(edge_gap(shape(), settings_.platens, axis_of(side)));
+    if (side == Side::top) elastic_top_ = made.elastic;
     add(std::move(made.platen));
   }
-  ends_.emplace(EndPlatens{*bottom_, *top_, platen_plane(specimen, false, settings_.ends),
-                           platen_plane(specimen, true, settings_.ends)});
+  ends_.emplace(EndPlatens{bottom(), top(), platen_plane(specimen, Side::bottom, settings_.ends),
+                           platen_plane(specimen, Side::top, settings_.ends)});
 }
 
 void PlatenTest::seat_platens(const dem::Specimen &specimen) {
@@ -92,7 +96,8 @@ void PlatenTest::seat_platens(const dem::Specimen &specimen) {
     const auto seats = [&](Platen &platen) {
       return platen.layer().seat_within(model.particles, platen.body(), depth, bent());
     };
-    if (std::min(seats(*top_), seats(*bottom_)) == 0)
+    for (Platen *platen : platens_)
+      if (platen != nullptr && seats(*platen) == 0)
       throw BadSetup("end_layer",
                      "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen "
                      "that reaches its end planes.");
@@ -154,10 +159,53 @@ void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
   sleeve_ = &add(std::make_unique<Sleeve>(model.particles, shape(), *ends_, settings));
 }
 
+// Platens come first, by their order in Side; then what presses the lateral surface.
 Sides PlatenTest::sides() const {
   Sides sides;
-  if (settings_.loading.cell) sides.lateral = 2; // added after the platens
+  std::size_t next = 2;
+  for (const auto &[side, place] : {std::pair{Side::left, &sides.left},
+                                    {Side::right, &sides.right},
+                                    {Side::front, &sides.front},
+                                    {Side::back, &sides.back}})
+    if (platen(side) != nullptr) *place = next++;
+  if (settings_.loading.cell) sides.lateral = next;
   return sides;
+}
+
+PlatensOfAxis PlatenTest::platens_of(Side side) const {
+  const int axis = axis_of(side);
+  PlatensOfAxis found{{}, axis == 2 ? nominal_area() : face_area(shape(), axis), length(shape(), axis)};
+  for (std::size_t k = 0; k < boundaries().size(); ++k)
+    if (boundaries()[k].get() == platen(side)) found.places.push_back(k);
+  return found;
+}
+
+PlatensOfAxis PlatenTest::platens_along(int axis) const {
+  PlatensOfAxis both;
+  for (const Side side : all_sides) {
+    if (axis_of(side) != axis) continue;
+    const PlatensOfAxis one = platens_of(side);
+    both.area = one.area, both.length = one.length;
+    both.places.insert(both.places.end(), one.places.begin(), one.places.end());
+  }
+  return both;
+}
+
+SideLoading::Parameters PlatenTest::side_loading(const std::string &name) const {
+  SideLoading::Parameters p;
+  p.name = name;
+  p.ramp = transits_of_cell * facts_.wave_transit;
+  p.lead = transits_ahead * facts_.wave_transit;
+  p.lag = lag_of_path * facts_.wave_transit;
+  return p;
+}
+
+Servo::Parameters PlatenTest::servo_for(double stress, int axis) const {
+  const double stiffness =
+      facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
+  const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) /
+                         (transits_of_cell * facts_.wave_transit);
+  return {gain_of_cell, std::max(fastest, settings_.loading.rate)};
 }
 
 std::unique_ptr<Program> PlatenTest::make_program() const {

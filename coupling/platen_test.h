@@ -2,12 +2,14 @@
 // what is measured of it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
 #include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"
 #include "coupling/platen_test_settings.h"
+#include "coupling/program/side_loading.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::coupling {
@@ -39,10 +41,18 @@ public:
   double axial_rate() const { return settings_.loading.rate; } // m/s, once the platens are at speed
 
   // Its boundaries; null where the test has none.
-  Platen &top() { return *top_; }
-  Platen &bottom() { return *bottom_; }
-  const Platen &top() const { return *top_; }
-  const Platen &bottom() const { return *bottom_; }
+  Platen &top() { return *platens_[1]; }
+  Platen &bottom() { return *platens_[0]; }
+  const Platen &top() const { return *platens_[1]; }
+  const Platen &bottom() const { return *platens_[0]; }
+  Sides sides() const; // their places
+  PlatensOfAxis platens_of(Side side) const;     // that one
+  PlatensOfAxis platens_along(int axis) const;   // 0 x, 1 y, 2 z: those that there are
+  // A stage by sides without tasks and end: its ramp and how its servos keep up, and a servo that follows
+  // `stress` (Pa) along an axis within that ramp.
+  SideLoading::Parameters side_loading(const std::string &name) const;
+  Servo::Parameters servo_for(double stress, int axis) const;
+  const Platen *platen(Side side) const { return platens_[static_cast<std::size_t>(side)]; }
   const ElasticPlaten *elastic_top() const { return elastic_top_; }
   Sleeve *sleeve() { return sleeve_; }
   const Sleeve *sleeve() const { return sleeve_; }
@@ -61,6 +71,10 @@ public:
   double axial_closure() const { return program().axial_closure(); } // since the platens took over
   // Pa, load of the particles over nominal_area(), whatever the platens' own inertia makes of it.
   double stress_top() const, stress_bottom() const;
+  // Pa over the specimen's face there, without platens NaN.
+  double stress(Side side) const;
+  // What the platens of an axis (0 x, 1 y, 2 z) have closed over its length; NaN without platens.
+  double closure_strain(int axis) const;
   double confining_pressure() const;       // Pa, of the cell, or on the wall
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
   // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and
@@ -83,6 +97,9 @@ public:
   double lateral_pressure() const override { return confining_pressure(); }
   double broken_bonds() const override;
   Vector3 force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
+  double load(std::size_t boundary) const override { return boundaries()[boundary]->load(); }
+  double closure_of(std::size_t boundary) const override { return boundaries()[boundary]->closure(); }
+  Vector3 inward(std::size_t boundary) const override { return boundaries()[boundary]->inward(); }
   ServoLoad servo_load(std::size_t boundary) const override {
     return boundaries()[boundary]->servo_load(model.particles);
   }
@@ -96,11 +113,10 @@ private:
   void choose_rates();
   std::unique_ptr<Program> make_program() const;
   std::unique_ptr<Stage> axial_stage_of_settings() const;
-  Sides sides() const;
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;
-  Platen *top_ = nullptr, *bottom_ = nullptr;
+  std::array<Platen *, side_count> platens_{}; // by Side
   const ElasticPlaten *elastic_top_ = nullptr;
   std::optional<EndPlatens> ends_;
   Sleeve *sleeve_ = nullptr;

@@ -19,19 +19,32 @@ double PlatenTest::coordination_number() const {
 }
 
 double PlatenTest::closure_strain() const {
-  return (bottom_->face_rise() - top_->face_rise()) / shape().height;
+  return (bottom().closure() + top().closure()) / shape().height;
 }
 
 double PlatenTest::platen_speed() const {
-  return bottom_->body().velocity()[2] - top_->body().velocity()[2];
+  return bottom().body().velocity()[2] - top().body().velocity()[2];
 }
 
 double PlatenTest::stress_top() const {
-  return top_->force()[2] / nominal_area();
+  return top().load() / nominal_area();
 }
 
 double PlatenTest::stress_bottom() const {
-  return -bottom_->force()[2] / nominal_area();
+  return bottom().load() / nominal_area();
+}
+
+double PlatenTest::stress(Side side) const {
+  if (platen(side) == nullptr) return none;
+  return platen(side)->load() / (axis_of(side) == 2 ? nominal_area() : face_area(shape(), axis_of(side)));
+}
+
+double PlatenTest::closure_strain(int axis) const {
+  double closure = 0;
+  bool any = false;
+  for (const Side side : all_sides)
+    if (axis_of(side) == axis && platen(side) != nullptr) closure += platen(side)->closure(), any = true;
+  return any ? closure / length(shape(), axis) : none;
 }
 
 double PlatenTest::confining_pressure() const {
@@ -57,7 +70,7 @@ double PlatenTest::bending_period() const {
 double PlatenTest::midspan_moment() const {
   const dem::EndPlanes planes = end_planes();
   const double middle = 0.5 * (planes.low + planes.high);
-  return top_->midspan_moment(middle) + bottom_->midspan_moment(middle);
+  return top().midspan_moment(middle) + bottom().midspan_moment(middle);
 }
 
 double PlatenTest::broken_bonds() const {

@@ -9,6 +9,7 @@
 
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
+#include "coupling/side.h"
 #include "dem/confinement.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/packing/specimen.h"
@@ -40,7 +41,8 @@ struct ElasticPlatens {
 
 struct PlatenSettings {
   PlatenSide top, bottom;
-  std::optional<ElasticPlatens> elastic; // none: rigid
+  std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
+  std::optional<ElasticPlatens> elastic;              // none: rigid
   dem::Stiffness stiffness;              // of the mean bond, or absolute
   double tangential_ratio = 0.8;
   double damping = 0.2;    // fraction of critical
@@ -51,6 +53,11 @@ struct PlatenSettings {
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;
+  // m, from the edges of a platen to the planes of its neighbours, which may close by that much; 0: a
+  // fiftieth of the specimen's length there.
+  double edge_gap = 0;
+
+  const PlatenSide *side(Side side) const; // null where none presses
 
   static constexpr const char *name = "platens";
   template <class Visitor, class Self>
@@ -121,6 +128,18 @@ struct PlatenTestSettings {
   std::vector<MadeFor<Stage>> stages;
 };
 
+inline const PlatenSide *PlatenSettings::side(Side side) const {
+  const auto there = [](const std::optional<PlatenSide> &given) { return given ? &*given : nullptr; };
+  switch (side) {
+    case Side::bottom: return &bottom;
+    case Side::top: return &top;
+    case Side::left: return there(left);
+    case Side::right: return there(right);
+    case Side::front: return there(front);
+    default: return there(back);
+  }
+}
+
 template <class Visitor, class Self>
 void ElasticPlatens::describe(Visitor &&v, Self &p) {
   v("motion", p.motion,
@@ -151,6 +170,9 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
     "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens. "
     "Test = three point bending: of the strip above the bar and the two below.");
   v("span", p.span, "m", above(0), "Distance of the middles of the two lower strips.");
+  v("edge_gap", p.edge_gap, "m", at_least(0),
+    "From the edges of a platen to the planes of its neighbours, where a box has platens on other sides too: "
+    "how far these may close; 0: a fiftieth of the specimen's length there.");
   v("thickness", p.thickness, "m", at_least(0), "0: a tenth of the specimen's height.");
   v("elements_across", p.elements_across, between(1, 1000), "Finite elements across a platen.");
   v("density", p.material.density, "kg/m3", above(0), "Density of the platens.");

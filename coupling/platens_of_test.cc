@@ -1,6 +1,7 @@
 #include "coupling/platens_of_test.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -12,13 +13,20 @@
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
+namespace {
 
-double platen_plane(const dem::Specimen &s, bool above, Ends ends) {
-  if (ends == Ends::ground) return above ? s.shape.height : 0.0;
-  double z = above ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+constexpr double default_edge_gap = 0.02; // of the specimen's length across the edge
+
+} // namespace
+
+double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
+  const int axis = axis_of(side);
+  if (ends == Ends::ground) return extent(s.shape, axis)[is_high(side)];
+  double plane = (is_high(side) ? -1 : 1) * std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < s.size(); ++i)
-    z = above ? std::max(z, s.centre[i].z + s.radius[i]) : std::min(z, s.centre[i].z - s.radius[i]);
-  return z;
+    plane = is_high(side) ? std::max(plane, s.centre[i][axis] + s.radius[i])
+                          : std::min(plane, s.centre[i][axis] - s.radius[i]);
+  return plane;
 }
 
 namespace {
@@ -46,7 +54,8 @@ std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTe
                                           bool top) {
   const PlatenSettings &p = settings.platens;
   require_bar(s.shape, settings);
-  const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
+  const double plane = platen_plane(s, top ? Side::top : Side::bottom, settings.ends),
+               low = top ? plane : plane - p.thickness;
   const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * s.shape.width_y;
   std::vector<fem::BoxPlate> strips;
   for (const double middle : top ? std::vector{0.0} : std::vector{-0.5 * p.span, 0.5 * p.span})
@@ -78,21 +87,56 @@ std::vector<fem::Layer> layers_of(const PlatenSettings &p, double half_width, bo
   return top ? std::vector{pad, rest} : std::vector{rest, pad};
 }
 
-fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings, bool top) {
-  const PlatenSettings &p = settings.platens;
-  const double plane = platen_plane(s, top, settings.ends), low = top ? plane : plane - p.thickness;
-  if (const fem::Grid &given = top ? p.top.grid : p.bottom.grid) return fem::laid_platen(given, !top, plane);
-  if (p.span > 0) return fem::make_grid(bending_strips(s, settings, top));
-  if (s.shape.kind == dem::ShapeKind::cylinder) {
-    const fem::CylinderPlate plate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2};
-    return p.elastic ? fem::make_grid(plate, layers_of(p, plate.radius, top)) : fem::make_grid(plate);
+bool has_sides(const PlatenSettings &p) {
+  return p.left || p.right || p.front || p.back;
+}
+
+// Where a platen begins and ends along an axis in its plane: beyond the specimen, or short of a neighbour.
+std::array<double, 2> reach(const dem::Shape &shape, const PlatenSettings &p, Side low_side) {
+  std::array<double, 2> ends = extent(shape, axis_of(low_side));
+  const double all = ends[1] - ends[0], middle = 0.5 * (ends[0] + ends[1]);
+  for (const bool high : {false, true}) {
+    const bool neighbour = p.side(high ? opposite(low_side) : low_side) != nullptr;
+    const double half = neighbour ? 0.5 * all - edge_gap(shape, p, axis_of(low_side)) : 0.5 * p.overhang * all;
+    ends[high] = middle + (high ? half : -half);
   }
-  const bool strip = s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0;
-  const double x = strip ? 0.5 * p.strip_width : 0.5 * p.overhang * s.shape.width_x,
-               y = 0.5 * p.overhang * s.shape.width_y;
-  const fem::BoxPlate plate{
-      {-x, -y, low}, {x, y, low + p.thickness}, {p.elements_across, p.elements_across, 2}};
-  return p.elastic ? fem::make_grid(plate, layers_of(p, std::max(x, y), top)) : fem::make_grid(plate);
+  return ends;
+}
+
+// A plate of a box, upright: its normal is the axis z of the grid.
+fem::BoxPlate plate_of_box(const dem::Shape &shape, const PlatenSettings &p, Side side, double low) {
+  constexpr std::array<Side, 3> low_sides{Side::left, Side::front, Side::bottom}; // along x, y, z
+  const int axis = axis_of(side);
+  const auto x = reach(shape, p, low_sides[static_cast<std::size_t>((axis + 1) % 3)]),
+             y = reach(shape, p, low_sides[static_cast<std::size_t>((axis + 2) % 3)]);
+  return {{x[0], y[0], low}, {x[1], y[1], low + p.thickness}, {p.elements_across, p.elements_across, 2}};
+}
+
+fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings, Side side) {
+  const PlatenSettings &p = settings.platens;
+  const bool high = is_high(side);
+  const double plane = platen_plane(s, side, settings.ends), low = high ? plane : plane - p.thickness;
+  const auto made = [&](const auto &plate, double half_width) {
+    return p.elastic ? fem::make_grid(plate, layers_of(p, half_width, high)) : fem::make_grid(plate);
+  };
+  fem::Grid grid = p.side(side)->grid;
+  double middle = 0; // of the side, along z
+  if (grid)
+    grid = fem::laid_platen(grid, !high, plane), middle = 0.5 * s.shape.height;
+  else if (p.span > 0)
+    return fem::make_grid(bending_strips(s, settings, high));
+  else if (s.shape.kind == dem::ShapeKind::cylinder)
+    return made(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2},
+                p.overhang * s.shape.radius);
+  else {
+    fem::BoxPlate plate = plate_of_box(s.shape, p, side, low);
+    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0)
+      plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
+    grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
+  }
+  if (axis_of(side) == 2) return grid;
+  return fem::moved_grid(
+      grid, [&](const Vector3 &x) { return from_upright(side, x) + Vector3{0, 0, middle}; });
 }
 
 // From the low end; of a given grid in the order of its materials.
@@ -110,9 +154,13 @@ std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::
 }
 
 // What the specimen covers of a platen.
-bool covers(const dem::Shape &shape, double x, double y) {
-  if (shape.kind == dem::ShapeKind::cylinder) return x * x + y * y <= shape.radius * shape.radius;
-  return std::abs(x) <= 0.5 * shape.width_x && std::abs(y) <= 0.5 * shape.width_y;
+bool covers(const dem::Shape &shape, Side side, const Vector3 &x) {
+  if (shape.kind == dem::ShapeKind::cylinder) return x.x * x.x + x.y * x.y <= shape.radius * shape.radius;
+  for (const int axis : {0, 1, 2}) {
+    const std::array<double, 2> ends = extent(shape, axis);
+    if (axis != axis_of(side) && (x[axis] < ends[0] || x[axis] > ends[1])) return false;
+  }
+  return true;
 }
 
 double platen_stiffness(const dem::Model &model, const PlatenTestSettings &settings) {
@@ -122,67 +170,95 @@ double platen_stiffness(const dem::Model &model, const PlatenTestSettings &setti
 }
 
 SurfaceContact contact_settings(const dem::Model &model, const dem::Specimen &s,
-                                const PlatenTestSettings &settings, bool top, const fem::Body &body) {
+                                const PlatenTestSettings &settings, Side side, const fem::Body &body) {
   const PlatenSettings &p = settings.platens;
   SurfaceContact c;
-  static_cast<dem::SurfaceFriction &>(c) = top ? p.top : p.bottom;
+  static_cast<dem::SurfaceFriction &>(c) = *p.side(side);
   c.particle_stiffness = platen_stiffness(model, settings);
   c.face_compliance = body.face_compliance();
   c.tangential_ratio = p.tangential_ratio;
   c.damping = p.damping;
-  c.attachment = p.glued ? Attachment::glued : Attachment::free;
+  c.attachment = p.glued && axis_of(side) == 2 ? Attachment::glued : Attachment::free;
   c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;
   c.skin = PlatenTest::surface_skin * dem::mean_radius(s);
   return c;
 }
 
 std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const PlatenTestSettings &settings,
-                                                 bool top) {
+                                                 Side side) {
   const PlatenSettings &p = settings.platens;
   fem::Clamp clamp;
-  clamp.tag = top ? fem::high_end_tag : fem::low_end_tag;
-  if (top && p.elastic->seat) {
+  clamp.tag = is_high(side) ? fem::high_end_tag : fem::low_end_tag;
+  if (side == Side::top && p.elastic->seat) {
     clamp.turns = true;
-    clamp.seat = {0, 0, platen_plane(s, true, settings.ends)};
+    clamp.seat = {0, 0, platen_plane(s, side, settings.ends)};
   }
   fem::ElasticOptions options;
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
   return std::make_unique<fem::ElasticSolid>(
-      platen_grid(s, settings, top), platen_materials(p, (top ? p.top : p.bottom).grid, top), clamp, options);
+      platen_grid(s, settings, side), platen_materials(p, p.side(side)->grid, is_high(side)), clamp, options);
 }
 
-PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settings, bool top,
+PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settings, Side side,
                         const dem::Model &model) {
   const PlatenSettings &p = settings.platens;
-  const std::string name = top ? "top" : "bottom";
   if (!p.elastic) {
-    auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, top), p.material);
-    const SurfaceContact contact = contact_settings(model, s, settings, top, *body);
-    return {std::make_unique<RigidPlaten>(name, std::move(body), model.particles, contact)};
+    auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material);
+    const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
+    return {std::make_unique<RigidPlaten>(name_of(side), inward(side), std::move(body), model.particles,
+                                          contact)};
   }
-  auto solid = elastic_solid(s, settings, top);
-  const SurfaceContact contact = contact_settings(model, s, settings, top, *solid);
-  const FaceOf face{top ? fem::low_end_tag : fem::high_end_tag,
-                    [shape = s.shape](double x, double y) { return covers(shape, x, y); }};
-  auto platen = std::make_unique<ElasticPlaten>(name, std::move(solid), model.particles, contact, face,
-                                                p.elastic->motion == fem::ElasticMotion::quasi_static,
-                                                p.elastic->steps_per_solve);
+  auto solid = elastic_solid(s, settings, side);
+  const SurfaceContact contact = contact_settings(model, s, settings, side, *solid);
+  const FaceOf face{is_high(side) ? fem::low_end_tag : fem::high_end_tag,
+                    [shape = s.shape, side](const Vector3 &x) { return covers(shape, side, x); }};
+  auto platen = std::make_unique<ElasticPlaten>(
+      name_of(side), inward(side), std::move(solid), model.particles, contact, face,
+      p.elastic->motion == fem::ElasticMotion::quasi_static, p.elastic->steps_per_solve);
   const ElasticPlaten *elastic = platen.get();
   return {std::move(platen), elastic};
 }
 
 } // namespace
 
-PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, bool above,
+void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  const LoadingSettings &loading = settings.loading;
+  if (!has_sides(p)) return;
+  const std::string first = p.left ? "platens.left" : p.right ? "platens.right" : p.front ? "platens.front" : "platens.back";
+  if (specimen.shape.kind != dem::ShapeKind::box)
+    throw BadSetup(first, "presses a flat side. Allowed: a specimen that is a box.");
+  if (p.span > 0) throw BadSetup(first, "does not go with `platens.span`: a bar is bent by strips.");
+  if (loading.cell || loading.wall)
+    throw BadSetup(first, std::string("does not go with `loading.") + (loading.cell ? "cell" : "wall") +
+                              "`, which presses the same sides.");
+  for (const int axis : {0, 1, 2}) {
+    const double most = 0.25 * length(specimen.shape, axis);
+    if (edge_gap(specimen.shape, p, axis) > most)
+      throw BadSetup("platens.edge_gap", "leaves too little of a platen. Allowed: up to " + text_of(most) +
+                                             " m, a quarter of the specimen.");
+  }
+}
+
+bool has_neighbours(const PlatenSettings &settings, Side side) {
+  return std::any_of(all_sides.begin(), all_sides.end(), [&](Side other) {
+    return axis_of(other) != axis_of(side) && settings.side(other) != nullptr;
+  });
+}
+
+double edge_gap(const dem::Shape &shape, const PlatenSettings &settings, int axis) {
+  return settings.edge_gap > 0 ? settings.edge_gap : default_edge_gap * length(shape, axis);
+}
+
+PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side,
                          const dem::Model &model) {
-  const std::string side = above ? "platens.top" : "platens.bottom";
-  const bool given = (above ? settings.platens.top : settings.platens.bottom).grid != nullptr;
+  const bool given = settings.platens.side(side)->grid != nullptr;
   try {
-    return new_platen(specimen, settings, above, model);
+    return new_platen(specimen, settings, side, model);
   } catch (const std::invalid_argument &e) {
-    if (given) throw BadSetup(side + ".grid", std::string(e.what()) + ".");
+    if (given) throw BadSetup(std::string("platens.") + name_of(side) + ".grid", std::string(e.what()) + ".");
     throw BadSetup("platens.elements_across", std::string("is not possible: ") + e.what() + ".");
   }
 }

@@ -11,12 +11,21 @@ struct PlatenOfTest {
 };
 
 // Throws BadSetup where the settings do not go together.
-PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, bool above,
+PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side,
                          const dem::Model &model);
 
-// z of a platen's face at the start (m): as packed it meets the outermost sphere, ground it lies in the end
-// plane.
-double platen_plane(const dem::Specimen &specimen, bool above, Ends ends);
+// Where a platen's face is at the start, along the axis of its side (m): as packed it meets the outermost
+// sphere, ground it lies in the end plane.
+double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);
+
+// Throws BadSetup where platens press sides that the specimen has not, or that something else presses.
+void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &settings);
+
+// Whether platens press sides beside this one.
+bool has_neighbours(const PlatenSettings &settings, Side side);
+
+// m, by how much a platen's edges lie short of the planes of its neighbours along an axis.
+double edge_gap(const dem::Shape &shape, const PlatenSettings &settings, int axis);
 
 // Of a bar that is bent: each strip has a sphere within `depth` (m) of its face. Throws BadSetup.
 void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSettings &settings, double depth);

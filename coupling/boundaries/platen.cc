@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/shortest_text.h"
+
 namespace platen::coupling {
 
 namespace {
@@ -16,6 +18,9 @@ constexpr int parts = 8;
 // A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
 // side may be taken by itself.
 constexpr double share_of_body = 0.25;
+
+// Whether a platen has met its neighbours is asked after so many steps: it moves by far less than a gap in them.
+constexpr long steps_between_edges = 100;
 
 } // namespace
 
@@ -46,12 +51,12 @@ void MeanLoads::describe(Archive &archive) {
   archive.same_rows("impulse", impulse_, "N s");
 }
 
-MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
-                     const std::function<bool(double, double)> &covers) {
+MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const Vector3 &direction)
+    : direction_(direction) {
   std::vector<double> part(surface.vertices.size(), 0.0), whole(part);
   double covered = 0, all = 0;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    if (surface.face_tags[f] != tag) continue;
+    if (surface.face_tags[f] != face.tag) continue;
     const std::array<int, 4> &corners = surface.faces[f];
     const double area = norm(fem::face_area_vector(surface, f)) / (parts * parts);
     for (int k = 0; k < parts * parts; ++k) {
@@ -60,7 +65,7 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
       Vector3 place{};
       for (std::size_t c = 0; c < 4; ++c)
         place = place + weights[c] * surface.vertices[static_cast<std::size_t>(corners[c])];
-      const bool inside = covers(place[0], place[1]);
+      const bool inside = face.covers(place);
       for (std::size_t c = 0; c < 4; ++c) {
         const std::size_t v = static_cast<std::size_t>(corners[c]);
         whole[v] += weights[c] * area;
@@ -70,26 +75,29 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, int tag,
       if (inside) covered += area;
     }
   }
-  if (!(all > 0)) throw std::invalid_argument("mean place: no face has the tag " + std::to_string(tag));
+  if (!(all > 0)) throw std::invalid_argument("mean place: no face has the tag " + std::to_string(face.tag));
   const std::vector<double> &area = covered > 0 ? part : whole;
   for (std::size_t v = 0; v < area.size(); ++v) {
     if (area[v] == 0) continue;
     vertices_.push_back(static_cast<int>(v));
     shares_.push_back(area[v] / (covered > 0 ? covered : all));
   }
-  start_ = height(surface);
+  start_ = now(surface);
 }
 
-double MeanPlace::height(const fem::SurfaceMesh &surface) const {
-  double z = 0;
+double MeanPlace::now(const fem::SurfaceMesh &surface) const {
+  double mean = 0;
   for (std::size_t k = 0; k < vertices_.size(); ++k)
-    z += shares_[k] * surface.vertices[static_cast<std::size_t>(vertices_[k])][2];
-  return z;
+    mean += shares_[k] * dot(surface.vertices[static_cast<std::size_t>(vertices_[k])], direction_);
+  return mean;
 }
 
-Platen::Platen(std::string name, std::unique_ptr<fem::Body> body, const dem::Particles &particles,
-               const SurfaceContact &contact)
-    : ContactBoundary(std::move(name)), body_(std::move(body)), layer_(particles, *body_, contact) {}
+Platen::Platen(std::string name, const Vector3 &inward, std::unique_ptr<fem::Body> body,
+               const dem::Particles &particles, const SurfaceContact &contact)
+    : ContactBoundary(std::move(name)),
+      inward_(inward),
+      body_(std::move(body)),
+      layer_(particles, *body_, contact) {}
 
 void Platen::drift(const Step &step, const Command &command) {
   body_->set_velocity(command.velocity);
@@ -98,8 +106,12 @@ void Platen::drift(const Step &step, const Command &command) {
   body_->clear_loads();
 }
 
-void Platen::finish(const Step &) {
+void Platen::finish(const Step &step) {
   force_ = body_->total_force();
+  if (step.number % steps_between_edges != 0 || closure() < room_) return;
+  throw NumericsStopped("the platen " + name() + " has closed by " + text_of(closure()) + " m at " +
+                        text_of(step.time) + " s and meets the edges of its neighbours; try a larger " +
+                        "`platens.edge_gap` than " + text_of(room_) + " m");
 }
 
 bool Platen::is_finite() const {
@@ -145,13 +157,13 @@ void RigidPlaten::finish(const Step &step) {
   power_ = dot(before + force_, body_->velocity());
 }
 
-ElasticPlaten::ElasticPlaten(std::string name, fem::ElasticSolid &solid,
+ElasticPlaten::ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,
                              std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
                              const SurfaceContact &contact, const FaceOf &face, bool quasi_static,
                              int steps_per_solve)
-    : Platen(std::move(name), std::move(body), particles, contact),
+    : Platen(std::move(name), inward, std::move(body), particles, contact),
       solid_(solid),
-      face_(body_->surface(), face.tag, face.covers),
+      face_(body_->surface(), face, inward),
       quasi_static_(quasi_static),
       steps_per_solve_(steps_per_solve),
       loads_(body_->surface().vertices.size()) {}

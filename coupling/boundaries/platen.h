@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -32,17 +33,23 @@ private:
   int steps_ = 0;
 };
 
-// The mean height of a part of the surface, as shares of its vertices.
+// What of a face counts where its displacement is told: the faces of a tag, where `covers` holds.
+struct FaceOf {
+  int tag = 0;
+  std::function<bool(const Vector3 &)> covers;
+};
+
+// The mean place of a part of the surface along a direction, as shares of its vertices.
 class MeanPlace {
 public:
   MeanPlace() = default;
-  // Of the faces of a tag, over their area where `covers` holds at (x, y); over all of it where it never
-  // does.
-  MeanPlace(const fem::SurfaceMesh &surface, int tag, const std::function<bool(double, double)> &covers);
-  double height(const fem::SurfaceMesh &surface) const;                                   // m, z now
-  double rise(const fem::SurfaceMesh &surface) const { return height(surface) - start_; } // m
+  // Over the area of the face that is covered; over all of it where none is.
+  MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const Vector3 &direction);
+  double now(const fem::SurfaceMesh &surface) const;                                     // m
+  double advance(const fem::SurfaceMesh &surface) const { return now(surface) - start_; } // m
 
 private:
+  Vector3 direction_{};
   std::vector<int> vertices_;
   std::vector<double> shares_; // sum 1
   double start_ = 0;           // m
@@ -50,8 +57,9 @@ private:
 
 class Platen : public ContactBoundary {
 public:
-  Platen(std::string name, std::unique_ptr<fem::Body> body, const dem::Particles &particles,
-         const SurfaceContact &contact);
+  // `inward`: unit vector of the way that it presses the specimen.
+  Platen(std::string name, const Vector3 &inward, std::unique_ptr<fem::Body> body,
+         const dem::Particles &particles, const SurfaceContact &contact);
 
   void drift(const Step &step, const Command &command) override;
   void finish(const Step &step) override;
@@ -61,6 +69,7 @@ public:
   std::size_t near() const override { return layer_.search().particles().size(); }
   std::size_t closed() const override { return layer_.closed; }
   Vector3 force() const override { return force_; }
+  Vector3 inward() const override { return inward_; }
   double speed() const override { return norm(body_->velocity()); }
   ServoLoad servo_load(const dem::Particles &particles) const override;
   std::string series() const override { return "platens"; }
@@ -73,8 +82,8 @@ public:
   const fem::LoadedSurface &surface() const override { return *body_; }
   using ContactBoundary::layer;
   using ContactBoundary::surface;
-  // m, how far its face has moved along z.
-  virtual double face_rise() const = 0;
+  // m, closure at which its face meets the edges of its neighbours: the run stops there.
+  void set_room(double room) { room_ = room; }
   // N m, what it adds to the bending moment of a bar along x at x = 0, about the height z (m): positive where
   // it pulls the lower side.
   double midspan_moment(double z) const;
@@ -84,9 +93,11 @@ public:
 
 protected:
   double farthest(const Step &) const override { return body_->last_move(); }
+  Vector3 inward_;
   std::unique_ptr<fem::Body> body_;
   ContactLayer layer_;
   Vector3 force_{}; // N, of the last step
+  double room_ = std::numeric_limits<double>::infinity();
 };
 
 // One that keeps its shape. Where its loads do work, the machine does it.
@@ -95,7 +106,7 @@ public:
   using Platen::Platen;
   void finish(const Step &step) override;
   double power_on_machine() const override { return power_; }
-  double face_rise() const override { return body_->displacement()[2]; }
+  double closure() const override { return dot(body_->displacement(), inward_); }
 
 private:
   double power_ = 0; // W
@@ -106,23 +117,18 @@ struct EndPlatens {
   const Platen &low, &high;
   double low_plane = 0, high_plane = 0; // m, z
   dem::EndPlanes planes() const {       // now
-    return {low_plane + low.face_rise(), high_plane + high.face_rise()};
+    return {low_plane + low.closure(), high_plane - high.closure()};
   }
-};
-
-// What of its face counts where its displacement is told: the faces of a tag, where `covers` holds.
-struct FaceOf {
-  int tag = 0;
-  std::function<bool(double x, double y)> covers;
 };
 
 class ElasticPlaten : public Platen {
 public:
   // Quasi-static: its shape follows the mean loads of so many steps of the particles during the next ones.
-  ElasticPlaten(std::string name, std::unique_ptr<fem::ElasticSolid> solid, const dem::Particles &particles,
-                const SurfaceContact &contact, const FaceOf &face, bool quasi_static, int steps_per_solve)
-      : ElasticPlaten(std::move(name), *solid, std::move(solid), particles, contact, face, quasi_static,
-                      steps_per_solve) {}
+  ElasticPlaten(std::string name, const Vector3 &inward, std::unique_ptr<fem::ElasticSolid> solid,
+                const dem::Particles &particles, const SurfaceContact &contact, const FaceOf &face,
+                bool quasi_static, int steps_per_solve)
+      : ElasticPlaten(std::move(name), inward, *solid, std::move(solid), particles, contact, face,
+                      quasi_static, steps_per_solve) {}
 
   void finish(const Step &step) override;
   bool drifts_long() const override { return true; }
@@ -131,14 +137,14 @@ public:
   StepLimit limit(const dem::Particles &particles) const override;
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
-  double face_rise() const override { return face_.rise(body_->surface()); } // the mean of the face
+  double closure() const override { return face_.advance(body_->surface()); } // the mean of the face
   void describe(Archive &archive) override;
   const fem::ElasticSolid &solid() const { return solid_; }
 
 private:
-  ElasticPlaten(std::string name, fem::ElasticSolid &solid, std::unique_ptr<fem::ElasticSolid> &&body,
-                const dem::Particles &particles, const SurfaceContact &contact, const FaceOf &face,
-                bool quasi_static, int steps_per_solve);
+  ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,
+                std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
+                const SurfaceContact &contact, const FaceOf &face, bool quasi_static, int steps_per_solve);
 
   fem::ElasticSolid &solid_; // the body
   MeanPlace face_;

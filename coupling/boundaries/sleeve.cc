@@ -124,8 +124,8 @@ void Sleeve::drift(const Step &step, const Command &command) {
   rims.bottom = ends_->low.body().velocity();
   rims.top = ends_->high.body().velocity();
   rims.pressure = command.pressure;
-  rims.bottom_place = {0, 0, ends_->low.face_rise()};
-  rims.top_place = {0, 0, ends_->high.face_rise()};
+  rims.bottom_place = {0, 0, ends_->low.closure()};
+  rims.top_place = {0, 0, -ends_->high.closure()};
   move(step.dt, rims);
 }
 

@@ -22,15 +22,20 @@ public:
   virtual double axial_stress() const = 0;     // Pa, mean of both platens, compression positive
   virtual double lateral_pressure() const = 0; // Pa
   virtual double broken_bonds() const = 0;     // since the start
-  // Of a boundary by its place in the experiment's list: N, of the specimen on it; what it pushes against.
+  // Of a boundary by its place in the experiment's list: N, of the specimen on it; N, with which a platen
+  // presses, and m, how far it has moved that way since the start; that way; what it pushes against.
   virtual Vector3 force(std::size_t boundary) const = 0;
+  virtual double load(std::size_t boundary) const = 0;
+  virtual double closure_of(std::size_t boundary) const = 0;
+  virtual Vector3 inward(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };
 
 // Places of a test's boundaries in the experiment's list.
 struct Sides {
   std::size_t bottom = 0, top = 1;
-  std::optional<std::size_t> lateral; // what presses the lateral surface
+  std::optional<std::size_t> left, right, front, back; // platens of a box
+  std::optional<std::size_t> lateral;                  // what presses the lateral surface
 };
 // What is asked of each boundary of an experiment, in the order of its list.
 using Commands = std::vector<Command>;

@@ -28,8 +28,8 @@ void Consolidation::command(const Measures &m, Commands &asked) {
   const double wanted = (smooth_start(middle / parameters_.ramp) * parameters_.pressure +
                          parameters_.lag_of_servo * pressure_rate(middle)) *
                         parameters_.area;
-  asked[sides.top].velocity = {0, 0,
-                               -servo_.velocity(wanted, m.force(sides.top)[2], m.servo_load(sides.top), dt)};
+  asked[sides.top].velocity =
+      servo_.velocity(wanted, m.load(sides.top), m.servo_load(sides.top), dt) * m.inward(sides.top);
   if (sides.lateral)
     asked[*sides.lateral].pressure =
         smooth_start((m.time() - begun()) / parameters_.ramp) * parameters_.pressure;
@@ -147,8 +147,8 @@ void AxialStress::command(const Measures &m, Commands &asked) {
   const double dt = m.time_step(), middle = m.time() - 0.5 * dt;
   const double wanted =
       start_of_ramp(middle - begun(), parameters_.ramp) * parameters_.stress * parameters_.area;
-  asked[sides.top].velocity = {0, 0,
-                               -servo_.velocity(wanted, m.force(sides.top)[2], m.servo_load(sides.top), dt)};
+  asked[sides.top].velocity =
+      servo_.velocity(wanted, m.load(sides.top), m.servo_load(sides.top), dt) * m.inward(sides.top);
 }
 
 bool AxialStress::has_ended(const Measures &m) const {

@@ -1,0 +1,254 @@
+// A box between platens on all sides: where they lie, equal stresses, stress of one side by another, and that
+// no direction is another than the others.
+#include "coupling/platen_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/packing/advancing_front.h"
+#include "tests/coupling/small_cylinder.h"
+#include "tests/same_state.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double edge = 12e-3, asked = 5e6; // m, Pa
+
+dem::Specimen cube() {
+  dem::Shape shape;
+  shape.kind = dem::ShapeKind::box;
+  shape.width_x = shape.width_y = shape.height = edge;
+  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 3);
+}
+
+// Turned so that what lay along x lies along y, y along z, z along x.
+dem::Specimen turned(const dem::Specimen &from) {
+  dem::Specimen to = from;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Vector3 c = from.centre[i];
+    to.centre[i] = {c.z - 0.5 * edge, c.x, c.y + 0.5 * edge};
+  }
+  return to;
+}
+
+std::unique_ptr<Stage> stage_of(const PlatenTest &test, const std::array<double, 3> &stresses,
+                                double seconds) {
+  SideLoading::Parameters p = test.side_loading("equal stresses");
+  for (const int axis : {0, 1, 2}) {
+    const double stress = stresses[static_cast<std::size_t>(axis)];
+    SideTask task;
+    task.platens = test.platens_along(axis);
+    task.ask = SideTask::Ask::stress;
+    task.value = stress;
+    task.servo = test.servo_for(stress, axis);
+    p.tasks.push_back(task);
+  }
+  p.end.settled = true;
+  p.end.seconds = seconds;
+  return std::make_unique<SideLoading>(p);
+}
+
+PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, asked, asked}) {
+  PlatenTestSettings s;
+  s.model.bond_layout.modulus = 36e9;
+  s.model.bond_layout.gap.value = 0.05;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e12, 1e12, 0.0, 0.3};
+  s.model.local_damping = 0; // its signs would tell round-off at rest apart
+  s.ends = Ends::ground;
+  s.end_layer = 0.5;
+  s.platens.thickness = 2e-3;
+  s.platens.stiffness.value = 10;
+  PlatenSide side;
+  side.friction_static = side.friction_dynamic = 0;
+  s.platens.top = s.platens.bottom = side;
+  s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
+  s.time_step.fixed_step = 8e-8; // that of two packings alike
+  s.stages = {[stresses](const PlatenTest &test) { return stage_of(test, stresses, 1e-3); }};
+  return s;
+}
+
+TEST(six_sides, axes_turn_into_one_another) {
+  for (const Side side : all_sides) {
+    const Vector3 up = from_upright(side, {0, 0, 1});
+    EXPECT_EQ(norm(up - (is_high(side) ? -1.0 : 1.0) * inward(side)), 0) << name_of(side);
+    const Vector3 v{1, 2, 3}, w{-2, 5, 0.5}, there = from_upright(side, v);
+    EXPECT_EQ(norm(to_upright(side, there) - v), 0) << name_of(side);
+    EXPECT_EQ(norm(cross(there, from_upright(side, w)) - from_upright(side, cross(v, w))), 0)
+        << name_of(side);
+    EXPECT_EQ(norm(inward(side) + inward(opposite(side))), 0) << name_of(side);
+  }
+}
+
+// Inner faces in the planes of the specimen; edges short of the neighbours by a fiftieth.
+TEST(six_sides, platens_lie_on_the_faces_and_short_of_each_other) {
+  const PlatenTest test(cube(), six_platens());
+  const double gap = edge / 50;
+  for (const Side side : all_sides) {
+    ASSERT_NE(test.platen(side), nullptr) << name_of(side);
+    const int axis = axis_of(side);
+    std::array<double, 3> low{1, 1, 1}, high{-1, -1, -1};
+    for (const Vector3 &x : test.platen(side)->body().surface().vertices)
+      for (const int k : {0, 1, 2}) {
+        low[static_cast<std::size_t>(k)] = std::min(low[static_cast<std::size_t>(k)], x[k]);
+        high[static_cast<std::size_t>(k)] = std::max(high[static_cast<std::size_t>(k)], x[k]);
+      }
+    for (const int k : {0, 1, 2}) {
+      const auto i = static_cast<std::size_t>(k);
+      const double from = k == 2 ? 0 : -0.5 * edge, to = from + edge;
+      if (k != axis) {
+        EXPECT_NEAR(low[i], from + gap, 1e-12) << name_of(side) << " along " << k;
+        EXPECT_NEAR(high[i], to - gap, 1e-12) << name_of(side) << " along " << k;
+      } else if (is_high(side)) {
+        EXPECT_NEAR(low[i], to, 1e-12) << name_of(side);
+        EXPECT_NEAR(high[i], to + 2e-3, 1e-12) << name_of(side);
+      } else {
+        EXPECT_NEAR(high[i], from, 1e-12) << name_of(side);
+        EXPECT_NEAR(low[i], from - 2e-3, 1e-12) << name_of(side);
+      }
+    }
+  }
+}
+
+TEST(six_sides, equal_stresses_on_all_sides) {
+  PlatenTest test(cube(), six_platens());
+  while (!test.program().finished())
+    ASSERT_GT(test.advance(1000), 0);
+  for (const Side side : all_sides)
+    EXPECT_NEAR(test.stress(side), asked, 0.01 * asked) << name_of(side);
+  EXPECT_LT(test.time(), 1e-3); // not by its time
+  const dem::EnergyLedger energy = test.energy();
+  EXPECT_GT(energy.boundary, 0);
+  EXPECT_LT(std::abs(energy.residual()), 1e-4 * energy.boundary);
+  for (const int axis : {0, 1, 2})
+    EXPECT_GT(test.closure_strain(axis), 0) << axis;
+}
+
+// Along x twice what z bears, which rises by itself; y is free of platens.
+TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
+  PlatenTestSettings settings = six_platens();
+  settings.platens.front.reset(), settings.platens.back.reset();
+  settings.stages = {[](const PlatenTest &test) {
+    SideLoading::Parameters p = test.side_loading("share");
+    SideTask axial;
+    axial.platens = test.platens_along(2);
+    axial.ask = SideTask::Ask::rate;
+    axial.value = 0.05;
+    SideTask lateral;
+    lateral.platens = test.platens_along(0);
+    lateral.ask = SideTask::Ask::share;
+    lateral.value = 0.5;
+    lateral.followed = axial.platens;
+    lateral.servo = test.servo_for(asked, 0);
+    p.tasks = {axial, lateral};
+    p.end.of = axial.platens;
+    p.end.rises_to = 2 * asked;
+    return std::make_unique<SideLoading>(p);
+  }};
+  PlatenTest test(cube(), settings);
+  while (!test.program().finished())
+    ASSERT_GT(test.advance(1000), 0);
+  const double axial = test.axial_stress(), left = test.stress(Side::left), right = test.stress(Side::right);
+  EXPECT_GE(axial, 2 * asked);
+  EXPECT_LT(axial, 2.05 * asked);
+  EXPECT_NEAR(0.5 * (left + right), 0.5 * axial, 0.02 * axial);
+  EXPECT_TRUE(std::isnan(test.stress(Side::front)));
+  EXPECT_TRUE(std::isnan(test.closure_strain(1)));
+}
+
+TEST(six_sides, a_stop_changes_nothing) {
+  PlatenTest whole(cube(), six_platens()), first(cube(), six_platens()), second(cube(), six_platens());
+  whole.advance(700), whole.advance(500);
+  first.advance(700);
+  set_state(second, state_of(first));
+  second.advance(500);
+  EXPECT_TRUE(same_state(whole, second));
+}
+
+// What the settings are refused for: the member and a word of the reason.
+void refuses(const dem::Specimen &specimen, const PlatenTestSettings &settings, const std::string &member,
+             const std::string &word) {
+  try {
+    const PlatenTest test(specimen, settings);
+    ADD_FAILURE() << member << " is taken";
+  } catch (const BadSetup &e) {
+    EXPECT_EQ(e.member(), member);
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+  }
+}
+
+TEST(six_sides, what_has_no_such_sides_is_refused) {
+  PlatenTestSettings settings = six_platens();
+  settings.platens.left.reset(), settings.platens.right.reset(), settings.platens.front.reset();
+  refuses(small_cylinder(), settings, "platens.back", "box");
+  const dem::Specimen box = cube();
+  settings = six_platens();
+  settings.loading.cell = CellSettings{};
+  settings.loading.cell->pressure = 1e6;
+  refuses(box, settings, "platens.left", "loading.cell");
+  settings.loading.cell.reset();
+  settings.loading.wall = true;
+  refuses(box, settings, "platens.left", "loading.wall");
+  settings.loading.wall = false;
+  settings.platens.edge_gap = 0.26 * edge;
+  refuses(box, settings, "platens.edge_gap", "quarter");
+}
+
+// Steel would meet steel: the run ends before it does, and says which platen.
+TEST(six_sides, platens_do_not_pass_through_each_other) {
+  PlatenTestSettings settings = six_platens();
+  settings.platens.edge_gap = 5e-6;
+  settings.stages = {[](const PlatenTest &test) {
+    SideLoading::Parameters p = test.side_loading("rate");
+    SideTask task;
+    task.platens = test.platens_along(0);
+    task.ask = SideTask::Ask::rate;
+    task.value = 1;
+    p.tasks = {task};
+    return std::make_unique<SideLoading>(p);
+  }};
+  PlatenTest test(cube(), settings);
+  try {
+    test.advance(100000);
+    FAIL() << "closed by " << test.closure_strain(0) * edge << " m";
+  } catch (const NumericsStopped &e) {
+    EXPECT_NE(std::string(e.what()).find("left has closed"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("`platens.edge_gap`"), std::string::npos) << e.what();
+  }
+  const double closed = test.platen(Side::left)->closure();
+  EXPECT_GE(closed, 5e-6);
+  EXPECT_LT(closed, 1.5e-5); // asked every hundred steps
+}
+
+TEST(six_sides, elastic_platens_press_all_sides) {
+  PlatenTestSettings settings = six_platens();
+  settings.platens.elastic.emplace();
+  settings.platens.elements_across = 4;
+  settings.time_step.fixed_step = 0;
+  PlatenTest test(cube(), settings);
+  while (!test.program().finished())
+    ASSERT_GT(test.advance(1000), 0);
+  for (const Side side : all_sides)
+    EXPECT_NEAR(test.stress(side), asked, 0.01 * asked) << name_of(side);
+  const dem::EnergyLedger energy = test.energy();
+  EXPECT_GT(energy.bodies, 0);
+  EXPECT_LT(std::abs(energy.residual()), 1e-2 * energy.boundary);
+}
+
+// The packing turned, and with it the stresses: each axis does what the one before it did.
+TEST(six_sides, no_axis_is_another_than_the_others) {
+  const dem::Specimen specimen = cube();
+  PlatenTest before(specimen, six_platens({1e6, 3e6, 5e6})),
+      after(turned(specimen), six_platens({5e6, 1e6, 3e6}));
+  for (PlatenTest *test : {&before, &after})
+    for (int steps = 0; steps < 2000; ++steps)
+      test->step();
+  for (const int axis : {0, 1, 2}) {
+    const double was = before.closure_strain(axis), is = after.closure_strain((axis + 1) % 3);
+    EXPECT_NEAR(is, was, 1e-9 * std::abs(was)) << "along " << axis;
+  }
+}
+
+} // namespace
+} // namespace platen::coupling
