@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/same_state.h"
@@ -157,13 +158,18 @@ TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   EXPECT_TRUE(std::isnan(test.closure_strain(1)));
 }
 
-TEST(six_sides, a_stop_changes_nothing) {
-  PlatenTest whole(cube(), six_platens()), first(cube(), six_platens()), second(cube(), six_platens());
+TEST(six_sides, a_stop_and_any_number_of_threads_change_nothing) {
+  const ThreadLimit one(1);
+  PlatenTest whole(cube(), six_platens()), first(cube(), six_platens());
   whole.advance(700), whole.advance(500);
   first.advance(700);
-  set_state(second, state_of(first));
-  second.advance(500);
-  EXPECT_TRUE(same_state(whole, second));
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    PlatenTest second(cube(), six_platens());
+    set_state(second, state_of(first));
+    second.advance(500);
+    EXPECT_TRUE(same_state(whole, second)) << threads;
+  }
 }
 
 // What the settings are refused for: the member and a word of the reason.
