@@ -47,6 +47,11 @@ double PlatenTest::closure_strain(int axis) const {
   return any ? closure / length(shape(), axis) : none;
 }
 
+double PlatenTest::circumferential_strain() const {
+  if (!circumference_) circumference_.emplace(model.particles, shape(), model.bonds.get());
+  return circumference_->strain(model.particles);
+}
+
 double PlatenTest::confining_pressure() const {
   double sum = 0; // at most one of a test's boundaries presses its sides
   for (const auto &boundary : boundaries())

@@ -10,6 +10,7 @@
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
 #include "coupling/side.h"
+#include "coupling/stage_settings.h"
 #include "dem/confinement.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/packing/specimen.h"
@@ -43,7 +44,7 @@ struct PlatenSettings {
   PlatenSide top, bottom;
   std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
   std::optional<ElasticPlatens> elastic;              // none: rigid
-  dem::Stiffness stiffness;              // of the mean bond, or absolute
+  dem::Stiffness stiffness;                           // of the mean bond, or absolute
   double tangential_ratio = 0.8;
   double damping = 0.2;    // fraction of critical
   double strip_width = 0;  // m, of strips that press a disc or bend a bar; 0: as wide as the platens
@@ -103,6 +104,9 @@ struct LoadingSettings {
   // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
   std::vector<double> unload_at;
   double unload_to = 0.1;
+  // In place of what the members above ask: one after the other. A cell's pressure is then what they ask
+  // most.
+  std::vector<StageSettings> stages;
 
   static constexpr const char *name = "loading";
   template <class Visitor, class Self>
@@ -131,12 +135,18 @@ struct PlatenTestSettings {
 inline const PlatenSide *PlatenSettings::side(Side side) const {
   const auto there = [](const std::optional<PlatenSide> &given) { return given ? &*given : nullptr; };
   switch (side) {
-    case Side::bottom: return &bottom;
-    case Side::top: return &top;
-    case Side::left: return there(left);
-    case Side::right: return there(right);
-    case Side::front: return there(front);
-    default: return there(back);
+    case Side::bottom:
+      return &bottom;
+    case Side::top:
+      return &top;
+    case Side::left:
+      return there(left);
+    case Side::right:
+      return there(right);
+    case Side::front:
+      return there(front);
+    default:
+      return there(back);
   }
 }
 
