@@ -200,13 +200,12 @@ double PlatenTest::lead_of_servo() const {
   return servo_slowness_ * transits_ahead * facts_.wave_transit;
 }
 
-Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, bool follows) const {
+Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, double least) const {
   const LoadingSettings &loading = settings_.loading;
   const double stiffness =
       facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
   const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) / ramp;
-  const double rate = (follows ? servo_reserve : 1) * loading.rate;
-  return {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, rate)};
+  return {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, least)};
 }
 
 Servo::Parameters PlatenTest::servo_of_top() const {

@@ -55,7 +55,7 @@ public:
   // is elastic.
   double ramp_of_stress() const;
   double lead_of_servo() const;
-  Servo::Parameters servo_for(double stress, int axis, double ramp, bool follows) const;
+  Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
   Servo::Parameters servo_of_top() const;
   std::optional<RateControl::Parameters> rate_control() const;
   StageScope stage_scope() const;
@@ -105,7 +105,6 @@ public:
   double broken_bonds() const override;
   Vector3 force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
   double load(std::size_t boundary) const override { return boundaries()[boundary]->load(); }
-  double closure_of(std::size_t boundary) const override { return boundaries()[boundary]->closure(); }
   Vector3 inward(std::size_t boundary) const override { return boundaries()[boundary]->inward(); }
   ServoLoad servo_load(std::size_t boundary) const override {
     return boundaries()[boundary]->servo_load(model.particles);

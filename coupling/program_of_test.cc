@@ -21,6 +21,8 @@ constexpr double patience = 2;
 // A share or a path follows with this lag in wave transits: long enough for waves to pass, and for the
 // specimen's own answer, which would ring otherwise.
 constexpr double lag_of_share = 4;
+// And may move platens this many times as fast as any close at a rate.
+constexpr double reserve_of_share = 10;
 
 // A list of stages becomes a program: groups of sides become platens by their places.
 class ProgramMaker {
@@ -99,12 +101,15 @@ private:
 
   Servo::Parameters servo(const SideAsk &ask, const PlatensOfAxis &platens, double ramp) const {
     if (ask.servo) return *ask.servo;
-    double most = 0; // Pa, of all that is asked
+    const bool follows = ask.ask == Ask::share || ask.ask == Ask::free;
+    double stress = 0, rate = test_.axial_rate(); // the most that is asked, Pa, m/s
     for (const StageSettings &stage : settings_)
-      for (const SideAsk &one : stage.asks)
-        if (one.ask == Ask::stress || one.ask == Ask::pressure) most = std::max(most, one.value);
-    return test_.servo_for(ask.ask == Ask::share ? most : std::max(ask.value, most), platens.axis, ramp,
-                           ask.ask == Ask::share || ask.ask == Ask::free);
+      for (const SideAsk &one : stage.asks) {
+        if (one.ask == Ask::stress || one.ask == Ask::pressure) stress = std::max(stress, one.value);
+        if (one.ask == Ask::rate) rate = std::max(rate, std::abs(rate_of(one)));
+      }
+    return test_.servo_for(stress, platens.axis, ramp,
+                           follows ? reserve_of_share * rate : test_.axial_rate());
   }
 
   std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp) const {
@@ -185,7 +190,8 @@ private:
     end.ramp = ramp;
     end.least = ramp + stage.hold;
     for (const StageUntil &one : stage.until) {
-      Until until{one.what, one.value, platens(one.of), direction(stage, one.of), lateral_.has_value()};
+      Until until{one.what, one.what == Reached::settled ? 0 : one.value, platens(one.of),
+                  direction(stage, one.of), lateral_.has_value()};
       if (one.what == Reached::settled)
         end.latest = std::isnan(stage.latest) ? patience * end.least : stage.latest;
       end.any.push_back(std::move(until));

@@ -30,7 +30,6 @@ void PressureTask::update(const Measures &m) {
   if (m.time() <= begun_ || !(parameters_.lag > 0)) return;
   const double share = std::min(1.0, m.time_step() / parameters_.lag);
   if (parameters_.path != 0) deviator_ += share * (m.axial_stress() - m.lateral_pressure() - deviator_);
-  if (parameters_.path != 0) deviator_ = (found_ - parameters_.value) / parameters_.path;
   if (parameters_.followed) followed_ += share * (parameters_.followed->stress(m) - followed_);
 }
 

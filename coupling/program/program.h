@@ -26,10 +26,9 @@ public:
   virtual double lateral_pressure() const = 0;       // Pa
   virtual double broken_bonds() const = 0;           // since the start
   // Of a boundary by its place in the experiment's list: N, of the specimen on it; N, with which a platen
-  // presses, and m, how far it has moved that way since the start; that way; what it pushes against.
+  // presses; the way that it presses; what it pushes against.
   virtual Vector3 force(std::size_t boundary) const = 0;
   virtual double load(std::size_t boundary) const = 0;
-  virtual double closure_of(std::size_t boundary) const = 0;
   virtual Vector3 inward(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };

@@ -34,21 +34,21 @@ dem::Specimen turned(const dem::Specimen &from) {
   return to;
 }
 
-std::unique_ptr<Stage> stage_of(const PlatenTest &test, const std::array<double, 3> &stresses,
-                                double seconds) {
-  SideLoading::Parameters p = test.side_loading("equal stresses");
-  for (const int axis : {0, 1, 2}) {
-    const double stress = stresses[static_cast<std::size_t>(axis)];
-    SideTask task;
-    task.platens = test.platens_along(axis);
-    task.ask = SideTask::Ask::stress;
-    task.value = stress;
-    task.servo = test.servo_for(stress, axis);
-    p.tasks.push_back(task);
-  }
-  p.end.settled = true;
-  p.end.seconds = seconds;
-  return std::make_unique<SideLoading>(p);
+SideAsk asked_of(SideGroup side, SideAsk::Ask ask, double value) {
+  SideAsk one;
+  one.side = side, one.ask = ask, one.value = value;
+  return one;
+}
+
+StageSettings stresses_on(const std::array<double, 3> &stresses) {
+  StageSettings stage;
+  stage.name = "stresses";
+  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
+                asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
+                asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])};
+  stage.until = {{Until::Reached::settled}, {Until::Reached::time, 1e-3}};
+  stage.latest = 1e-3;
+  return stage;
 }
 
 PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, asked, asked}) {
@@ -66,7 +66,7 @@ PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, a
   s.platens.top = s.platens.bottom = side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   s.time_step.fixed_step = 8e-8; // that of two packings alike
-  s.stages = {[stresses](const PlatenTest &test) { return stage_of(test, stresses, 1e-3); }};
+  s.loading.stages = {stresses_on(stresses)};
   return s;
 }
 
@@ -130,23 +130,11 @@ TEST(six_sides, equal_stresses_on_all_sides) {
 TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   PlatenTestSettings settings = six_platens();
   settings.platens.front.reset(), settings.platens.back.reset();
-  settings.stages = {[](const PlatenTest &test) {
-    SideLoading::Parameters p = test.side_loading("share");
-    SideTask axial;
-    axial.platens = test.platens_along(2);
-    axial.ask = SideTask::Ask::rate;
-    axial.value = 0.05;
-    SideTask lateral;
-    lateral.platens = test.platens_along(0);
-    lateral.ask = SideTask::Ask::share;
-    lateral.value = 0.5;
-    lateral.followed = axial.platens;
-    lateral.servo = test.servo_for(asked, 0);
-    p.tasks = {axial, lateral};
-    p.end.of = axial.platens;
-    p.end.rises_to = 2 * asked;
-    return std::make_unique<SideLoading>(p);
-  }};
+  StageSettings stage;
+  stage.asks = {asked_of(SideGroup::axial, SideAsk::Ask::rate, 0.05),
+                asked_of(SideGroup::lateral_x, SideAsk::Ask::share, 0.5)};
+  stage.until = {{Until::Reached::stress, 2 * asked, SideGroup::axial}};
+  settings.loading.stages = {stage};
   PlatenTest test(cube(), settings);
   while (!test.program().finished())
     ASSERT_GT(test.advance(1000), 0);
@@ -205,15 +193,10 @@ TEST(six_sides, what_has_no_such_sides_is_refused) {
 TEST(six_sides, platens_do_not_pass_through_each_other) {
   PlatenTestSettings settings = six_platens();
   settings.platens.edge_gap = 5e-6;
-  settings.stages = {[](const PlatenTest &test) {
-    SideLoading::Parameters p = test.side_loading("rate");
-    SideTask task;
-    task.platens = test.platens_along(0);
-    task.ask = SideTask::Ask::rate;
-    task.value = 1;
-    p.tasks = {task};
-    return std::make_unique<SideLoading>(p);
-  }};
+  StageSettings stage;
+  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::rate, 1)};
+  stage.until = {{Until::Reached::strain, 0.5, SideGroup::lateral_x}};
+  settings.loading.stages = {stage};
   PlatenTest test(cube(), settings);
   try {
     test.advance(100000);
