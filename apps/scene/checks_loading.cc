@@ -35,7 +35,7 @@ void SceneCheck::weakening(coupling::Side of) const {
 void SceneCheck::platens() const {
   const Platens &platens = scene_.platens;
   if (loads() && app_ != AppKind::study) surfaces();
-  for (const coupling::Side side : coupling::all_sides)
+  for (const coupling::Side side : sides_of_scene)
     if (platens.has(side)) friction(side), weakening(side);
   const bool tension = scene_.loading.test == LoadingTest::tension, stress = scene_.loading.servo;
   if (loads() && tension && !platens.glued)
@@ -64,8 +64,7 @@ void SceneCheck::surfaces() const {
            "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
            "density, which have no defaults.");
   std::string brushes; // of all sides, where one lacks its own
-  for (const coupling::Side side : {coupling::Side::top, coupling::Side::bottom, coupling::Side::left,
-                                    coupling::Side::right, coupling::Side::front, coupling::Side::back})
+  for (const coupling::Side side : sides_of_scene)
     if (platens.has(side)) brushes += (brushes.empty() ? "" : " and ") + section_of(side) + "/Mesh file";
   if (brush && platens.any_of([&](coupling::Side side) { return platens.face(side).mesh_file.empty(); }))
     refuse("Platens/Surface", "needs the brushes: " + brushes + ", as scripts/brush_platen.py writes them.");
@@ -91,7 +90,7 @@ void SceneCheck::deformable_platens() const {
 }
 
 void SceneCheck::meshes() const {
-  for (const coupling::Side side : coupling::all_sides) {
+  for (const coupling::Side side : sides_of_scene) {
     const std::string &file = scene_.platens.face(side).mesh_file, path = section_of(side) + "/Mesh file";
     if (file.empty() || !scene_.platens.has(side)) continue;
     readable(path, file, "");

@@ -27,6 +27,11 @@ inline const Words<PlatenSides> platen_sides{{"two", PlatenSides::two},
                                              {"four y", PlatenSides::four_y},
                                              {"six", PlatenSides::six}};
 
+// In the order of scenes.
+constexpr std::array<coupling::Side, coupling::side_count> sides_of_scene{
+    coupling::Side::top,   coupling::Side::bottom, coupling::Side::left,
+    coupling::Side::right, coupling::Side::front,  coupling::Side::back};
+
 // "Platens/Left"
 inline std::string section_of(coupling::Side side) {
   std::string name = coupling::name_of(side);

@@ -100,8 +100,7 @@ std::string text_of(const Platens &platens) {
     return platens.glued ? std::string("glued") : text;
   };
   std::vector<std::pair<std::string, std::vector<std::string>>> alike; // what is told, of which sides
-  for (const coupling::Side side : {coupling::Side::top, coupling::Side::bottom, coupling::Side::left,
-                                    coupling::Side::right, coupling::Side::front, coupling::Side::back}) {
+  for (const coupling::Side side : sides_of_scene) {
     if (!platens.has(side)) continue;
     const std::string text = told(platens.face(side), platens.at(side));
     auto found = std::find_if(alike.begin(), alike.end(), [&](const auto &one) { return one.first == text; });
