@@ -13,12 +13,6 @@
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
-namespace {
-
-constexpr double default_edge_gap = 0.02; // of the specimen's length across the edge
-
-} // namespace
-
 double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
   const int axis = axis_of(side);
   if (ends == Ends::ground) return extent(s.shape, axis)[is_high(side)];
@@ -85,10 +79,6 @@ std::vector<fem::Layer> layers_of(const PlatenSettings &p, double half_width, bo
   const fem::Layer pad = layer(p.elastic->pad_thickness, 2 / p.elastic->degree),
                    rest = layer(p.thickness - p.elastic->pad_thickness, 1);
   return top ? std::vector{pad, rest} : std::vector{rest, pad};
-}
-
-bool has_sides(const PlatenSettings &p) {
-  return p.left || p.right || p.front || p.back;
 }
 
 // Where a platen begins and ends along an axis in its plane: beyond the specimen, or short of a neighbour.
@@ -225,43 +215,13 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
 
 } // namespace
 
-void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &settings) {
-  const PlatenSettings &p = settings.platens;
-  const LoadingSettings &loading = settings.loading;
-  if (!has_sides(p)) return;
-  const std::string first = p.left    ? "platens.left"
-                            : p.right ? "platens.right"
-                            : p.front ? "platens.front"
-                                      : "platens.back";
-  if (specimen.shape.kind != dem::ShapeKind::box)
-    throw BadSetup(first, "presses a flat side. Allowed: a specimen that is a box.");
-  if (p.span > 0) throw BadSetup(first, "does not go with `platens.span`: a bar is bent by strips.");
-  if (loading.cell || loading.wall)
-    throw BadSetup(first, std::string("does not go with `loading.") + (loading.cell ? "cell" : "wall") +
-                              "`, which presses the same sides.");
-  for (const int axis : {0, 1, 2}) {
-    const double most = 0.25 * length(specimen.shape, axis);
-    if (edge_gap(specimen.shape, p, axis) > most)
-      throw BadSetup("platens.edge_gap", "leaves too little of a platen. Allowed: up to " + text_of(most) +
-                                             " m, a quarter of the specimen.");
-  }
-}
-
-bool has_neighbours(const PlatenSettings &settings, Side side) {
-  return std::any_of(all_sides.begin(), all_sides.end(), [&](Side other) {
-    return axis_of(other) != axis_of(side) && settings.side(other) != nullptr;
-  });
-}
-
-double edge_gap(const dem::Shape &shape, const PlatenSettings &settings, int axis) {
-  return settings.edge_gap > 0 ? settings.edge_gap : default_edge_gap * length(shape, axis);
-}
-
 PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side,
                          const dem::Model &model) {
   const bool given = settings.platens.side(side)->grid != nullptr;
   try {
-    return new_platen(specimen, settings, side, model);
+    PlatenOfTest made = new_platen(specimen, settings, side, model);
+    if (given) require_short_of_neighbours(specimen, settings, side, made.platen->body().surface());
+    return made;
   } catch (const std::invalid_argument &e) {
     if (given) throw BadSetup(std::string("platens.") + name_of(side) + ".grid", std::string(e.what()) + ".");
     throw BadSetup("platens.elements_across", std::string("is not possible: ") + e.what() + ".");

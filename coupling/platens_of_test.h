@@ -27,6 +27,10 @@ bool has_neighbours(const PlatenSettings &settings, Side side);
 // m, by how much a platen's edges lie short of the planes of its neighbours along an axis.
 double edge_gap(const dem::Shape &shape, const PlatenSettings &settings, int axis);
 
+// A platen of a given mesh ends short of its neighbours too; `surface` is it where it lies. Throws BadSetup.
+void require_short_of_neighbours(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side,
+                                 const fem::SurfaceMesh &surface);
+
 // Of a bar that is bent: each strip has a sphere within `depth` (m) of its face. Throws BadSetup.
 void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSettings &settings, double depth);
 

@@ -36,10 +36,10 @@ bool is_within(const FittedCone &cone, const Position &place) {
 
 } // namespace
 
-FittedCone cone_of(const Run &run, PlatenEnd end, ConeTime time) {
+FittedCone cone_of(const Run &run, Side end, ConeTime time) {
   FittedCone cone;
   const std::string start = time == ConeTime::end ? "final_" : "";
-  const auto found = run.summary.find(start + (end == PlatenEnd::top ? "cone_top" : "cone_bottom"));
+  const auto found = run.summary.find(start + (end == Side::top ? "cone_top" : "cone_bottom"));
   const auto pattern = run.summary.find(start + "pattern"); // null where nobody looked
   if (found == run.summary.end() || pattern == run.summary.end() || pattern->is_null()) return cone;
   if (found->is_null()) {
@@ -53,9 +53,9 @@ FittedCone cone_of(const Run &run, PlatenEnd end, ConeTime time) {
   return cone;
 }
 
-std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd end, const Extent &extent) {
+std::vector<std::array<double, 2>> section_of(const FittedCone &cone, Side end, const Extent &extent) {
   constexpr int levels = 120;
-  const double base = end == PlatenEnd::top ? extent.top : extent.bottom;
+  const double base = end == Side::top ? extent.top : extent.bottom;
   const double cosine = std::cos(cone.half_angle), squared = cosine * cosine;
   // On the plane, at height z, (w . axis)^2 = cos^2 w^2 with w from the apex is quadratic in w_x.
   const double a = squared - cone.axis[0] * cone.axis[0];

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/report/platens.h"
 #include "apps/report/run_folder.h"
+#include "apps/report/sides.h"
 
 namespace platen::apps::report {
 
@@ -25,12 +25,12 @@ struct FittedCone {
 enum class ConeTime { fall, end }; // at 0.8 of the peak; at the end of the run
 
 // Summaries of builds that did not look for cones, or did not say where they stand, give `not_measured`.
-FittedCone cone_of(const Run &run, PlatenEnd end, ConeTime time);
+FittedCone cone_of(const Run &run, Side end, ConeTime time);
 
 // Where the cone's flank meets the plane y = 0, from its end plane up one side over the tip and down the
 // other, at most `extent.half_width` from the axis; as the specimen was before the test. Points are (x, z),
 // m; empty where the cone does not meet the plane.
-std::vector<std::array<double, 2>> section_of(const FittedCone &cone, PlatenEnd end, const Extent &extent);
+std::vector<std::array<double, 2>> section_of(const FittedCone &cone, Side end, const Extent &extent);
 
 // How far the spheres within the cone have gone: medians, so that crumbs which fell out of it do not count;
 // m. Zero without spheres.

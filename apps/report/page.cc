@@ -108,6 +108,13 @@ std::string html_row(const std::vector<std::string> &fields, const std::string &
   return row + "</tr>\n";
 }
 
+std::string html_table(const TableOfFigures &table) {
+  std::string html = "<table>\n" + html_row(table.header, "th");
+  for (const auto &row : table.rows)
+    html += html_row(row, "td");
+  return html + "</table>\n";
+}
+
 } // namespace
 
 TableOfFigures table_of_figures(const std::vector<Run> &runs) {
@@ -187,6 +194,9 @@ std::string Album::Section::html() const {
   std::string html;
   if (!pictures.empty() && !heading.empty())
     html = fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(), escaped(heading));
+  if (!pictures.empty())
+    for (const TableOfFigures &table : tables)
+      html += html_table(table);
   for (const Picture &picture : pictures)
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
@@ -197,7 +207,7 @@ std::string Album::Section::html() const {
 
 void Album::finish(const std::string &title, const TableOfFigures &figures,
                    const std::vector<std::string> &remarks, std::ostream &out) const {
-  std::string links, sections, rows = html_row(figures.header, "th"), list;
+  std::string links, sections, list;
   for (const Section &section : sections_) {
     if (!section.pictures.empty() && !section.heading.empty())
       links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "<nav>" : " &middot; ",
@@ -205,20 +215,21 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
     sections += section.html();
   }
   if (!links.empty()) links += "</nav>\n";
-  for (const auto &row : figures.rows)
-    rows += html_row(row, "td");
   for (const std::string &remark : remarks)
     list += "<li>" + escaped(remark) + "</li>\n";
   const std::filesystem::path html = folder_ / "report.html";
-  write_text_aside(
-      html, fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                        "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{2}<table>\n{3}</table>\n"
-                        "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
-                        escaped(title), style_sheet, links, rows, list, sections));
+  write_text_aside(html,
+                   fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                               "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{2}{3}"
+                               "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
+                               escaped(title), style_sheet, links, html_table(figures), list, sections));
   for (const Section &section : sections_)
     for (const Picture &picture : section.pictures)
       out << "drawn: " << picture.file.string() << '\n';
   out << "page: " << html.string() << "\n\n" << as_text(figures);
+  for (const Section &section : sections_)
+    for (const TableOfFigures &table : section.tables)
+      out << '\n' << as_text(table);
 }
 
 } // namespace platen::apps::report

@@ -4,12 +4,17 @@
 #include <vtkAxis.h>
 #include <vtkChartXY.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPlotPoints.h>
+#include <vtkPointData.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "apps/report/chart.h"
+#include "apps/report/specimen_view.h"
 
 namespace platen::apps::report {
 namespace {
@@ -19,9 +24,58 @@ constexpr double upright = 0.7;
 
 constexpr int rings = 5; // of equal area; the last one is wider than a sphere's radius
 
-const char *word(PlatenEnd end) {
-  return end == PlatenEnd::top ? "top" : "bottom";
-}
+// A chart for each platen: low sides below the high ones of their axis where there are more than two, else
+// beside; all in one scale, as wide as the longest edge.
+class FacePanels {
+public:
+  FacePanels(const Run &run, const Extent &extent, int right, double spare, int bar = 0)
+      : sides_(sides_of(run)),
+        right_(right),
+        canvas_(columns() * (left + plot + right) + bar,
+                Canvas::head_height + rows() * (caption + plot + foot)) {
+    double longest = 0;
+    for (const int axis : {0, 1, 2})
+      if (axis != 2 || rows() > 1)
+        longest = std::max(longest, reach(extent, axis)[1] - reach(extent, axis)[0]);
+    half_ = 0.5 * spare * longest * mm_per_m;
+    middle_ = rows() > 1 ? 0.5 * (extent.bottom + extent.top) * mm_per_m : 0;
+  }
+  static std::array<double, 2> reach(const Extent &extent, int axis) { // m
+    if (axis == 2) return {extent.bottom, extent.top};
+    const double half = axis == 0 ? extent.half_width : extent.half_depth;
+    return {-half, half};
+  }
+  const std::vector<Side> &sides() const { return sides_; }
+  Canvas &canvas() { return canvas_; }
+  std::array<double, 2> range(int axis) const {
+    return axis == 2 ? std::array<double, 2>{middle_ - half_, middle_ + half_}
+                     : std::array<double, 2>{-half_, half_};
+  }
+  PlotArea area(std::size_t k) const {
+    const int column = rows() > 1 ? static_cast<int>(k / 2) : static_cast<int>(k),
+              row = rows() > 1 ? static_cast<int>(k % 2) : 0;
+    return {static_cast<double>(left + column * (left + plot + right_)),
+            static_cast<double>(foot + row * (caption + plot + foot)), plot, plot};
+  }
+  void add_words(std::size_t k, const std::string &words) {
+    constexpr std::array<const char *, 3> names{"x (mm)", "y (mm)", "z (mm)"};
+    const PlotArea at = area(k);
+    const auto [across, up] = plane_of(sides_[k]);
+    add_axis_titles(canvas_, at, names[static_cast<std::size_t>(across)],
+                    names[static_cast<std::size_t>(up)]);
+    canvas_.add_text(words, (at.left + 0.5 * plot) / canvas_.width(),
+                     (at.bottom + plot + 0.5 * caption) / canvas_.height(), text_size, 0.96 / columns());
+  }
+
+private:
+  static constexpr int plot = 760, left = 170, foot = 150, caption = 70;
+  int rows() const { return sides_.size() > 2 ? 2 : 1; }
+  int columns() const { return static_cast<int>(sides_.size()) / rows(); }
+  std::vector<Side> sides_;
+  int right_;
+  Canvas canvas_;
+  double half_ = 0, middle_ = 0; // mm
+};
 
 // Shapes tell what colours tell: filled discs stick, crosses slide.
 void add_contacts(vtkChartXY &chart, const PlatenContacts &contacts, bool sliding, bool heavy, double mean) {
@@ -36,20 +90,21 @@ void add_contacts(vtkChartXY &chart, const PlatenContacts &contacts, bool slidin
 
 } // namespace
 
-PlatenContacts contacts_with(PlatenEnd end, const Frame &frame) {
+PlatenContacts contacts_with(Side side, const Frame &frame) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
   vtkDataArray &normal = point_data(*grid, "normal", 3, frame), &shear = point_data(*grid, "shear", 3, frame),
                &force = point_data(*grid, "normal_force", 1, frame),
                &sliding = point_data(*grid, "sliding", 1, frame);
+  const int axis = coupling::axis_of(side);
+  const double inward = coupling::inward(side)[axis];
+  const auto [across, up] = plane_of(side);
   PlatenContacts contacts;
   for (vtkIdType k = 0; k < grid->GetNumberOfPoints(); ++k) {
-    const double up = normal.GetComponent(k, 2);
-    if (!(end == PlatenEnd::bottom ? up > upright : up < -upright)) continue;
-    const double *p = grid->GetPoint(k);
-    const double radius = std::hypot(p[0], p[1]);
-    const double sx = shear.GetComponent(k, 0), sy = shear.GetComponent(k, 1);
-    contacts.push_back({p[0], p[1], force.GetComponent(k, 0),
-                        radius > 0 ? -(sx * p[0] + sy * p[1]) / radius : 0, sliding.GetComponent(k, 0) != 0});
+    if (!(inward * normal.GetComponent(k, axis) > upright)) continue;
+    const double x = grid->GetPoint(k)[across], y = grid->GetPoint(k)[up], radius = std::hypot(x, y);
+    const double sx = shear.GetComponent(k, across), sy = shear.GetComponent(k, up);
+    contacts.push_back({x, y, force.GetComponent(k, 0), radius > 0 ? -(sx * x + sy * y) / radius : 0,
+                        sliding.GetComponent(k, 0) != 0});
   }
   return contacts;
 }
@@ -74,15 +129,15 @@ RingProfile profile_of(const PlatenContacts &contacts, double radius, int rings)
 
 void draw_platen_profiles(const Run &run, const Extent &extent, const std::filesystem::path &png) {
   Chart pressure, shear;
-  for (const PlatenEnd end : {PlatenEnd::bottom, PlatenEnd::top}) {
+  for (const Side end : {Side::bottom, Side::top}) {
     const PlatenContacts contacts = contacts_with(end, nearest(run.contacts, run.moments.peak_time));
     const RingProfile profile = profile_of(contacts, extent.half_width, rings);
     const std::vector<double> radius = scaled(profile.middle, mm_per_m);
-    const Colour colour = end == PlatenEnd::top ? colours::vermilion : colours::blue;
-    const Stroke stroke = end == PlatenEnd::top ? Stroke::dashed : Stroke::solid;
+    const Colour colour = end == Side::top ? colours::vermilion : colours::blue;
+    const Stroke stroke = end == Side::top ? Stroke::dashed : Stroke::solid;
     const auto add = [&](Chart &chart, const std::vector<double> &stress) {
-      chart.curves.push_back(
-          {std::string(word(end)) + " platen", radius, scaled(stress, 1 / pa_per_mpa), colour, stroke, 5});
+      chart.curves.push_back({std::string(coupling::name_of(end)) + " platen", radius,
+                              scaled(stress, 1 / pa_per_mpa), colour, stroke, 5});
     };
     add(pressure, profile.pressure);
     add(shear, profile.inward_shear);
@@ -96,36 +151,110 @@ void draw_platen_profiles(const Run &run, const Extent &extent, const std::files
 }
 
 void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesystem::path &png) {
-  constexpr int plot = 760, left = 170, right = 60, foot = 150, caption = 70;
-  Canvas canvas(2 * (left + plot + right), Canvas::head_height + caption + plot + foot);
+  constexpr int right = 60;
+  FacePanels panels(run, extent, right, 1.05);
   std::vector<vtkSmartPointer<vtkChartXY>> charts;
-  const double reach = 1.05 * std::max(extent.half_width, extent.half_depth) * mm_per_m;
-  for (const PlatenEnd end : {PlatenEnd::bottom, PlatenEnd::top}) {
-    const PlatenContacts contacts = contacts_with(end, nearest(run.contacts, run.moments.peak_time));
+  for (std::size_t k = 0; k < panels.sides().size(); ++k) {
+    const Side side = panels.sides()[k];
+    const PlatenContacts contacts = contacts_with(side, nearest(run.contacts, run.moments.peak_time));
     double mean = 0;
     for (const PlatenContact &one : contacts)
       mean += one.normal_force / static_cast<double>(contacts.size());
-    const double start = end == PlatenEnd::bottom ? left : 2.0 * left + plot + right;
-    const PlotArea area{start, foot, plot, plot};
-    const auto chart = frame_chart(area);
+    const auto chart = frame_chart(panels.area(k));
     for (const bool heavy : {false, true})
       for (const bool slides : {false, true})
         add_contacts(*chart, contacts, slides, heavy, mean);
-    set_axis(chart->GetAxis(vtkAxis::BOTTOM), {-reach, reach}, 6);
-    set_axis(chart->GetAxis(vtkAxis::LEFT), {-reach, reach}, 6);
+    const auto [across, up] = plane_of(side);
+    set_axis(chart->GetAxis(vtkAxis::BOTTOM), panels.range(across), 6);
+    set_axis(chart->GetAxis(vtkAxis::LEFT), panels.range(up), 6);
     charts.push_back(chart);
-    add_axis_titles(canvas, area, "x (mm)", "y (mm)");
     const auto sliding =
         std::count_if(contacts.begin(), contacts.end(), [](const PlatenContact &one) { return one.sliding; });
-    canvas.add_text(fmt::format("{}: {} stick, {} slide", word(end),
-                                static_cast<long>(contacts.size()) - sliding, sliding),
-                    (start + 0.5 * plot) / canvas.width(), (foot + plot + 0.5 * caption) / canvas.height(),
-                    text_size, 0.48);
+    panels.add_words(k, fmt::format("{}: {} stick, {} slide", coupling::name_of(side),
+                                    static_cast<long>(contacts.size()) - sliding, sliding));
   }
-  add_chart_scene(canvas, charts);
-  canvas.add_head(run.title,
-                  "Ends at the peak: blue discs stick, red crosses slide; large: above the mean pressure");
-  canvas.save(png);
+  add_chart_scene(panels.canvas(), charts);
+  panels.canvas().add_head(run.title,
+                           std::string(panels.sides().size() > 2 ? "Platens" : "Ends") +
+                               " at the peak: blue discs stick, red crosses slide; large: above the mean "
+                               "pressure");
+  panels.canvas().save(png);
+}
+
+FacePressure pressure_over(const PlatenContacts &contacts, std::array<double, 2> low,
+                           std::array<double, 2> high, double square) {
+  const double width = high[0] - low[0], height = high[1] - low[1];
+  const auto parts = [square](double length) {
+    return std::max(1, static_cast<int>(std::lround(length / square)));
+  };
+  FacePressure face{parts(width), parts(height), {}};
+  face.pressure.assign(static_cast<std::size_t>(face.columns * face.rows), 0.0);
+  const double area = width * height / (face.columns * face.rows);
+  const auto place = [](double share, int count) {
+    return std::clamp(static_cast<int>(std::floor(share * count)), 0, count - 1);
+  };
+  for (const PlatenContact &one : contacts) {
+    const int column = place((one.x - low[0]) / width, face.columns),
+              row = place((one.y - low[1]) / height, face.rows);
+    face.pressure[static_cast<std::size_t>(row * face.columns + column)] += one.normal_force / area;
+  }
+  return face;
+}
+
+namespace {
+
+// MPa, a pixel a square, its origin the lower left corner; mm.
+vtkSmartPointer<vtkImageData> image_of(const FacePressure &face, std::array<double, 2> low,
+                                       std::array<double, 2> high) {
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  const double dx = (high[0] - low[0]) / face.columns * mm_per_m,
+               dy = (high[1] - low[1]) / face.rows * mm_per_m;
+  image->SetDimensions(face.columns, face.rows, 1);
+  image->SetOrigin(low[0] * mm_per_m, low[1] * mm_per_m, 0);
+  image->SetSpacing(dx, dy, 1);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("pressure");
+  for (const double pressure : face.pressure)
+    values->InsertNextValue(pressure / pa_per_mpa);
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+} // namespace
+
+void draw_face_pressures(const Run &run, const Extent &extent, double radius,
+                         const std::filesystem::path &png) {
+  constexpr int right = 60, bar = 260;
+  FacePanels panels(run, extent, right, 1.05, bar);
+  std::vector<FacePressure> faces;
+  std::vector<std::array<double, 2>> lows, highs;
+  double largest = 0;
+  for (const Side side : panels.sides()) {
+    const auto [across, up] = plane_of(side);
+    const auto a = FacePanels::reach(extent, across), b = FacePanels::reach(extent, up);
+    lows.push_back({a[0], b[0]}), highs.push_back({a[1], b[1]});
+    faces.push_back(pressure_over(contacts_with(side, nearest(run.contacts, run.moments.peak_time)),
+                                  lows.back(), highs.back(), 4 * radius));
+    for (const double pressure : faces.back().pressure)
+      largest = std::max(largest, pressure / pa_per_mpa);
+  }
+  const Colouring colouring{Ramp::displacement, round_ticks(0, largest > 0 ? largest : 1, 5),
+                            "Pressure\n(MPa)"};
+  std::vector<vtkSmartPointer<vtkChartXY>> charts;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const auto [across, up] = plane_of(panels.sides()[k]);
+    charts.push_back(image_chart(panels.area(k), image_of(faces[k], lows[k], highs[k]),
+                                 colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()),
+                                 panels.range(across), panels.range(up)));
+    double mean = 0;
+    for (const double pressure : faces[k].pressure)
+      mean += pressure / pa_per_mpa / static_cast<double>(faces[k].pressure.size());
+    panels.add_words(k, fmt::format("{}: mean {:.2f} MPa", coupling::name_of(panels.sides()[k]), mean));
+  }
+  add_chart_scene(panels.canvas(), charts);
+  add_colour_bar(panels.canvas(), colouring, 1 - double(bar) / panels.canvas().width());
+  panels.canvas().add_head(run.title, "Pressure on the platens near the peak, each in its own plane");
+  panels.canvas().save(png);
 }
 
 } // namespace platen::apps::report

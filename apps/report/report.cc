@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/report/bars.h"
+#include "apps/report/biaxial.h"
 #include "apps/report/cracks.h"
 #include "apps/report/curves.h"
 #include "apps/report/fields.h"
@@ -20,6 +21,14 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
             "Stress and broken bonds against strain. A stronger run whose bonds break later was held at its "
             "ends.",
             draw_stress_strain, runs);
+  if (std::any_of(runs.begin(), runs.end(), has_stress_path))
+    album.add("comparison_stress_path.png",
+              "Mean stress and deviator of each run whose sides are pressed: where the paths end, it failed.",
+              draw_stress_path, runs);
+  if (const BiaxialStrengths strengths = biaxial_strengths(runs); tells_envelope(strengths))
+    album.add("comparison_biaxial.png",
+              "Strength under two stresses over the uniaxial one. Diamond: published, equal stresses.",
+              draw_biaxial, strengths);
   if (std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.specimen.empty(); })) return;
   album.add("comparison_displacement.png",
             "Half specimens at the end, coloured by outward displacement: what is dark stood still.",
@@ -44,6 +53,20 @@ void draw_curves(const Run &run, Album &album) {
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
             "line.",
             draw_energies, run);
+  if (has_stress_path(run))
+    album.add(
+        "stress_path.png",
+        "Mean stress against deviator of the stresses along x, y and z. A bare test follows the dashed line; "
+        "what presses the sides bends the path away from it.",
+        draw_stress_path, std::vector<Run>{run});
+  if (!has_further_sides(run)) return;
+  album.begin("Sides");
+  album.add_table(table_of_sides(run));
+  album.add("side_stresses.png",
+            "Stress on each platen. Two opposite ones bear the same but for what friction takes over: dashed "
+            "and solid "
+            "lines of a colour.",
+            draw_side_stresses, run);
 }
 
 void draw_specimen(const Run &run, const Extent &extent, Album &album) {
@@ -100,6 +123,15 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
         "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
         "ones are grey.",
         draw_stress_flow, run, before_test);
+  if (has_further_sides(run)) {
+    album.add(
+        "side_pressure.png",
+        "Pressure on each platen over the face of the specimen, near the peak: what stays dark is borne "
+        "elsewhere.",
+        draw_face_pressures, run, extent, mean_radius(before_test));
+    album.add("stick_slip.png", "Spheres at each platen near the peak: which stick and which slide.",
+              draw_stick_and_slip, run, extent);
+  }
   if (extent.form != Extent::Form::cylinder) return;
   album.add("platen_pressure.png",
             "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
@@ -134,6 +166,9 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
     }
   }
   if (runs.size() > 1) draw_comparison(runs, album);
+  if (runs.size() > 1)
+    for (const std::string &remark : biaxial_strengths(runs).left_out)
+      out << remark << '\n', remarks.push_back(remark);
   draw_one_run(runs.front(), album);
   if (!costs_of(runs.front()).empty()) {
     album.begin("Where the seconds went");

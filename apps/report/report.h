@@ -30,16 +30,18 @@ class Album {
 public:
   // Makes the folder where it is not there. Throws OutputError.
   explicit Album(std::filesystem::path folder);
-  void begin(const std::string &heading) { sections_.push_back({heading, {}}); } // empty: without a heading
+  void begin(const std::string &heading) { sections_.push_back({heading, {}, {}}); } // empty: without a heading
   // Draws a picture into the folder by draw(inputs..., file); the caption tells what to see in it.
   template <class Draw, class... Inputs>
   void add(const std::string &name, const std::string &caption, const Draw &draw, const Inputs &...inputs) {
     draw(inputs..., folder_ / name);
     sections_.back().pictures.push_back({folder_ / name, caption});
   }
+  // A table of its own before the pictures of the section.
+  void add_table(const TableOfFigures &table) { sections_.back().tables.push_back(table); }
   std::size_t size() const; // pictures
   // Writes report.html (title, list of sections, figures, remarks, pictures held in the page itself) and
-  // prints the pictures, the page and the figures. Throws OutputError.
+  // prints the pictures, the page, the figures and other tables. Throws OutputError.
   void finish(const std::string &title, const TableOfFigures &figures,
               const std::vector<std::string> &remarks, std::ostream &out) const;
 
@@ -50,6 +52,7 @@ private:
   };
   struct Section {
     std::string heading;
+    std::vector<TableOfFigures> tables;
     std::vector<Picture> pictures; // without any the section is left out
     std::string anchor() const;
     std::string html() const;

@@ -1,5 +1,8 @@
 #include "apps/report/run_folder.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -14,24 +17,6 @@ namespace fs = std::filesystem;
 // Where the stress has fallen to this share of the peak, the crack pattern is judged: later the ends are
 // eaten too.
 constexpr double post_peak_share = 0.8;
-
-// Title in the section Scene of a .prm; empty where there is none.
-std::string scene_title(const fs::path &scene) {
-  static const std::regex form(R"(\s*(subsection\b|end\b|set\s+Title\s*=)\s*([^#]*?)\s*(#.*)?)");
-  std::ifstream stream(scene);
-  std::vector<std::string> sections;
-  std::smatch found;
-  for (std::string line; std::getline(stream, line);) {
-    if (!std::regex_match(line, found, form)) continue;
-    if (found[1] == "subsection")
-      sections.push_back(found[2]);
-    else if (found[1] != "end" && sections == std::vector<std::string>{"Scene"})
-      return found[2];
-    else if (found[1] == "end" && !sections.empty())
-      sections.pop_back();
-  }
-  return "";
-}
 
 Json read_summary(const fs::path &file) {
   std::ifstream stream(file);
@@ -54,6 +39,23 @@ FrameSeries optional_series(Run &run, const char *name, const std::string &conse
 }
 
 } // namespace
+
+std::string scene_entry(const fs::path &scene, const std::string &path) {
+  static const std::regex form(R"(\s*(subsection\b|end\b|set\b)\s*([^#=]*?)\s*(=\s*([^#]*?)\s*)?(#.*)?)");
+  std::ifstream stream(scene);
+  std::vector<std::string> sections;
+  std::smatch found;
+  for (std::string line; std::getline(stream, line);) {
+    if (!std::regex_match(line, found, form)) continue;
+    if (found[1] == "subsection")
+      sections.push_back(found[2]);
+    else if (found[1] == "set" && fmt::format("{}/{}", fmt::join(sections, "/"), found[2].str()) == path)
+      return found[4];
+    else if (found[1] == "end" && !sections.empty())
+      sections.pop_back();
+  }
+  return "";
+}
 
 std::vector<double> axial_stress(const CsvTable &history) {
   const std::vector<double> &top = history.column("axial_stress_top_pa");
@@ -102,7 +104,7 @@ Run read_run(const fs::path &folder) {
   run.folder = folder;
   const fs::path whole = fs::weakly_canonical(folder);
   run.name = whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
-  run.title = scene_title(folder / "scene.prm");
+  run.title = scene_entry(folder / "scene.prm", "Scene/Title");
   if (run.title.empty()) run.title = run.name;
   run.history = read_csv(folder / "history.csv");
   run.moments = moments_of(run.history);

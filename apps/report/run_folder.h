@@ -46,6 +46,9 @@ struct Run {
   std::string pattern_words() const;
 };
 
+// What a .prm sets an entry to, "Platens/Top/Surface"; empty where it does not.
+std::string scene_entry(const std::filesystem::path &scene, const std::string &path);
+
 // Reads history, summary, cracks and the lists of frames. Only history.csv must be there; what else is
 // missing becomes a remark. Throws InputError where the folder or the history is missing, or any file is
 // damaged.

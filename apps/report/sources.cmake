@@ -7,6 +7,7 @@
 set(PLATEN_REPORT_SOURCES
   report/accuracy_study.cc
   report/bars.cc
+  report/biaxial.cc
   report/canvas.cc
   report/chart.cc
   report/cones.cc
@@ -22,6 +23,7 @@ set(PLATEN_REPORT_SOURCES
   report/platens.cc
   report/report.cc
   report/run_folder.cc
+  report/sides.cc
   report/specimen_pictures.cc
   report/specimen_view.cc
   report/state_listing.cc

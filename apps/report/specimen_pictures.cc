@@ -54,11 +54,11 @@ std::vector<double> values_of(const Spheres &spheres, Quantity quantity) {
 }
 
 // The outline where the cone is now, and its angle (or that there is none) beside the specimen.
-void mark_cone(CutView &view, const FittedCone &cone, PlatenEnd end, const Extent &extent) {
+void mark_cone(CutView &view, const FittedCone &cone, Side end, const Extent &extent) {
   if (cone.verdict == FittedCone::Verdict::not_measured) return;
-  const double up = end == PlatenEnd::top ? 1 : -1;
+  const double up = end == Side::top ? 1 : -1;
   const double beside = extent.half_width + 0.19 * extent.height() / 2,
-               height = (end == PlatenEnd::top ? extent.top : extent.bottom) - up * 0.09 * extent.height();
+               height = (end == Side::top ? extent.top : extent.bottom) - up * 0.09 * extent.height();
   if (cone.verdict == FittedCone::Verdict::none) {
     view.notes.push_back({{beside, 0, height}, "no cone"});
     return;
@@ -87,7 +87,7 @@ CutView view_of(const Run &run, ConeTime moment, Quantity quantity, const Extent
                      ? view_at(run, run.pattern_time(), quantity, "at " + run.pattern_words())
                      : view_at(run, run.moments.end_time, quantity, "at the end");
   if (quantity == Quantity::pieces)
-    for (const PlatenEnd end : {PlatenEnd::top, PlatenEnd::bottom})
+    for (const Side end : {Side::top, Side::bottom})
       mark_cone(view, cone_of(run, end, moment), end, extent);
   return view;
 }
@@ -111,7 +111,7 @@ void draw_three_moments(const Run &run, const Extent &extent, bool whole, const 
       view_at(run, run.moments.peak_time, Quantity::displacement, "near the peak"),
       view_at(run, run.moments.end_time, Quantity::displacement, "at the end")};
   for (CutView &view : views)
-    view.is_whole = whole;
+    view.is_whole = whole, view.shows_front = !has_further_sides(run);
   save_cut_views(run.title, whole ? "The specimen from outside" : words_of(Quantity::displacement).title,
                  views, extent, colouring_of(Quantity::displacement, views), png);
 }
@@ -143,7 +143,7 @@ void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const st
 std::string fragments_caption(const Run &run) {
   std::string text = "Half specimen, the pieces that bonds still hold together in colours.";
   const auto say = [&](const std::string &when, ConeTime time) {
-    const FittedCone top = cone_of(run, PlatenEnd::top, time), bottom = cone_of(run, PlatenEnd::bottom, time);
+    const FittedCone top = cone_of(run, Side::top, time), bottom = cone_of(run, Side::bottom, time);
     if (top.verdict == FittedCone::Verdict::not_measured &&
         bottom.verdict == FittedCone::Verdict::not_measured)
       return;

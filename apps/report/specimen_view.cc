@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace platen::apps::report {
 namespace {
@@ -177,9 +178,10 @@ void light_cut(vtkRenderer *renderer) {
   add(0.7, 0.1, 0.3);
 }
 
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole) {
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before) {
+  const bool whole = std::isinf(before);
   vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0, 0, 0);
+  plane->SetOrigin(0, whole ? 0 : before, 0);
   plane->SetNormal(0, -1, 0);
   vtkNew<vtkClipDataSet> half;
   half->SetInputData(platens);
@@ -207,7 +209,10 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
   for (std::size_t k = 0; k < views.size(); ++k) {
     vtkRenderer *renderer = add_panel(canvas, static_cast<int>(k), panel_width, views[k].caption);
     add_spheres(renderer, views[k], colours);
-    if (views[k].platens) add_platens(renderer, views[k].platens, views[k].is_whole);
+    const double cut = !views[k].is_whole     ? 0
+                       : views[k].shows_front ? std::numeric_limits<double>::infinity()
+                                              : 0.9 * extent.half_depth;
+    if (views[k].platens) add_platens(renderer, views[k].platens, cut);
     light_cut(renderer);
     add_outlines(renderer, views[k].outlines, 2 * extent.half_depth);
     look_at_cut(canvas, renderer, extent, 0.12 * extent.height());

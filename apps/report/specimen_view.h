@@ -31,6 +31,7 @@ struct CutView {
   Spheres spheres;
   std::vector<double> values;                   // coloured by, one per sphere
   bool is_whole = false;                        // not cut
+  bool shows_front = true;                      // whole: platens before the specimen too, which would hide it
   vtkSmartPointer<vtkUnstructuredGrid> platens; // may be null
   std::vector<Outline> outlines;
   std::vector<Note> notes;
@@ -85,7 +86,7 @@ vtkPolyDataMapper *add_lines(vtkRenderer *renderer, const std::vector<Outline> &
                              float width);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
-// The platens in grey, all of them or the half y < 0.
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, bool whole = false);
+// The platens in grey: what of them lies below y = `before` (m), infinite: all.
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before = 0);
 
 } // namespace platen::apps::report

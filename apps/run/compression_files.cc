@@ -37,8 +37,11 @@ std::string CompressionRun::description() const {
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, test_->coordination_number(),
                       test_->facts().packing_fraction);
-  text += fmt::format("  seated spheres: bottom {}, top {}\n", test_->bottom().layer().seats(),
-                      test_->top().layer().seats());
+  std::vector<std::string> seats;
+  for (const coupling::Side side : coupling::all_sides)
+    if (const coupling::Platen *platen = test_->platen(side))
+      seats.push_back(fmt::format("{} {}", platen->name(), platen->layer().seats()));
+  text += fmt::format("  seated spheres: {}\n", fmt::join(seats, ", "));
   text += text_of(scene_.general.quality, *scene_.parameters);
   text += text_of(scene_.platens);
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", fmt::join(effects_on(scene_), ", "),

@@ -42,6 +42,29 @@ bool bent(const PlatenTest &p) {
   return p.bent();
 }
 
+// A platen presses that side.
+template <coupling::Side side>
+bool presses(const PlatenTest &p) {
+  return p.platen(side) != nullptr;
+}
+template <coupling::Side side>
+bool presses_along(const PlatenTest &p) {
+  return presses<side>(p) || presses<coupling::opposite(side)>(p);
+}
+// Platens press other sides than top and bottom.
+bool presses_sides(const PlatenTest &p) {
+  return presses_along<coupling::Side::left>(p) || presses_along<coupling::Side::front>(p);
+}
+
+template <coupling::Side side>
+double stress_on(const Seen &s) {
+  return s.problem.stress(side);
+}
+template <coupling::Side side>
+double friction_work_at(const Seen &s) {
+  return s.problem.platen(side)->layer().friction_work;
+}
+
 bool is_there(const HistoryColumn &column, const PlatenTest *problem) {
   if (column.there == nullptr) return true;
   return problem != nullptr && column.there(*problem);
@@ -51,6 +74,7 @@ bool is_there(const HistoryColumn &column, const PlatenTest *problem) {
 
 const std::vector<HistoryColumn> &history_columns() {
   using S = Sample;
+  using coupling::Side;
   using dem::BondState;
   static const std::vector<HistoryColumn> columns{
       {"time_s", "s", &S::time, [](const Seen &s) { return s.problem.time(); }},
@@ -107,6 +131,20 @@ const std::vector<HistoryColumn> &history_columns() {
       {"deflection_m", "m", &S::deflection, [](const Seen &s) { return s.deflection(); }, number, bent},
       {"midspan_moment_n_m", "N m", &S::midspan_moment,
        [](const Seen &s) { return s.problem.midspan_moment(); }, number, bent},
+      {"stress_left_pa", "Pa", &S::stress_left, stress_on<Side::left>, number, presses<Side::left>},
+      {"stress_right_pa", "Pa", &S::stress_right, stress_on<Side::right>, number, presses<Side::right>},
+      {"stress_front_pa", "Pa", &S::stress_front, stress_on<Side::front>, number, presses<Side::front>},
+      {"stress_back_pa", "Pa", &S::stress_back, stress_on<Side::back>, number, presses<Side::back>},
+      {"strain_x", "1", nullptr, [](const Seen &s) { return s.problem.closure_strain(0); }, number,
+       presses_along<Side::left>},
+      {"strain_y", "1", nullptr, [](const Seen &s) { return s.problem.closure_strain(1); }, number,
+       presses_along<Side::front>},
+      {"friction_work_top_j", "J", nullptr, friction_work_at<Side::top>, number, presses_sides},
+      {"friction_work_bottom_j", "J", nullptr, friction_work_at<Side::bottom>, number, presses_sides},
+      {"friction_work_left_j", "J", nullptr, friction_work_at<Side::left>, number, presses<Side::left>},
+      {"friction_work_right_j", "J", nullptr, friction_work_at<Side::right>, number, presses<Side::right>},
+      {"friction_work_front_j", "J", nullptr, friction_work_at<Side::front>, number, presses<Side::front>},
+      {"friction_work_back_j", "J", nullptr, friction_work_at<Side::back>, number, presses<Side::back>},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},

@@ -37,9 +37,10 @@ struct Sample {
   double opening = 0;        // m, of a disc across its loaded diameter
   double deflection = 0;     // m, of a bent bar
   double midspan_moment = 0; // N m, of a bent bar
-  double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
-  double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
-  std::vector<double> more;  // of columns without a member, in their order
+  double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
+  double cycling = 0;       // 1 from a turn of the platens until its strain has been reached again
+  double axial_stage = 1;   // 0 while a cell's pressure rises and stands alone
+  std::vector<double> more; // of columns without a member, in their order
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
   double deviator() const { return stress() - cell_pressure; }         // Pa

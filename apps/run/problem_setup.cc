@@ -43,9 +43,11 @@ std::vector<Effect> effects(const Scene &s) {
       {s.platens.deformable, "elastic platens"},
       {s.platens.deformable && s.platens.elastic->seat, "spherical seat"},
       {s.platens.damping > 0, "platen dashpots"},
-      {s.platens.top.friction_static > 0 || s.platens.bottom.friction_static > 0, "platen friction"},
-      {s.platens.top.weakening.by != dem::Weakening::By::nothing ||
-           s.platens.bottom.weakening.by != dem::Weakening::By::nothing,
+      {s.platens.any_of([&](coupling::Side side) { return s.platens.at(side).friction_static > 0; }),
+       "platen friction"},
+      {s.platens.any_of([&](coupling::Side side) {
+         return s.platens.at(side).weakening.by != dem::Weakening::By::nothing;
+       }),
        "weakening friction"},
       {s.platens.glued, "glued ends"},
       {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
@@ -80,6 +82,19 @@ fem::Grid platen_grid(const Scene &scene, const Face &face) {
   }
 }
 
+// With their meshes; those of sides that stay free are left out.
+coupling::PlatenSettings platen_settings(const Scene &scene) {
+  using coupling::Side;
+  Platens all = scene.platens;
+  for (const Side side : coupling::all_sides)
+    if (all.has(side)) all.at(side).grid = platen_grid(scene, all.face(side));
+  if (!all.has(Side::left)) all.left.reset(), all.right.reset();
+  if (!all.has(Side::front)) all.front.reset(), all.back.reset();
+  if (!all.deformable) all.elastic.reset();
+  if (!scene.loading.bending()) all.span = not_given;
+  return all;
+}
+
 } // namespace
 
 std::vector<std::string> effects_on(const Scene &scene) {
@@ -95,11 +110,7 @@ coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   to.ends = scene.specimen.ends;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
-  to.platens = scene.platens;
-  to.platens.top.grid = platen_grid(scene, scene.platens.top_face);
-  to.platens.bottom.grid = platen_grid(scene, scene.platens.bottom_face);
-  if (!scene.platens.deformable) to.platens.elastic.reset();
-  if (!scene.loading.bending()) to.platens.span = not_given;
+  to.platens = platen_settings(scene);
   to.loading = scene.loading;
   to.loading.tension = scene.loading.test == LoadingTest::tension;
   to.loading.wall = scene.loading.walled();

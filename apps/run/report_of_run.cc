@@ -1,5 +1,6 @@
 // The lines for the screen at the end of a test.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -43,6 +44,12 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
     report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
     report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
   }
+  std::vector<std::string> sides;
+  for (const coupling::Side side : further_sides(problem))
+    sides.push_back(
+        fmt::format("{} {:.2f}", coupling::name_of(side), results.side_stress_at_peak(side) / 1e6));
+  if (!sides.empty() && !std::isnan(results.strength()))
+    report.words("stress on the sides then", fmt::format("{} MPa", fmt::join(sides, ", ")));
 }
 
 void report_stiffness(Report &report, const coupling::PlatenTest &problem, const Results &results) {
@@ -57,10 +64,13 @@ void report_stiffness(Report &report, const coupling::PlatenTest &problem, const
   report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),
               results.strain_at_peak_gauge());
   if (problem.shape().kind == dem::ShapeKind::disc) return;
-  const bool walled = problem.wall() != nullptr;
-  report.line(walled ? "constrained modulus (gauge, platen)" : "Young's modulus (gauge, platen)",
+  const bool walled = problem.wall() != nullptr, held = !further_sides(problem).empty();
+  report.line(walled ? "constrained modulus (gauge, platen)"
+              : held ? "axial stress over strain, at 40 %"
+                     : "Young's modulus (gauge, platen)",
               "{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
               results.youngs_modulus_platen() / 1e9);
+  if (held) return;
   if (walled)
     report.line("lateral over axial stress", "{:.3f}", results.lateral_over_axial());
   else

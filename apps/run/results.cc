@@ -109,6 +109,23 @@ double Results::at_peak(double Sample::*value) const {
   return peak_ > 0 ? samples_[peak_row()].*value : not_measured;
 }
 
+double Results::side_stress_at_peak(coupling::Side side) const {
+  switch (side) {
+    case coupling::Side::bottom:
+      return at_peak(&Sample::stress_bottom);
+    case coupling::Side::top:
+      return at_peak(&Sample::stress_top);
+    case coupling::Side::left:
+      return at_peak(&Sample::stress_left);
+    case coupling::Side::right:
+      return at_peak(&Sample::stress_right);
+    case coupling::Side::front:
+      return at_peak(&Sample::stress_front);
+    default:
+      return at_peak(&Sample::stress_back);
+  }
+}
+
 double Results::axial_time_to_peak() const {
   return peak_ > 0 ? samples_[peak_row()].time - zero().time : not_measured;
 }

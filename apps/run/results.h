@@ -70,6 +70,7 @@ public:
   double opening_at_peak() const { return at_peak(&Sample::opening); }               // m, of a disc
   double deflection_at_peak() const { return at_peak(&Sample::deflection); }         // m, of a bent bar
   double midspan_moment_at_peak() const { return at_peak(&Sample::midspan_moment); } // N m, of a bent bar
+  double side_stress_at_peak(coupling::Side side) const; // Pa; NaN where no platen presses
   // Flexural stress over deflection, secant at 40 % of the strength; Pa/m.
   double stress_per_deflection() const { return secant(&Sample::deflection); }
   double time_at_peak() const { return at_peak(&Sample::time); } // s

@@ -69,6 +69,20 @@ void add_wall(Json &to, const coupling::PlatenTest &problem, const Results &resu
   withdraw_moduli(to);
 }
 
+// Platens hold the sides: what a bare test calls Young's modulus and Poisson's ratio is neither.
+void add_sides(Json &to, const coupling::PlatenTest &problem, const Results &results) {
+  const std::vector<coupling::Side> sides = further_sides(problem);
+  if (sides.empty()) return;
+  Json seats, stresses;
+  for (const coupling::Side side : sides) {
+    seats[coupling::name_of(side)] = problem.platen(side)->layer().seats();
+    stresses[coupling::name_of(side)] = results.side_stress_at_peak(side);
+  }
+  to["seated_sides"] = seats;
+  to["side_stress_at_peak_pa"] = stresses;
+  withdraw_moduli(to);
+}
+
 // Of a disc: strength is 2 P / (pi D t); Young's modulus is not measured.
 void add_disc(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.shape().kind != dem::ShapeKind::disc) return;
@@ -112,6 +126,13 @@ void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &
 
 const char *app_of(const coupling::PlatenTest &problem) {
   return problem.shape().kind == dem::ShapeKind::disc ? "platen-brazilian" : "platen-compress";
+}
+
+std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem) {
+  std::vector<coupling::Side> sides;
+  for (const coupling::Side side : coupling::all_sides)
+    if (coupling::axis_of(side) != 2 && problem.platen(side) != nullptr) sides.push_back(side);
+  return sides;
 }
 
 std::size_t bytes_per_bond(const dem::Model &model) {
@@ -160,6 +181,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
       problem.facts().voigt_modulus > 0 ? problem.facts().voigt_modulus : not_measured;
   add_cell(s, problem, results);
   add_wall(s, problem, results);
+  add_sides(s, problem, results);
   add_disc(s, problem, results);
   add_bar(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);

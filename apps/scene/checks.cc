@@ -35,6 +35,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.bond();
   check.phases();
   check.contact();
+  check.sides();
   check.start();
   check.splitting();
   check.bending();

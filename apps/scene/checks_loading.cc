@@ -9,19 +9,21 @@ namespace platen::apps {
 
 using By = dem::Weakening::By;
 
-void SceneCheck::friction(const std::string &name, const dem::SurfaceFriction &side) const {
+void SceneCheck::friction(coupling::Side of) const {
+  const dem::SurfaceFriction &side = scene_.platens.at(of);
   if (side.friction_dynamic <= side.friction_static) return;
-  const std::string own = "Platens/" + name + "/Friction dynamic", common = "Platens/Friction dynamic";
+  const std::string own = section_of(of) + "/Friction dynamic", common = "Platens/Friction dynamic";
   const std::string blamed = parameters_.at(own).changed() ? own : common;
   refuse(blamed, "is above the static friction, " + shortest_text(side.friction_static) + ", of the " +
-                     (name == "Top" ? "top" : "bottom") + " platen. Allowed: 0 ... " +
+                     coupling::name_of(of) + " platen. Allowed: 0 ... " +
                      shortest_text(side.friction_static) + ".");
 }
 
-void SceneCheck::weakening(const std::string &name, const dem::SurfaceFriction &side) const {
+void SceneCheck::weakening(coupling::Side of) const {
+  const dem::SurfaceFriction &side = scene_.platens.at(of);
   if (side.weakening.by == By::nothing) return;
   const bool by_slip = side.weakening.by == By::slip;
-  const std::string own = "Platens/" + name + "/Friction law",
+  const std::string own = section_of(of) + "/Friction law",
                     blamed = parameters_.at(own).changed() ? own : "Platens/Friction law";
   if (!given(by_slip ? side.weakening.slip_length : side.weakening.slip_velocity))
     refuse(blamed, std::string("needs Platens/Slip ") + (by_slip ? "length > 0 m." : "velocity > 0 m/s."));
@@ -33,10 +35,8 @@ void SceneCheck::weakening(const std::string &name, const dem::SurfaceFriction &
 void SceneCheck::platens() const {
   const Platens &platens = scene_.platens;
   if (loads() && app_ != AppKind::study) surfaces();
-  friction("Top", platens.top);
-  friction("Bottom", platens.bottom);
-  weakening("Top", platens.top);
-  weakening("Bottom", platens.bottom);
+  for (const coupling::Side side : sides_of_scene)
+    if (platens.has(side)) friction(side), weakening(side);
   const bool tension = scene_.loading.test == LoadingTest::tension, stress = scene_.loading.servo;
   if (loads() && tension && !platens.glued)
     refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
@@ -63,10 +63,11 @@ void SceneCheck::surfaces() const {
     refuse("Platens/Surface",
            "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
            "density, which have no defaults.");
-  if (brush && (platens.top_face.mesh_file.empty() || platens.bottom_face.mesh_file.empty()))
-    refuse("Platens/Surface",
-           "needs the brushes: Platens/Top/Mesh file and Platens/Bottom/Mesh file, as "
-           "scripts/brush_platen.py writes them.");
+  std::string brushes; // of all sides, where one lacks its own
+  for (const coupling::Side side : sides_of_scene)
+    if (platens.has(side)) brushes += (brushes.empty() ? "" : " and ") + section_of(side) + "/Mesh file";
+  if (brush && platens.any_of([&](coupling::Side side) { return platens.face(side).mesh_file.empty(); }))
+    refuse("Platens/Surface", "needs the brushes: " + brushes + ", as scripts/brush_platen.py writes them.");
   if (platens.surface == SurfaceKind::glued && !platens.glued)
     refuse("Platens/Surface", "ties the ends, but Platens/Attachment = contact. Allowed: glued.");
 }
@@ -89,10 +90,9 @@ void SceneCheck::deformable_platens() const {
 }
 
 void SceneCheck::meshes() const {
-  for (const bool top : {true, false}) {
-    const std::string &file = (top ? scene_.platens.top_face : scene_.platens.bottom_face).mesh_file;
-    const char *path = top ? "Platens/Top/Mesh file" : "Platens/Bottom/Mesh file";
-    if (file.empty()) continue;
+  for (const coupling::Side side : sides_of_scene) {
+    const std::string &file = scene_.platens.face(side).mesh_file, path = section_of(side) + "/Mesh file";
+    if (file.empty() || !scene_.platens.has(side)) continue;
     readable(path, file, "");
     if (scene_.loading.bending()) refuse(path, "does not go with Loading/Test = three point bending.");
     if (scene_.platens.strip_width > 0) refuse(path, "does not go with Platens/Strip width. Allowed: 0.");

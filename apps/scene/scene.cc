@@ -19,16 +19,17 @@ void inherit(Scene &scene, Parameters &parameters) {
   supply_surfaces(parameters, scene.platens);
   Platens &platens = scene.platens;
   const auto take = [](double &own, double common) { own = std::isnan(own) ? common : own; };
-  for (const bool top : {true, false}) {
-    dem::SurfaceFriction &side = top ? platens.top : platens.bottom;
+  for (const coupling::Side which : coupling::all_sides) {
+    dem::SurfaceFriction &side = platens.at(which);
     const dem::SurfaceFriction &both = platens.both;
     take(side.friction_static, both.friction_static);
     take(side.friction_dynamic, both.friction_dynamic);
     side.friction_dynamic = side.dynamic();
-    if (has_word(parameters, top ? "Platens/Top/Friction law" : "Platens/Bottom/Friction law", {"common"}))
+    if (has_word(parameters, section_of(which) + "/Friction law", {"common"}))
       side.weakening.by = both.weakening.by;
     take(side.weakening.slip_length, both.weakening.slip_length);
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
+    platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
@@ -38,8 +39,6 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
-  scene.platens.top_face.mesh_file = resolved_path(parameters.at("Platens/Top/Mesh file"));
-  scene.platens.bottom_face.mesh_file = resolved_path(parameters.at("Platens/Bottom/Mesh file"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
 }

@@ -19,6 +19,7 @@ public:
   void bond() const;
   void phases() const;
   void contact() const;
+  void sides() const;
   void platens() const;
   void loading() const;
   void wave_transits() const;
@@ -49,8 +50,8 @@ private:
   void surfaces() const;
   void deformable_platens() const;
   void meshes() const;
-  void friction(const std::string &name, const dem::SurfaceFriction &side) const;
-  void weakening(const std::string &name, const dem::SurfaceFriction &side) const;
+  void friction(coupling::Side of) const;
+  void weakening(coupling::Side of) const;
   void note(const std::string &path, const std::string &why);
   void notes_of_declarations();
   void bar_notes();

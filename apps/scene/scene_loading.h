@@ -3,6 +3,8 @@
 // left out of the test (apps/run/problem_setup.h).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "apps/scene/quantities.h"
@@ -18,18 +20,59 @@ struct Face { // of one platen
   std::string mesh_file; // Gmsh; empty: a plate
 };
 
+// Which sides of a box have platens: top and bottom, and those along x, along y, or both.
+enum class PlatenSides { two, four_x, four_y, six };
+inline const Words<PlatenSides> platen_sides{{"two", PlatenSides::two},
+                                             {"four x", PlatenSides::four_x},
+                                             {"four y", PlatenSides::four_y},
+                                             {"six", PlatenSides::six}};
+
+// In the order of scenes.
+constexpr std::array<coupling::Side, coupling::side_count> sides_of_scene{
+    coupling::Side::top,   coupling::Side::bottom, coupling::Side::left,
+    coupling::Side::right, coupling::Side::front,  coupling::Side::back};
+
+// "Platens/Left"
+inline std::string section_of(coupling::Side side) {
+  std::string name = coupling::name_of(side);
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return "Platens/" + name;
+}
+
 struct Platens : coupling::PlatenSettings {
   bool deformable = false; // `elastic` counts then
   SurfaceKind surface = SurfaceKind::custom;
-  dem::SurfaceFriction both{0.3, not_given, {}}; // what top and bottom take where the file gives none
-  Face top_face, bottom_face;
-  double mesh_unit = 1; // m, of the mesh files
+  dem::SurfaceFriction both{0.3, not_given, {}}; // what a side takes where the file gives none
+  PlatenSides sides = PlatenSides::two;
+  std::array<Face, coupling::side_count> faces; // by side
+  double mesh_unit = 1;                         // m, of the mesh files
 
   Platens() {
     elastic.emplace();
-    top.friction_static = bottom.friction_static = not_given;
+    left.emplace(), right.emplace(), front.emplace(), back.emplace();
+    for (const coupling::Side side : coupling::all_sides)
+      at(side).friction_static = not_given;
   }
-  bool meshed() const { return !top_face.mesh_file.empty() || !bottom_face.mesh_file.empty(); }
+  // All sides stand ready; these have platens.
+  bool has(coupling::Side side) const {
+    const int axis = coupling::axis_of(side);
+    return axis == 2 || sides == PlatenSides::six ||
+           sides == (axis == 0 ? PlatenSides::four_x : PlatenSides::four_y);
+  }
+  template <class Holds> // of a side
+  bool any_of(const Holds &holds) const {
+    return std::any_of(coupling::all_sides.begin(), coupling::all_sides.end(),
+                       [&](coupling::Side side) { return has(side) && holds(side); });
+  }
+  coupling::PlatenSide &at(coupling::Side side_of) {
+    return const_cast<coupling::PlatenSide &>(*side(side_of));
+  }
+  const coupling::PlatenSide &at(coupling::Side side_of) const { return *side(side_of); }
+  Face &face(coupling::Side side) { return faces[static_cast<std::size_t>(side)]; }
+  const Face &face(coupling::Side side) const { return faces[static_cast<std::size_t>(side)]; }
+  bool meshed() const {
+    return any_of([this](coupling::Side side) { return !face(side).mesh_file.empty(); });
+  }
 };
 
 enum class LoadingTest { compression, tension, hydrostatic, uniaxial_strain, three_point_bending };

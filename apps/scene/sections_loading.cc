@@ -10,7 +10,7 @@ namespace {
 using By = dem::Weakening::By;
 
 bool any_weakens(const Scene &scene, By by) {
-  return scene.platens.top.weakening.by == by || scene.platens.bottom.weakening.by == by;
+  return scene.platens.any_of([&](coupling::Side side) { return scene.platens.at(side).weakening.by == by; });
 }
 
 void declare_friction(Section &section, dem::SurfaceFriction &friction, const std::string &common) {
@@ -38,16 +38,34 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
   of.rest({"friction_law"});
 }
 
-void declare_side(Parameters &parameters, const std::string &name, coupling::PlatenSide &side, Face &face) {
-  Section section(parameters, "Platens/" + name);
-  section.entry<SurfaceKind>("Surface", face.surface, surface_words(true),
+void declare_side(Parameters &parameters, Platens &platens, coupling::Side side) {
+  Section section(parameters, section_of(side));
+  section.entry<SurfaceKind>("Surface", platens.face(side).surface, surface_words(true),
                              "As Platens/Surface, of this platen alone; common: as both.");
-  declare_friction(section, side, "Platens/");
+  declare_friction(section, platens.at(side), "Platens/");
+  const bool along_z = coupling::axis_of(side) == 2;
+  const std::string turned =
+      std::string(" As for ") + (coupling::is_high(side) ? "Top" : "Bottom") + ", its z along " +
+      (coupling::axis_of(side) == 0 ? "x, x along y, y along z." : "y, x along z, y along x.");
   section
-      .file("Mesh file", face.mesh_file,
+      .file("Mesh file", platens.face(side).mesh_file,
             "Gmsh mesh of hexahedra (.msh, 2.2 or 4.1) in place of a plate: its extreme plane towards the "
-            "specimen is laid on the end, the far plane is the machine's.")
-      .member(name == "Top" ? "platens.top.grid" : "platens.bottom.grid");
+            "specimen is laid on the end, the far plane is the machine's." +
+                (along_z ? "" : turned))
+      .member(std::string("platens.") + coupling::name_of(side) + ".grid");
+}
+
+// Left and right along x, front and back along y.
+void declare_further_sides(Parameters &parameters, Platens &platens) {
+  for (const coupling::Side side : coupling::all_sides) {
+    if (coupling::axis_of(side) == 2) continue;
+    const std::size_t first = parameters.entries().size();
+    declare_side(parameters, platens, side);
+    for (std::size_t k = first; k < parameters.entries().size(); ++k)
+      Declared(parameters, parameters.entries()[k].path)
+          .only_if([side](const Scene &s) { return s.platens.has(side); },
+                   "Platens/Sides leaves that side free");
+  }
 }
 
 void declare_elastic(Section &section, Platens &platens) {
@@ -82,6 +100,16 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   Members of(section, platens);
   section.entry<bool>("Kind", platens.deformable, {{"rigid", false}, {"deformable", true}},
                       "Rigid bodies, or elastic ones by finite elements.");
+  section
+      .entry(
+          "Sides", platens.sides, platen_sides,
+          "Which sides of a box have platens; two: top and bottom; four x, four y: left and right (along "
+          "x), or front and back (along y), too; six: all. Top and bottom do what Loading says, the others "
+          "stand still.")
+      .member("platens.left")
+      .member("platens.right")
+      .member("platens.front")
+      .member("platens.back");
   section.entry<SurfaceKind>("Surface", platens.surface, surface_words(false),
                              "What both platens' faces are: the entries that a word stands for, each where "
                              "the scene does not give it. " +
@@ -89,8 +117,10 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   declare_friction(section, platens.both, "");
   section.stiffness("Stiffness", platens.stiffness, false,
                     "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
-  for (const char *member : {"tangential_ratio", "damping", "overhang"})
+  for (const char *member : {"tangential_ratio", "damping"})
     of(member);
+  of("overhang").unless("Platens/Sides", {"six"});
+  of("edge_gap").unless("Platens/Sides", {"two"});
   of("strip_width")
       .only_if([](const Situation &s) { return s.app == AppKind::brazilian || s.scene.loading.bending(); },
                "only platen-brazilian and three point bending have strips");
@@ -104,13 +134,14 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");
   of("glued", "Attachment");
   of.rest();
-  declare_side(parameters, "Top", platens.top, platens.top_face);
+  declare_side(parameters, platens, coupling::Side::top);
   Section top(parameters, "Platens/Top");
   Members control(top, loading);
   control("servo", "Control");
   Members(top, *platens.elastic)("seat");
   control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).told("Control = stress");
-  declare_side(parameters, "Bottom", platens.bottom, platens.bottom_face);
+  declare_side(parameters, platens, coupling::Side::bottom);
+  declare_further_sides(parameters, platens);
 }
 
 void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {

@@ -21,6 +21,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_bond.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
+  scene/checks_sides.cc
   scene/checks_specimen.cc
   scene/quality.cc
   scene/scene.cc

@@ -4,6 +4,7 @@
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 namespace {
@@ -98,12 +99,24 @@ std::string text_of(const Platens &platens) {
       text += ", velocity weakening over " + shortest_text(side.weakening.slip_velocity) + " m/s";
     return platens.glued ? std::string("glued") : text;
   };
-  const std::string top = told(platens.top_face, platens.top),
-                    bottom = told(platens.bottom_face, platens.bottom);
-  std::string text = top == bottom ? "  platens: " + top + "\n"
-                                   : "  top platen: " + top + "\n  bottom platen: " + bottom + "\n";
+  std::vector<std::pair<std::string, std::vector<std::string>>> alike; // what is told, of which sides
+  for (const coupling::Side side : sides_of_scene) {
+    if (!platens.has(side)) continue;
+    const std::string text = told(platens.face(side), platens.at(side));
+    auto found = std::find_if(alike.begin(), alike.end(), [&](const auto &one) { return one.first == text; });
+    if (found == alike.end()) found = alike.insert(found, {text, {}});
+    found->second.emplace_back(coupling::name_of(side));
+  }
+  std::string text;
+  for (const auto &[what, sides] : alike)
+    text += "  " +
+            (platens.sides == PlatenSides::two && alike.size() == 1
+                 ? "platens"
+                 : joined(sides) + (sides.size() == 1 ? " platen" : " platens")) +
+            ": " + what + "\n";
   for (const Surface &one : surfaces())
-    if (!one.entries.empty() && (one.kind == kind(platens.top_face) || one.kind == kind(platens.bottom_face)))
+    if (!one.entries.empty() &&
+        platens.any_of([&](coupling::Side side) { return one.kind == kind(platens.face(side)); }))
       text += "    " + documentation(one) + "\n";
   return text;
 }
@@ -115,8 +128,8 @@ void supply_surfaces(Parameters &parameters, const Platens &platens) {
     for (const auto &[key, text] : surface(kind).entries)
       parameters.supply(section + "/" + key, text, word);
   };
-  supply("Platens/Top", platens.top_face.surface);
-  supply("Platens/Bottom", platens.bottom_face.surface);
+  for (const coupling::Side side : coupling::all_sides)
+    supply(section_of(side), platens.face(side).surface);
   supply("Platens", platens.surface);
 }
 

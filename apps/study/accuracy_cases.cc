@@ -54,9 +54,9 @@ std::string needs_packing(const Scene &s) {
 
 std::string needs_plates(const Scene &s) {
   if (!deformable(s)) return "needs Platens/Kind = deformable.";
-  return s.platens.top_face.mesh_file.empty() || s.platens.bottom_face.mesh_file.empty()
+  return s.platens.any_of([&](coupling::Side side) { return s.platens.face(side).mesh_file.empty(); })
              ? ""
-             : "has no effect: both platens have a Mesh file.";
+             : "has no effect: all platens have a Mesh file.";
 }
 
 std::string needs_solves(const Scene &s) {

@@ -24,10 +24,10 @@ void check_test(const Scene &scene) {
 
 void check_surfaces(const Scene &scene) {
   if (scene.study.surfaces.empty()) return;
-  for (const char *side : {"Platens/Top/", "Platens/Bottom/"})
-    for (const char *key : {"Surface", "Friction static", "Friction dynamic", "Friction law"})
-      if (scene.parameters->at(std::string(side) + key).changed())
-        scene.parameters->refuse(std::string(side) + key,
+  for (const coupling::Side side : coupling::all_sides)
+    for (const char *key : {"/Surface", "/Friction static", "/Friction dynamic", "/Friction law"})
+      if (scene.platens.has(side) && scene.parameters->at(section_of(side) + key).changed())
+        scene.parameters->refuse(section_of(side) + key,
                                  "contradicts Study/Surface list, which says what both platens are. Allowed: "
                                  "one of both.");
 }
@@ -72,7 +72,8 @@ std::vector<std::string> surface_entries(const Scene &scene, const StudySurface 
   if (to.kind != SurfaceKind::glued) take_back("Attachment", "contact");
   if (to.kind != SurfaceKind::rubber_sheet) take_back("Pad thickness", "0 m");
   if (to.kind != SurfaceKind::brush)
-    for (const char *file : {"Top/Mesh file", "Bottom/Mesh file"})
+    for (const char *file : {"Top/Mesh file", "Bottom/Mesh file", "Left/Mesh file", "Right/Mesh file",
+                             "Front/Mesh file", "Back/Mesh file"})
       take_back(file, "");
   return entries;
 }
@@ -153,8 +154,10 @@ StudyPlan plan_slenderness(const Scene &scene) {
 
 void label_platens(StudyCase &of, const Scene &led_to) {
   const Platens &p = led_to.platens;
-  const bool alike = p.top.friction_static == p.bottom.friction_static &&
-                     p.top.friction_dynamic == p.bottom.friction_dynamic,
+  const bool alike = !p.any_of([&](coupling::Side side) {
+    return p.at(side).friction_static != p.top.friction_static ||
+           p.at(side).friction_dynamic != p.top.friction_dynamic;
+  }),
              slides = alike && !p.glued, known = p.surface != SurfaceKind::custom;
   of.surface = known    ? surface(p.surface).word
                : slides ? "friction " + in_name(p.top.friction_static)

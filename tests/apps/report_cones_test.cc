@@ -16,7 +16,7 @@ const Extent specimen{Extent::Form::cylinder, 0.025, 0, 0.1, 0.025};
 
 TEST(ReportCones, through_its_axis_an_upright_cone_shows_a_triangle_cut_off_by_the_rim) {
   constexpr double half_angle = 0.6, tip = 0.05;
-  const auto section = section_of(upright(half_angle, {0.002, 0, tip}, -1), PlatenEnd::bottom, specimen);
+  const auto section = section_of(upright(half_angle, {0.002, 0, tip}, -1), Side::bottom, specimen);
   ASSERT_GT(section.size(), 10u);
   for (std::size_t k = 0; k < section.size(); ++k) {
     const auto [x, z] = section[k];
@@ -31,7 +31,7 @@ TEST(ReportCones, through_its_axis_an_upright_cone_shows_a_triangle_cut_off_by_t
 TEST(ReportCones, points_of_the_section_of_a_leaning_cone_beside_the_plane_lie_on_its_flank) {
   FittedCone cone = upright(0.5, {0.001, -0.008, 0.06}, 1);
   cone.axis = {0.2, 0.1, std::sqrt(1 - 0.05)};
-  const auto section = section_of(cone, PlatenEnd::top, specimen);
+  const auto section = section_of(cone, Side::top, specimen);
   ASSERT_GT(section.size(), 10u);
   double lowest = 0.1;
   for (const auto &[x, z] : section) {
@@ -66,16 +66,16 @@ TEST(ReportCones, it_is_carried_by_the_most_of_its_spheres) {
 TEST(ReportCones, what_was_not_looked_for_is_not_told_as_absent) {
   report::Run run;
   run.summary = {{"cone_top", nullptr}, {"cone_bottom", nullptr}}; // of a build that did not look
-  EXPECT_EQ(cone_of(run, PlatenEnd::top, ConeTime::fall).verdict, FittedCone::Verdict::not_measured);
+  EXPECT_EQ(cone_of(run, Side::top, ConeTime::fall).verdict, FittedCone::Verdict::not_measured);
   run.summary["pattern"] = "crushing";
-  EXPECT_EQ(cone_of(run, PlatenEnd::top, ConeTime::fall).verdict, FittedCone::Verdict::none);
-  EXPECT_EQ(cone_of(run, PlatenEnd::top, ConeTime::end).verdict, FittedCone::Verdict::not_measured);
+  EXPECT_EQ(cone_of(run, Side::top, ConeTime::fall).verdict, FittedCone::Verdict::none);
+  EXPECT_EQ(cone_of(run, Side::top, ConeTime::end).verdict, FittedCone::Verdict::not_measured);
   run.summary["final_pattern"] = "cones";
   run.summary["final_cone_top"] = {{"half_angle_deg", 45.0},
                                    {"confidence", 0.5},
                                    {"apex_m", {0.001, 0.0, 0.07}},
                                    {"axis", {0.0, 0.0, 1.0}}};
-  const FittedCone cone = cone_of(run, PlatenEnd::top, ConeTime::end);
+  const FittedCone cone = cone_of(run, Side::top, ConeTime::end);
   EXPECT_EQ(cone.verdict, FittedCone::Verdict::found);
   EXPECT_NEAR(cone.half_angle, 0.785398, 1e-6);
   EXPECT_EQ(words_of(cone), "45 degrees (confidence 0.50)");

@@ -17,7 +17,7 @@ TEST(ReportPlatens, profiles_are_those_of_a_known_traction_and_leave_out_the_sle
   write_example(folder / "run", example);
   const report::Run run = read_run(folder / "run");
   EXPECT_EQ(run.moments.peak_time, example_peak_time);
-  for (const PlatenEnd end : {PlatenEnd::bottom, PlatenEnd::top}) {
+  for (const Side end : {Side::bottom, Side::top}) {
     const PlatenContacts contacts = contacts_with(end, nearest(run.contacts, example_peak_time));
     ASSERT_EQ(contacts.size(), 2000u);
     const auto sliding =
