@@ -141,7 +141,9 @@ private:
     return std::make_unique<PressureTask>(p);
   }
 
-  double rate_of(const SideAsk &ask) const { return std::isnan(ask.value) ? test_.axial_rate() : ask.value; }
+  double rate_of(const SideAsk &ask) const {
+    return (ask.back ? -1 : 1) * (std::isnan(ask.value) ? test_.axial_rate() : ask.value);
+  }
 
   std::unique_ptr<Task> task(const SideAsk &ask, double ramp) {
     if (lateral_ && ask.side == SideGroup::lateral) return pressure_task(ask, ramp);
@@ -216,9 +218,12 @@ private:
       const bool strain = end.what == Reached::strain || end.what == Reached::strain_change;
       for (const SideAsk &ask : stage.asks)
         if (strain && ask.ask == Ask::rate && platens(ask.side).axis == platens(end.of).axis &&
-            direction(stage, end.of) > 0)
-          seconds = std::max(seconds, 0.5 * ramp + (end.value - strain_before(stage, end)) *
-                                                       platens(end.of).length / std::abs(rate_of(ask)));
+            direction(stage, end.of) > 0) {
+          const double before = strain_before(stage, end);
+          const double way = (end.value - before) * platens(end.of).length;
+          const bool from_rest = before <= test_.settings().loading.start_strain;
+          seconds = std::max(seconds, (from_rest ? 0.5 * ramp : 0.0) + way / std::abs(rate_of(ask)));
+        }
     }
     for (const SideAsk &ask : stage.asks) // the platens go as far as the specimen widens, with the usual nu
       for (const StageUntil &end : stage.until)

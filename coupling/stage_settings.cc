@@ -43,6 +43,13 @@ std::vector<Side> sides_of(SideGroup group) {
   }
 }
 
+bool needs_circumferential_strain(const StageSettings &stage) {
+  return std::any_of(stage.asks.begin(), stage.asks.end(),
+                     [](const SideAsk &ask) { return ask.ask == Ask::circumferential; }) ||
+         std::any_of(stage.until.begin(), stage.until.end(),
+                     [](const StageUntil &end) { return end.what == Reached::circumferential_strain; });
+}
+
 namespace {
 
 bool overlap(SideGroup one, SideGroup other) {
@@ -109,7 +116,9 @@ private:
       fail(ask, "asks what a cell cannot. Allowed: pressure, share of a side, hold, free.");
     if ((ask.ask == Ask::stress || ask.ask == Ask::pressure) && !(ask.value >= 0))
       fail(ask, "pulls. Allowed: 0 and more, compression.");
-    if (ask.ask == Ask::rate && std::isnan(ask.value) && !scope_.rate)
+    const bool by_loading =
+        (ask.ask == Ask::rate && std::isnan(ask.value)) || ask.ask == Ask::circumferential;
+    if (by_loading && !scope_.rate)
       fail(ask, "names no rate, nor does the loading. Allowed: a speed, or a `loading.rate`.");
     if (ask.ask == Ask::rate && ask.value == 0) fail(ask, "goes nowhere. Allowed: hold.");
     if (ask.ask == Ask::share) share(ask);

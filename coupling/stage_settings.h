@@ -39,6 +39,7 @@ struct SideAsk {
   SideGroup side = SideGroup::axial;
   Ask ask = Ask::hold;
   double value = not_given;        // a rate that is not given is that of the loading
+  bool back = false;               // of a rate: platens part at it
   SideGroup of = SideGroup::axial; // of a share
   double path = 0;                 // of a pressure, 1: what it gains per deviator of the stage
   // Of a servo, where they are not chosen: gain and limit; s, how far ahead it is told what will be asked.
@@ -61,6 +62,9 @@ struct StageSettings {
   // s, at which it is over though it has not settled; not given: twice ramp and hold.
   double latest = not_given;
 };
+
+// Whether it is led or ended by the circumferential strain.
+bool needs_circumferential_strain(const StageSettings &stage);
 
 // What stages can ask of a test.
 struct StageScope {

@@ -40,6 +40,7 @@ struct Sample {
   double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
   double cycling = 0;       // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;   // 0 while a cell's pressure rises and stands alone
+  double stage = 1;         // of those that the scene writes, from 1
   std::vector<double> more; // of columns without a member, in their order
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa

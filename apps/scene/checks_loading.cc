@@ -193,7 +193,7 @@ void SceneCheck::cell() const {
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   if (!loading.confined()) return;
-  if (loads() && !(loading.cell->pressure > 0))
+  if (loads() && !loading.staged() && !(loading.cell->pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
   if (loads() && !scene_.bond.bonded())
     refuse("Loading/Confinement",

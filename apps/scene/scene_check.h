@@ -27,6 +27,7 @@ public:
   void splitting() const;
   void bending() const;
   void cycles() const;
+  void stages() const;
   void cell() const;
   void pair_test() const;
   void led_pair() const;

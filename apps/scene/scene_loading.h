@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/scene/quantities.h"
+#include "apps/scene/scene_stages.h"
 #include "coupling/platen_test_settings.h"
 
 namespace platen::apps {
@@ -85,13 +86,15 @@ enum class ConfinementKind { none, particles, sleeve };
 
 struct Loading : coupling::LoadingSettings {
   LoadingTest test = LoadingTest::compression;
-  double stop_at_residual = 0.02;                      // fraction of the peak stress; 0: never
-  ConfinementKind confinement = ConfinementKind::none; // `cell`, and its sleeve, count then
+  double stop_at_residual = 0.02;                       // fraction of the peak stress; 0: never
+  ConfinementKind confinement = ConfinementKind::none;  // `cell`, and its sleeve, count then
+  std::array<StageSection, most_stages> stage_sections; // what `stages` are made of
 
   Loading() {
     target_strain = 0.01;
     cell.emplace().sleeve.emplace();
   }
+  bool staged() const { return !stages.empty(); }
   bool confined() const { return confinement != ConfinementKind::none; }
   bool sleeved() const { return confinement == ConfinementKind::sleeve; }
   bool walled() const { return test == LoadingTest::uniaxial_strain; }

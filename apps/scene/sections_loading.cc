@@ -162,6 +162,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   Members of(section, loading);
   Members cell(section, *loading.cell);
   const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
+  const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
+  const std::string staged = "Loading/Stage 1 is there";
   section.entry(
       "Test", loading.test, loading_tests,
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
@@ -169,7 +171,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
       "along x, two below.");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
-    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() && !s.rate_by_transits()
+    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() &&
+                   !s.scene.loading.staged() && !s.rate_by_transits()
                ? "the platens have to move."
                : "";
   });
@@ -179,14 +182,16 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       .unless("Platens/Top/Control", {"stress"})
       .unless("Loading/Test", {"hydrostatic"});
   of("ramp");
-  of("hold").only_if(driven, "Platens/Top/Control = motion");
+  of("hold").only_if(driven, "Platens/Top/Control = motion").only_if(unstaged, staged);
   of("start_strain");
-  of("target_strain").unless("Loading/Test", {"hydrostatic"});
+  of("target_strain").unless("Loading/Test", {"hydrostatic"}).only_if(unstaged, staged);
   section
       .number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
               "Stress after the peak, as a fraction of it, at which the run is over; 0: never.")
       .unless("Loading/Test", {"hydrostatic"});
-  of("servo_gain").only_if(driven, "Platens/Top/Control = motion");
+  of("servo_gain")
+      .only_if([](const Scene &s) { return s.loading.servo || s.loading.confined() || s.loading.staged(); },
+               "Platens/Top/Control = motion");
   section
       .entry<ConfinementKind>(
           "Confinement", loading.confinement,
@@ -196,8 +201,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
           "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
           "through rubber of finite elements.")
       .member("loading.cell");
-  cell("pressure", "Confining pressure").unless("Loading/Confinement", {"none"});
-  cell("ramp", "Confining ramp").unless("Loading/Confinement", {"none"});
+  cell("pressure", "Confining pressure").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
+  cell("ramp", "Confining ramp").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
   cell("path", "Pressure path")
       .unless("Loading/Confinement", {"none"})
       .unless("Loading/Test", {"hydrostatic"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dem/measure/gauge.h"
 
@@ -42,10 +43,13 @@ Circumference::Circumference(const Particles &p, const Shape &shape, const Bonds
 }
 
 double Circumference::strain(const Particles &p) const {
-  double sum = 0;
+  if (rows_.empty()) return std::numeric_limits<double>::quiet_NaN();
+  strains_.resize(rows_.size());
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    sum += dot(p.position[rows_[k]] - p.reference_position[rows_[k]], outward_[k]);
-  return sum / static_cast<double>(rows_.size());
+    strains_[k] = dot(p.position[rows_[k]] - p.reference_position[rows_[k]], outward_[k]);
+  const auto middle = strains_.begin() + static_cast<std::ptrdiff_t>(strains_.size() / 2);
+  std::nth_element(strains_.begin(), middle, strains_.end());
+  return *middle;
 }
 
 } // namespace platen::dem

@@ -9,9 +9,10 @@
 
 namespace platen::dem {
 
-// Mean over the spheres of the lateral surface in the middle half of the height of what each has moved
+// Median over the spheres of the lateral surface in the middle half of the height of what each has moved
 // outwards, over its distance from the axis (of a box: from the middle plane of its side): the strain of the
-// circumference. The surface is what lies within a mean diameter of it; loose spheres are passed over.
+// circumference. Pieces that have come off do not count as long as they are fewer than half. The surface is
+// what lies within a mean diameter of it; spheres that never had a bond are passed over.
 class Circumference {
 public:
   // The same whenever it is made, as Gauge. `bonds` may be null.
@@ -22,6 +23,7 @@ public:
 private:
   std::vector<int> rows_;
   std::vector<Vector3> outward_; // over the distance, 1/m
+  mutable std::vector<double> strains_;
 };
 
 } // namespace platen::dem
