@@ -175,7 +175,7 @@ Sides PlatenTest::sides() const {
 
 PlatensOfAxis PlatenTest::platens_of(Side side) const {
   const int axis = axis_of(side);
-  PlatensOfAxis found{{}, axis == 2 ? nominal_area() : face_area(shape(), axis), length(shape(), axis)};
+  PlatensOfAxis found{{}, axis == 2 ? nominal_area() : face_area(shape(), axis), length(shape(), axis), axis};
   for (std::size_t k = 0; k < boundaries().size(); ++k)
     if (boundaries()[k].get() == platen(side)) found.places.push_back(k);
   return found;
@@ -186,7 +186,7 @@ PlatensOfAxis PlatenTest::platens_along(int axis) const {
   for (const Side side : all_sides) {
     if (axis_of(side) != axis) continue;
     const PlatensOfAxis one = platens_of(side);
-    both.area = one.area, both.length = one.length;
+    both.area = one.area, both.length = one.length, both.axis = axis;
     both.places.insert(both.places.end(), one.places.begin(), one.places.end());
   }
   return both;

@@ -23,6 +23,9 @@ constexpr double patience = 2;
 constexpr double lag_of_share = 4;
 // And may move platens this many times as fast as any close at a rate.
 constexpr double reserve_of_share = 10;
+// What is missing of a stress is asked again within this many of the servo's own times: it does not swing
+// then.
+constexpr double times_of_servo = 4;
 
 // A list of stages becomes a program: groups of sides become platens by their places.
 class ProgramMaker {
@@ -112,7 +115,7 @@ private:
                            follows ? reserve_of_share * rate : test_.axial_rate());
   }
 
-  std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp) const {
+  std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp, bool consolidates) const {
     StressTask::Parameters p;
     p.platens = platens(ask.side);
     p.value = ask.ask == Ask::free ? 0 : ask.value;
@@ -120,6 +123,7 @@ private:
     p.ramp_to_rest = test_.ramp();
     p.lead = std::isnan(ask.lead) ? test_.lead_of_servo() : ask.lead;
     p.servo = servo(ask, p.platens, ramp);
+    if (!consolidates && !ask.servo) p.integral_time = times_of_servo * test_.lead_of_servo();
     if (ask.ask == Ask::share) p.followed = platens(ask.of), p.lag = lag();
     if (p.platens.places.size() == 1) {
       p.settled_by = {test_.platens_along(p.platens.axis)};
@@ -145,7 +149,7 @@ private:
     return (ask.back ? -1 : 1) * (std::isnan(ask.value) ? test_.axial_rate() : ask.value);
   }
 
-  std::unique_ptr<Task> task(const SideAsk &ask, double ramp) {
+  std::unique_ptr<Task> task(const SideAsk &ask, double ramp, bool consolidates) {
     if (lateral_ && ask.side == SideGroup::lateral) return pressure_task(ask, ramp);
     const PlatensOfAxis of = platens(ask.side);
     switch (ask.ask) {
@@ -156,7 +160,7 @@ private:
       case Ask::circumferential:
         return circumferential_task(ask, of, ramp);
       default:
-        return stress_task(ask, ramp);
+        return stress_task(ask, ramp, consolidates);
     }
   }
 
@@ -250,7 +254,7 @@ private:
     const std::vector<SideAsk> asks = asks_of(stage);
     std::vector<std::unique_ptr<Task>> tasks;
     for (const SideAsk &ask : asks)
-      tasks.push_back(task(ask, ramp));
+      tasks.push_back(task(ask, ramp, consolidates));
     add_holds(asks, tasks);
     return std::make_unique<LoadingStage>(
         LoadingStage::Parameters{stage.name, consolidates, expected_seconds(stage, ramp)}, std::move(tasks),

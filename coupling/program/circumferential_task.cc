@@ -7,10 +7,11 @@ namespace platen::coupling {
 
 namespace {
 
-// The error is closed within so many wave transits while the specimen is elastic. What the platens do reaches
-// the middle within half a one, and a falling specimen widens some ten times as much as an elastic one for
-// what they do: less would ring.
-constexpr double transits_of_error = 20;
+// The error is closed within so many wave transits where the specimen lags; where it falls, within so many:
+// what platens do reaches the middle within half a one.
+constexpr double transits_of_approach = 20, transits_of_retreat = 1;
+// Of its length, by which a specimen is released in a transit at most.
+constexpr double most_released = 1e-4;
 // Circumferential over axial strain, of concrete and rock while they are elastic.
 constexpr double poisson_ratio = 0.2;
 // The speed follows what is asked within a share of a transit: platens make no waves.
@@ -37,12 +38,12 @@ double CircumferentialTask::strain_asked(double passed) const {
 }
 
 void CircumferentialTask::command(const Measures &m, Commands &asked) {
-  const double dt = m.time_step(), passed = m.time() - 0.5 * dt - begun_,
-               tau = transits_of_error * parameters_.transit;
+  const double dt = m.time_step(), passed = m.time() - 0.5 * dt - begun_, length = parameters_.platens.length;
   const double error = strain_asked(passed) - m.circumferential_strain();
+  const double tau = (error < 0 ? transits_of_retreat : transits_of_approach) * parameters_.transit;
   const double rate = parameters_.rate * start_of_ramp(passed, parameters_.ramp) + error / tau; // 1/s
-  const double aim = std::clamp(parameters_.platens.length * rate / poisson_ratio, -parameters_.fastest,
-                                parameters_.fastest);
+  const double fastest_back = std::max(parameters_.fastest, most_released * length / parameters_.transit);
+  const double aim = std::clamp(length * rate / poisson_ratio, -fastest_back, parameters_.fastest);
   speed_ += std::min(1.0, dt / (transits_of_speed * parameters_.transit)) * (aim - speed_);
   parameters_.platens.move(m, speed_ / static_cast<double>(parameters_.platens.places.size()), asked);
 }

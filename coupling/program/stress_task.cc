@@ -64,13 +64,17 @@ void StressTask::command(const Measures &m, Commands &asked) {
     mean.stiffness += load.stiffness / count, mean.impedance += load.impedance / count;
     reaction += m.load(place) / count;
   }
-  double speed = servo_.velocity(wanted(m) * parameters_.platens.area, reaction, mean, m.time_step());
+  const double stress = wanted(m) + missing_;
+  double speed = servo_.velocity(stress * parameters_.platens.area, reaction, mean, m.time_step());
   const double middle = m.time() - 0.5 * m.time_step() - begun_;
   if (speed_found_ != 0) speed += speed_found_ * (1 - start_of_ramp(middle, parameters_.ramp_to_rest));
   parameters_.platens.move(m, speed, asked);
 }
 
 void StressTask::update(const Measures &m) {
+  const double now = parameters_.platens.stress(m);
+  if (parameters_.integral_time > 0 && now > 0 && m.time() > begun_)
+    missing_ += m.time_step() / parameters_.integral_time * (wanted(m) - now);
   if (!parameters_.followed || m.time() <= begun_) return;
   const double share = std::min(1.0, m.time_step() / parameters_.lag);
   followed_ += share * (parameters_.followed->stress(m) - followed_);
@@ -91,6 +95,7 @@ void StressTask::describe(Archive &archive) {
   archive("stress_found", stress_found_, "Pa");
   archive("speed_found", speed_found_, "m/s");
   archive("followed", followed_, "Pa");
+  archive("missing", missing_, "Pa");
   archive.part("servo", servo_);
 }
 

@@ -19,7 +19,10 @@ public:
     double value = 0;                      // Pa; 1 of `followed`
     std::optional<PlatensOfAxis> followed; // none: a stress
     double ramp = 0, lead = 0, lag = 0;    // s; lag > 0 where there is a followed one
-    double ramp_to_rest = 0;               // s, of the speed that it is found at
+    // s, in which what is missing of the stress is asked again: a specimen that widens at a steady speed
+    // pushes a servo off by that speed times its dashpot; 0: never.
+    double integral_time = 0;
+    double ramp_to_rest = 0; // s, of the speed that it is found at
     Servo::Parameters servo;
     // Whose stress has to be within 1 % of what is asked to have settled; empty: each of `platens`.
     std::vector<PlatensOfAxis> settled_by;
@@ -40,7 +43,7 @@ private:
   Parameters parameters_;
   Servo servo_;
   double begun_ = 0, stress_found_ = 0, speed_found_ = 0; // s, Pa, m/s
-  double followed_ = 0;                                   // Pa, smoothed
+  double followed_ = 0, missing_ = 0;                     // Pa: smoothed; over time, what was missing
 };
 
 } // namespace platen::coupling

@@ -9,6 +9,9 @@
 namespace platen::dem {
 namespace {
 
+// What a sphere counts at most, of the median's.
+constexpr double most_of_median = 3;
+
 struct FromAxis {
   double distance = 0, depth = 0; // m, of a centre: from the axis or middle plane; of it below the surface
   Vector3 outward{};
@@ -49,7 +52,11 @@ double Circumference::strain(const Particles &p) const {
     strains_[k] = dot(p.position[rows_[k]] - p.reference_position[rows_[k]], outward_[k]);
   const auto middle = strains_.begin() + static_cast<std::ptrdiff_t>(strains_.size() / 2);
   std::nth_element(strains_.begin(), middle, strains_.end());
-  return *middle;
+  const double most = most_of_median * std::abs(*middle);
+  double sum = 0;
+  for (const double strain : strains_)
+    sum += std::clamp(strain, -most, most);
+  return sum / static_cast<double>(strains_.size());
 }
 
 } // namespace platen::dem

@@ -9,10 +9,10 @@
 
 namespace platen::dem {
 
-// Median over the spheres of the lateral surface in the middle half of the height of what each has moved
+// Mean over the spheres of the lateral surface in the middle half of the height of what each has moved
 // outwards, over its distance from the axis (of a box: from the middle plane of its side): the strain of the
-// circumference. Pieces that have come off do not count as long as they are fewer than half. The surface is
-// what lies within a mean diameter of it; spheres that never had a bond are passed over.
+// circumference. None counts more than three times the median: pieces that fly off do not go on widening it.
+// The surface is what lies within a mean diameter of it; spheres that never had a bond are passed over.
 class Circumference {
 public:
   // The same whenever it is made, as Gauge. `bonds` may be null.

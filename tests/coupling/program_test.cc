@@ -471,9 +471,9 @@ TEST(circumferential, leads_the_platens_by_the_width) {
   const double later = 3e-4 + rate * (0.5e-3 + 1e-3);
   EXPECT_NEAR(speed(2e-3, later), 0.1 * rate / 0.2, 1e-9);
   EXPECT_NEAR(speed(2e-3, later - 1e-5), 0.1 * (rate + 1e-5 / (20 * transit)) / 0.2, 1e-9);
-  EXPECT_NEAR(speed(2e-3, later + 1e-4), 0.1 * (rate - 1e-4 / (20 * transit)) / 0.2, 1e-9);
-  EXPECT_NEAR(speed(2e-3, later + 1e-1), -5, 1e-9);
-  EXPECT_NEAR(speed(2e-3, later - 1e-1), 5, 1e-9);
+  EXPECT_NEAR(speed(2e-3, later + 1e-5), 0.1 * (rate - 1e-5 / transit) / 0.2, 1e-9);
+  EXPECT_NEAR(speed(2e-3, later + 1), -1e-4 * 0.1 / transit < -5 ? -1e-4 * 0.1 / transit : -5, 1e-9);
+  EXPECT_NEAR(speed(2e-3, later - 1), 5, 1e-9);
   EXPECT_THROW(CircumferentialTask({axial, 0, ramp, transit, 5}), std::invalid_argument);
 }
 
