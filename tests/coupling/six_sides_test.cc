@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
+#include "fem/grids.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/same_state.h"
 
@@ -187,6 +188,25 @@ TEST(six_sides, what_has_no_such_sides_is_refused) {
   settings.loading.wall = false;
   settings.platens.edge_gap = 0.26 * edge;
   refuses(box, settings, "platens.edge_gap", "quarter");
+}
+
+// A mesh is laid on its side as a plate is, z towards the specimen, x and y exchanged in a cycle; it must end
+// short of the neighbours too.
+TEST(six_sides, meshes_lie_on_their_sides_and_short_of_each_other) {
+  const auto with_mesh = [](double half_width) {
+    PlatenTestSettings settings = six_platens();
+    settings.platens.left->grid =
+        fem::make_grid(fem::BoxPlate{{-half_width, -3e-3, 7e-3}, {half_width, 3e-3, 9e-3}, {4, 4, 1}});
+    return settings;
+  };
+  const PlatenTest test(cube(), with_mesh(5e-3));
+  Vector3 low{1, 1, 1}, high{-1, -1, -1};
+  for (const Vector3 &x : test.platen(Side::left)->body().surface().vertices)
+    for (const int k : {0, 1, 2})
+      low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  EXPECT_LT(norm(low - Vector3{-0.5 * edge - 2e-3, -5e-3, 0.5 * edge - 3e-3}), 1e-12);
+  EXPECT_LT(norm(high - Vector3{-0.5 * edge, 5e-3, 0.5 * edge + 3e-3}), 1e-12);
+  refuses(cube(), with_mesh(5.9e-3), "platens.left.grid", "along y, where the platen");
 }
 
 // Steel would meet steel: the run ends before it does, and says which platen.
