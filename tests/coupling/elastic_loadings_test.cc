@@ -1,0 +1,427 @@
+// Elastic platens in every test there is: they hold glued ends, bear a stress that a servo holds, bend bars,
+// split discs, press on all sides and against a wall. Stiff ones are rigid ones, soft ones are in series.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "coupling/platen_test.h"
+#include "dem/packing/advancing_front.h"
+#include "dem/packing/growth.h"
+#include "fem/elastic_solid.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/small_cylinder.h"
+#include "tests/measured.h"
+#include "tests/same_state.h"
+
+namespace platen::coupling {
+namespace {
+
+using fem::ElasticMotion;
+
+constexpr double steel = 200e9; // Pa
+constexpr std::array both_motions{ElasticMotion::explicit_steps, ElasticMotion::quasi_static};
+
+const dem::Specimen &cylinder() {
+  static const dem::Specimen s = small_cylinder();
+  return s;
+}
+
+const dem::Specimen &block() {
+  static const dem::Specimen s = dem::advancing_front(
+      dem::box(12e-3, 12e-3, 14e-3), {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 3);
+  return s;
+}
+
+const dem::Specimen &bar() {
+  static const dem::Specimen s =
+      dem::laid_along_x(dem::random_close_packing(dem::box(4e-3, 4e-3, 14e-3), 0.6e-3, 0.25, 3));
+  return s;
+}
+
+const dem::Specimen &disc() {
+  static const dem::Specimen s =
+      dem::laid_down(dem::random_close_packing(dem::cylinder(4e-3, 4e-3), 0.6e-3, 0.25, 3));
+  return s;
+}
+
+// Nothing breaks, slides or is damped by signs of velocities, so that nothing decides by the last bits.
+PlatenTestSettings smooth() {
+  PlatenTestSettings s = elastic_settings(0.5);
+  s.model.local_damping = 0;
+  s.platens.damping = 0.1;
+  s.platens.elements_across = 6;
+  s.platens.thickness = 4e-3;
+  s.loading.rate = 0.2;
+  s.loading.ramp = 2e-5;
+  return s;
+}
+
+PlatenTestSettings elastic(PlatenTestSettings s, ElasticMotion motion, double young) {
+  s.platens.material.young_modulus = young;
+  s.platens.elastic = ElasticPlatens{};
+  s.platens.elastic->motion = motion;
+  return s;
+}
+
+PlatenTestSettings pulled() {
+  PlatenTestSettings s = smooth();
+  s.platens.glued = true;
+  s.loading.tension = true;
+  return s;
+}
+
+PlatenTestSettings bent() {
+  PlatenTestSettings s = smooth();
+  s.end_layer = 1;
+  s.platens.strip_width = 3e-3;
+  s.platens.span = 10e-3;
+  s.platens.thickness = 2e-3;
+  return s;
+}
+
+PlatenTestSettings split(double strip) {
+  PlatenTestSettings s = smooth();
+  s.end_layer = 1;
+  s.platens.strip_width = strip;
+  s.platens.thickness = 2e-3;
+  return s;
+}
+
+PlatenTestSettings walled() {
+  PlatenTestSettings s = smooth();
+  s.loading.wall = true;
+  return s;
+}
+
+PlatenTestSettings hydrostatic(bool sleeve) {
+  PlatenTestSettings s = smooth();
+  s.loading.cell.emplace();
+  s.loading.cell->pressure = 5e6;
+  s.loading.cell->ramp = 4e-5;
+  s.loading.cell->alone = true;
+  if (sleeve) {
+    s.loading.cell->sleeve.emplace();
+    s.loading.cell->sleeve->thickness = 1.5e-3;
+    s.loading.cell->sleeve->mass_scaling = 1;
+  }
+  return s;
+}
+
+PlatenTestSettings held_at(double stress) {
+  PlatenTestSettings s = smooth();
+  s.model.local_damping = 0.3;
+  s.loading.rate = 1;
+  s.loading.servo = true;
+  s.loading.top_stress = stress;
+  s.loading.hold = 1e-4;
+  s.loading.target_strain = 1;
+  return s;
+}
+
+void advance_to(PlatenTest &test, long steps) {
+  while (test.steps() < steps) {
+    test.advance(steps - test.steps());
+    test.model.take_cracks();
+  }
+}
+
+void advance_to_end(PlatenTest &test, long most) {
+  while (!test.program().finished() && test.steps() < most) {
+    test.advance(most);
+    test.model.take_cracks();
+  }
+  EXPECT_TRUE(test.program().finished()) << "after " << most << " steps";
+}
+
+double residual(const PlatenTest &test) {
+  const dem::EnergyLedger energy = test.energy();
+  return std::abs(energy.residual() / energy.boundary);
+}
+
+// Load on rigid platens over that on stiff ones that are led alike, less one, at 10, 100 and 1000 times the
+// modulus of steel.
+std::array<double, 3> shortfalls(const dem::Specimen &specimen, PlatenTestSettings rigid, long steps) {
+  PlatenTestSettings yields = elastic(rigid, ElasticMotion::quasi_static, steel);
+  rigid.time_step.fixed_step = yields.time_step.fixed_step = 0.5 * PlatenTest(specimen, rigid).time_step();
+  PlatenTest reference(specimen, rigid);
+  advance_to(reference, steps);
+  const double load = reference.axial_stress();
+  EXPECT_GT(std::abs(load), 1e5);
+  std::array<double, 3> all{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    yields.platens.material.young_modulus = std::array{10.0, 100.0, 1000.0}[k] * steel;
+    PlatenTest test(specimen, yields);
+    advance_to(test, steps);
+    EXPECT_EQ(clamp_closure(test), clamp_closure(reference));
+    all[k] = 1 - test.axial_stress() / load;
+  }
+  return all;
+}
+
+// As 1 / E, so that the next order is left out, and by less than 0.1 % at a thousand times steel.
+void expect_stiff_is_rigid(const dem::Specimen &specimen, const PlatenTestSettings &rigid, long steps) {
+  const std::array<double, 3> s = shortfalls(specimen, rigid, steps);
+  EXPECT_GT(s[2], 0);
+  EXPECT_LT(s[2], 1e-3);
+  EXPECT_NEAR(s[0] / s[1], 10, 1) << s[0] << " " << s[1] << " " << s[2];
+  EXPECT_NEAR(s[1] / s[2], 10, 1) << s[0] << " " << s[1] << " " << s[2];
+}
+
+TEST(elastic_loadings, stiff_glued_platens_pull_as_rigid_ones) {
+  expect_stiff_is_rigid(cylinder(), pulled(), 1500);
+  PlatenTestSettings seated = pulled();
+  seated.seat = true; // grains give moments too
+  expect_stiff_is_rigid(cylinder(), seated, 1500);
+}
+
+TEST(elastic_loadings, stiff_strips_bend_a_bar_as_rigid_ones) {
+  expect_stiff_is_rigid(bar(), bent(), 1500);
+}
+
+TEST(elastic_loadings, stiff_strips_and_platens_split_a_disc_as_rigid_ones) {
+  expect_stiff_is_rigid(disc(), split(1.5e-3), 1500);
+  expect_stiff_is_rigid(disc(), split(0), 1500);
+}
+
+TEST(elastic_loadings, stiff_platens_press_against_a_wall_as_rigid_ones) {
+  expect_stiff_is_rigid(cylinder(), walled(), 1500);
+}
+
+// Without lateral strain of the platen an even load moves its face evenly, so that by reciprocity the mean of
+// the face goes by F t / (E A) under any load: pulled, too.
+TEST(elastic_loadings, a_pulled_platen_gives_way_by_its_thickness_over_its_modulus) {
+  for (const bool glued_in_tension : {true, false}) {
+    PlatenTestSettings s = elastic(glued_in_tension ? pulled() : smooth(), ElasticMotion::quasi_static, 10e9);
+    s.platens.material.poisson_ratio = 0;
+    s.platens.overhang = 1;
+    s.seat = true;
+    PlatenTest test(block(), s);
+    advance_to(test, 1500);
+    for (Platen *platen : {&test.top(), &test.bottom()}) {
+      auto &solid = static_cast<fem::ElasticSolid &>(platen->body());
+      const double load = platen->load();
+      ASSERT_GT((glued_in_tension ? -1 : 1) * load, 1);
+      solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
+      const double yielded = dot(solid.displacement(), platen->inward()) - platen->closure();
+      const double expected = load * s.platens.thickness / (10e9 * test.nominal_area());
+      EXPECT_NEAR(yielded / expected, 1, 1e-6) << platen->name();
+    }
+  }
+}
+
+// 1 / K = 1 / K of the specimen between rigid ends + 2 t / (E A); soft platens hold its ends a little less.
+TEST(elastic_loadings, soft_glued_platens_are_in_series_with_the_specimen) {
+  PlatenTestSettings rigid = pulled();
+  rigid.platens.overhang = 1;
+  rigid.platens.material.poisson_ratio = 0;
+  rigid.model.local_damping = 0.5;
+  rigid.loading.rate = 0.02;
+  rigid.time_step.fixed_step = 4e-8;
+  const auto compliance = [](const PlatenTestSettings &s) { // m/Pa
+    PlatenTest test(block(), s);
+    advance_to(test, 6000);
+    EXPECT_LT(test.axial_stress(), -1e5);
+    EXPECT_LT(residual(test), 0.01);
+    return clamp_closure(test) / test.axial_stress();
+  };
+  const double specimen = compliance(rigid);
+  for (const ElasticMotion motion : both_motions) {
+    const double soft = 20e9, own = 2 * rigid.platens.thickness / soft;
+    ASSERT_GT(own, 0.2 * specimen);
+    EXPECT_NEAR(compliance(elastic(rigid, motion, soft)) / (specimen + own), 1, 0.02)
+        << static_cast<int>(motion) << " " << specimen << " " << own;
+  }
+}
+
+// What held grains get of force and moment is what platens get the other way: by the trapezoid exactly, as
+// velocity Verlet has it.
+TEST(elastic_loadings, force_and_moment_of_held_grains_are_those_on_the_platens) {
+  for (const ElasticMotion motion : both_motions) {
+    PlatenTestSettings s = elastic(pulled(), motion, 20e9);
+    s.seat = true;
+    s.platens.damping = 0.2;
+    PlatenTest test(cylinder(), s);
+    advance_to(test, 300);
+    const auto momenta = [&] {
+      const dem::Particles &p = test.model.particles;
+      std::array<Vector3, 2> sum{};
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vector3 momentum = p.mass[i] * p.velocity[i];
+        sum[0] += momentum;
+        const double inertia = 0.4 * p.mass[i] * p.radius[i] * p.radius[i];
+        sum[1] += cross(p.position[i], momentum) + inertia * (*p.angular_velocity)[i];
+      }
+      return sum;
+    };
+    const auto loads = [&] {
+      return std::array<Vector3, 2>{test.top().force() + test.bottom().force(),
+                                    test.top().body().moment({}) + test.bottom().body().moment({})};
+    };
+    const std::array<Vector3, 2> begun = momenta();
+    std::array<Vector3, 2> impulse{}, before = loads();
+    double passed = 0; // N m s, however they cancel
+    for (int k = 0; k < 300; ++k) {
+      test.step();
+      const std::array<Vector3, 2> now = loads();
+      for (std::size_t j = 0; j < 2; ++j)
+        impulse[j] += 0.5 * test.time_step() * (before[j] + now[j]);
+      passed += test.time_step() * std::abs(test.top().force()[2]);
+      before = now;
+    }
+    const std::array<Vector3, 2> ended = momenta();
+    const double arm = cylinder().shape.radius;
+    EXPECT_LT(norm(ended[0] - begun[0] + impulse[0]), 1e-9 * passed);
+    EXPECT_LT(norm(ended[1] - begun[1] + impulse[1]), 1e-9 * passed * arm);
+    EXPECT_GT(norm(impulse[1]), 1e-6 * passed * arm); // there is a moment to be missed
+    EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion);
+  }
+}
+
+// Against steel and on sheets a hundred times softer.
+TEST(elastic_loadings, a_servo_holds_its_stress_on_platens_that_yield) {
+  constexpr double asked = 5e6;
+  for (const ElasticMotion motion : both_motions)
+    for (const bool pad : {false, true}) {
+      PlatenTestSettings s = elastic(held_at(asked), motion, steel);
+      if (pad) {
+        s.platens.elastic->pad_thickness = 1e-3;
+        s.platens.elastic->pad = {1200, 2e9, 0.3};
+      }
+      PlatenTest test(cylinder(), s);
+      const double held_from = test.ramp() + 0.5 * s.loading.hold;
+      double farthest = 0;
+      while (!test.program().finished() && test.steps() < 20000) {
+        advance_to(test, test.steps() + 1);
+        if (test.time() > held_from) farthest = std::max(farthest, std::abs(test.stress_top() / asked - 1));
+      }
+      EXPECT_TRUE(test.program().finished());
+      EXPECT_LT(farthest, 0.01) << static_cast<int>(motion) << pad;
+      EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion) << pad;
+      EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height);
+    }
+}
+
+TEST(elastic_loadings, all_sides_press_alike_between_stiff_platens_as_between_rigid_ones) {
+  for (const bool sleeve : {false, true}) {
+    PlatenTestSettings rigid = hydrostatic(sleeve);
+    rigid.time_step.fixed_step = 5e-8;
+    PlatenTest reference(cylinder(), rigid);
+    advance_to_end(reference, 20000);
+    EXPECT_NEAR(reference.axial_stress(), 5e6, 5e4) << sleeve;
+    for (const ElasticMotion motion : both_motions) {
+      const bool still = motion == ElasticMotion::quasi_static;
+      PlatenTest test(cylinder(), elastic(rigid, motion, still ? 100 * steel : steel));
+      advance_to_end(test, 20000);
+      EXPECT_NEAR(test.axial_stress(), 5e6, 5e4) << sleeve << still;
+      EXPECT_NEAR(test.closure_strain() / reference.closure_strain(), 1, still ? 0.01 : 0.03)
+          << sleeve << still;
+      EXPECT_LT(residual(test), 5e-3) << sleeve << still;
+    }
+  }
+}
+
+// A bar on steel strips and one on strips with sheets of 2 GPa: these take a part of the deflection of the
+// clamps.
+TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
+  PlatenTestSettings s = elastic(bent(), ElasticMotion::explicit_steps, steel);
+  s.model.local_damping = 0.5;
+  s.time_step.fixed_step = 2e-8;
+  PlatenTest hard(bar(), s);
+  s.platens.elastic->pad_thickness = 0.5e-3;
+  s.platens.elastic->pad = {1200, 2e9, 0};
+  PlatenTest soft(bar(), s);
+  double yielded[2], force[2];
+  for (PlatenTest *test : {&hard, &soft}) {
+    advance_to(*test, 6000);
+    const bool pad = test == &soft;
+    force[pad] = test->top().load();
+    yielded[pad] = dot(test->top().body().displacement(), test->top().inward()) - test->top().closure();
+    EXPECT_LT(residual(*test), 5e-3) << pad;
+    // Half of the load on each support, and the moment of the bar between P L / 4 and that of the strips'
+    // inner edges.
+    const double nominal = 0.25 * 10e-3 * force[pad];
+    EXPECT_GT(test->midspan_moment(), 0.55 * nominal);
+    EXPECT_LT(test->midspan_moment(), 1.1 * nominal);
+  }
+  // P t / (E A) on the mean over an evenly loaded strip: 3 mm wide, 4.8 mm long, 4 mm of it over the bar.
+  const double even = force[1] * 0.5e-3 / (2e9 * 3e-3 * 4.8e-3);
+  EXPECT_GT(yielded[1], even);
+  EXPECT_LT(yielded[1], 1.6 * even);
+  EXPECT_LT(yielded[0] / force[0], 0.1 * yielded[1] / force[1]);
+}
+
+struct Loading {
+  const char *name;
+  std::function<const dem::Specimen &()> specimen;
+  PlatenTestSettings settings;
+};
+
+// Breaking and sliding, so that there is something to differ.
+std::vector<Loading> all_loadings() {
+  std::vector<Loading> all{{"glued", cylinder, pulled()},
+                           {"servo", cylinder, held_at(5e6)},
+                           {"bent", bar, bent()},
+                           {"strips", disc, split(1.5e-3)},
+                           {"disc", disc, split(0)},
+                           {"wall", cylinder, walled()},
+                           {"hydrostatic", cylinder, hydrostatic(false)},
+                           {"sleeve", cylinder, hydrostatic(true)}};
+  for (Loading &l : all) {
+    PlatenTestSettings &s = l.settings;
+    s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
+    s.model.contact = dem::ContactSettings{};
+    s.model.local_damping = 0.3;
+    s.seat = s.ends == Ends::ground;
+    s.platens.top = s.platens.bottom = {0.3, 0.2};
+    s.loading.rate = 0.5;
+  }
+  return all;
+}
+
+TEST(elastic_loadings, stops_and_threads_change_no_bit) {
+  constexpr long stop = 613, end = 1100; // in the middle of the loads' mean
+  int broken = 0;
+  for (const Loading &l : all_loadings())
+    for (const ElasticMotion motion : both_motions) {
+      const std::string name = std::string(l.name) + (motion == ElasticMotion::quasi_static ? " still" : "");
+      const PlatenTestSettings s = elastic(l.settings, motion, steel);
+      PlatenTest run(l.specimen(), s), threaded(l.specimen(), s), resumed(l.specimen(), s);
+      {
+        const ThreadLimit one(1);
+        advance_to(run, stop);
+      }
+      set_state(resumed, state_of(run));
+      {
+        const ThreadLimit one(1);
+        advance_to(run, end);
+      }
+      const ThreadLimit three(3);
+      advance_to(threaded, end);
+      advance_to(resumed, end);
+      EXPECT_TRUE(same_state(run, threaded)) << name;
+      // But for rows of contacts: which particles are listed as near depends on when that was done.
+      EXPECT_TRUE(same_state(without(state_of(run), "/contacts/rows/"),
+                             without(state_of(resumed), "/contacts/rows/")))
+          << name;
+      broken += static_cast<int>(run.broken_bonds());
+    }
+  EXPECT_GT(broken, 100);
+}
+
+TEST(elastic_loadings, the_energy_balance_closes_while_things_break) {
+  for (const Loading &l : all_loadings())
+    for (const ElasticMotion motion : both_motions) {
+      PlatenTest test(l.specimen(), elastic(l.settings, motion, steel));
+      advance_to(test, 2500);
+      EXPECT_LT(residual(test), 0.01) << l.name << static_cast<int>(motion);
+    }
+}
+
+} // namespace
+} // namespace platen::coupling
