@@ -165,32 +165,33 @@ std::array<double, 3> shortfalls(const dem::Specimen &specimen, PlatenTestSettin
 }
 
 // As 1 / E, so that the next order is left out, and by less than 0.1 % at a thousand times steel.
-void expect_stiff_is_rigid(const dem::Specimen &specimen, const PlatenTestSettings &rigid, long steps) {
+void expect_stiff_is_rigid(const std::string &what, const dem::Specimen &specimen,
+                           const PlatenTestSettings &rigid, long steps) {
   const std::array<double, 3> s = shortfalls(specimen, rigid, steps);
   EXPECT_GT(s[2], 0);
-  EXPECT_LT(s[2], 1e-3);
+  measured::expect_below(32, "shortfall_at_a_thousand_times_steel_" + what, s[2], 1e-3);
   EXPECT_NEAR(s[0] / s[1], 10, 1) << s[0] << " " << s[1] << " " << s[2];
   EXPECT_NEAR(s[1] / s[2], 10, 1) << s[0] << " " << s[1] << " " << s[2];
 }
 
 TEST(elastic_loadings, stiff_glued_platens_pull_as_rigid_ones) {
-  expect_stiff_is_rigid(cylinder(), pulled(), 1500);
+  expect_stiff_is_rigid("pulled", cylinder(), pulled(), 1500);
   PlatenTestSettings seated = pulled();
   seated.seat = true; // grains give moments too
-  expect_stiff_is_rigid(cylinder(), seated, 1500);
+  expect_stiff_is_rigid("pulled_by_seats", cylinder(), seated, 1500);
 }
 
 TEST(elastic_loadings, stiff_strips_bend_a_bar_as_rigid_ones) {
-  expect_stiff_is_rigid(bar(), bent(), 1500);
+  expect_stiff_is_rigid("bent", bar(), bent(), 1500);
 }
 
 TEST(elastic_loadings, stiff_strips_and_platens_split_a_disc_as_rigid_ones) {
-  expect_stiff_is_rigid(disc(), split(1.5e-3), 1500);
-  expect_stiff_is_rigid(disc(), split(0), 1500);
+  expect_stiff_is_rigid("split_by_strips", disc(), split(1.5e-3), 1500);
+  expect_stiff_is_rigid("split_by_platens", disc(), split(0), 1500);
 }
 
 TEST(elastic_loadings, stiff_platens_press_against_a_wall_as_rigid_ones) {
-  expect_stiff_is_rigid(cylinder(), walled(), 1500);
+  expect_stiff_is_rigid("in_a_wall", cylinder(), walled(), 1500);
 }
 
 // Without lateral strain of the platen an even load moves its face evenly, so that by reciprocity the mean of
