@@ -61,7 +61,7 @@ std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, dou
   return {along(half_x), along(half_y), 2};
 }
 
-// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
+// The strips between which a bar along x is bent: boxes along y, all alike, that make up one body.
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
@@ -107,8 +107,7 @@ std::array<double, 2> reach(const dem::Shape &shape, const PlatenSettings &p, Si
   const double all = ends[1] - ends[0], middle = 0.5 * (ends[0] + ends[1]);
   for (const bool high : {false, true}) {
     const bool neighbour = p.side(high ? opposite(low_side) : low_side) != nullptr;
-    const double half =
-        neighbour ? 0.5 * all - edge_gap(shape, p, axis_of(low_side)) : 0.5 * p.overhang * all;
+    const double half = neighbour ? 0.5 * all - edge_gap(shape, p, axis_of(low_side)) : 0.5 * p.overhang * all;
     ends[high] = middle + (high ? half : -half);
   }
   return ends;
@@ -149,9 +148,8 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
     grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
   }
   if (axis_of(side) == 2) return grid;
-  return fem::moved_grid(grid, [&](const Vector3 &x) {
-    return from_upright(side, x) + Vector3{0, 0, middle};
-  });
+  return fem::moved_grid(
+      grid, [&](const Vector3 &x) { return from_upright(side, x) + Vector3{0, 0, middle}; });
 }
 
 // From the low end; of a given grid in the order of its materials.
@@ -253,10 +251,7 @@ void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &sett
   const PlatenSettings &p = settings.platens;
   const LoadingSettings &loading = settings.loading;
   if (!has_sides(p)) return;
-  const std::string first = p.left    ? "platens.left"
-                            : p.right ? "platens.right"
-                            : p.front ? "platens.front"
-                                      : "platens.back";
+  const std::string first = p.left ? "platens.left" : p.right ? "platens.right" : p.front ? "platens.front" : "platens.back";
   if (specimen.shape.kind != dem::ShapeKind::box)
     throw BadSetup(first, "presses a flat side. Allowed: a specimen that is a box.");
   if (p.span > 0) throw BadSetup(first, "does not go with `platens.span`: a bar is bent by strips.");

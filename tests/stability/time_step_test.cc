@@ -85,6 +85,7 @@ Case elastic_platens() {
 Case ties_to_elastic_platens() {
   Case c = elastic_platens();
   c.name = "ties_to_elastic_platens";
+  c.settings.platens.stiffness.value = 5;
   c.settings.platens.glued = c.settings.seat = true;
   return c;
 }
