@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -43,7 +44,18 @@ void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
                                        text_of(shape.width_x - p.strip_width) + " m.");
 }
 
-// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
+// Elastic strips get elements about as wide as long: slivers would set the time step and the indentation.
+std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, double half_y) {
+  constexpr int least = 2;
+  if (!p.elastic || !(p.strip_width > 0)) return {p.elements_across, p.elements_across, 2};
+  const double size = 2 * std::max(half_x, half_y) / p.elements_across;
+  const auto along = [&](double half) {
+    return std::max(least, static_cast<int>(std::lround(2 * half / size)));
+  };
+  return {along(half_x), along(half_y), 2};
+}
+
+// The strips between which a bar along x is bent: boxes along y, all alike, that make up one body.
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
@@ -53,9 +65,7 @@ std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTe
   const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * s.shape.width_y;
   std::vector<fem::BoxPlate> strips;
   for (const double middle : top ? std::vector{0.0} : std::vector{-0.5 * p.span, 0.5 * p.span})
-    strips.push_back({{middle - x, -y, low},
-                      {middle + x, y, low + p.thickness},
-                      {p.elements_across, p.elements_across, 2}});
+    strips.push_back({{middle - x, -y, low}, {middle + x, y, low + p.thickness}, elements_of_plate(p, x, y)});
   return strips;
 }
 
@@ -114,15 +124,18 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
   double middle = 0; // of the side, along z
   if (grid)
     grid = fem::laid_platen(grid, !high, plane), middle = 0.5 * s.shape.height;
-  else if (p.span > 0)
-    return fem::make_grid(bending_strips(s, settings, high));
-  else if (s.shape.kind == dem::ShapeKind::cylinder)
+  else if (p.span > 0) {
+    const std::vector<fem::BoxPlate> strips = bending_strips(s, settings, high);
+    return made(strips, 0.5 * std::max(p.strip_width, strips[0].high.y - strips[0].low.y));
+  } else if (s.shape.kind == dem::ShapeKind::cylinder)
     return made(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2},
                 p.overhang * s.shape.radius);
   else {
     fem::BoxPlate plate = plate_of_box(s.shape, p, side, low);
-    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0)
+    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0) {
       plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
+      plate.elements = elements_of_plate(p, plate.high.x, plate.high.y);
+    }
     grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
   }
   if (axis_of(side) == 2) return grid;
@@ -145,14 +158,26 @@ std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::
   return materials;
 }
 
-// What the specimen covers of a platen.
-bool covers(const dem::Shape &shape, Side side, const Vector3 &x) {
-  if (shape.kind == dem::ShapeKind::cylinder) return x.x * x.x + x.y * x.y <= shape.radius * shape.radius;
-  for (const int axis : {0, 1, 2}) {
-    const std::array<double, 2> ends = extent(shape, axis);
-    if (axis != axis_of(side) && (x[axis] < ends[0] || x[axis] > ends[1])) return false;
+// What the specimen covers of a platen; of a disc the band that its rim leaves by no more than the depth of
+// seats.
+std::function<bool(const Vector3 &)> covered(const dem::Specimen &s, const PlatenTestSettings &settings,
+                                             Side side) {
+  const dem::Shape &shape = s.shape;
+  if (shape.kind == dem::ShapeKind::cylinder)
+    return [r = shape.radius](const Vector3 &x) { return x.x * x.x + x.y * x.y <= r * r; };
+  std::array<std::array<double, 2>, 3> ends{extent(shape, 0), extent(shape, 1), extent(shape, 2)};
+  if (shape.kind == dem::ShapeKind::disc) {
+    const double depth = settings.end_layer * dem::mean_radius(s);
+    const double half = std::min(shape.radius, std::sqrt(2 * shape.radius * depth));
+    ends[0] = {-half, half};
   }
-  return true;
+  return [ends, axis = axis_of(side)](const Vector3 &x) {
+    for (const int k : {0, 1, 2}) {
+      const std::array<double, 2> &end = ends[static_cast<std::size_t>(k)];
+      if (k != axis && (x[k] < end[0] || x[k] > end[1])) return false;
+    }
+    return true;
+  };
 }
 
 double platen_stiffness(const dem::Model &model, const PlatenTestSettings &settings) {
@@ -204,8 +229,7 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
   }
   auto solid = elastic_solid(s, settings, side);
   const SurfaceContact contact = contact_settings(model, s, settings, side, *solid);
-  const FaceOf face{is_high(side) ? fem::low_end_tag : fem::high_end_tag,
-                    [shape = s.shape, side](const Vector3 &x) { return covers(shape, side, x); }};
+  const FaceOf face{is_high(side) ? fem::low_end_tag : fem::high_end_tag, covered(s, settings, side)};
   auto platen = std::make_unique<ElasticPlaten>(
       name_of(side), inward(side), std::move(solid), model.particles, contact, face,
       p.elastic->motion == fem::ElasticMotion::quasi_static, p.elastic->steps_per_solve);

@@ -164,7 +164,12 @@ const std::vector<HistoryColumn> &history_columns() {
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},
-      {"axial_stage", "1", &S::axial_stage, [](const Seen &s) { return s.problem.axial_stage() ? 1.0 : 0.0; },
+      // Of a hydrostatic test there is none, though its program says so in the step that finishes it.
+      {"axial_stage", "1", &S::axial_stage,
+       [](const Seen &s) {
+         const std::optional<coupling::CellSettings> &cell = s.problem.settings().loading.cell;
+         return s.problem.axial_stage() && !(cell && cell->alone) ? 1.0 : 0.0;
+       },
        state}};
   return columns;
 }

@@ -75,10 +75,8 @@ void SceneCheck::surfaces() const {
 void SceneCheck::deformable_platens() const {
   const Loading &loading = scene_.loading;
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
-  if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
-  if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
-  if (scene_.loading.servo) refuse_kind("needs Platens/Top/Control = motion.");
-  if (scene_.platens.glued) refuse_kind("needs Platens/Attachment = contact.");
+  if (app_ != AppKind::compress && app_ != AppKind::study && app_ != AppKind::brazilian)
+    refuse_kind("is for platen-compress and platen-brazilian.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)

@@ -19,7 +19,8 @@ constexpr int parts = 8;
 // side may be taken by itself.
 constexpr double share_of_body = 0.25;
 
-// Whether a platen has met its neighbours is asked after so many steps: it moves by far less than a gap in them.
+// Whether a platen has met its neighbours is asked after so many steps: it moves by far less than a gap in
+// them.
 constexpr long steps_between_edges = 100;
 
 } // namespace
@@ -184,6 +185,7 @@ void ElasticPlaten::add_springs(const dem::Particles &particles, std::vector<dem
   for (std::size_t k = first; k < springs.size(); ++k) {
     springs[k].normal_stiffness *= 1 + share_of_body;
     springs[k].tangential_stiffness *= 1 + share_of_body;
+    if (glued()) springs[k].rotational_stiffness *= 1 + share_of_body;
   }
 }
 

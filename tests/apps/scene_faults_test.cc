@@ -93,8 +93,9 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
       {{"Contcat/Friction = 0.3"}, "Contcat is not a section. Did you mean \"Contact\"?"},
       {{"Friction = 0.3"}, "Friction is not a parameter. Did you mean \"Contact/Friction\""},
       {{"Bond/Modulus = 40 m"}, "Bond/Modulus = 40 m has the unit \"m\", which is not that of a pressure"},
-      {{"Platens/Kind = deformable", "Platens/Attachment = glued"},
-       "--set 1: error: Platens/Kind = deformable needs Platens/Attachment = contact. Allowed: rigid."},
+      {{"Platens/Kind = deformable", "Integration/Scheme = tchamwa wielgosz"},
+       "--set 1: error: Platens/Kind = deformable needs Integration/Scheme = velocity verlet. Allowed: "
+       "rigid."},
       {{"Platens/Kind = deformable", "Platens/Pad thickness = 0.1 mm"},
        "Platens/Pad modulus is not set: the pad has to have one."},
       {{"Platens/Kind = deformable", "Platens/Pad thickness = 1 m"},
@@ -111,6 +112,30 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
   for (const FaultyOverride &fault : faults)
     EXPECT_NE(message_of(good, fault.overrides).find(fault.says), std::string::npos)
         << fault.overrides.back() << ": " << message_of(good, fault.overrides);
+}
+
+// Once refused with elastic platens, now run.
+TEST(SceneFaults, elastic_platens_go_with_every_test) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  const std::vector<std::vector<std::string>> tests{
+      {"Platens/Attachment = glued", "Loading/Test = tension"},
+      {"Platens/Top/Control = stress", "Platens/Top/Stress = 1 MPa", "Loading/Ramp = 1 ms"},
+      {"Loading/Test = hydrostatic", "Loading/Confinement = particles", "Loading/Confining pressure = 1 MPa"},
+      {"Loading/Test = uniaxial strain"},
+      {"Loading/Test = three point bending", "Specimen/Shape = box",
+       "Specimen/Radius =", "Specimen/Ends = ground", "Specimen/Width x = 40 mm", "Specimen/Width y = 10 mm",
+       "Platens/Span = 20 mm", "Platens/Strip width = 3 mm"}};
+  for (std::vector<std::string> entries : tests)
+    for (const char *motion : {"explicit", "quasi-static"}) {
+      const std::string first = entries.front();
+      entries.insert(entries.end(), {"Platens/Kind = deformable", std::string("Platens/Motion = ") + motion});
+      EXPECT_EQ(message_of(good, entries), "") << first;
+      entries.resize(entries.size() - 2);
+    }
+  EXPECT_EQ(message_of(good, {"Platens/Kind = deformable"}, AppKind::brazilian), "");
+  EXPECT_NE(message_of(good, {"Platens/Kind = deformable"}, AppKind::calibrate)
+                .find("is for platen-compress and platen-brazilian. Allowed: rigid."),
+            std::string::npos);
 }
 
 TEST(SceneFaults, each_app_asks_for_what_it_needs) {
