@@ -7,6 +7,7 @@
 
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
+#include "apps/scene/layers.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/surfaces.h"
 
@@ -30,6 +31,7 @@ void inherit(Scene &scene, Parameters &parameters) {
     take(side.weakening.slip_length, both.weakening.slip_length);
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
   }
+  supply_layers(parameters, platens);
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   PairTest &pair = scene.pair_test;

@@ -49,6 +49,9 @@ private:
   void surfaces() const;
   void deformable_platens() const;
   void meshes() const;
+  void layers() const;
+  void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;
+  void seat() const;
   void friction(const std::string &name, const dem::SurfaceFriction &side) const;
   void weakening(const std::string &name, const dem::SurfaceFriction &side) const;
   void note(const std::string &path, const std::string &why);

@@ -18,12 +18,25 @@ struct Face { // of one platen
   std::string mesh_file; // Gmsh; empty: a plate
 };
 
+// Of a platen that yields, as a scene says it (apps/scene/layers.h).
+struct NamedLayer {
+  std::string material;
+  double thickness = not_given; // m
+};
+struct NamedMaterial {
+  std::string name;
+  fem::Material material;
+};
+
 struct Platens : coupling::PlatenSettings {
   bool deformable = false; // `elastic` counts then
   SurfaceKind surface = SurfaceKind::custom;
   dem::SurfaceFriction both{0.3, not_given, {}}; // what top and bottom take where the file gives none
   Face top_face, bottom_face;
   double mesh_unit = 1; // m, of the mesh files
+  // From the specimen outward: of all platens, and of those that have their own.
+  std::vector<NamedLayer> layers, top_layers, bottom_layers;
+  std::vector<NamedMaterial> layer_materials;
 
   Platens() {
     elastic.emplace();
