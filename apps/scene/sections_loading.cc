@@ -56,7 +56,7 @@ constexpr const char *layers_allowed =
 
 void declare_layers(Section &section, Platens &platens) {
   section
-      .value("Layers", platens.layers, "m", layers_allowed, read_layers,
+      .value("Layers", platens.layers, "", layers_allowed, read_layers,
              "Of deformable platens, from the specimen outward. What they leave of the Thickness is of the "
              "platens' own Young modulus, Poisson ratio and Density, which is the material platen; without a "
              "Thickness platens are as thick as their layers. Of a mesh the physical volumes are the layers, "
@@ -76,7 +76,7 @@ void declare_own_layers(Parameters &parameters, coupling::Side side, std::vector
   const std::string name = coupling::name_of(side);
   Section section(parameters, side == coupling::Side::top ? "Platens/Top" : "Platens/Bottom");
   section
-      .value("Layers", layers, "m", layers_allowed, read_layers,
+      .value("Layers", layers, "", layers_allowed, read_layers,
              "As Platens/Layers, of this platen alone; empty: as both.")
       .member("platens." + name + ".layers")
       .unless("Platens/Kind", {"rigid"});
