@@ -1,5 +1,8 @@
 // What elastic platens are made of, and the seat of the top one.
 #include "apps/scene/scene_check.h"
+
+#include <fmt/format.h>
+
 #include "apps/scene/units.h"
 
 namespace platen::apps {
@@ -15,7 +18,7 @@ void SceneCheck::layers_of(const std::string &path, const std::vector<NamedLayer
   constexpr double round_off = 1e-9;
   const bool thick = parameters_.at("Platens/Thickness").changed();
   if (thick && sum > (1 + round_off) * scene_.platens.thickness)
-    refuse(path, "is " + shortest_text(sum) + " m together. Allowed: up to " +
+    refuse(path, "is " + fmt::format("{:.6g}", sum) + " m together. Allowed: up to " +
                      shortest_text(scene_.platens.thickness) + " m, Platens/Thickness.");
 }
 
