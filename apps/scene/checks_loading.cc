@@ -47,8 +47,8 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.deformable) deformable_platens();
-  if (!platens.deformable && platens.elastic->seat)
-    refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
+  if (loads() && platens.deformable) layers();
+  if (loads() && platens.spherical_seat) seat();
   if (loads()) meshes();
 }
 
@@ -59,10 +59,10 @@ void SceneCheck::surfaces() const {
              brush = platens.surface == SurfaceKind::brush;
   if ((rubber || brush) && !platens.deformable)
     refuse("Platens/Surface", "yields, but Platens/Kind = rigid. Allowed: deformable.");
-  if (rubber && platens.elastic->pad_thickness == 0)
+  if (rubber && platens.elastic->pad_thickness == 0 && platens.layers.empty())
     refuse("Platens/Surface",
            "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
-           "density, which have no defaults.");
+           "density, or Layers, which have no defaults.");
   std::string brushes; // of all sides, where one lacks its own
   for (const coupling::Side side : sides_of_scene)
     if (platens.has(side)) brushes += (brushes.empty() ? "" : " and ") + section_of(side) + "/Mesh file";
@@ -201,9 +201,6 @@ void SceneCheck::cell() const {
            "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
            "Allowed: motion.");
   if (!loading.sleeved()) return;
-  if (scene_.platens.elastic->seat)
-    refuse("Platens/Top/Seat",
-           "does not go with Loading/Confinement = sleeve, whose rims do not turn. Allowed: fixed.");
   if (app_ != AppKind::compress && app_ != AppKind::study)
     refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
   if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)

@@ -8,6 +8,7 @@
 
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
+#include "apps/scene/layers.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/surfaces.h"
 
@@ -32,6 +33,7 @@ void inherit(Scene &scene, Parameters &parameters) {
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
+  supply_layers(parameters, platens);
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   scene.loading.stages = stages_of(scene.loading.stage_sections);

@@ -51,6 +51,9 @@ private:
   void surfaces() const;
   void deformable_platens() const;
   void meshes() const;
+  void layers() const;
+  void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;
+  void seat() const;
   void friction(coupling::Side of) const;
   void weakening(coupling::Side of) const;
   void note(const std::string &path, const std::string &why);

@@ -39,6 +39,15 @@ inline std::string section_of(coupling::Side side) {
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return "Platens/" + name;
 }
+// Of a platen that yields, as a scene says it (apps/scene/layers.h).
+struct NamedLayer {
+  std::string material;
+  double thickness = not_given; // m
+};
+struct NamedMaterial {
+  std::string name;
+  fem::Material material;
+};
 
 struct Platens : coupling::PlatenSettings {
   bool deformable = false; // `elastic` counts then
@@ -47,6 +56,9 @@ struct Platens : coupling::PlatenSettings {
   PlatenSides sides = PlatenSides::two;
   std::array<Face, coupling::side_count> faces; // by side
   double mesh_unit = 1;                         // m, of the mesh files
+  // From the specimen outward: of all platens, and of those that have their own.
+  std::vector<NamedLayer> layers, top_layers, bottom_layers;
+  std::vector<NamedMaterial> layer_materials;
 
   Platens() {
     elastic.emplace();

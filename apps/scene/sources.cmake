@@ -20,6 +20,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks.cc
   scene/checks_apps.cc
   scene/checks_bond.cc
+  scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
   scene/checks_sides.cc
@@ -30,6 +31,7 @@ set(PLATEN_SCENE_SOURCES
   scene/scene_bond.cc
   scene/scene_stages.cc
   scene/surfaces.cc
+  scene/layers.cc
   scene/expect.cc
   scene/command_line.cc
   scene/run_app.cc

@@ -158,28 +158,12 @@ void RigidPlaten::finish(const Step &step) {
   power_ = dot(before + force_, body_->velocity());
 }
 
-ElasticPlaten::ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,
-                             std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
-                             const SurfaceContact &contact, const FaceOf &face, bool quasi_static,
-                             int steps_per_solve)
-    : Platen(std::move(name), inward, std::move(body), particles, contact),
-      solid_(solid),
-      face_(body_->surface(), face, inward),
-      quasi_static_(quasi_static),
-      steps_per_solve_(steps_per_solve),
-      loads_(body_->surface().vertices.size()) {}
-
-void ElasticPlaten::finish(const Step &step) {
+void DynamicPlaten::finish(const Step &step) {
   body_->kick(0.5 * step.dt);
   Platen::finish(step);
-  if (!quasi_static_) return;
-  loads_.add(*body_, step.dt);
-  if (loads_.steps() < steps_per_solve_) return;
-  solid_.aim(loads_.mean(), steps_per_solve_ * step.dt);
-  loads_.reset();
 }
 
-void ElasticPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
+void DynamicPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
   const std::size_t first = springs.size();
   Platen::add_springs(particles, springs);
   for (std::size_t k = first; k < springs.size(); ++k) {
@@ -189,24 +173,44 @@ void ElasticPlaten::add_springs(const dem::Particles &particles, std::vector<dem
   }
 }
 
-StepLimit ElasticPlaten::limit(const dem::Particles &particles) const {
+StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
   fem::VertexSprings springs = layer_.vertex_springs(particles, *body_);
   for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
     for (double &number : *column)
       number *= 1 + 1 / share_of_body;
-  return {body_->stable_step(springs), "the finite elements of a platen with the springs of its contacts"};
+  return {body_->stable_step(springs), reason_of_limit()};
 }
 
-void ElasticPlaten::fit(const dem::Particles &particles, double) {
-  if (quasi_static_) solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
-}
-
-void ElasticPlaten::add_energy(dem::EnergyLedger &energy) const {
+void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {
   Platen::add_energy(energy);
   const fem::EnergyBalance own = body_->energy_balance();
   energy.bodies += own.strain + own.kinetic;
   energy.damping += own.dissipated;
   energy.boundary += own.clamp_work;
+}
+
+ElasticPlaten::ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,
+                             std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
+                             const SurfaceContact &contact, const FaceOf &face, bool quasi_static,
+                             int steps_per_solve)
+    : DynamicPlaten(std::move(name), inward, std::move(body), particles, contact),
+      solid_(solid),
+      face_(body_->surface(), face, inward),
+      quasi_static_(quasi_static),
+      steps_per_solve_(steps_per_solve),
+      loads_(body_->surface().vertices.size()) {}
+
+void ElasticPlaten::finish(const Step &step) {
+  DynamicPlaten::finish(step);
+  if (!quasi_static_) return;
+  loads_.add(*body_, step.dt);
+  if (loads_.steps() < steps_per_solve_) return;
+  solid_.aim(loads_.mean(), steps_per_solve_ * step.dt);
+  loads_.reset();
+}
+
+void ElasticPlaten::fit(const dem::Particles &particles, double) {
+  if (quasi_static_) solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
 }
 
 void ElasticPlaten::describe(Archive &archive) {

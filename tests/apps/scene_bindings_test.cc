@@ -163,6 +163,33 @@ TEST(SceneBindings, a_default_of_platens_sleeve_and_loading_is_stated_once) {
   EXPECT_FALSE(plain.platens.elastic || plain.loading.cell || plain.loading.wall);
 }
 
+TEST(SceneBindings, layers_arrive_with_their_materials) {
+  const std::vector<std::string> entries{
+      "Platens/Kind = deformable", "Platens/Layers = hard rubber 2 mm, steel 20 mm",
+      "Platens/Layer materials = steel: 210 GPa, 0.3, 7850 kg/m3; hard rubber: 5 MPa, 45 %, 1.1 g/cm3",
+      "Platens/Bottom/Layers = platen 1 mm, steel 3 mm"};
+  const coupling::PlatenTestSettings settings = problem_settings(scene_with(entries));
+  const coupling::PlatenSettings &told = settings.platens;
+  ASSERT_EQ(told.elastic->layers.size(), 2u);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].thickness, 2e-3);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.young_modulus, 5e6);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.poisson_ratio, 0.45);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.density, 1100);
+  EXPECT_EQ(told.elastic->layers[1].material.young_modulus, 210e9);
+  EXPECT_DOUBLE_EQ(told.thickness, 22e-3); // as thick as they are
+  ASSERT_EQ(told.bottom.layers.size(), 2u);
+  EXPECT_EQ(told.bottom.layers[0].material.young_modulus, told.material.young_modulus);
+  EXPECT_DOUBLE_EQ(told.bottom.thickness, 4e-3);
+  EXPECT_TRUE(told.top.layers.empty());
+  EXPECT_EQ(told.top.thickness, 0);
+  std::vector<std::string> thicker(entries);
+  thicker.emplace_back("Platens/Thickness = 30 mm");
+  const coupling::PlatenTestSettings other = problem_settings(scene_with(thicker));
+  const coupling::PlatenSettings &given = other.platens;
+  EXPECT_DOUBLE_EQ(given.thickness, 30e-3);
+  EXPECT_EQ(given.bottom.thickness, 0); // what its layers leave is platen
+}
+
 TEST(SceneBindings, what_platens_sleeve_and_loading_say_arrives) {
   const coupling::PlatenTestSettings told =
       problem_settings(scene_with({"Platens/Kind = deformable",

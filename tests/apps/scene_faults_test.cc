@@ -101,8 +101,9 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
       {{"Platens/Kind = deformable", "Platens/Pad thickness = 1 m"},
        "--set 2: error: Platens/Pad thickness = 1 m leaves nothing of the platen. Allowed: 0 ... "},
       {{"Platens/Top/Mesh file = none.msh"}, "--set 1: error: Platens/Top/Mesh file = none.msh"},
-      {{"Platens/Top/Seat = spherical"},
-       "--set 1: error: Platens/Top/Seat = spherical needs Platens/Kind = deformable. Allowed: fixed."},
+      {{"Platens/Top/Seat = spherical", "Integration/Scheme = tchamwa wielgosz"},
+       "--set 1: error: Platens/Top/Seat = spherical needs Integration/Scheme = velocity verlet. Allowed: "
+       "fixed."},
       {{"Platens/Degree = 3"}, "--set 1: error: Platens/Degree = 3 is out of range. Allowed: whole, 1 ... 2"},
       {{"Loading/Test = tension"}, "--set 1: error: Loading/Test = tension needs Platens/Attachment = glued"},
       {{"Scene/Title = a # b"}, "--set 1: error: Scene/Title = a # b holds a \"#\""},
