@@ -34,6 +34,22 @@ constexpr double lag_of_path = 4;
 // (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
 
+// What a machine's spring does not go with.
+void require_machine(const PlatenTestSettings &settings) {
+  const LoadingSettings &loading = settings.loading;
+  const MachineSettings &machine = settings.platens.machine;
+  if (!machine.yields()) return;
+  const auto refuse = [](const std::string &why) { throw BadSetup("platens.machine.stiffness", why); };
+  if (settings.platens.elastic) refuse("moves a rigid platen. Allowed: no `platens.elastic`.");
+  if (loading.cell)
+    refuse("would let the platen lag behind the pressure of `loading.cell`. Allowed: no cell.");
+  if (loading.start_strain > 0)
+    refuse("is not carried to a start without inertia. Allowed: `loading.start_strain` = 0.");
+  if (loading.servo && machine.damping == 0)
+    throw BadSetup("platens.machine.damping",
+                   "lets a servo swing on the spring. Allowed: above 0, or no `loading.servo`.");
+}
+
 } // namespace
 
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
@@ -69,10 +85,12 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
 void PlatenTest::require_in_range() const {
   const LoadingSettings &loading = settings_.loading;
   platen::require_in_range(settings_.platens);
+  platen::require_in_range(settings_.platens.machine);
   if (settings_.platens.elastic) platen::require_in_range(*settings_.platens.elastic);
   platen::require_in_range(loading);
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
+  require_machine(settings_);
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {
@@ -98,9 +116,9 @@ void PlatenTest::seat_platens(const dem::Specimen &specimen) {
     };
     for (Platen *platen : platens_)
       if (platen != nullptr && seats(*platen) == 0)
-      throw BadSetup("end_layer",
-                     "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen "
-                     "that reaches its end planes.");
+        throw BadSetup("end_layer",
+                       "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen "
+                       "that reaches its end planes.");
   }
   if (bent()) require_strips_to_meet(specimen, settings_, depth);
 }
@@ -203,8 +221,8 @@ SideLoading::Parameters PlatenTest::side_loading(const std::string &name) const 
 Servo::Parameters PlatenTest::servo_for(double stress, int axis) const {
   const double stiffness =
       facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
-  const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) /
-                         (transits_of_cell * facts_.wave_transit);
+  const double fastest =
+      servo_reserve * stress / stiffness * length(shape(), axis) / (transits_of_cell * facts_.wave_transit);
   return {gain_of_cell, std::max(fastest, settings_.loading.rate)};
 }
 

@@ -45,9 +45,9 @@ public:
   Platen &bottom() { return *platens_[0]; }
   const Platen &top() const { return *platens_[1]; }
   const Platen &bottom() const { return *platens_[0]; }
-  Sides sides() const; // their places
-  PlatensOfAxis platens_of(Side side) const;     // that one
-  PlatensOfAxis platens_along(int axis) const;   // 0 x, 1 y, 2 z: those that there are
+  Sides sides() const;                         // their places
+  PlatensOfAxis platens_of(Side side) const;   // that one
+  PlatensOfAxis platens_along(int axis) const; // 0 x, 1 y, 2 z: those that there are
   // A stage by sides without tasks and end: its ramp and how its servos keep up, and a servo that follows
   // `stress` (Pa) along an axis within that ramp.
   SideLoading::Parameters side_loading(const std::string &name) const;
@@ -75,6 +75,8 @@ public:
   double stress(Side side) const;
   // What the platens of an axis (0 x, 1 y, 2 z) have closed over its length; NaN without platens.
   double closure_strain(int axis) const;
+  const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
+  double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
   double confining_pressure() const;       // Pa, of the cell, or on the wall
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
   // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and

@@ -47,6 +47,10 @@ double PlatenTest::closure_strain(int axis) const {
   return any ? closure / length(shape(), axis) : none;
 }
 
+double PlatenTest::machine_closure() const {
+  return machine() == nullptr ? none : bottom().closure() + top().closure() + machine()->compression();
+}
+
 double PlatenTest::confining_pressure() const {
   double sum = 0; // at most one of a test's boundaries presses its sides
   for (const auto &boundary : boundaries())

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/boundaries/machine_spring.h"
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
 #include "coupling/side.h"
@@ -43,7 +44,8 @@ struct PlatenSettings {
   PlatenSide top, bottom;
   std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
   std::optional<ElasticPlatens> elastic;              // none: rigid
-  dem::Stiffness stiffness;              // of the mean bond, or absolute
+  MachineSettings machine;                            // behind the top platen
+  dem::Stiffness stiffness;                           // of the mean bond, or absolute
   double tangential_ratio = 0.8;
   double damping = 0.2;    // fraction of critical
   double strip_width = 0;  // m, of strips that press a disc or bend a bar; 0: as wide as the platens
@@ -131,12 +133,18 @@ struct PlatenTestSettings {
 inline const PlatenSide *PlatenSettings::side(Side side) const {
   const auto there = [](const std::optional<PlatenSide> &given) { return given ? &*given : nullptr; };
   switch (side) {
-    case Side::bottom: return &bottom;
-    case Side::top: return &top;
-    case Side::left: return there(left);
-    case Side::right: return there(right);
-    case Side::front: return there(front);
-    default: return there(back);
+    case Side::bottom:
+      return &bottom;
+    case Side::top:
+      return &top;
+    case Side::left:
+      return there(left);
+    case Side::right:
+      return there(right);
+    case Side::front:
+      return there(front);
+    default:
+      return there(back);
   }
 }
 

@@ -42,6 +42,10 @@ bool bent(const PlatenTest &p) {
   return p.bent();
 }
 
+bool on_spring(const PlatenTest &p) {
+  return p.machine() != nullptr;
+}
+
 // A platen presses that side.
 template <coupling::Side side>
 bool presses(const PlatenTest &p) {
@@ -145,6 +149,13 @@ const std::vector<HistoryColumn> &history_columns() {
       {"friction_work_right_j", "J", nullptr, friction_work_at<Side::right>, number, presses<Side::right>},
       {"friction_work_front_j", "J", nullptr, friction_work_at<Side::front>, number, presses<Side::front>},
       {"friction_work_back_j", "J", nullptr, friction_work_at<Side::back>, number, presses<Side::back>},
+      {"machine_closure_m", "m", nullptr, [](const Seen &s) { return s.problem.machine_closure(); }, number,
+       on_spring},
+      {"machine_energy_j", "J", &S::machine_energy,
+       [](const Seen &s) {
+         return s.problem.machine()->elastic_energy() + s.problem.machine()->kinetic_energy();
+       },
+       number, on_spring},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},

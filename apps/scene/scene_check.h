@@ -49,6 +49,7 @@ private:
   void spheres_fit() const;
   void surfaces() const;
   void deformable_platens() const;
+  void machine() const;
   void meshes() const;
   void friction(coupling::Side of) const;
   void weakening(coupling::Side of) const;
