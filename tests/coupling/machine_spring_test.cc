@@ -43,26 +43,29 @@ TEST(machine_spring, swings_at_its_frequency_and_decays_by_its_damping) {
   }
 }
 
-// On a specimen of stiffness s, which is lossless: work of the machine, springs, motion, dashpot. The rest is
-// the band of velocity Verlet, m dt^2 a^2 / 8, with the acceleration at the end.
+// On a specimen of stiffness s, which is lossless: what the machine did is in springs and motion, or lost to
+// the dashpot, but for the band of velocity Verlet, m dt^2 a^2 / 8.
 TEST(machine_spring, its_works_are_those_that_change_its_energy) {
   MachineSpring spring({k, m, 0.1});
   constexpr double s = 3e6;
-  const double dt = 0.3 / omega;
-  double q = 0, work = 0, most = 0;
+  const double dt = 0.3 / omega, c = 0.2 * std::sqrt(k * m);
+  double q = 0, work = 0, most = 0, band = 0;
   for (int n = 0; n < 400; ++n) {
     const double speed = 0.1 * std::cos(0.02 * n); // presses, and turns round
+    const auto square = [&] {
+      const double a = (k * spring.compression() - s * q + c * (speed - spring.velocity())) / m;
+      return a * a;
+    };
+    band -= m * dt * dt / 8 * square();
     q += dt * spring.drift(speed, s * q, dt);
     spring.finish(s * q, dt);
+    band += m * dt * dt / 8 * square();
     work += 0.5 * dt * spring.power();
     const double stored = spring.elastic_energy() + spring.kinetic_energy() + 0.5 * s * q * q;
-    const double force =
-        k * spring.compression() - s * q + 0.2 * std::sqrt(k * m) * (speed - spring.velocity());
-    const double band = dt * dt * force * force / (8 * m);
     most = std::max(most, stored);
-    EXPECT_NEAR(stored + spring.damping_work() - work, band, 1e-3 * most) << n;
+    ASSERT_NEAR(stored + spring.damping_work() - work, band, 1e-12 * most) << n;
   }
-  EXPECT_GT(spring.damping_work(), 0.1 * most);
+  EXPECT_GT(spring.damping_work(), 0.03 * most);
 }
 
 // Bounded just below its limit and not above, with its own dashpot and without.
@@ -78,7 +81,8 @@ TEST(machine_spring, its_step_is_the_largest_stable_one) {
         spring.finish(s * q, dt);
         most = std::max(most, std::abs(q) / (0.1 * dt));
       }
-      share < 1 ? EXPECT_LT(most, 100) << xi : EXPECT_GT(most, 1e6) << xi;
+      EXPECT_EQ(most < 100, share < 1) << xi << " " << most;
+      EXPECT_EQ(most > 1e6, share > 1) << xi << " " << most;
     }
   const MachineSpring spring({k, m, 0.1});
   const double c = 500, dt = spring.stable_step(s, c);
@@ -93,38 +97,39 @@ struct Falling {
 
 struct Fall {
   double kinetic = 0; // J, largest until it bears nothing
-  double speed = 0;   // m/s, of the platen half-way down
+  double seconds = 0; // from the peak till then
 };
 Fall fall_of(const Falling &specimen, double stiffness, double speed) {
   MachineSpring spring({stiffness, 1e-3, 0});
-  const double dt = 0.02 * std::sqrt(1e-3 / (stiffness + specimen.s));
-  double q = 0, middle = specimen.peak / specimen.s + 0.5 * specimen.peak / specimen.f;
+  const double dt = 0.02 * std::sqrt(1e-3 / (stiffness + specimen.s)), peak = specimen.peak / specimen.s;
+  double q = 0;
   Fall fall;
-  for (long n = 0; q < specimen.peak / specimen.s || specimen.load(q) > 0; ++n) {
-    const double ramp = std::min(1.0, 1e-4 * static_cast<double>(n)), before = q; // starts without a swing
+  for (long n = 0; q < peak || specimen.load(q) > 0; ++n) {
+    const double ramp = std::min(1.0, 1e-4 * static_cast<double>(n)); // starts without a swing
     q += dt * spring.drift(ramp * speed, specimen.load(q), dt);
     spring.finish(specimen.load(q), dt);
     fall.kinetic = std::max(fall.kinetic, spring.kinetic_energy());
-    if (before < middle && q >= middle) fall.speed = spring.velocity();
-    if (n > 100000000) return fall;
+    if (q > peak) fall.seconds += dt;
   }
   return fall;
 }
 
-// Stable where the machine is stiffer than the fall: the platen then goes V k / (k - f). Softer, it runs
-// ahead with what the spring gives and the specimen does not take, (P^2 / 2 f) (1 - k / f), however slow the
-// test.
+// Stable where the machine is stiffer than the fall: the platen then goes k / (k - f) as fast as the
+// crosshead. Softer, it runs ahead with what the spring gives and the specimen does not take, (P^2 / 2 f) (1
+// - k / f), however slow the test.
 TEST(machine_spring, a_specimen_falls_by_itself_where_the_machine_is_softer_than_the_fall) {
   const Falling specimen;
-  const double area = 0.5 * specimen.peak * specimen.peak / specimen.f;
+  constexpr double speed = 0.01;
+  const double path = specimen.peak / specimen.f, area = 0.5 * specimen.peak * path;
   for (const double ratio : {0.1, 0.5, 0.9}) {
-    const Fall fall = fall_of(specimen, ratio * specimen.f, 0.01);
+    const Fall fall = fall_of(specimen, ratio * specimen.f, 0.1 * speed);
     EXPECT_NEAR(fall.kinetic, area * (1 - ratio), 0.02 * area) << ratio;
+    EXPECT_LT(fall.seconds, 0.05 * path / speed) << ratio;
   }
   for (const double ratio : {1.5, 3.0, 10.0}) {
-    const Fall fall = fall_of(specimen, ratio * specimen.f, 0.01);
+    const Fall fall = fall_of(specimen, ratio * specimen.f, speed);
     EXPECT_LT(fall.kinetic, 1e-4 * area) << ratio;
-    EXPECT_NEAR(fall.speed, 0.01 * ratio / (ratio - 1), 0.5 * 0.01) << ratio;
+    EXPECT_NEAR(fall.seconds * speed / path, (ratio - 1) / ratio, 0.01) << ratio;
   }
 }
 
@@ -143,7 +148,8 @@ PlatenTestSettings one_sphere(double machine) {
   PlatenTestSettings s;
   s.model.rotation = false;
   s.model.local_damping = 0.5;
-  s.platens.stiffness = {contact, dem::Stiffness::Kind::absolute};
+  s.platens.stiffness.kind = dem::Stiffness::Kind::absolute;
+  s.platens.stiffness.value = contact;
   s.platens.thickness = 1e-3;
   s.platens.elements_across = 2;
   s.platens.machine.stiffness = machine;
@@ -179,7 +185,10 @@ TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff)
     PlatenTest test(sphere(), one_sphere(machine));
     advance_to(test, 2e-3);
     const double series = 1 / (1 / machine + 2 / contact), force = test.axial_stress() * test.nominal_area();
-    EXPECT_NEAR(force / test.machine_closure() / series, 1, 2e-3) << machine;
+    // The machine's dashpot bears what its spring is behind, 2 xi / w of its rate.
+    const double lag = 2 * 0.3 * std::sqrt(test.machine()->settings().mass / machine),
+                 rate = 0.01 * (1 - 2 * series / contact);
+    EXPECT_NEAR(force / (test.machine_closure() + lag * rate) / series, 1, 1e-3) << machine;
     // What is left of the path is the specimen's.
     EXPECT_NEAR(test.closure_strain() * 2e-3, 2 * force / contact, 2e-3 * force / contact) << machine;
     const dem::EnergyLedger energy = test.energy();
@@ -257,7 +266,7 @@ TEST(machine_spring, a_stop_and_any_number_of_threads_change_nothing) {
   };
   steps_to(whole, 1300);
   steps_to(first, 800);
-  EXPECT_GT(first.machine()->compression(), 0);
+  EXPECT_NE(first.machine()->compression(), 0);
   for (const int threads : {1, 2, 4}) {
     const ThreadLimit limit(threads);
     PlatenTest second(specimen, crushing(1e8));
