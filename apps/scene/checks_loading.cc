@@ -55,6 +55,9 @@ void SceneCheck::platens() const {
 
 void SceneCheck::machine() const {
   const auto refuse_spring = [&](const std::string &why) { refuse("Platens/Machine stiffness", why); };
+  if (app_ == AppKind::calibrate)
+    refuse_spring(
+        "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
   if (scene_.platens.deformable) refuse_spring("moves a rigid platen. Allowed: Platens/Kind = rigid.");
   if (scene_.loading.confined())
     refuse_spring("would let the platen lag behind the pressure. Allowed: Loading/Confinement = none.");

@@ -29,8 +29,8 @@ struct MachineSettings {
   template <class Visitor, class Self>
   static void describe(Visitor &&v, Self &p) {
     v("stiffness", p.stiffness, "N/m", above(0),
-      "Of the whole machine, from its crosshead to the top platen; the bottom one stands on its base. Not "
-      "given: rigid. The crosshead then moves as Loading says, and platens in between.");
+      "Of the whole machine, from its crosshead to the top platen; the bottom one stands on its base. "
+      "The crosshead moves as Loading says; strains are those of the faces. Not given: rigid.");
     v("mass", p.mass, "kg", above(0),
       "That moves with the top platen on that spring, itself included; not given: the platen's own.");
     v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of that mass on that spring.");

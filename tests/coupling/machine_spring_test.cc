@@ -199,6 +199,16 @@ TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff)
   }
 }
 
+// The platen's mass on a spring that is much stiffer than its contact.
+TEST(machine_spring, sets_the_time_step_where_it_is_stiff) {
+  PlatenTestSettings settings = one_sphere(1e4 * contact);
+  const PlatenTest test(sphere(), settings);
+  EXPECT_NE(test.time_step_reason().find("spring of the machine"), std::string::npos);
+  const double mass = test.top().body().mass();
+  EXPECT_EQ(test.machine()->settings().mass, mass);
+  EXPECT_NEAR(test.time_step(), 0.8 * 2 * std::sqrt(mass / (1e4 * contact)), 2e-3 * test.time_step());
+}
+
 // The top platen holds its stress through the spring, without a swing.
 TEST(machine_spring, a_servo_holds_its_stress_through_it) {
   for (const double machine : {0.03 * contact, contact}) {
