@@ -6,7 +6,7 @@
 
 #include "base/pi.h"
 #include "coupling/platens_of_test.h"
-#include "coupling/program/stages.h"
+#include "coupling/program_of_test.h"
 #include "dem/measure/bond_network.h"
 
 namespace platen::coupling {
@@ -27,9 +27,6 @@ constexpr double transits_of_cell = 60;
 constexpr double gain_of_cell = 10, transits_ahead = 9;
 // The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
 constexpr double servo_reserve = 10;
-// A path follows the deviator with this lag in wave transits: long enough for waves to pass, and for the
-// specimen's own answer to the pressure, which would ring otherwise.
-constexpr double lag_of_path = 4;
 // Spheres bear on the sleeve with springs that the pressure presses in by about a twenty-fifth of a radius
 // (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
@@ -41,6 +38,8 @@ void require_machine(const PlatenTestSettings &settings) {
   if (!machine.yields()) return;
   const auto refuse = [](const std::string &why) { throw BadSetup("platens.machine.stiffness", why); };
   if (settings.platens.elastic) refuse("moves a rigid platen. Allowed: no `platens.elastic`.");
+  if (settings.platens.spherical_seat)
+    refuse("moves a platen that does not turn. Allowed: no `platens.spherical_seat`.");
   if (loading.cell)
     refuse("would let the platen lag behind the pressure of `loading.cell`. Allowed: no cell.");
   if (loading.start_strain > 0)
@@ -79,7 +78,7 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   add_lateral(mean_bond_stiffness(model));
   for (const MadeFor<Boundary> &make : settings_.boundaries)
     add(make(*this));
-  begin(make_program());
+  begin(make_program(*this));
 }
 
 void PlatenTest::require_in_range() const {
@@ -138,8 +137,12 @@ void PlatenTest::choose_rates() {
                            : transits_of_ramp * transit;
   if (loading.rate_multiplier > 1 && (!(transit > 0) || !(ramp_ > 0)))
     throw BadSetup("loading.rate_multiplier", "needs bonds: they tell when the specimen fails. Allowed: 1.");
-  if (!loading.cell) return;
   servo_slowness_ = gain_of_cell / (loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell);
+  if (!loading.cell) return;
+  for (const StageSettings &stage : loading.stages)
+    for (const SideAsk &ask : stage.asks)
+      if (ask.ask == SideAsk::Ask::pressure)
+        loading.cell->pressure = std::max(loading.cell->pressure, ask.value);
   cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : servo_slowness_ * transits_of_cell * transit;
   if (!(cell_ramp_ > 0))
     throw BadSetup("loading.cell.ramp", "has to be given: without bonds there is no wave to take it from.");
@@ -192,7 +195,7 @@ Sides PlatenTest::sides() const {
 
 PlatensOfAxis PlatenTest::platens_of(Side side) const {
   const int axis = axis_of(side);
-  PlatensOfAxis found{{}, axis == 2 ? nominal_area() : face_area(shape(), axis), length(shape(), axis)};
+  PlatensOfAxis found{{}, axis == 2 ? nominal_area() : face_area(shape(), axis), length(shape(), axis), axis};
   for (std::size_t k = 0; k < boundaries().size(); ++k)
     if (boundaries()[k].get() == platen(side)) found.places.push_back(k);
   return found;
@@ -203,86 +206,48 @@ PlatensOfAxis PlatenTest::platens_along(int axis) const {
   for (const Side side : all_sides) {
     if (axis_of(side) != axis) continue;
     const PlatensOfAxis one = platens_of(side);
-    both.area = one.area, both.length = one.length;
+    both.area = one.area, both.length = one.length, both.axis = axis;
     both.places.insert(both.places.end(), one.places.begin(), one.places.end());
   }
   return both;
 }
 
-SideLoading::Parameters PlatenTest::side_loading(const std::string &name) const {
-  SideLoading::Parameters p;
-  p.name = name;
-  p.ramp = transits_of_cell * facts_.wave_transit;
-  p.lead = transits_ahead * facts_.wave_transit;
-  p.lag = lag_of_path * facts_.wave_transit;
-  return p;
+double PlatenTest::ramp_of_stress() const {
+  return servo_slowness_ * transits_of_cell * facts_.wave_transit;
 }
 
-Servo::Parameters PlatenTest::servo_for(double stress, int axis) const {
+double PlatenTest::lead_of_servo() const {
+  return servo_slowness_ * transits_ahead * facts_.wave_transit;
+}
+
+Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, double least) const {
+  const LoadingSettings &loading = settings_.loading;
   const double stiffness =
       facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
-  const double fastest =
-      servo_reserve * stress / stiffness * length(shape(), axis) / (transits_of_cell * facts_.wave_transit);
-  return {gain_of_cell, std::max(fastest, settings_.loading.rate)};
+  const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) / ramp;
+  return {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, least)};
 }
 
-std::unique_ptr<Program> PlatenTest::make_program() const {
+Servo::Parameters PlatenTest::servo_of_top() const {
   const LoadingSettings &loading = settings_.loading;
-  std::vector<std::unique_ptr<Stage>> stages;
-  for (const MadeFor<Stage> &make : settings_.stages)
-    stages.push_back(make(*this));
-  if (!stages.empty()) return std::make_unique<Program>(*this, std::move(stages));
-  if (loading.cell) {
-    const CellSettings &cell = *loading.cell;
-    const double stiffness =
-        facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
-    const double fastest = servo_reserve * cell.pressure / stiffness * shape().height / cell_ramp_;
-    Consolidation::Parameters p;
-    p.sides = sides();
-    p.pressure = cell.pressure;
-    p.ramp = cell_ramp_;
-    p.hold = loading.hold;
-    p.area = nominal_area();
-    p.lag_of_servo = servo_slowness_ * transits_ahead * facts_.wave_transit;
-    p.servo = {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, loading.rate)};
-    stages.push_back(std::make_unique<Consolidation>(p));
-    if (cell.alone) return std::make_unique<Program>(*this, std::move(stages));
-  }
-  stages.push_back(axial_stage_of_settings());
-  return std::make_unique<Program>(*this, std::move(stages));
+  return {loading.servo_gain > 0 ? loading.servo_gain : servo_gain, loading.rate};
 }
 
-std::unique_ptr<Stage> PlatenTest::axial_stage_of_settings() const {
+std::optional<RateControl::Parameters> PlatenTest::rate_control() const {
   const LoadingSettings &loading = settings_.loading;
-  if (loading.servo) {
-    AxialStress::Parameters p;
-    p.sides = sides();
-    p.stress = loading.top_stress;
-    p.ramp = ramp_;
-    p.hold = loading.hold;
-    p.target_strain = loading.target_strain;
-    p.area = nominal_area();
-    p.servo = {loading.servo_gain > 0 ? loading.servo_gain : servo_gain, loading.rate};
-    return std::make_unique<AxialStress>(p);
-  }
-  AxialRate::Parameters p;
-  p.sides = sides();
-  p.tension = loading.tension;
-  p.rate = loading.rate;
-  p.ramp = ramp_;
-  p.target_strain = loading.target_strain;
-  p.start_strain = loading.start_strain;
-  p.height = shape().height;
-  p.unload_at = loading.unload_at;
-  p.unload_to = loading.unload_to;
-  if (loading.rate_multiplier > 1)
-    p.rate_control =
-        RateControl::Parameters{loading.rate_multiplier, bent() ? bending_period() : facts_.wave_transit,
-                                ramp_, static_cast<double>(model.bonds->size())};
-  if (loading.cell)
-    p.lateral = LateralPressure::Parameters{loading.cell->pressure, loading.cell->path,
-                                            lag_of_path * facts_.wave_transit};
-  return std::make_unique<AxialRate>(p);
+  if (!(loading.rate_multiplier > 1)) return std::nullopt;
+  return RateControl::Parameters{loading.rate_multiplier, bent() ? bending_period() : facts_.wave_transit,
+                                 ramp_, static_cast<double>(model.bonds->size())};
+}
+
+StageScope PlatenTest::stage_scope() const {
+  StageScope scope;
+  for (const Side side : all_sides)
+    if (platen(side) != nullptr) scope.platens.push_back(side);
+  scope.cell = cell();
+  scope.rate = settings_.loading.rate > 0;
+  scope.bonded = facts_.wave_transit > 0;
+  return scope;
 }
 
 } // namespace platen::coupling

@@ -9,7 +9,8 @@
 #include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"
 #include "coupling/platen_test_settings.h"
-#include "coupling/program/side_loading.h"
+#include "coupling/program/task.h"
+#include "dem/measure/circumference.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::coupling {
@@ -48,10 +49,16 @@ public:
   Sides sides() const;                         // their places
   PlatensOfAxis platens_of(Side side) const;   // that one
   PlatensOfAxis platens_along(int axis) const; // 0 x, 1 y, 2 z: those that there are
-  // A stage by sides without tasks and end: its ramp and how its servos keep up, and a servo that follows
-  // `stress` (Pa) along an axis within that ramp.
-  SideLoading::Parameters side_loading(const std::string &name) const;
-  Servo::Parameters servo_for(double stress, int axis) const;
+  // What stages are made with: of a stress that is asked, its ramp (s) and how far ahead (s) a servo is told
+  // of it; a servo that leads platens along an axis up to `stress` (Pa) within `ramp`, or after platens that
+  // move (`follows`); that of the top platen's own stress; how the axial platens go faster while the specimen
+  // is elastic.
+  double ramp_of_stress() const;
+  double lead_of_servo() const;
+  Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
+  Servo::Parameters servo_of_top() const;
+  std::optional<RateControl::Parameters> rate_control() const;
+  StageScope stage_scope() const;
   const Platen *platen(Side side) const { return platens_[static_cast<std::size_t>(side)]; }
   const ElasticPlaten *elastic_top() const { return elastic_top_; }
   Sleeve *sleeve() { return sleeve_; }
@@ -73,8 +80,8 @@ public:
   double stress_top() const, stress_bottom() const;
   // Pa over the specimen's face there, without platens NaN.
   double stress(Side side) const;
-  // What the platens of an axis (0 x, 1 y, 2 z) have closed over its length; NaN without platens.
-  double closure_strain(int axis) const;
+  double closure_strain(int axis) const override;
+  double circumferential_strain() const override;
   const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
   double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
   double confining_pressure() const;       // Pa, of the cell, or on the wall
@@ -100,7 +107,6 @@ public:
   double broken_bonds() const override;
   Vector3 force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
   double load(std::size_t boundary) const override { return boundaries()[boundary]->load(); }
-  double closure_of(std::size_t boundary) const override { return boundaries()[boundary]->closure(); }
   Vector3 inward(std::size_t boundary) const override { return boundaries()[boundary]->inward(); }
   ServoLoad servo_load(std::size_t boundary) const override {
     return boundaries()[boundary]->servo_load(model.particles);
@@ -113,8 +119,6 @@ private:
   void add_lateral(double bond);
   void add_sleeve(const CellSettings &cell, double bond);
   void choose_rates();
-  std::unique_ptr<Program> make_program() const;
-  std::unique_ptr<Stage> axial_stage_of_settings() const;
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;
@@ -124,8 +128,9 @@ private:
   Sleeve *sleeve_ = nullptr;
   const SkinPressure *skin_ = nullptr;
   const LateralWall *wall_ = nullptr;
-  double ramp_ = 0, cell_ramp_ = 0; // s
-  double servo_slowness_ = 1;       // of a cell's servo, against the quickest
+  mutable std::optional<dem::Circumference> circumference_; // made when it is asked for
+  double ramp_ = 0, cell_ramp_ = 0;                         // s
+  double servo_slowness_ = 1;                               // of a cell's servo, against the quickest
 };
 
 } // namespace platen::coupling

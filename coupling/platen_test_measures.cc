@@ -51,6 +51,11 @@ double PlatenTest::machine_closure() const {
   return machine() == nullptr ? none : bottom().closure() + top().closure() + machine()->compression();
 }
 
+double PlatenTest::circumferential_strain() const {
+  if (!circumference_) circumference_.emplace(model.particles, shape(), model.bonds.get());
+  return circumference_->strain(model.particles);
+}
+
 double PlatenTest::confining_pressure() const {
   double sum = 0; // at most one of a test's boundaries presses its sides
   for (const auto &boundary : boundaries())

@@ -11,6 +11,7 @@
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
 #include "coupling/side.h"
+#include "coupling/stage_settings.h"
 #include "dem/confinement.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/packing/specimen.h"
@@ -20,20 +21,30 @@ namespace platen::coupling {
 
 using Ends = dem::EndPreparation;
 
+// A sheet of an elastic platen.
+struct PlatenLayer {
+  double thickness = 0;                                    // m; of a given grid it does not count
+  fem::Material material{not_given, not_given, not_given}; // which has to be given
+};
+
 struct PlatenSide : dem::SurfaceFriction {
-  fem::Grid grid = nullptr; // null: a plate of the sizes below; else laid as fem/grids.h says
+  fem::Grid grid = nullptr;             // null: a plate of the sizes below; else laid as fem/grids.h says
+  double thickness = 0;                 // m, of the plate; 0: that of all platens
+  std::vector<PlatenLayer> layers = {}; // where it yields, as ElasticPlatens::layers; empty: those
 };
 
 // Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
 // springs are then the particles' share alone: what the platen gives way is in its mesh.
 struct ElasticPlatens {
   int degree = 1;
-  bool seat = false; // spherical, under the top platen's clamp: turns freely about the middle of its face
   fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
   double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
   int steps_per_solve = 20; // quasi-static: of the particles
   double pad_thickness = 0; // m, of a sheet on the specimen's side that is part of the thickness; 0: none
   fem::Material pad{not_given, not_given, not_given}; // of it, or the second material of a given grid
+  // From the specimen outward: what they leave of the thickness is of the platens' material. Of a given grid:
+  // its physical volumes, in their order. Empty: platen and pad.
+  std::vector<PlatenLayer> layers;
 
   static constexpr const char *name = "platens.elastic";
   template <class Visitor, class Self>
@@ -55,6 +66,9 @@ struct PlatenSettings {
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;
+  // The top platen, or the clamp of one that yields, turns freely about the middle of its face, which the
+  // machine moves.
+  bool spherical_seat = false;
   // m, from the edges of a platen to the planes of its neighbours, which may close by that much; 0: a
   // fiftieth of the specimen's length there.
   double edge_gap = 0;
@@ -105,6 +119,9 @@ struct LoadingSettings {
   // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
   std::vector<double> unload_at;
   double unload_to = 0.1;
+  // In place of what the members above ask: one after the other. A cell's pressure is then what they ask
+  // most.
+  std::vector<StageSettings> stages;
 
   static constexpr const char *name = "loading";
   template <class Visitor, class Self>
@@ -165,8 +182,6 @@ void ElasticPlatens::describe(Visitor &&v, Self &p) {
   v("pad_modulus", p.pad.young_modulus, "Pa", above(0), "Young modulus of that sheet.");
   v("pad_poisson_ratio", p.pad.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of that sheet.");
   v("pad_density", p.pad.density, "kg/m3", above(0), "Density of that sheet.");
-  v("seat", p.seat, Words<bool>{{"fixed", false}, {"spherical", true}},
-    "Spherical: the top platen turns freely about the middle of its face (Kind = deformable).");
 }
 
 template <class Visitor, class Self>
@@ -188,6 +203,9 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
   v("poisson_ratio", p.material.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of the platens.");
   v("glued", p.glued, Words<bool>{{"contact", false}, {"glued", true}},
     "Glued: the end grains are held by the platens, in tension too.");
+  v("spherical_seat", p.spherical_seat, Words<bool>{{"fixed", false}, {"spherical", true}},
+    "Spherical: the top platen turns freely about the middle of its face, which the machine moves; a "
+    "deformable one with its clamp.");
 }
 
 template <class Visitor, class Self>

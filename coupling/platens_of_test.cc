@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "base/pi.h"
 #include "base/shortest_text.h"
+#include "coupling/platen_layers.h"
 #include "fem/grids.h"
 #include "fem/rigid_body.h"
 
@@ -43,19 +45,29 @@ void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
                                        text_of(shape.width_x - p.strip_width) + " m.");
 }
 
-// The strips between which a bar along x is bent: boxes along y, all alike, that make up one rigid body.
+// Elastic strips get elements about as wide as long: slivers would set the time step and the indentation.
+std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, double half_y) {
+  constexpr int least = 2;
+  if (!p.elastic || !(p.strip_width > 0)) return {p.elements_across, p.elements_across, 2};
+  const double size = 2 * std::max(half_x, half_y) / p.elements_across;
+  const auto along = [&](double half) {
+    return std::max(least, static_cast<int>(std::lround(2 * half / size)));
+  };
+  return {along(half_x), along(half_y), 2};
+}
+
+// The strips between which a bar along x is bent: boxes along y, all alike, that make up one body.
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
   require_bar(s.shape, settings);
   const double plane = platen_plane(s, top ? Side::top : Side::bottom, settings.ends),
-               low = top ? plane : plane - p.thickness;
+               thickness = thickness_of(p, top ? Side::top : Side::bottom),
+               low = top ? plane : plane - thickness;
   const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * s.shape.width_y;
   std::vector<fem::BoxPlate> strips;
   for (const double middle : top ? std::vector{0.0} : std::vector{-0.5 * p.span, 0.5 * p.span})
-    strips.push_back({{middle - x, -y, low},
-                      {middle + x, y, low + p.thickness},
-                      {p.elements_across, p.elements_across, 2}});
+    strips.push_back({{middle - x, -y, low}, {middle + x, y, low + thickness}, elements_of_plate(p, x, y)});
   return strips;
 }
 
@@ -67,18 +79,6 @@ bool meets_a_sphere(const fem::BoxPlate &strip, const dem::Specimen &specimen, b
     if (gap <= depth && c.x >= strip.low.x && c.x <= strip.high.x) return true;
   }
   return false;
-}
-
-// Elements of elastic platens are about as thick as wide; a sheet of one would not bulge at degree 1.
-std::vector<fem::Layer> layers_of(const PlatenSettings &p, double half_width, bool top) {
-  const auto layer = [&](double thickness, int least) {
-    const double alike = 0.5 * p.elements_across * thickness / half_width;
-    return fem::Layer{thickness, std::max(least, static_cast<int>(std::lround(alike)))};
-  };
-  if (p.elastic->pad_thickness == 0) return {layer(p.thickness, 2)};
-  const fem::Layer pad = layer(p.elastic->pad_thickness, 2 / p.elastic->degree),
-                   rest = layer(p.thickness - p.elastic->pad_thickness, 1);
-  return top ? std::vector{pad, rest} : std::vector{rest, pad};
 }
 
 // Where a platen begins and ends along an axis in its plane: beyond the specimen, or short of a neighbour.
@@ -100,29 +100,35 @@ fem::BoxPlate plate_of_box(const dem::Shape &shape, const PlatenSettings &p, Sid
   const int axis = axis_of(side);
   const auto x = reach(shape, p, low_sides[static_cast<std::size_t>((axis + 1) % 3)]),
              y = reach(shape, p, low_sides[static_cast<std::size_t>((axis + 2) % 3)]);
-  return {{x[0], y[0], low}, {x[1], y[1], low + p.thickness}, {p.elements_across, p.elements_across, 2}};
+  return {{x[0], y[0], low},
+          {x[1], y[1], low + thickness_of(p, side)},
+          {p.elements_across, p.elements_across, 2}};
 }
 
 fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings, Side side) {
   const PlatenSettings &p = settings.platens;
   const bool high = is_high(side);
-  const double plane = platen_plane(s, side, settings.ends), low = high ? plane : plane - p.thickness;
+  const double plane = platen_plane(s, side, settings.ends), thickness = thickness_of(p, side),
+               low = high ? plane : plane - thickness;
   const auto made = [&](const auto &plate, double half_width) {
-    return p.elastic ? fem::make_grid(plate, layers_of(p, half_width, high)) : fem::make_grid(plate);
+    return p.elastic ? fem::make_grid(plate, elements_of_layers(p, side, half_width)) : fem::make_grid(plate);
   };
   fem::Grid grid = p.side(side)->grid;
   double middle = 0; // of the side, along z
   if (grid)
     grid = fem::laid_platen(grid, !high, plane), middle = 0.5 * s.shape.height;
-  else if (p.span > 0)
-    return fem::make_grid(bending_strips(s, settings, high));
-  else if (s.shape.kind == dem::ShapeKind::cylinder)
-    return made(fem::CylinderPlate{p.overhang * s.shape.radius, p.thickness, low, p.elements_across, 2},
+  else if (p.span > 0) {
+    const std::vector<fem::BoxPlate> strips = bending_strips(s, settings, high);
+    return made(strips, 0.5 * std::max(p.strip_width, strips[0].high.y - strips[0].low.y));
+  } else if (s.shape.kind == dem::ShapeKind::cylinder)
+    return made(fem::CylinderPlate{p.overhang * s.shape.radius, thickness, low, p.elements_across, 2},
                 p.overhang * s.shape.radius);
   else {
     fem::BoxPlate plate = plate_of_box(s.shape, p, side, low);
-    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0)
+    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0) {
       plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
+      plate.elements = elements_of_plate(p, plate.high.x, plate.high.y);
+    }
     grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
   }
   if (axis_of(side) == 2) return grid;
@@ -131,28 +137,26 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
   });
 }
 
-// From the low end; of a given grid in the order of its materials.
-std::vector<fem::Material> platen_materials(const PlatenSettings &p, const fem::Grid &given, bool top) {
-  std::vector<fem::Material> materials{p.material};
-  if (given && fem::materials_of(given) > 1 && !(p.elastic->pad.young_modulus > 0))
-    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
-                                " physical volumes: the second needs `platens.elastic.pad_modulus`");
-  if (given && fem::materials_of(given) > 2)
-    throw std::invalid_argument("has " + std::to_string(fem::materials_of(given)) +
-                                " physical volumes: at most two are known, platen and pad");
-  if (given ? fem::materials_of(given) > 1 : p.elastic->pad_thickness > 0)
-    materials.insert(!given && top ? materials.begin() : materials.end(), p.elastic->pad);
-  return materials;
-}
-
-// What the specimen covers of a platen.
-bool covers(const dem::Shape &shape, Side side, const Vector3 &x) {
-  if (shape.kind == dem::ShapeKind::cylinder) return x.x * x.x + x.y * x.y <= shape.radius * shape.radius;
-  for (const int axis : {0, 1, 2}) {
-    const std::array<double, 2> ends = extent(shape, axis);
-    if (axis != axis_of(side) && (x[axis] < ends[0] || x[axis] > ends[1])) return false;
+// What the specimen covers of a platen; of a disc the band that its rim leaves by no more than the depth of
+// seats.
+std::function<bool(const Vector3 &)> covered(const dem::Specimen &s, const PlatenTestSettings &settings,
+                                             Side side) {
+  const dem::Shape &shape = s.shape;
+  if (shape.kind == dem::ShapeKind::cylinder)
+    return [r = shape.radius](const Vector3 &x) { return x.x * x.x + x.y * x.y <= r * r; };
+  std::array<std::array<double, 2>, 3> ends{extent(shape, 0), extent(shape, 1), extent(shape, 2)};
+  if (shape.kind == dem::ShapeKind::disc) {
+    const double depth = settings.end_layer * dem::mean_radius(s);
+    const double half = std::min(shape.radius, std::sqrt(2 * shape.radius * depth));
+    ends[0] = {-half, half};
   }
-  return true;
+  return [ends, axis = axis_of(side)](const Vector3 &x) {
+    for (const int k : {0, 1, 2}) {
+      const std::array<double, 2> &end = ends[static_cast<std::size_t>(k)];
+      if (k != axis && (x[k] < end[0] || x[k] > end[1])) return false;
+    }
+    return true;
+  };
 }
 
 double platen_stiffness(const dem::Model &model, const PlatenTestSettings &settings) {
@@ -181,7 +185,7 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
   const PlatenSettings &p = settings.platens;
   fem::Clamp clamp;
   clamp.tag = is_high(side) ? fem::high_end_tag : fem::low_end_tag;
-  if (side == Side::top && p.elastic->seat) {
+  if (side == Side::top && p.spherical_seat) {
     clamp.turns = true;
     clamp.seat = {0, 0, platen_plane(s, side, settings.ends)};
   }
@@ -189,13 +193,20 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
-  return std::make_unique<fem::ElasticSolid>(
-      platen_grid(s, settings, side), platen_materials(p, p.side(side)->grid, is_high(side)), clamp, options);
+  return std::make_unique<fem::ElasticSolid>(platen_grid(s, settings, side), materials_of(p, side), clamp,
+                                             options);
 }
 
 PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settings, Side side,
                         const dem::Model &model) {
   const PlatenSettings &p = settings.platens;
+  if (!p.elastic && p.spherical_seat && side == Side::top) {
+    const Vector3 seat{0, 0, platen_plane(s, side, settings.ends)};
+    auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material, seat);
+    const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
+    return {std::make_unique<SeatedPlaten>(name_of(side), inward(side), std::move(body), model.particles,
+                                           contact)};
+  }
   if (!p.elastic) {
     auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material);
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
@@ -211,8 +222,7 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
   }
   auto solid = elastic_solid(s, settings, side);
   const SurfaceContact contact = contact_settings(model, s, settings, side, *solid);
-  const FaceOf face{is_high(side) ? fem::low_end_tag : fem::high_end_tag,
-                    [shape = s.shape, side](const Vector3 &x) { return covers(shape, side, x); }};
+  const FaceOf face{is_high(side) ? fem::low_end_tag : fem::high_end_tag, covered(s, settings, side)};
   auto platen = std::make_unique<ElasticPlaten>(
       name_of(side), inward(side), std::move(solid), model.particles, contact, face,
       p.elastic->motion == fem::ElasticMotion::quasi_static, p.elastic->steps_per_solve);

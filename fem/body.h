@@ -42,6 +42,10 @@ public:
   virtual void set_velocity(const Vector3 &velocity) = 0; // m/s
   virtual const Vector3 &velocity() const = 0;            // m/s, of the centre of the frame that is moved
   virtual const Vector3 &displacement() const = 0;        // m, of the same
+  // How that frame has turned since the start, and how fast it turns (rad/s, global axes).
+  virtual const Quaternion &rotation() const = 0;
+  virtual const Vector3 &angular_velocity() const = 0;
+  virtual bool turns() const { return false; } // by itself, on a seat that the machine moves
 
   virtual void kick(double dt) = 0;  // impulse of the loads over dt (s)
   virtual void drift(double dt) = 0; // moves everything over dt (s); loads stay as they are

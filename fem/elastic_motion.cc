@@ -28,14 +28,14 @@ Vector3 ElasticSolid::carried(std::size_t node) const {
 }
 
 void ElasticSolid::set_velocity(const Vector3 &velocity) {
-  set_velocity(velocity, turns_freely() ? angular_velocity_ : Vector3{});
+  set_velocity(velocity, turns() ? angular_velocity_ : Vector3{});
 }
 
 void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   if (clamped_nodes_.empty()) throw std::logic_error("elastic solid: a body without clamp is not moved");
   const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
-  if (turns_freely()) {
+  if (turns()) {
     // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
     const Vector3 asked = angular_velocity - angular_velocity_;
     spin_ = spin_ + to_space(rotor_ * to_frame(asked));
@@ -68,14 +68,14 @@ void ElasticSolid::move_frame(double dt) {
   displacement_ = displacement_ + dt * velocity_;
   if (angular_velocity_ == Vector3{}) return;
   const Quaternion before = rotation_;
-  if (turns_freely()) {
+  if (turns()) {
     rotation_ = normalised(normalised(rotation_quaternion(0.5 * dt * angular_velocity_)) * before);
     turned_ = true;
     find_angular_velocity();
   }
   rotation_ = normalised(normalised(rotation_quaternion(dt * angular_velocity_)) * before);
   turned_ = !is_identity(rotation_);
-  if (turns_freely()) find_angular_velocity();
+  if (turns()) find_angular_velocity();
 }
 
 void ElasticSolid::place_held() {
@@ -104,7 +104,7 @@ void ElasticSolid::place_surface() {
 // What the body hands to its clamp over dt: the machine takes it, or the free seat turns.
 void ElasticSolid::give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment) {
   clamp_work_ -= dt * dot(force, velocity_);
-  if (!turns_freely()) {
+  if (!turns()) {
     clamp_work_ -= dt * dot(moment, angular_velocity_);
     return;
   }
@@ -136,8 +136,8 @@ void ElasticSolid::kick(double dt) {
   give_to_clamp(dt, force, moment);
   load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
   dissipated_ += dt * relative;
-  if (turns_freely() && !is_static()) place_held();
-  if (turns_freely()) place_surface();
+  if (turns() && !is_static()) place_held();
+  if (turns()) place_surface();
 }
 
 // Steps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free
@@ -217,7 +217,7 @@ void ElasticSolid::internal_kick(double dt) {
   }
   if (clamped_nodes_.empty()) return;
   give_to_clamp(dt, force, moment);
-  if (turns_freely()) place_held();
+  if (turns()) place_held();
 }
 
 // Dashpots to the frame and between the nodes. They act where both halves of the loads' impulse meet: the
@@ -251,7 +251,7 @@ void ElasticSolid::damp(double dt) {
   kicked_.clear();
   if (clamped_nodes_.empty()) return;
   give_to_clamp(1, force, moment);
-  if (turns_freely()) place_held();
+  if (turns()) place_held();
 }
 
 } // namespace platen::fem

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/require.h"
+#include "fem/rotor.h"
 
 namespace platen::fem {
 namespace {
@@ -20,13 +21,6 @@ void check(const Clamp &clamp, const ElasticOptions &options) {
   require(!is_static ||
               (options.mass_damping == 0 && options.stiffness_damping == 0 && options.fastest_damping == 0),
           "elastic solid: a quasi-static body has no inertia to damp");
-}
-
-Matrix3 inverse(const Matrix3 &a) {
-  const Vector3 x = {a[0], a[1], a[2]}, y = {a[3], a[4], a[5]}, z = {a[6], a[7], a[8]};
-  const Vector3 yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
-  const double s = 1 / dot(x, yz);
-  return {s * yz[0], s * zx[0], s * xy[0], s * yz[1], s * zx[1], s * xy[1], s * yz[2], s * zx[2], s * xy[2]};
 }
 
 } // namespace
@@ -78,9 +72,7 @@ void ElasticSolid::weigh_rotor() {
   const auto add = [&](std::size_t i) {
     const Vector3 r = model_.nodes[i] - pivot_;
     rotor_arm_ = rotor_arm_ + model_.mass[i] * r;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
-        rotor_[3 * a + b] += model_.mass[i] * ((a == b ? dot(r, r) : 0.0) - r[a] * r[b]);
+    add_about_origin(rotor_, model_.mass[i], r);
   };
   if (is_static()) {
     for (std::size_t i = 0; i < model_.nodes.size(); ++i)

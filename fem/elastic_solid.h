@@ -63,13 +63,14 @@ public:
 
   // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
   // freely: then angular velocities are its own, and the other form keeps them).
-  void set_velocity(const Vector3 &velocity) override;                         // m/s
-  void set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity); // m/s; rad/s, global axes
-  const Vector3 &velocity() const override { return velocity_; }               // m/s, of centre or seat
-  const Vector3 &angular_velocity() const { return angular_velocity_; }        // rad/s
-  const Vector3 &displacement() const override { return displacement_; }       // m, of centre or seat
+  void set_velocity(const Vector3 &velocity) override;                           // m/s
+  void set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity);   // m/s; rad/s, global axes
+  const Vector3 &velocity() const override { return velocity_; }                 // m/s, of centre or seat
+  const Vector3 &angular_velocity() const override { return angular_velocity_; } // rad/s
+  const Vector3 &displacement() const override { return displacement_; }         // m, of centre or seat
   Vector3 centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
-  const Quaternion &rotation() const { return rotation_; }
+  const Quaternion &rotation() const override { return rotation_; }
+  bool turns() const override { return clamp_.turns; }
 
   void kick(double dt) override; // impulse of the loads over dt (s)
   // Moves everything over dt in steps of at most 0.9 of the stable one. Surface velocities are then those of
@@ -109,7 +110,6 @@ public:
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
 
 private:
-  bool turns_freely() const { return clamp_.turns; }
   bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }
   void hold(const Clamp &clamp);
   void weigh_rotor();

@@ -28,9 +28,9 @@ EnergyBalance ElasticSolid::energy_balance() const {
     balance.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
     const Vector3 free = free_part(i, force_[i]);
     shift += dot(free, free) / model_.mass[i];
-    if (turns_freely()) moment = moment - cross(arm(i), free);
+    if (turns()) moment = moment - cross(arm(i), free);
   }
-  if (turns_freely()) {
+  if (turns()) {
     const Vector3 m = to_frame(moment);
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b)
@@ -41,7 +41,7 @@ EnergyBalance ElasticSolid::energy_balance() const {
 }
 
 double ElasticSolid::kinetic_energy() const {
-  if (is_static()) return turns_freely() ? 0.5 * dot(angular_velocity_, spin_) : 0.0;
+  if (is_static()) return turns() ? 0.5 * dot(angular_velocity_, spin_) : 0.0;
   double twice = 0;
   for (std::size_t i = 0; i < rate_.size(); ++i)
     twice += model_.mass[i] * dot(rate_[i], rate_[i]);

@@ -153,7 +153,10 @@ unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
 
 } // namespace
 
-Grid make_grid(const std::vector<BoxPlate> &boxes) {
+namespace {
+
+// Boxes made one by one, in one grid; merging keeps materials and forgets whose side a face is.
+Grid merged(const std::vector<BoxPlate> &boxes, const std::function<Grid(const BoxPlate &)> &make) {
   require(!boxes.empty(), "platen grid: there are no boxes");
   for (std::size_t k = 0; k < boxes.size(); ++k)
     for (std::size_t other = 0; other < k; ++other)
@@ -161,7 +164,7 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
   std::vector<Grid> parts;
   std::vector<const dealii::Triangulation<3> *> all;
   for (const BoxPlate &box : boxes) {
-    parts.push_back(make_grid(box));
+    parts.push_back(make(box));
     all.push_back(parts.back().get());
   }
   auto grid = std::make_shared<dealii::Triangulation<3>>();
@@ -175,6 +178,16 @@ Grid make_grid(const std::vector<BoxPlate> &boxes) {
     face->set_boundary_id(side_of(*std::min_element(boxes.begin(), boxes.end(), nearer), middle));
   }
   return grid;
+}
+
+} // namespace
+
+Grid make_grid(const std::vector<BoxPlate> &boxes) {
+  return merged(boxes, [](const BoxPlate &box) { return make_grid(box); });
+}
+
+Grid make_grid(const std::vector<BoxPlate> &boxes, const std::vector<Layer> &layers) {
+  return merged(boxes, [&](const BoxPlate &box) { return make_grid(box, layers); });
 }
 
 Grid make_grid(const Tube &tube) {

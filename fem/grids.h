@@ -70,6 +70,7 @@ struct Layer {
 // elements along z; throws std::invalid_argument also where their thicknesses do not add up to the plate's.
 Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers);
 Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers);
+Grid make_grid(const std::vector<BoxPlate> &boxes, const std::vector<Layer> &layers); // all layered alike
 
 // The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials stay. Cells
 // that this inverts are found by those who use them.

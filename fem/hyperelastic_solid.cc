@@ -98,6 +98,29 @@ void HyperelasticSolid::set_prescribed_velocity(int motion, const Vector3 &veloc
   own.velocity = velocity, own.spin = spin, own.about = about;
 }
 
+void HyperelasticSolid::prescribe_each(int motion) {
+  prescribed_motion(motion);
+  prescribed_motions_[index(motion)].each = true;
+}
+
+void HyperelasticSolid::set_node_velocities(int motion, const std::vector<Vector3> &velocities) {
+  const PrescribedMotion &own = prescribed_motion(motion);
+  require(own.each && velocities.size() == own.nodes.size(),
+          "solid: one velocity for each node of a motion that is prescribed by nodes, please");
+  for (std::size_t k = 0; k < velocities.size(); ++k)
+    give_velocity(own, own.nodes[k], velocities[k]);
+}
+
+// What a new prescribed velocity adds to the energy of motion is the machine's work as well.
+void HyperelasticSolid::give_velocity(const PrescribedMotion &motion, int node, const Vector3 &given) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!motion.components[k]) continue;
+    double &v = velocity_[index(node)][k];
+    prescribed_work_ += 0.5 * mass_[index(node)] * (given[k] * given[k] - v * v);
+    v = given[k];
+  }
+}
+
 Vector3 HyperelasticSolid::prescribed_force(int motion) const {
   const PrescribedMotion &own = prescribed_motion(motion);
   Vector3 sum{};
@@ -135,17 +158,10 @@ void HyperelasticSolid::half_kick(double dt) {
     double prescribed = 0, damping = 0;
     void operator+=(const Works &other) { prescribed += other.prescribed, damping += other.damping; }
   };
-  // What a new prescribed velocity adds to the energy of motion is the machine's work as well.
   for (const PrescribedMotion &own : prescribed_motions_)
-    for (const int n : own.nodes) {
-      const Vector3 given = own.velocity + cross(own.spin, node_place(n) - own.about);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!own.components[k]) continue;
-        double &v = velocity_[index(n)][k];
-        prescribed_work_ += 0.5 * mass_[index(n)] * (given[k] * given[k] - v * v);
-        v = given[k];
-      }
-    }
+    if (!own.each)
+      for (const int n : own.nodes)
+        give_velocity(own, n, own.velocity + cross(own.spin, node_place(n) - own.about));
   const auto kick = [&](std::size_t first, std::size_t last) {
     Works sum;
     for (std::size_t n = first; n < last; ++n) {

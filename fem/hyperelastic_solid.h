@@ -63,6 +63,11 @@ public:
   // each step while a prescribed motion turns.
   void set_prescribed_velocity(int motion, const Vector3 &velocity, const Vector3 &spin = {},
                                const Vector3 &about = {});
+  // From now on each node has a velocity of its own, by a call of set_node_velocities: an end that turns.
+  // Until the first call they stand.
+  void prescribe_each(int motion);
+  // m/s, in the order of the nodes; takes effect at once. Jumps are the machine's work.
+  void set_node_velocities(int motion, const std::vector<Vector3> &velocities);
   Vector3 prescribed_force(int motion) const; // N, that the machine does on the solid there, without inertia
 
   // Pa, on all faces of a tag from now on. Throws where there is none.
@@ -122,6 +127,7 @@ private:
     std::vector<int> nodes;
     std::array<bool, 3> components;
     Vector3 velocity{}, spin{}, about{};
+    bool each = false; // the velocities are those that the nodes have
   };
   struct Worst {
     int cell = -1; // none
@@ -130,6 +136,7 @@ private:
 
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
   const PrescribedMotion &prescribed_motion(int motion) const;
+  void give_velocity(const PrescribedMotion &motion, int node, const Vector3 &given);
   bool is_prescribed(std::size_t node, std::size_t component) const {
     return (prescribed_[node] >> component & 1) != 0;
   }

@@ -7,8 +7,10 @@
 
 #include "base/require.h"
 #include "base/vector3.h"
+#include "fem/rotor.h"
 
 namespace platen::fem {
+
 RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid)), material_(material) {
   require(grid_ != nullptr, "body: no grid");
   check(material, "body");
@@ -17,26 +19,38 @@ RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid
   grid_vertex_ = std::move(extracted.node);
   reference_vertices_ = surface_.vertices;
   surface_.only_shifted = true;
+  find_inertia(volume_moments(grid_));
+}
 
-  const VolumeMoments m = volume_moments(grid_);
+RigidBody::RigidBody(Grid grid, const Material &material, const Vector3 &seat)
+    : RigidBody(std::move(grid), material) {
+  turns_ = true;
+  pivot_ = seat;
+  arm_ = mass() * (reference_centre_ - seat);
+  add_about_origin(inertia_, mass(), reference_centre_ - seat);
+  inverse_inertia_ = inverse(inertia_);
+  surface_.only_shifted = false;
+}
+
+void RigidBody::find_inertia(const VolumeMoments &m) {
   volume_ = m.volume;
-  reference_centre_ = m.centroid;
+  pivot_ = reference_centre_ = m.centroid;
   const double trace = m.second[0] + m.second[4] + m.second[8];
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      inertia_[3 * i + j] = material.density * ((i == j ? trace : 0.0) - m.second[3 * i + j]);
+      inertia_[3 * i + j] = material_.density * ((i == j ? trace : 0.0) - m.second[3 * i + j]);
 }
 
 Vector3 RigidBody::current_position(const Vector3 &reference) const {
   // Without rotation the sum is kept plain: a flat face stays flat to the last bit.
   if (is_identity(rotation_)) return reference + displacement_;
-  return centre() + rotate(rotation_, reference - reference_centre_);
+  return centre() + rotate(rotation_, reference - pivot_);
 }
 
 void RigidBody::place_vertices() {
   const Vector3 middle = centre();
   const bool turns = angular_velocity_ != Vector3{};
-  surface_.only_shifted = !turns && is_identity(rotation_);
+  surface_.only_shifted = !turns_ && !turns && is_identity(rotation_);
   for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
     surface_.vertices[v] = current_position(reference_vertices_[v]);
     surface_.velocities[v] =
@@ -44,27 +58,79 @@ void RigidBody::place_vertices() {
   }
 }
 
+void RigidBody::set_velocity(const Vector3 &velocity) {
+  set_velocity(velocity, turns_ ? angular_velocity_ : Vector3{});
+}
+
+// A jump of the seat drags the body along by its mass; a turn that is asked for is added to that.
 void RigidBody::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
+  if (turns_) {
+    const double before = turning_energy();
+    const Vector3 asked = rotate(conjugate(rotation_), angular_velocity - angular_velocity_);
+    spin_ =
+        spin_ + rotate(rotation_, inertia_ * asked) - cross(rotate(rotation_, arm_), velocity - velocity_);
+    find_angular_velocity();
+    clamp_work_ += turning_energy() - before;
+  } else {
+    angular_velocity_ = angular_velocity;
+  }
   velocity_ = velocity;
-  angular_velocity_ = angular_velocity;
+  place_vertices();
+}
+
+void RigidBody::find_angular_velocity() {
+  angular_velocity_ = rotate(rotation_, inverse_inertia_ * rotate(conjugate(rotation_), spin_));
+}
+
+void RigidBody::kick(double dt) {
+  if (!turns_) return;
+  const Vector3 force = total_force(), turning = moment(centre()), before = angular_velocity_;
+  spin_ = spin_ + dt * turning;
+  find_angular_velocity();
+  clamp_work_ -= dt * dot(force, velocity_);
+  load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(turning, before + angular_velocity_));
   place_vertices();
 }
 
 void RigidBody::drift(double dt) {
+  if (turns_) return drift_on_seat(dt);
   last_move_ = largest_move(dt);
   if (velocity_ == Vector3{} && angular_velocity_ == Vector3{}) return;
   displacement_ = displacement_ + dt * velocity_;
+  turn(dt);
+  place_vertices();
+}
+
+void RigidBody::turn(double dt) {
   if (angular_velocity_ != Vector3{})
     rotation_ = normalised(normalised(rotation_quaternion(dt * angular_velocity_)) * rotation_);
+}
+
+// Turned by the angular velocity half-way, since the inertia turns with the body.
+void RigidBody::drift_on_seat(double dt) {
+  const std::vector<Vector3> before = surface_.vertices;
+  const Quaternion start = rotation_;
+  displacement_ = displacement_ + dt * velocity_;
+  turn(0.5 * dt);
+  find_angular_velocity();
+  rotation_ = start;
+  turn(dt);
+  find_angular_velocity();
   place_vertices();
+  last_move_ = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const Vector3 displacement = surface_.vertices[v] - before[v];
+    last_move_ = std::max(last_move_, norm(displacement));
+    if (dt != 0) surface_.velocities[v] = (1 / dt) * displacement;
+  }
 }
 
 double RigidBody::largest_move(double dt) const {
   double reach = 0;
   if (angular_velocity_ != Vector3{})
     for (const Vector3 &v : reference_vertices_)
-      reach = std::max(reach, norm(v - reference_centre_));
+      reach = std::max(reach, norm(v - pivot_));
   return std::abs(dt) * (norm(velocity_) + norm(angular_velocity_) * reach);
 }
 
@@ -76,11 +142,31 @@ double RigidBody::kinetic_energy() const {
       for (std::size_t j = 0; j < 3; ++j)
         energy += 0.5 * w[i] * inertia_[3 * i + j] * w[j];
   }
+  if (turns_) energy += dot(velocity_, cross(angular_velocity_, rotate(rotation_, arm_)));
   return energy;
 }
 
-double RigidBody::stable_step(const VertexSprings &) const {
-  return std::numeric_limits<double>::infinity();
+EnergyBalance RigidBody::energy_balance() const {
+  EnergyBalance balance;
+  if (!turns_) return balance;
+  balance.kinetic = turning_energy();
+  balance.load_work = load_work_, balance.clamp_work = clamp_work_;
+  return balance;
+}
+
+// Springs of all vertices, taken as alike in all directions, against a turn about the seat. Dashpots act on
+// velocities of half a step before, as in ElasticSolid.
+double RigidBody::stable_step(const VertexSprings &springs) const {
+  if (!turns_) return std::numeric_limits<double>::infinity();
+  Matrix3 stiffness{}, dashpots{};
+  for (std::size_t v = 0; v < reference_vertices_.size(); ++v) {
+    const Vector3 r = reference_vertices_[v] - pivot_;
+    add_about_origin(stiffness, springs.stiffness[v], r);
+    add_about_origin(dashpots, springs.dashpot[v], r);
+  }
+  const double omega = std::sqrt(std::max(0.0, largest_eigenvalue(inverse_inertia_ * stiffness)));
+  const double xi = 0.5 * largest_eigenvalue(inverse_inertia_ * dashpots) / omega;
+  return omega > 0 ? 2 / omega * (std::sqrt(1 + xi * xi) - xi) : std::numeric_limits<double>::infinity();
 }
 
 void RigidBody::describe(Archive &archive) {
@@ -89,6 +175,11 @@ void RigidBody::describe(Archive &archive) {
   archive("rotation", rotation_);
   archive("velocity", velocity_, "m/s");
   archive("angular_velocity", angular_velocity_, "rad/s");
+  if (turns_) {
+    archive("angular_momentum", spin_, "kg m2/s");
+    archive("load_work", load_work_, "J");
+    archive("clamp_work", clamp_work_, "J");
+  }
   describe_loads(archive);
   if (archive.reads()) place_vertices();
 }

@@ -71,6 +71,24 @@ GROUPS = [
               "Held by a stiff wall it has no peak: the strength in the table is the stress at the end of the test. "
               "Unloading and reloading (the lines back) break hardly any bond."),
     ]),
+    ("Stages and platens on all sides", [
+        Scene("hold_concrete", COMPRESS, "stress_strain",
+              "In a cell at 4 MPa by stages: sheared, unloaded, loaded again, held at 30 MPa, then crushed. Unloading and "
+              "reloading follow one line, and while the stress is held nothing moves: no law here depends on time."),
+        Scene("multistage_triaxial", COMPRESS, "stress_strain",
+              "One specimen at 2, 5 and 10 MPa: near each peak it is unloaded and the pressure goes up. Each loading "
+              "climbs a little less steeply than the one before, for bonds have broken."),
+        Scene("biaxial_steel", COMPRESS, "side_stresses",
+              "A square in plane stress: the platens at the sides bear half of what those above and below do, all along. "
+              "Dry steel holds the thin edges, so it bears twice the uniaxial strength; between brushes laboratories find "
+              "1.27 times."),
+        Scene("true_triaxial", COMPRESS, "side_stresses",
+              "Six greased platens: 5 MPa on all sides, then the axial ones close while the others hold their stress by "
+              "their servos against a cube that widens ever faster."),
+        Scene("class_two_concrete", COMPRESS, "stress_strain",
+              "Led by how fast it widens: past the peak the platens part again and again, and the strain goes back while "
+              "the stress falls. Between platens that only close nobody sees that."),
+    ]),
     ("Tension, bending, Brazilian", [
         Scene("concrete_tension", COMPRESS, "damage",
               "One flat crack across; compressive over tensile strength is 8.5, as in laboratories (8 to 12)."),

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "apps/report/chart.h"
 #include "apps/report/specimen_view.h"
@@ -21,6 +22,8 @@ namespace {
 
 // Contacts at the rim of a platen may press aslant; those of a sleeve press sideways.
 constexpr double upright = 0.7;
+
+constexpr double most_over_mean = 2.5; // of colours of pressure: what is above looks alike
 
 constexpr int rings = 5; // of equal area; the last one is wider than a sphere's radius
 
@@ -203,19 +206,24 @@ FacePressure pressure_over(const PlatenContacts &contacts, std::array<double, 2>
 
 namespace {
 
-// MPa, a pixel a square, its origin the lower left corner; mm.
+double mean_of(const FacePressure &face) { // Pa
+  return std::accumulate(face.pressure.begin(), face.pressure.end(), 0.0) /
+         static_cast<double>(face.pressure.size());
+}
+
+// Over its mean, a pixel a square, its origin the lower left corner; mm.
 vtkSmartPointer<vtkImageData> image_of(const FacePressure &face, std::array<double, 2> low,
                                        std::array<double, 2> high) {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  const double dx = (high[0] - low[0]) / face.columns * mm_per_m,
-               dy = (high[1] - low[1]) / face.rows * mm_per_m;
   image->SetDimensions(face.columns, face.rows, 1);
   image->SetOrigin(low[0] * mm_per_m, low[1] * mm_per_m, 0);
-  image->SetSpacing(dx, dy, 1);
+  image->SetSpacing((high[0] - low[0]) / face.columns * mm_per_m, (high[1] - low[1]) / face.rows * mm_per_m,
+                    1);
+  const double mean = mean_of(face);
   vtkNew<vtkDoubleArray> values;
   values->SetName("pressure");
   for (const double pressure : face.pressure)
-    values->InsertNextValue(pressure / pa_per_mpa);
+    values->InsertNextValue(mean > 0 ? std::min(pressure / mean, most_over_mean) : 0);
   image->GetPointData()->SetScalars(values);
   return image;
 }
@@ -226,30 +234,21 @@ void draw_face_pressures(const Run &run, const Extent &extent, double radius,
                          const std::filesystem::path &png) {
   constexpr int right = 60, bar = 260;
   FacePanels panels(run, extent, right, 1.05, bar);
-  std::vector<FacePressure> faces;
-  std::vector<std::array<double, 2>> lows, highs;
-  double largest = 0;
-  for (const Side side : panels.sides()) {
+  const Colouring colouring{Ramp::displacement, round_ticks(0, most_over_mean, 5),
+                            "Pressure\nover the\nmean of\nthe platen"};
+  std::vector<vtkSmartPointer<vtkChartXY>> charts;
+  for (std::size_t k = 0; k < panels.sides().size(); ++k) {
+    const Side side = panels.sides()[k];
     const auto [across, up] = plane_of(side);
     const auto a = FacePanels::reach(extent, across), b = FacePanels::reach(extent, up);
-    lows.push_back({a[0], b[0]}), highs.push_back({a[1], b[1]});
-    faces.push_back(pressure_over(contacts_with(side, nearest(run.contacts, run.moments.peak_time)),
-                                  lows.back(), highs.back(), 4 * radius));
-    for (const double pressure : faces.back().pressure)
-      largest = std::max(largest, pressure / pa_per_mpa);
-  }
-  const Colouring colouring{Ramp::displacement, round_ticks(0, largest > 0 ? largest : 1, 5),
-                            "Pressure\n(MPa)"};
-  std::vector<vtkSmartPointer<vtkChartXY>> charts;
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    const auto [across, up] = plane_of(panels.sides()[k]);
-    charts.push_back(image_chart(panels.area(k), image_of(faces[k], lows[k], highs[k]),
-                                 colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()),
-                                 panels.range(across), panels.range(up)));
-    double mean = 0;
-    for (const double pressure : faces[k].pressure)
-      mean += pressure / pa_per_mpa / static_cast<double>(faces[k].pressure.size());
-    panels.add_words(k, fmt::format("{}: mean {:.2f} MPa", coupling::name_of(panels.sides()[k]), mean));
+    const std::array<double, 2> low{a[0], b[0]}, high{a[1], b[1]};
+    const FacePressure face = pressure_over(
+        contacts_with(side, nearest(run.contacts, run.moments.peak_time)), low, high, 4 * radius);
+    charts.push_back(
+        image_chart(panels.area(k), image_of(face, low, high),
+                    colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()),
+                    panels.range(across), panels.range(up)));
+    panels.add_words(k, fmt::format("{}: mean {:.2f} MPa", coupling::name_of(side), mean_of(face) / pa_per_mpa));
   }
   add_chart_scene(panels.canvas(), charts);
   add_colour_bar(panels.canvas(), colouring, 1 - double(bar) / panels.canvas().width());

@@ -1,5 +1,6 @@
 #include "apps/run/history.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -67,6 +68,16 @@ double stress_on(const Seen &s) {
 template <coupling::Side side>
 double friction_work_at(const Seen &s) {
   return s.problem.platen(side)->layer().friction_work;
+}
+
+bool staged(const PlatenTest &p) {
+  return !p.settings().loading.stages.empty();
+}
+// A stage is led or ended by how the specimen widens.
+bool widens(const PlatenTest &p) {
+  const auto &stages = p.settings().loading.stages;
+  return std::any_of(stages.begin(), stages.end(),
+                     [](const auto &stage) { return coupling::needs_circumferential_strain(stage); });
 }
 
 bool is_there(const HistoryColumn &column, const PlatenTest *problem) {
@@ -156,10 +167,20 @@ const std::vector<HistoryColumn> &history_columns() {
          return s.problem.machine()->elastic_energy() + s.problem.machine()->kinetic_energy();
        },
        number, on_spring},
+      {"stage", "1", &S::stage,
+       [](const Seen &s) { return 1.0 + static_cast<double>(s.problem.program().stage_number()); }, count,
+       staged},
+      {"circumferential_strain", "1", nullptr,
+       [](const Seen &s) { return s.problem.circumferential_strain(); }, number, widens},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},
-      {"axial_stage", "1", &S::axial_stage, [](const Seen &s) { return s.problem.axial_stage() ? 1.0 : 0.0; },
+      // Of a hydrostatic test there is none, though its program says so in the step that finishes it.
+      {"axial_stage", "1", &S::axial_stage,
+       [](const Seen &s) {
+         const std::optional<coupling::CellSettings> &cell = s.problem.settings().loading.cell;
+         return s.problem.axial_stage() && !(cell && cell->alone) ? 1.0 : 0.0;
+       },
        state}};
   return columns;
 }

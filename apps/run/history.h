@@ -41,6 +41,7 @@ struct Sample {
   double machine_energy = 0; // J, part of `body`: of the machine's spring and the mass on it
   double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
+  double stage = 1;          // of those that the scene writes, from 1
   std::vector<double> more;  // of columns without a member, in their order
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa

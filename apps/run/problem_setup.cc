@@ -41,7 +41,7 @@ std::vector<Effect> effects(const Scene &s) {
       {bonded && s.bond.scattered, "scattered strengths"},
       {touching && contact->dashpot() > 0, "contact dashpots"},
       {s.platens.deformable, "elastic platens"},
-      {s.platens.deformable && s.platens.elastic->seat, "spherical seat"},
+      {s.platens.spherical_seat, "spherical seat"},
       {s.platens.damping > 0, "platen dashpots"},
       {s.platens.any_of([&](coupling::Side side) { return s.platens.at(side).friction_static > 0; }),
        "platen friction"},

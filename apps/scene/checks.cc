@@ -31,6 +31,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   SceneCheck check(scene, parameters, app);
   check.specimen();
   check.effects();
+  check.stages();
   check.needed();
   check.bond();
   check.phases();

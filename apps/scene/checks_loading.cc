@@ -47,9 +47,9 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.deformable) deformable_platens();
-  if (!platens.deformable && platens.elastic->seat)
-    refuse("Platens/Top/Seat", "needs Platens/Kind = deformable. Allowed: fixed.");
   if (loads() && platens.machine.yields()) machine();
+  if (loads() && platens.deformable) layers();
+  if (loads() && platens.spherical_seat) seat();
   if (loads()) meshes();
 }
 
@@ -59,6 +59,8 @@ void SceneCheck::machine() const {
     refuse_spring(
         "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
   if (scene_.platens.deformable) refuse_spring("moves a rigid platen. Allowed: Platens/Kind = rigid.");
+  if (scene_.platens.spherical_seat)
+    refuse_spring("moves a platen that does not turn. Allowed: Platens/Top/Seat = fixed.");
   if (scene_.loading.confined())
     refuse_spring("would let the platen lag behind the pressure. Allowed: Loading/Confinement = none.");
   if (scene_.loading.start_strain > 0)
@@ -75,10 +77,10 @@ void SceneCheck::surfaces() const {
              brush = platens.surface == SurfaceKind::brush;
   if ((rubber || brush) && !platens.deformable)
     refuse("Platens/Surface", "yields, but Platens/Kind = rigid. Allowed: deformable.");
-  if (rubber && platens.elastic->pad_thickness == 0)
+  if (rubber && platens.elastic->pad_thickness == 0 && platens.layers.empty())
     refuse("Platens/Surface",
            "needs the sheet: Platens/Pad thickness, Pad modulus, Pad Poisson ratio and Pad "
-           "density, which have no defaults.");
+           "density, or Layers, which have no defaults.");
   std::string brushes; // of all sides, where one lacks its own
   for (const coupling::Side side : sides_of_scene)
     if (platens.has(side)) brushes += (brushes.empty() ? "" : " and ") + section_of(side) + "/Mesh file";
@@ -91,10 +93,8 @@ void SceneCheck::surfaces() const {
 void SceneCheck::deformable_platens() const {
   const Loading &loading = scene_.loading;
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
-  if (app_ != AppKind::compress && app_ != AppKind::study) refuse_kind("is for platen-compress.");
-  if (loading.test != LoadingTest::compression) refuse_kind("needs Loading/Test = compression.");
-  if (scene_.loading.servo) refuse_kind("needs Platens/Top/Control = motion.");
-  if (scene_.platens.glued) refuse_kind("needs Platens/Attachment = contact.");
+  if (app_ != AppKind::compress && app_ != AppKind::study && app_ != AppKind::brazilian)
+    refuse_kind("is for platen-compress and platen-brazilian.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
@@ -209,7 +209,7 @@ void SceneCheck::cell() const {
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   if (!loading.confined()) return;
-  if (loads() && !(loading.cell->pressure > 0))
+  if (loads() && !loading.staged() && !(loading.cell->pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
   if (loads() && !scene_.bond.bonded())
     refuse("Loading/Confinement",
@@ -219,9 +219,6 @@ void SceneCheck::cell() const {
            "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
            "Allowed: motion.");
   if (!loading.sleeved()) return;
-  if (scene_.platens.elastic->seat)
-    refuse("Platens/Top/Seat",
-           "does not go with Loading/Confinement = sleeve, whose rims do not turn. Allowed: fixed.");
   if (app_ != AppKind::compress && app_ != AppKind::study)
     refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
   if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)

@@ -87,6 +87,11 @@ Declared &Declared::told(const std::string &text) {
   return *this;
 }
 
+Declared &Declared::alike(bool first) {
+  entry().alike = first ? Entry::Alike::first : Entry::Alike::further;
+  return *this;
+}
+
 Declared &Declared::member(const std::string &path) {
   entry().members.push_back(path);
   return *this;

@@ -47,6 +47,8 @@ public:
   Declared &says(const std::string &documentation);
   // Ends the documentation with " (text).".
   Declared &told(const std::string &text);
+  // It is of the first of several sections alike, or of a further one.
+  Declared &alike(bool first);
   // The member of the library's struct that it sets.
   Declared &member(const std::string &path); // "loading.ramp"
 

@@ -29,6 +29,9 @@ struct Entry {
   std::string allowed;       // in words: "0 ... 5", "none, linear, hertz"
   std::string documentation; // one sentence or two
   bool is_file = false;      // the value is a path, relative to the folder of the scene
+  // Of sections alike: in the first, or a further one; written only where it is set, the first with what is
+  // documented.
+  enum class Alike { none, first, further } alike = Alike::none;
   // Converts a text and stores the number; throws ValueError. Empty once the scene has been read.
   std::function<void(const std::string &)> read;
   // Why it has no effect, and why it must be given; "" where neither is so (apps/scene/declared.h).

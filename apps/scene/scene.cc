@@ -1,5 +1,6 @@
 #include "apps/scene/scene.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -7,6 +8,7 @@
 
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
+#include "apps/scene/layers.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/surfaces.h"
 
@@ -31,8 +33,10 @@ void inherit(Scene &scene, Parameters &parameters) {
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
+  supply_layers(parameters, platens);
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
+  scene.loading.stages = stages_of(scene.loading.stage_sections);
   PairTest &pair = scene.pair_test;
   const double modulus = scene.model.bond_layout.modulus;
   if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};
@@ -41,6 +45,17 @@ void inherit(Scene &scene, Parameters &parameters) {
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
+}
+
+// Of sections alike what is set; documented the first one whole.
+std::vector<Entry> written(const Parameters &parameters, bool documented) {
+  std::vector<Entry> entries = parameters.entries();
+  const auto is_left_out = [&](const Entry &entry) {
+    return !entry.changed() &&
+           (entry.alike == Entry::Alike::further || (entry.alike == Entry::Alike::first && !documented));
+  };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_left_out), entries.end());
+  return entries;
 }
 
 void keep(Scene &scene, Parameters &parameters) {
@@ -95,7 +110,7 @@ void refuse(const Scene &scene, const std::string &entry, const std::string &rea
 }
 
 std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
-  std::vector<Entry> entries = scene.parameters->entries();
+  std::vector<Entry> entries = written(*scene.parameters, false);
   for (Entry &entry : entries) {
     if (!entry.is_file || entry.text.empty()) continue;
     const std::filesystem::path from = std::filesystem::absolute(resolved_path(entry));
@@ -117,9 +132,9 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
 
 void print_parameters(const Scene &scene, bool as_json, std::ostream &out) {
   if (as_json)
-    write_json(scene.parameters->entries(), out);
+    write_json(written(*scene.parameters, true), out);
   else
-    write_prm(scene.parameters->entries(), true, out);
+    write_prm(written(*scene.parameters, true), true, out);
 }
 
 } // namespace platen::apps

@@ -27,6 +27,7 @@ public:
   void splitting() const;
   void bending() const;
   void cycles() const;
+  void stages() const;
   void cell() const;
   void pair_test() const;
   void led_pair() const;
@@ -51,6 +52,9 @@ private:
   void deformable_platens() const;
   void machine() const;
   void meshes() const;
+  void layers() const;
+  void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;
+  void seat() const;
   void friction(coupling::Side of) const;
   void weakening(coupling::Side of) const;
   void note(const std::string &path, const std::string &why);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/scene/quantities.h"
+#include "apps/scene/scene_stages.h"
 #include "coupling/platen_test_settings.h"
 
 namespace platen::apps {
@@ -38,6 +39,15 @@ inline std::string section_of(coupling::Side side) {
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return "Platens/" + name;
 }
+// Of a platen that yields, as a scene says it (apps/scene/layers.h).
+struct NamedLayer {
+  std::string material;
+  double thickness = not_given; // m
+};
+struct NamedMaterial {
+  std::string name;
+  fem::Material material;
+};
 
 struct Platens : coupling::PlatenSettings {
   bool deformable = false; // `elastic` counts then
@@ -46,6 +56,9 @@ struct Platens : coupling::PlatenSettings {
   PlatenSides sides = PlatenSides::two;
   std::array<Face, coupling::side_count> faces; // by side
   double mesh_unit = 1;                         // m, of the mesh files
+  // From the specimen outward: of all platens, and of those that have their own.
+  std::vector<NamedLayer> layers, top_layers, bottom_layers;
+  std::vector<NamedMaterial> layer_materials;
 
   Platens() {
     elastic.emplace();
@@ -85,13 +98,15 @@ enum class ConfinementKind { none, particles, sleeve };
 
 struct Loading : coupling::LoadingSettings {
   LoadingTest test = LoadingTest::compression;
-  double stop_at_residual = 0.02;                      // fraction of the peak stress; 0: never
-  ConfinementKind confinement = ConfinementKind::none; // `cell`, and its sleeve, count then
+  double stop_at_residual = 0.02;                       // fraction of the peak stress; 0: never
+  ConfinementKind confinement = ConfinementKind::none;  // `cell`, and its sleeve, count then
+  std::array<StageSection, most_stages> stage_sections; // what `stages` are made of
 
   Loading() {
     target_strain = 0.01;
     cell.emplace().sleeve.emplace();
   }
+  bool staged() const { return !stages.empty(); }
   bool confined() const { return confinement != ConfinementKind::none; }
   bool sleeved() const { return confinement == ConfinementKind::sleeve; }
   bool walled() const { return test == LoadingTest::uniaxial_strain; }

@@ -77,6 +77,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_platens(parameters, scene.platens, scene.loading);
   declare_sleeve(parameters, *scene.loading.cell);
   declare_loading(parameters, scene.loading);
+  declare_stages(parameters, scene.loading.stage_sections);
   declare_integration(parameters, scene.time_step, scene.model);
   declare_output(parameters, scene.output, scene.checkpoint);
   declare_expect(parameters, scene.expect);

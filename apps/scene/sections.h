@@ -1,6 +1,7 @@
 // The table of everything that a scene file may say, by sections; each is bound to its struct of the scene.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "apps/scene/declare.h"
@@ -17,6 +18,7 @@ void declare_contact(Parameters &parameters, dem::ContactSettings &contact);
 void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading);
 void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell);
 void declare_loading(Parameters &parameters, Loading &loading);
+void declare_stages(Parameters &parameters, std::array<StageSection, most_stages> &stages);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
 void declare_pair_test(Parameters &parameters, PairTest &pair);
 void declare_calibrate(Parameters &parameters, Calibrate &c);

@@ -1,5 +1,6 @@
 // What the specimen meets: platens, sleeve and loading. Keys stand in the order of scenes as they are
 // written.
+#include "apps/scene/layers.h"
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 #include "apps/scene/surfaces.h"
@@ -68,12 +69,44 @@ void declare_further_sides(Parameters &parameters, Platens &platens) {
   }
 }
 
+constexpr const char *layers_allowed =
+    "materials with their thicknesses, commas between them: \"rubber 2 mm, steel 20 mm\"";
+
+void declare_layers(Section &section, Platens &platens) {
+  section
+      .value("Layers", platens.layers, "", layers_allowed, read_layers,
+             "Of deformable platens, from the specimen outward. What they leave of the Thickness is of the "
+             "platens' own Young modulus, Poisson ratio and Density, which is the material platen; without a "
+             "Thickness platens are as thick as their layers. Of a mesh the physical volumes are the layers, "
+             "in their order: the names alone count. Empty: one material, or the Pad on it.")
+      .member("platens.elastic.layers")
+      .unless("Platens/Kind", {"rigid"});
+  section
+      .value(
+          "Layer materials", platens.layer_materials, "",
+          "of each its name, Young modulus, Poisson ratio and density, semicolons between them: \"rubber: 5 "
+          "MPa, 0.49, 1100 kg/m3; steel: 210 GPa, 0.3, 7850 kg/m3\"",
+          read_layer_materials, "What the names in Layers mean; all but platen have to be given.")
+      .unless("Platens/Kind", {"rigid"});
+}
+
+void declare_own_layers(Parameters &parameters, coupling::Side side, std::vector<NamedLayer> &layers) {
+  const std::string name = coupling::name_of(side);
+  Section section(parameters, side == coupling::Side::top ? "Platens/Top" : "Platens/Bottom");
+  section
+      .value("Layers", layers, "", layers_allowed, read_layers,
+             "As Platens/Layers, of this platen alone; empty: as both.")
+      .member("platens." + name + ".layers")
+      .unless("Platens/Kind", {"rigid"});
+}
+
 void declare_elastic(Section &section, Platens &platens) {
   Members of(section, *platens.elastic);
   of("motion").unless("Platens/Kind", {"rigid"});
   of("degree").unless("Platens/Kind", {"rigid"});
   of("damping", "Body damping").unless("Platens/Kind", {"rigid"}).only_if("Platens/Motion", {"explicit"});
   of("steps_per_solve").unless("Platens/Kind", {"rigid"}).only_if("Platens/Motion", {"quasi-static"});
+  declare_layers(section, platens);
   of("pad_thickness").unless("Platens/Kind", {"rigid"});
   for (Declared declared :
        {of("pad_modulus"), of("pad_poisson_ratio", "Pad Poisson ratio"), of("pad_density")})
@@ -90,7 +123,7 @@ void declare_elastic(Section &section, Platens &platens) {
               (pad > 0 && pad < p.thickness) || (p.meshed() && given(p.elastic->pad.young_modulus));
           return s.loads() && p.deformable && wanted ? "the pad has to have one." : "";
         });
-  of.rest({"seat"});
+  of.rest();
 }
 
 } // namespace
@@ -138,14 +171,16 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   for (Declared declared : {machine("mass", "Machine mass"), machine("damping", "Machine damping")})
     declared.only_if([](const Scene &s) { return s.platens.machine.yields(); },
                      "Platens/Machine stiffness is not set");
-  of.rest();
+  of.rest({"spherical_seat"});
   declare_side(parameters, platens, coupling::Side::top);
   Section top(parameters, "Platens/Top");
   Members control(top, loading);
   control("servo", "Control");
-  Members(top, *platens.elastic)("seat");
+  Members(top, static_cast<coupling::PlatenSettings &>(platens))("spherical_seat", "Seat");
   control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).told("Control = stress");
+  declare_own_layers(parameters, coupling::Side::top, platens.top_layers);
   declare_side(parameters, platens, coupling::Side::bottom);
+  declare_own_layers(parameters, coupling::Side::bottom, platens.bottom_layers);
   declare_further_sides(parameters, platens);
 }
 
@@ -167,6 +202,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   Members of(section, loading);
   Members cell(section, *loading.cell);
   const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
+  const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
+  const std::string staged = "Loading/Stage 1 is there";
   section.entry(
       "Test", loading.test, loading_tests,
       "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
@@ -174,7 +211,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
       "along x, two below.");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
-    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() && !s.rate_by_transits()
+    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() &&
+                   !s.scene.loading.staged() && !s.rate_by_transits()
                ? "the platens have to move."
                : "";
   });
@@ -184,14 +222,16 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       .unless("Platens/Top/Control", {"stress"})
       .unless("Loading/Test", {"hydrostatic"});
   of("ramp");
-  of("hold").only_if(driven, "Platens/Top/Control = motion");
+  of("hold").only_if(driven, "Platens/Top/Control = motion").only_if(unstaged, staged);
   of("start_strain");
-  of("target_strain").unless("Loading/Test", {"hydrostatic"});
+  of("target_strain").unless("Loading/Test", {"hydrostatic"}).only_if(unstaged, staged);
   section
       .number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
               "Stress after the peak, as a fraction of it, at which the run is over; 0: never.")
       .unless("Loading/Test", {"hydrostatic"});
-  of("servo_gain").only_if(driven, "Platens/Top/Control = motion");
+  of("servo_gain")
+      .only_if([](const Scene &s) { return s.loading.servo || s.loading.confined() || s.loading.staged(); },
+               "Platens/Top/Control = motion");
   section
       .entry<ConfinementKind>(
           "Confinement", loading.confinement,
@@ -201,8 +241,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
           "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
           "through rubber of finite elements.")
       .member("loading.cell");
-  cell("pressure", "Confining pressure").unless("Loading/Confinement", {"none"});
-  cell("ramp", "Confining ramp").unless("Loading/Confinement", {"none"});
+  cell("pressure", "Confining pressure").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
+  cell("ramp", "Confining ramp").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
   cell("path", "Pressure path")
       .unless("Loading/Confinement", {"none"})
       .unless("Loading/Test", {"hydrostatic"});

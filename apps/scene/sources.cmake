@@ -12,6 +12,7 @@ set(PLATEN_SCENE_SOURCES
   scene/sections_expect.cc
   scene/sections_loading.cc
   scene/sections_specimen.cc
+  scene/sections_stages.cc
   scene/file_text.cc
   scene/prm_file.cc
   scene/json_file.cc
@@ -19,14 +20,18 @@ set(PLATEN_SCENE_SOURCES
   scene/checks.cc
   scene/checks_apps.cc
   scene/checks_bond.cc
+  scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
   scene/checks_sides.cc
   scene/checks_specimen.cc
+  scene/checks_stages.cc
   scene/quality.cc
   scene/scene.cc
   scene/scene_bond.cc
+  scene/scene_stages.cc
   scene/surfaces.cc
+  scene/layers.cc
   scene/expect.cc
   scene/command_line.cc
   scene/run_app.cc

@@ -139,6 +139,7 @@ void Platen::add_shared_springs(const dem::Particles &particles, std::vector<dem
   for (std::size_t k = first; k < springs.size(); ++k) {
     springs[k].normal_stiffness *= 1 + share_of_body;
     springs[k].tangential_stiffness *= 1 + share_of_body;
+    if (glued()) springs[k].rotational_stiffness *= 1 + share_of_body;
   }
 }
 
@@ -220,11 +221,32 @@ void RigidPlaten::describe(Archive &archive) {
   if (machine_) archive.part("machine", *machine_);
 }
 
+void DynamicPlaten::finish(const Step &step) {
+  body_->kick(0.5 * step.dt);
+  Platen::finish(step);
+}
+
+void DynamicPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
+  add_shared_springs(particles, springs);
+}
+
+StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
+  return {body_->stable_step(shared_springs(particles)), reason_of_limit()};
+}
+
+void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {
+  Platen::add_energy(energy);
+  const fem::EnergyBalance own = body_->energy_balance();
+  energy.bodies += own.strain + own.kinetic;
+  energy.damping += own.dissipated;
+  energy.boundary += own.clamp_work;
+}
+
 ElasticPlaten::ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,
                              std::unique_ptr<fem::ElasticSolid> &&body, const dem::Particles &particles,
                              const SurfaceContact &contact, const FaceOf &face, bool quasi_static,
                              int steps_per_solve)
-    : Platen(std::move(name), inward, std::move(body), particles, contact),
+    : DynamicPlaten(std::move(name), inward, std::move(body), particles, contact),
       solid_(solid),
       face_(body_->surface(), face, inward),
       quasi_static_(quasi_static),
@@ -232,8 +254,7 @@ ElasticPlaten::ElasticPlaten(std::string name, const Vector3 &inward, fem::Elast
       loads_(body_->surface().vertices.size()) {}
 
 void ElasticPlaten::finish(const Step &step) {
-  body_->kick(0.5 * step.dt);
-  Platen::finish(step);
+  DynamicPlaten::finish(step);
   if (!quasi_static_) return;
   loads_.add(*body_, step.dt);
   if (loads_.steps() < steps_per_solve_) return;
@@ -241,25 +262,8 @@ void ElasticPlaten::finish(const Step &step) {
   loads_.reset();
 }
 
-void ElasticPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
-  add_shared_springs(particles, springs);
-}
-
-StepLimit ElasticPlaten::limit(const dem::Particles &particles) const {
-  return {body_->stable_step(shared_springs(particles)),
-          "the finite elements of a platen with the springs of its contacts"};
-}
-
 void ElasticPlaten::fit(const dem::Particles &particles, double) {
   if (quasi_static_) solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
-}
-
-void ElasticPlaten::add_energy(dem::EnergyLedger &energy) const {
-  Platen::add_energy(energy);
-  const fem::EnergyBalance own = body_->energy_balance();
-  energy.bodies += own.strain + own.kinetic;
-  energy.damping += own.dissipated;
-  energy.boundary += own.clamp_work;
 }
 
 void ElasticPlaten::describe(Archive &archive) {

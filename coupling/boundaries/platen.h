@@ -1,5 +1,6 @@
 // A platen: a body of finite elements that the machine moves, and its contacts with the specimen. A rigid
-// one, and one that yields: linear elastic, fixed to the machine at the end that is far from the specimen.
+// one; a rigid one that turns on its seat; and one that yields: linear elastic, fixed to the machine at the
+// end that is far from the specimen, or with that end on a seat.
 #pragma once
 
 #include <functional>
@@ -134,13 +135,39 @@ private:
 // Two that hold a specimen by its ends, and where their faces were at the start.
 struct EndPlatens {
   const Platen &low, &high;
-  double low_plane = 0, high_plane = 0; // m, z
-  dem::EndPlanes planes() const {       // now
-    return {low_plane + low.closure(), high_plane - high.closure()};
+  double low_plane = 0, high_plane = 0;                              // m, z
+  dem::EndPlanes planes() const {                                    // now
+    return {low_plane + low.closure(), high_plane - high.closure()}; // where one turns: of its middle
   }
 };
 
-class ElasticPlaten : public Platen {
+// One whose body its loads move too: it has an energy balance and a largest step of its own.
+class DynamicPlaten : public Platen {
+public:
+  using Platen::Platen;
+  void finish(const Step &step) override;
+  bool can_be_carried() const override { return false; }
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
+  StepLimit limit(const dem::Particles &particles) const override;
+  void add_energy(dem::EnergyLedger &energy) const override;
+
+protected:
+  virtual std::string reason_of_limit() const = 0;
+};
+
+// A rigid one on a spherical seat: the machine moves the middle of its face, about which it turns freely.
+class SeatedPlaten : public DynamicPlaten {
+public:
+  using DynamicPlaten::DynamicPlaten;
+  double closure() const override { return dot(body_->displacement(), inward_); } // of that middle
+
+protected:
+  std::string reason_of_limit() const override {
+    return "a platen that turns on its seat, with the springs of its contacts";
+  }
+};
+
+class ElasticPlaten : public DynamicPlaten {
 public:
   // Quasi-static: its shape follows the mean loads of so many steps of the particles during the next ones.
   ElasticPlaten(std::string name, const Vector3 &inward, std::unique_ptr<fem::ElasticSolid> solid,
@@ -151,14 +178,15 @@ public:
 
   void finish(const Step &step) override;
   bool drifts_long() const override { return true; }
-  bool can_be_carried() const override { return false; }
-  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
-  StepLimit limit(const dem::Particles &particles) const override;
   void fit(const dem::Particles &particles, double time_step) override;
-  void add_energy(dem::EnergyLedger &energy) const override;
   double closure() const override { return face_.advance(body_->surface()); } // the mean of the face
   void describe(Archive &archive) override;
   const fem::ElasticSolid &solid() const { return solid_; }
+
+protected:
+  std::string reason_of_limit() const override {
+    return "the finite elements of a platen with the springs of its contacts";
+  }
 
 private:
   ElasticPlaten(std::string name, const Vector3 &inward, fem::ElasticSolid &solid,

@@ -79,6 +79,7 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const E
                const SleeveSettings &settings)
     : Sleeve(particles, shape, ends.planes().low, ends.planes().high, settings) {
   ends_.emplace(ends);
+  if (top_turns()) solid_->prescribe_each(top_motion_);
 }
 
 void Sleeve::build(const dem::Particles &particles) {
@@ -94,6 +95,11 @@ void Sleeve::build(const dem::Particles &particles) {
   top_motion_ = solid_->prescribe(above, fixed);
   bottom_rim_ = static_cast<std::size_t>(below.front());
   top_rim_ = static_cast<std::size_t>(above.front());
+  top_rim_nodes_ = above;
+  top_rim_places_.clear();
+  for (const int node : above)
+    top_rim_places_.push_back(solid_->node_place(node) - Vector3{0, 0, high_});
+  if (top_turns()) solid_->prescribe_each(top_motion_);
   solid_->set_damping(settings_.mass_damping);
   limit_ = find_limit();
   if (settings_.seat_depth > 0) contact_->seat_within(particles, *solid_, settings_.seat_depth);
@@ -126,6 +132,10 @@ void Sleeve::drift(const Step &step, const Command &command) {
   rims.pressure = command.pressure;
   rims.bottom_place = {0, 0, ends_->low.closure()};
   rims.top_place = {0, 0, -ends_->high.closure()};
+  if (top_turns()) {
+    rims.top_rotation = ends_->high.body().rotation();
+    rims.top_angular_velocity = ends_->high.body().angular_velocity();
+  }
   move(step.dt, rims);
 }
 
@@ -207,8 +217,32 @@ void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
     solid_->set_prescribed_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
   };
   follow(bottom_motion_, bottom_rim_, rims.bottom, rims.bottom_place);
-  follow(top_motion_, top_rim_, rims.top, rims.top_place);
+  if (top_turns())
+    turn_top_rim(interval, dt, rims);
+  else
+    follow(top_motion_, top_rim_, rims.top, rims.top_place);
   solid_->half_kick(interval);
+}
+
+// Each node straight to where the platen will have it: on its own place of the face, or, where it slides, in
+// the plane of the face above or below its own x and y.
+void Sleeve::turn_top_rim(double interval, double dt, const RimMotion &rims) {
+  const double ahead = interval - dt;
+  const Quaternion turned =
+      normalised(normalised(rotation_quaternion(ahead * rims.top_angular_velocity)) * rims.top_rotation);
+  const Vector3 middle = Vector3{0, 0, high_} + rims.top_place + ahead * rims.top;
+  const Vector3 normal = rotate(turned, {0, 0, 1});
+  std::vector<Vector3> velocities(top_rim_nodes_.size());
+  for (std::size_t k = 0; k < velocities.size(); ++k) {
+    const Vector3 now = solid_->node_place(top_rim_nodes_[k]);
+    Vector3 there = middle + rotate(turned, top_rim_places_[k]);
+    if (!settings_.bonded_rims) {
+      const Vector3 beside = now - middle;
+      there = {now.x, now.y, middle.z - (normal.x * beside.x + normal.y * beside.y) / normal.z};
+    }
+    velocities[k] = (1 / interval) * (there - now);
+  }
+  solid_->set_node_velocities(top_motion_, velocities);
 }
 
 void Sleeve::move(double dt, const RimMotion &rims) {

@@ -1,5 +1,6 @@
 // A rubber sleeve around a specimen: a tube of hyperelastic elements whose inner face meets the particles,
-// whose outer face bears the cell's pressure, and whose rims go with the platens.
+// whose outer face bears the cell's pressure, and whose rims go with the platens; the upper one turns with a
+// top platen on a seat, of which it asks no moment: the machine turns the rim.
 //
 // Rubber is slow: its own stable step is tens of steps of the particles. So it is kicked once an interval of
 // several steps, by velocity Verlet with the interval as step. Within the interval its nodes move at constant
@@ -73,6 +74,9 @@ struct RimMotion {
   Vector3 bottom{}, top{};             // m/s
   double pressure = 0;                 // Pa, on the outer face
   Vector3 bottom_place{}, top_place{}; // m, displacements of the platens since the start
+  // Of a top platen that turns about the middle of its face: how it stands, and rad/s.
+  Quaternion top_rotation{};
+  Vector3 top_angular_velocity{};
 };
 
 class Sleeve : public ContactBoundary {
@@ -137,6 +141,8 @@ protected:
 private:
   void begin_interval(double dt, const RimMotion &rims);
   void kick_into(double interval, double dt, const RimMotion &rims);
+  void turn_top_rim(double interval, double dt, const RimMotion &rims);
+  bool top_turns() const { return ends_ && ends_->high.body().turns(); }
   double find_limit();
   double cheap_mass(double time_step) const;
 
@@ -151,11 +157,13 @@ private:
   double volume_at_start_ = 0, ring_ = 0; // m^3 within it; m^2 of an end of it
   int bottom_motion_ = 0, top_motion_ = 0;
   std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
-  int planned_ = 0, made_ = 0;               // steps of the interval
-  double elapsed_ = 0;                       // s, of the interval
-  double limit_ = 0;                // s, of the next interval, by the contacts at the end of this one
-  double own_limit_ = 0;            // s, of the elements alone, asked for now and then
-  double intervals_ = 0, cuts_ = 0; // since the start
+  std::vector<int> top_rim_nodes_;
+  std::vector<Vector3> top_rim_places_; // m, of these at the start, from the middle of the platen's face
+  int planned_ = 0, made_ = 0;          // steps of the interval
+  double elapsed_ = 0;                  // s, of the interval
+  double limit_ = 0;                    // s, of the next interval, by the contacts at the end of this one
+  double own_limit_ = 0;                // s, of the elements alone, asked for now and then
+  double intervals_ = 0, cuts_ = 0;     // since the start
 };
 
 } // namespace platen::coupling

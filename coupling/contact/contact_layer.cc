@@ -53,6 +53,13 @@ std::size_t index(int row) {
   return static_cast<std::size_t>(row);
 }
 
+// m, between the middles of two opposite edges of a face, the shorter way.
+double narrowest(const fem::SurfaceMesh &surface, int face) {
+  const Quad q = face_corners(surface, face, Vector3{});
+  return 0.5 * std::sqrt(std::min(norm_squared((q[0] + q[3]) - (q[1] + q[2])),
+                                  norm_squared((q[0] + q[1]) - (q[2] + q[3]))));
+}
+
 } // namespace
 
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
@@ -191,6 +198,10 @@ double ContactLayer::spring(const SurfacePoint &at) const {
   return beside_indentation(stiffness_, indentation);
 }
 
+double ContactLayer::seat_stiffness(double radius) const {
+  return 2 * parameters_.seat_modulus * pi * radius * radius * radius / 8;
+}
+
 double ContactLayer::stiffest_spring(int face) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
   // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
@@ -222,7 +233,7 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     if (spring_ != nullptr)
       spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
     if (seat_spring_ != nullptr && row < table_.size() && seated_[row])
-      spring.rotational_stiffness = 2 * parameters_.seat_modulus * pi * r * r * r / 8;
+      spring.rotational_stiffness = seat_stiffness(r);
     springs.push_back(spring);
   }
   return springs;
@@ -238,9 +249,14 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
     const double k = stiffest_spring(at.face);
     const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
     const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[index(i)]);
+    // Held grains give moments without a limit, as forces along the normal on the corners: K = k b b^T for
+    // each axis, with b = +- 1 / (2 h) across a width h, so that no row of both adds to more than k / h^2.
+    const double h = narrowest(body.surface(), at.face);
+    const bool held = seat_spring_ != nullptr && row < table_.size() && tied(row);
+    const double rocking = held ? seat_stiffness(particles.radius[index(i)]) / (h * h) : 0;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
-      springs.stiffness[v] += at.local.weights[corner] * stiffest;
+      springs.stiffness[v] += at.local.weights[corner] * stiffest + rocking;
       springs.dashpot[v] += at.local.weights[corner] * dashpot;
     }
   }

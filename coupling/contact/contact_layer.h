@@ -169,6 +169,7 @@ private:
   void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
   double spring(const SurfacePoint &at) const; // N/m, without the indentation of the mesh
   double stiffest_spring(int face) const;
+  double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,

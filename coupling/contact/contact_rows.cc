@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "base/pi.h"
 #include "coupling/contact/contact_layer.h"
 #include "coupling/contact/transfer.h"
 #include "dem/laws/rotating_plane.h"
@@ -211,8 +210,7 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
 // angles for paths and R/2 for the coefficient.
 void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   const Vector3 &n = result.at.normal;
-  const double stiffness =
-      2 * parameters_.seat_modulus * pi * motion.radius * motion.radius * motion.radius / 8;
+  const double stiffness = seat_stiffness(motion.radius);
   double limit = rocking_limit * motion.radius, pressing = result.active ? result.normal_force : 0;
   if (tied(row)) {
     limit = infinite;

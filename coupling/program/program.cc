@@ -4,7 +4,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/program/drive.h"
+
 namespace platen::coupling {
+
+void Stage::begin(const Measures &m, const Handover &from, bool first) {
+  if (!first) begun_ = m.time(), closure_at_begin_ = m.closure_strain();
+  on_begin(m, from);
+}
 
 void Stage::describe(Archive &archive) {
   archive.version(1);
@@ -12,14 +19,29 @@ void Stage::describe(Archive &archive) {
   archive("closure_at_begin", closure_at_begin_);
 }
 
-Program::Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages)
-    : measures_(measures), stages_(std::move(stages)) {
+Program::Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages,
+                 std::vector<std::shared_ptr<Drive>> drives)
+    : measures_(measures), stages_(std::move(stages)), drives_(std::move(drives)) {
   if (stages_.empty()) throw std::invalid_argument("program: it has no stage");
 }
 
+Program::~Program() = default;
+
+void Program::begin_stage(bool first) {
+  if (!consolidated_ && !stage().is_consolidation()) {
+    consolidated_ = true;
+    if (!first)
+      for (const int axis : {0, 1, 2})
+        zero_[static_cast<std::size_t>(axis)] = measures_.closure_strain(axis);
+  }
+  stages_[now_]->begin(measures_, {first ? Commands{} : last_, zero_}, first);
+}
+
 void Program::command(Commands &asked) {
+  if (!begun_) begun_ = true, begin_stage(true);
   std::fill(asked.begin(), asked.end(), Command{});
   stages_[now_]->command(measures_, asked);
+  last_ = asked;
 }
 
 // A stage that begins sees the same state as the one that has ended.
@@ -28,7 +50,8 @@ void Program::update() {
   while (!finished_ && stages_[now_]->has_ended(measures_)) {
     finished_ = now_ + 1 == stages_.size();
     if (finished_) return;
-    stages_[++now_]->begin(measures_);
+    ++now_;
+    begin_stage(false);
     stages_[now_]->update(measures_);
   }
 }
@@ -57,14 +80,27 @@ double Program::progress() const {
 }
 
 double Program::axial_closure() const {
-  return stage().is_consolidation() ? 0.0 : stage().closure_gained(measures_);
+  return stage().is_consolidation() ? 0.0 : measures_.closure_strain() - zero_[2];
+}
+
+bool Program::is_cycling() const {
+  return stage().is_cycling(measures_) || std::any_of(drives_.begin(), drives_.end(), [&](const auto &drive) {
+           return drive->is_cycling(measures_);
+         });
 }
 
 void Program::describe(Archive &archive) {
-  archive.version(1);
+  archive.version(2);
   archive("stage", now_);
+  archive("begun", begun_);
   archive("finished", finished_);
+  archive("consolidated", consolidated_);
+  archive("zero_x", zero_[0]);
+  archive("zero_y", zero_[1]);
+  archive("zero_z", zero_[2]);
   if (now_ >= stages_.size()) throw StateError("program: a stage that it does not have");
+  for (std::size_t k = 0; k < drives_.size(); ++k)
+    archive.part("drive_" + std::to_string(k + 1), *drives_[k]);
   for (std::size_t k = 0; k < stages_.size(); ++k)
     archive.part("stage_" + std::to_string(k + 1), *stages_[k]);
 }

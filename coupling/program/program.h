@@ -2,6 +2,7 @@
 // until it is over; it touches no particle.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,17 +17,18 @@ namespace platen::coupling {
 class Measures {
 public:
   virtual ~Measures() = default;
-  virtual double time() const = 0;             // s; in a step that of its end
-  virtual double time_step() const = 0;        // s
-  virtual double closure_strain() const = 0;   // of the platens, over the height
-  virtual double axial_stress() const = 0;     // Pa, mean of both platens, compression positive
-  virtual double lateral_pressure() const = 0; // Pa
-  virtual double broken_bonds() const = 0;     // since the start
+  virtual double time() const = 0;                   // s; in a step that of its end
+  virtual double time_step() const = 0;              // s
+  virtual double closure_strain() const = 0;         // of the platens, over the height
+  virtual double closure_strain(int axis) const = 0; // 0 x, 1 y, 2 z, over the length; NaN without platens
+  virtual double circumferential_strain() const = 0; // of the lateral surface, where it widens positive
+  virtual double axial_stress() const = 0;           // Pa, mean of both platens, compression positive
+  virtual double lateral_pressure() const = 0;       // Pa
+  virtual double broken_bonds() const = 0;           // since the start
   // Of a boundary by its place in the experiment's list: N, of the specimen on it; N, with which a platen
-  // presses, and m, how far it has moved that way since the start; that way; what it pushes against.
+  // presses; the way that it presses; what it pushes against.
   virtual Vector3 force(std::size_t boundary) const = 0;
   virtual double load(std::size_t boundary) const = 0;
-  virtual double closure_of(std::size_t boundary) const = 0;
   virtual Vector3 inward(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };
@@ -45,12 +47,18 @@ inline double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
 }
 
+// From one stage to the next.
+struct Handover {
+  Commands asked;               // in the step that has just ended; empty at the start of a test
+  std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
+};
+
 class Stage {
 public:
   virtual ~Stage() = default;
   virtual std::string name() const = 0;
-  // Once, before its first command.
-  void begin(const Measures &m) { begun_ = m.time(), closure_at_begin_ = m.closure_strain(); }
+  // Once, before its first command; the first stage of a test has begun at 0 s with no closure.
+  void begin(const Measures &m, const Handover &from, bool first);
   // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
   virtual void command(const Measures &m, Commands &asked) = 0;
   // After forces.
@@ -69,16 +77,21 @@ public:
 
 protected:
   double begun() const { return begun_; } // s
+  virtual void on_begin(const Measures &, const Handover &) {}
 
 private:
   double begun_ = 0, closure_at_begin_ = 0; // s, 1
 };
 
+class Drive;
+
 // The stages of a test, one after the other.
 class Program {
 public:
-  // Begins the first of at least one stage. `measures` outlives the program.
-  Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages);
+  // At least one stage; drives that go on from one to the next. `measures` outlives the program.
+  Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages,
+          std::vector<std::shared_ptr<Drive>> drives = {});
+  ~Program();
 
   // For a step whose particles have drifted: what is asked of each boundary.
   void command(Commands &asked);
@@ -93,14 +106,22 @@ public:
   // Closure strain since the end of a consolidation; all of it without one, none while it lasts.
   double axial_closure() const;
   bool in_axial_stage() const { return finished_ || !stage().is_consolidation(); }
-  bool is_cycling() const { return stage().is_cycling(measures_); }
+  bool is_cycling() const;
+  std::size_t stage_number() const { return now_; } // from 0
+  std::size_t stage_count() const { return stages_.size(); }
   void describe(Archive &archive);
 
 private:
+  void begin_stage(bool first);
+
   const Measures &measures_;
   std::vector<std::unique_ptr<Stage>> stages_;
+  std::vector<std::shared_ptr<Drive>> drives_;
   std::size_t now_ = 0;
-  bool finished_ = false;
+  bool begun_ = false, finished_ = false;
+  bool consolidated_ = false;    // the zero of strains is found
+  std::array<double, 3> zero_{}; // closure strains at the end of a consolidation
+  Commands last_;                // of the step that is being made
 };
 
 } // namespace platen::coupling

@@ -65,6 +65,20 @@ TEST_F(Bending, a_bar_breaks_in_the_middle) {
   EXPECT_FALSE(contains(screen_, "nan")) << screen_;
 }
 
+// Steel, a little softer than rigid: the same bar, and the same load within what a crack more or less makes.
+TEST_F(Bending, elastic_strips_bend_as_rigid_ones) {
+  const nlohmann::json rigid = bend("rigid", {});
+  for (const std::string motion : {"explicit", "quasi-static"}) {
+    const nlohmann::json s = bend(motion, {"Platens/Kind = deformable", "Platens/Motion = " + motion});
+    EXPECT_NEAR(s["flexural_modulus_pa"].get<double>() / rigid["flexural_modulus_pa"].get<double>(), 1, 0.01);
+    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1);
+    EXPECT_GT(s["cracks_near_midspan"], 0.8);
+    EXPECT_LT(s["energy_residual_relative"], 0.01);
+    const auto held = column(motion, "body_energy_j");
+    EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
+  }
+}
+
 TEST_F(Bending, a_bar_packed_upright_is_laid_down) {
   const nlohmann::json s = bend("laid", {"Specimen/Shape = bar", "Specimen/Width x = 12 mm",
                                          "Specimen/Height = 48 mm", "Loading/Target strain = 0.0002"});

@@ -50,6 +50,16 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   EXPECT_EQ(s["acoustic"]["cracks"], s["broken_tension"].get<int>() + s["broken_shear"].get<int>());
 }
 
+TEST_F(Brazilian, elastic_strips_split_as_rigid_ones) {
+  const nlohmann::json rigid = split("rigid", {});
+  for (const std::string motion : {"explicit", "quasi-static"}) {
+    const nlohmann::json s = split(motion, {"Platens/Kind = deformable", "Platens/Motion = " + motion});
+    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1);
+    EXPECT_GT(s["cracks_on_loaded_diameter"], 0.5);
+    EXPECT_LT(s["energy_residual_relative"], 0.01);
+  }
+}
+
 TEST_F(Brazilian, a_disc_from_a_file_is_the_disc_that_was_packed) {
   split("packed", {"Loading/Target strain = 0.0003"});
   split("read",

@@ -120,5 +120,49 @@ TEST_F(Cell, a_wall_measures_what_it_holds) {
   EXPECT_LT(s["energy_residual_relative"], 1e-3);
 }
 
+// What the keys of a cell and of a turn stand for, written as stages: the same bytes.
+TEST_F(Cell, stages_are_what_the_keys_mean) {
+  const std::vector<std::string> both{"Loading/Confinement = particles", "Output/Every = 100"};
+  std::vector<std::string> keys = both, stages = both;
+  keys.insert(keys.end(), {"Loading/Confining pressure = 3 MPa", "Loading/Target strain = 0.003",
+                           "Loading/Unload at = 0.001", "Loading/Unload to = 0.2"});
+  stages.insert(stages.end(), {"Loading/Stage 1/Lateral = pressure 3 MPa",
+                               "Loading/Stage 1/Top = stress 3 MPa", "Loading/Stage 1/Until = settled",
+                               "Loading/Stage 2/Axial = rate", "Loading/Stage 2/Until = strain 0.1 %",
+                               "Loading/Stage 3/Axial = unload", "Loading/Stage 3/Until = share of start 0.2",
+                               "Loading/Stage 4/Axial = rate", "Loading/Stage 4/Until = strain 0.3 %"});
+  const nlohmann::json by_keys = crush("keys", keys), by_stages = crush("stages", stages);
+  EXPECT_EQ(by_keys["strength_pa"], by_stages["strength_pa"]);
+  EXPECT_EQ(by_keys["steps"], by_stages["steps"]);
+  for (const char *name : {"axial_strain_platen", "axial_stress_top_pa", "lateral_strain", "deviator_pa",
+                           "kinetic_energy_j", "boundary_work_j", "energy_residual_j", "time_step_s"})
+    EXPECT_EQ(column("keys", name), column("stages", name)) << name;
+  ASSERT_EQ(by_stages["stages"].size(), 4u);
+  EXPECT_FALSE(by_keys.contains("stages"));
+  const std::vector<double> stage = column("stages", "stage");
+  EXPECT_EQ(stage.front(), 1);
+  EXPECT_EQ(stage.back(), 4);
+}
+
+// Held between its own servo and the specimen: the stress stays, and what is loaded again climbs where it
+// came down.
+TEST_F(Cell, a_stress_is_held_by_a_stage) {
+  const nlohmann::json s =
+      crush("held", {"Output/Every = 50", "Bond/Tensile strength = 1 GPa", "Bond/Shear strength = 1 GPa",
+                     "Loading/Stage 1/Axial = rate", "Loading/Stage 1/Until = Axial stress 10 MPa",
+                     "Loading/Stage 2/Axial = stress 10 MPa", "Loading/Stage 2/Until = time 0.3 ms",
+                     "Loading/Stage 3/Axial = unload", "Loading/Stage 3/Until = share of start 0.1"});
+  const std::vector<double> stage = column("held", "stage"), stress = column("held", "axial_stress_top_pa"),
+                            time = column("held", "time_s");
+  double begun = 0;
+  for (std::size_t k = 1; k < stage.size(); ++k) {
+    if (stage[k] != stage[k - 1]) begun = time[k];
+    if (stage[k] != 2 || time[k] < begun + 1e-4) continue;
+    EXPECT_NEAR(stress[k], 10e6, 0.02 * 10e6) << time[k];
+  }
+  EXPECT_NEAR(stress.back(), 1e6, 0.3e6);
+  EXPECT_EQ(s["stages"].size(), 3u);
+}
+
 } // namespace
 } // namespace platen::apps::testing

@@ -187,6 +187,26 @@ TEST_F(Determinism, a_sleeve_goes_on_where_it_stopped) {
   EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
+TEST_F(Determinism, a_platen_on_its_seat_goes_on_where_it_stopped_and_turns_the_rim_of_a_sleeve) {
+  std::vector<std::string> seated;
+  for (const char *entry :
+       {"Platens/Top/Seat = spherical", "Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
+        "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.02", "Sleeve/Thickness = 1 mm"})
+    seated.insert(seated.end(), {"-s", entry});
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.end(), seated.begin(), seated.end());
+    return options;
+  };
+  crush("whole", "1", seated);
+  EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 500);
+  EXPECT_LT(summary_in(folder_ / "whole")["energy_residual_relative"], 0.01);
+  EXPECT_EQ(stop_at("stopped", 110, SIGTERM, with({"-t", "2"})), 143);
+  const Outcome last = run_compress(with({scene_, "-o", "stopped", "--resume", "--quiet"}), folder_);
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+  EXPECT_EQ(figures("whole"), figures("stopped"));
+}
+
 TEST_F(Determinism, a_run_that_was_killed_goes_on_from_its_last_checkpoint) {
   crush("whole", "1");
   // Row 132 is step 2600: after the checkpoint of step 2500, so that rows, cracks and a frame have to go.

@@ -163,6 +163,33 @@ TEST(SceneBindings, a_default_of_platens_sleeve_and_loading_is_stated_once) {
   EXPECT_FALSE(plain.platens.elastic || plain.loading.cell || plain.loading.wall);
 }
 
+TEST(SceneBindings, layers_arrive_with_their_materials) {
+  const std::vector<std::string> entries{
+      "Platens/Kind = deformable", "Platens/Layers = hard rubber 2 mm, steel 20 mm",
+      "Platens/Layer materials = steel: 210 GPa, 0.3, 7850 kg/m3; hard rubber: 5 MPa, 45 %, 1.1 g/cm3",
+      "Platens/Bottom/Layers = platen 1 mm, steel 3 mm"};
+  const coupling::PlatenTestSettings settings = problem_settings(scene_with(entries));
+  const coupling::PlatenSettings &told = settings.platens;
+  ASSERT_EQ(told.elastic->layers.size(), 2u);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].thickness, 2e-3);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.young_modulus, 5e6);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.poisson_ratio, 0.45);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.density, 1100);
+  EXPECT_EQ(told.elastic->layers[1].material.young_modulus, 210e9);
+  EXPECT_DOUBLE_EQ(told.thickness, 22e-3); // as thick as they are
+  ASSERT_EQ(told.bottom.layers.size(), 2u);
+  EXPECT_EQ(told.bottom.layers[0].material.young_modulus, told.material.young_modulus);
+  EXPECT_DOUBLE_EQ(told.bottom.thickness, 4e-3);
+  EXPECT_TRUE(told.top.layers.empty());
+  EXPECT_EQ(told.top.thickness, 0);
+  std::vector<std::string> thicker(entries);
+  thicker.emplace_back("Platens/Thickness = 30 mm");
+  const coupling::PlatenTestSettings other = problem_settings(scene_with(thicker));
+  const coupling::PlatenSettings &given = other.platens;
+  EXPECT_DOUBLE_EQ(given.thickness, 30e-3);
+  EXPECT_EQ(given.bottom.thickness, 0); // what its layers leave is platen
+}
+
 TEST(SceneBindings, what_platens_sleeve_and_loading_say_arrives) {
   const coupling::PlatenTestSettings told =
       problem_settings(scene_with({"Platens/Kind = deformable",
@@ -221,6 +248,59 @@ TEST(SceneBindings, what_platens_sleeve_and_loading_say_arrives) {
   EXPECT_EQ(told.ends, dem::EndPreparation::ground);
 }
 
+// Each side takes its own figure, that of its own word, the common one; sides without platens are left out.
+TEST(SceneBindings, sides_have_platens_where_the_scene_puts_them) {
+  const std::vector<std::string> box{"Specimen/Shape = box",
+                                     "Specimen/Radius =",
+                                     "Specimen/Width x = 10 mm",
+                                     "Specimen/Width y = 10 mm",
+                                     "Platens/Friction static = 0.4",
+                                     "Platens/Left/Friction static = 0.2",
+                                     "Platens/Right/Surface = grease",
+                                     "Platens/Front/Friction law = slip weakening",
+                                     "Platens/Front/Friction dynamic = 0.1",
+                                     "Platens/Slip length = 1 mm",
+                                     "Platens/Edge gap = 0.3 mm"};
+  const auto told = [&](const std::string &sides) {
+    std::vector<std::string> entries = box;
+    entries.push_back("Platens/Sides = " + sides);
+    return scene_with(entries);
+  };
+  const coupling::PlatenSettings two = problem_settings(told("two")).platens,
+                                 x = problem_settings(told("four x")).platens,
+                                 y = problem_settings(told("four y")).platens,
+                                 six = problem_settings(told("six")).platens;
+  EXPECT_FALSE(two.left || two.right || two.front || two.back);
+  EXPECT_TRUE(x.left && x.right && !x.front && !x.back);
+  EXPECT_TRUE(!y.left && !y.right && y.front && y.back);
+  ASSERT_TRUE(six.left && six.right && six.front && six.back);
+  EXPECT_EQ(six.edge_gap, 0.3e-3);
+  EXPECT_EQ(six.top.friction_static, 0.4);
+  EXPECT_EQ(six.left->friction_static, 0.2);
+  EXPECT_EQ(six.left->dynamic(), 0.2);
+  EXPECT_EQ(six.right->friction_static, 0.0048);
+  EXPECT_EQ(six.front->friction_static, 0.4);
+  EXPECT_EQ(six.front->dynamic(), 0.1);
+  EXPECT_EQ(six.front->weakening.by, dem::Weakening::By::slip);
+  EXPECT_EQ(six.back->weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(six.back->friction_static, 0.4);
+  EXPECT_TRUE(told("six").notes.empty());
+  const auto notes = [&](const std::string &sides, const std::string &path) {
+    for (const std::string &note : told(sides).notes)
+      if (note.find("note: " + path + " ") != std::string::npos)
+        return note.substr(note.find("has no effect"));
+    return std::string();
+  };
+  EXPECT_EQ(notes("two", "Platens/Left/Friction static"),
+            "has no effect: Platens/Sides leaves that side free.");
+  EXPECT_EQ(notes("four x", "Platens/Left/Friction static"), "");
+  EXPECT_EQ(notes("four x", "Platens/Front/Friction dynamic"),
+            "has no effect: Platens/Sides leaves that side free.");
+  EXPECT_EQ(notes("four x", "Platens/Slip length"), "has no effect: no Friction law is slip weakening.");
+  EXPECT_EQ(notes("two", "Platens/Edge gap"), "has no effect: Platens/Sides = two.");
+  EXPECT_EQ(notes("four y", "Platens/Edge gap"), "");
+}
+
 TEST(SceneBindings, members_that_the_library_names_are_told_as_entries) {
   const Scene scene = scene_with({});
   for (const auto &[member, entry] :
@@ -232,6 +312,11 @@ TEST(SceneBindings, members_that_the_library_names_are_told_as_entries) {
                                           {"platens.elements_across", "Platens/Elements across"},
                                           {"platens.top.grid", "Platens/Top/Mesh file"},
                                           {"platens.bottom.grid", "Platens/Bottom/Mesh file"},
+                                          {"platens.left.grid", "Platens/Left/Mesh file"},
+                                          {"platens.back.grid", "Platens/Back/Mesh file"},
+                                          {"platens.left", "Platens/Sides"},
+                                          {"platens.back", "Platens/Sides"},
+                                          {"platens.edge_gap", "Platens/Edge gap"},
                                           {"platens.elastic.pad_modulus", "Platens/Pad modulus"},
                                           {"loading.rate", "Loading/Axial rate"},
                                           {"loading.wave_transits", "Loading/Wave crossings"},

@@ -93,15 +93,17 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
       {{"Contcat/Friction = 0.3"}, "Contcat is not a section. Did you mean \"Contact\"?"},
       {{"Friction = 0.3"}, "Friction is not a parameter. Did you mean \"Contact/Friction\""},
       {{"Bond/Modulus = 40 m"}, "Bond/Modulus = 40 m has the unit \"m\", which is not that of a pressure"},
-      {{"Platens/Kind = deformable", "Platens/Attachment = glued"},
-       "--set 1: error: Platens/Kind = deformable needs Platens/Attachment = contact. Allowed: rigid."},
+      {{"Platens/Kind = deformable", "Integration/Scheme = tchamwa wielgosz"},
+       "--set 1: error: Platens/Kind = deformable needs Integration/Scheme = velocity verlet. Allowed: "
+       "rigid."},
       {{"Platens/Kind = deformable", "Platens/Pad thickness = 0.1 mm"},
        "Platens/Pad modulus is not set: the pad has to have one."},
       {{"Platens/Kind = deformable", "Platens/Pad thickness = 1 m"},
        "--set 2: error: Platens/Pad thickness = 1 m leaves nothing of the platen. Allowed: 0 ... "},
       {{"Platens/Top/Mesh file = none.msh"}, "--set 1: error: Platens/Top/Mesh file = none.msh"},
-      {{"Platens/Top/Seat = spherical"},
-       "--set 1: error: Platens/Top/Seat = spherical needs Platens/Kind = deformable. Allowed: fixed."},
+      {{"Platens/Top/Seat = spherical", "Integration/Scheme = tchamwa wielgosz"},
+       "--set 1: error: Platens/Top/Seat = spherical needs Integration/Scheme = velocity verlet. Allowed: "
+       "fixed."},
       {{"Platens/Degree = 3"}, "--set 1: error: Platens/Degree = 3 is out of range. Allowed: whole, 1 ... 2"},
       {{"Loading/Test = tension"}, "--set 1: error: Loading/Test = tension needs Platens/Attachment = glued"},
       {{"Scene/Title = a # b"}, "--set 1: error: Scene/Title = a # b holds a \"#\""},
@@ -111,6 +113,30 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
   for (const FaultyOverride &fault : faults)
     EXPECT_NE(message_of(good, fault.overrides).find(fault.says), std::string::npos)
         << fault.overrides.back() << ": " << message_of(good, fault.overrides);
+}
+
+// Once refused with elastic platens, now run.
+TEST(SceneFaults, elastic_platens_go_with_every_test) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  const std::vector<std::vector<std::string>> tests{
+      {"Platens/Attachment = glued", "Loading/Test = tension"},
+      {"Platens/Top/Control = stress", "Platens/Top/Stress = 1 MPa", "Loading/Ramp = 1 ms"},
+      {"Loading/Test = hydrostatic", "Loading/Confinement = particles", "Loading/Confining pressure = 1 MPa"},
+      {"Loading/Test = uniaxial strain"},
+      {"Loading/Test = three point bending", "Specimen/Shape = box",
+       "Specimen/Radius =", "Specimen/Ends = ground", "Specimen/Width x = 40 mm", "Specimen/Width y = 10 mm",
+       "Platens/Span = 20 mm", "Platens/Strip width = 3 mm"}};
+  for (std::vector<std::string> entries : tests)
+    for (const char *motion : {"explicit", "quasi-static"}) {
+      const std::string first = entries.front();
+      entries.insert(entries.end(), {"Platens/Kind = deformable", std::string("Platens/Motion = ") + motion});
+      EXPECT_EQ(message_of(good, entries), "") << first;
+      entries.resize(entries.size() - 2);
+    }
+  EXPECT_EQ(message_of(good, {"Platens/Kind = deformable"}, AppKind::brazilian), "");
+  EXPECT_NE(message_of(good, {"Platens/Kind = deformable"}, AppKind::calibrate)
+                .find("is for platen-compress and platen-brazilian. Allowed: rigid."),
+            std::string::npos);
 }
 
 TEST(SceneFaults, each_app_asks_for_what_it_needs) {

@@ -177,7 +177,7 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
     double arm[2]; // m, of the load about the seat, mean over the last steps
     for (const bool seat : {false, true}) {
       PlatenTestSettings settings = between(motion, steel);
-      settings.platens.elastic->seat = seat;
+      settings.platens.spherical_seat = seat;
       PlatenTest problem(cylinder(), settings);
       advance_to(problem, 2000);
       Vector3 moment{};
@@ -218,7 +218,7 @@ TEST(elastic_platens, the_energy_balance_closes_in_a_cell) {
 TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
   for (const ElasticMotion motion : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
     PlatenTestSettings settings = crushing(motion);
-    settings.platens.elastic->seat = true;
+    settings.platens.spherical_seat = true;
     PlatenTest run(cylinder(), settings);
     advance_to(run, 1013); // in the middle of the loads' mean
     PlatenTest resumed(cylinder(), settings);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coupling/program/stages.h"
+#include "coupling/program/program.h"
 #include "tests/coupling/small_cylinder.h"
 
 namespace platen::coupling {
@@ -73,12 +73,13 @@ struct Nothing : Measures {
   double time() const override { return 0; }
   double time_step() const override { return 0; }
   double closure_strain() const override { return 0; }
+  double closure_strain(int) const override { return 0; }
+  double circumferential_strain() const override { return 0; }
   double axial_stress() const override { return 0; }
   double lateral_pressure() const override { return 0; }
   double broken_bonds() const override { return 0; }
   Vector3 force(std::size_t) const override { return {}; }
   double load(std::size_t) const override { return 0; }
-  double closure_of(std::size_t) const override { return 0; }
   Vector3 inward(std::size_t boundary) const override { return {0, 0, boundary == 0 ? 1. : -1.}; }
   ServoLoad servo_load(std::size_t) const override { return {}; }
 };

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
+#include "fem/grids.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/same_state.h"
 
@@ -34,21 +35,21 @@ dem::Specimen turned(const dem::Specimen &from) {
   return to;
 }
 
-std::unique_ptr<Stage> stage_of(const PlatenTest &test, const std::array<double, 3> &stresses,
-                                double seconds) {
-  SideLoading::Parameters p = test.side_loading("equal stresses");
-  for (const int axis : {0, 1, 2}) {
-    const double stress = stresses[static_cast<std::size_t>(axis)];
-    SideTask task;
-    task.platens = test.platens_along(axis);
-    task.ask = SideTask::Ask::stress;
-    task.value = stress;
-    task.servo = test.servo_for(stress, axis);
-    p.tasks.push_back(task);
-  }
-  p.end.settled = true;
-  p.end.seconds = seconds;
-  return std::make_unique<SideLoading>(p);
+SideAsk asked_of(SideGroup side, SideAsk::Ask ask, double value) {
+  SideAsk one;
+  one.side = side, one.ask = ask, one.value = value;
+  return one;
+}
+
+StageSettings stresses_on(const std::array<double, 3> &stresses) {
+  StageSettings stage;
+  stage.name = "stresses";
+  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
+                asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
+                asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])};
+  stage.until = {{Until::Reached::settled}, {Until::Reached::time, 1e-3}};
+  stage.latest = 1e-3;
+  return stage;
 }
 
 PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, asked, asked}) {
@@ -66,7 +67,7 @@ PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, a
   s.platens.top = s.platens.bottom = side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   s.time_step.fixed_step = 8e-8; // that of two packings alike
-  s.stages = {[stresses](const PlatenTest &test) { return stage_of(test, stresses, 1e-3); }};
+  s.loading.stages = {stresses_on(stresses)};
   return s;
 }
 
@@ -130,23 +131,11 @@ TEST(six_sides, equal_stresses_on_all_sides) {
 TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   PlatenTestSettings settings = six_platens();
   settings.platens.front.reset(), settings.platens.back.reset();
-  settings.stages = {[](const PlatenTest &test) {
-    SideLoading::Parameters p = test.side_loading("share");
-    SideTask axial;
-    axial.platens = test.platens_along(2);
-    axial.ask = SideTask::Ask::rate;
-    axial.value = 0.05;
-    SideTask lateral;
-    lateral.platens = test.platens_along(0);
-    lateral.ask = SideTask::Ask::share;
-    lateral.value = 0.5;
-    lateral.followed = axial.platens;
-    lateral.servo = test.servo_for(asked, 0);
-    p.tasks = {axial, lateral};
-    p.end.of = axial.platens;
-    p.end.rises_to = 2 * asked;
-    return std::make_unique<SideLoading>(p);
-  }};
+  StageSettings stage;
+  stage.asks = {asked_of(SideGroup::axial, SideAsk::Ask::rate, 0.05),
+                asked_of(SideGroup::lateral_x, SideAsk::Ask::share, 0.5)};
+  stage.until = {{Until::Reached::stress, 2 * asked, SideGroup::axial}};
+  settings.loading.stages = {stage};
   PlatenTest test(cube(), settings);
   while (!test.program().finished())
     ASSERT_GT(test.advance(1000), 0);
@@ -201,19 +190,33 @@ TEST(six_sides, what_has_no_such_sides_is_refused) {
   refuses(box, settings, "platens.edge_gap", "quarter");
 }
 
+// A mesh is laid on its side as a plate is, z towards the specimen, x and y exchanged in a cycle; it must end
+// short of the neighbours too.
+TEST(six_sides, meshes_lie_on_their_sides_and_short_of_each_other) {
+  const auto with_mesh = [](double half_width) {
+    PlatenTestSettings settings = six_platens();
+    settings.platens.left->grid =
+        fem::make_grid(fem::BoxPlate{{-half_width, -3e-3, 7e-3}, {half_width, 3e-3, 9e-3}, {4, 4, 1}});
+    return settings;
+  };
+  const PlatenTest test(cube(), with_mesh(5e-3));
+  Vector3 low{1, 1, 1}, high{-1, -1, -1};
+  for (const Vector3 &x : test.platen(Side::left)->body().surface().vertices)
+    for (const int k : {0, 1, 2})
+      low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  EXPECT_LT(norm(low - Vector3{-0.5 * edge - 2e-3, -5e-3, 0.5 * edge - 3e-3}), 1e-12);
+  EXPECT_LT(norm(high - Vector3{-0.5 * edge, 5e-3, 0.5 * edge + 3e-3}), 1e-12);
+  refuses(cube(), with_mesh(5.9e-3), "platens.left.grid", "along y, where the platen");
+}
+
 // Steel would meet steel: the run ends before it does, and says which platen.
 TEST(six_sides, platens_do_not_pass_through_each_other) {
   PlatenTestSettings settings = six_platens();
   settings.platens.edge_gap = 5e-6;
-  settings.stages = {[](const PlatenTest &test) {
-    SideLoading::Parameters p = test.side_loading("rate");
-    SideTask task;
-    task.platens = test.platens_along(0);
-    task.ask = SideTask::Ask::rate;
-    task.value = 1;
-    p.tasks = {task};
-    return std::make_unique<SideLoading>(p);
-  }};
+  StageSettings stage;
+  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::rate, 1)};
+  stage.until = {{Until::Reached::strain, 0.5, SideGroup::lateral_x}};
+  settings.loading.stages = {stage};
   PlatenTest test(cube(), settings);
   try {
     test.advance(100000);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "dem/measure/bond_network.h"
+#include "dem/measure/circumference.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
@@ -49,6 +50,64 @@ TEST(measure, the_gauge_reads_an_affine_motion_exactly) {
   EXPECT_NEAR(s.lateral_x, 1.1e-3, 1e-12);
   EXPECT_NEAR(s.lateral_y, .9e-3, 1e-12);
   EXPECT_NEAR(s.lateral(), 1e-3, 1e-12);
+}
+
+// Every sphere of the skin moves outwards by the same share of its distance from the axis, whatever z does.
+TEST(measure, a_chain_reads_the_widening_of_a_cylinder) {
+  const Specimen specimen = small_cylinder();
+  Model model(specimen, bonded());
+  const Circumference chain(model.particles, specimen.shape, model.bonds.get());
+  EXPECT_GT(chain.size(), 50u);
+  EXPECT_LT(chain.size(), model.particles.size());
+  EXPECT_EQ(chain.strain(model.particles), 0);
+  deform(model.particles, {{{1.5e-3, 0, 0}, {0, 1.5e-3, 0}, {0, 0, -8e-3}}}, {});
+  EXPECT_NEAR(chain.strain(model.particles), 1.5e-3, 1e-12);
+  deform(model.particles, {{{-2e-4, 3e-3, 0}, {-3e-3, -2e-4, 0}, {0, 0, 0}}}, {}); // and turned
+  EXPECT_NEAR(chain.strain(model.particles), -2e-4, 1e-12);
+}
+
+// What flies off counts three times the median at most: a tenth of the skin far away adds a fifth.
+TEST(measure, a_chain_passes_over_pieces_that_fly_off) {
+  const Specimen specimen = small_cylinder();
+  Model model(specimen, bonded());
+  Particles &p = model.particles;
+  const Circumference chain(p, specimen.shape, model.bonds.get());
+  deform(p, {{{1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, 0}}}, {});
+  int gone = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 x = p.reference_position[i];
+    if (x.x < 5 * radius || std::abs(x.z - 12 * radius) > 2 * radius) continue;
+    p.position[i] = x + Vector3{radius, 0, 0}, ++gone;
+  }
+  ASSERT_GT(gone, 2);
+  const double few = chain.strain(p);
+  EXPECT_GT(few, 1e-3);
+  EXPECT_LE(few, 1e-3 * (1 + 2.0 * gone / static_cast<double>(chain.size())) + 1e-12);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.position[i].x - p.reference_position[i].x > 0.5 * radius) p.position[i].x += 100 * radius;
+  EXPECT_NEAR(chain.strain(p), few, 1e-12);
+}
+
+// Of a box each side counts over half of its own width.
+TEST(measure, a_chain_reads_both_widths_of_a_box) {
+  Specimen specimen;
+  specimen.shape = box(12 * radius, 12 * radius, 24 * radius);
+  for (double z = 0; z < 12; ++z)
+    for (double y = -2.5; y <= 2.5; ++y)
+      for (double x = -2.5; x <= 2.5; ++x) {
+        specimen.centre.push_back({2 * radius * x, 2 * radius * y, radius + 2 * radius * z});
+        specimen.radius.push_back(radius);
+      }
+  Model model(specimen, bonded());
+  const Circumference chain(model.particles, specimen.shape, model.bonds.get());
+  deform(model.particles, {{{1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, 5e-3}}}, {});
+  EXPECT_NEAR(chain.strain(model.particles), 1e-3, 1e-12);
+  deform(model.particles, {{{1e-3, 0, 0}, {0, 5e-4, 0}, {0, 0, 0}}}, {});
+  const double of_x = chain.strain(model.particles);
+  deform(model.particles, {{{5e-4, 0, 0}, {0, 1e-3, 0}, {0, 0, 0}}}, {});
+  EXPECT_NEAR(of_x + chain.strain(model.particles), 1.5e-3, 1e-12);
+  EXPECT_GT(of_x, 5e-4);
+  EXPECT_LT(of_x, 1e-3);
 }
 
 // A lattice that is bonded, 12 radii wide and 24 high, and in its wide holes and around it small spheres that

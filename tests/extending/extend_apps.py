@@ -52,11 +52,12 @@ BOUNDARY = [
      '  v("unload_to", p.unload_to,'),
 ]
 STAGE = [
-    ("coupling/platen_test.cc", '#include "coupling/program/stages.h"\n',
-     '#include "coupling/program/stages.h"\n#include "coupling/program/standstill.h"\n'),
-    ("coupling/platen_test.cc", "  stages.push_back(axial_stage_of_settings());\n",
-     "  stages.push_back(axial_stage_of_settings());\n"
-     "  if (loading.standstill > 0) stages.push_back(std::make_unique<Standstill>(loading.standstill));\n"),
+    ("coupling/program_of_test.cc", '#include "coupling/program/pressure_task.h"\n',
+     '#include "coupling/program/pressure_task.h"\n#include "coupling/program/standstill.h"\n'),
+    ("coupling/program_of_test.cc", "    return std::make_unique<Program>(test_, std::move(stages), std::move(drives_));\n",
+     "    const double standstill = test_.settings().loading.standstill;\n"
+     "    if (standstill > 0) stages.push_back(std::make_unique<Standstill>(standstill));\n"
+     "    return std::make_unique<Program>(test_, std::move(stages), std::move(drives_));\n"),
     (SETTINGS, "  double start_strain = 0; ",
      "  double standstill = 0; // s, that the platens stand at last\n  double start_strain = 0; "),
     (SETTINGS, '  v("start_strain", p.start_strain,',

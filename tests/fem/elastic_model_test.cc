@@ -167,9 +167,12 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
   const Material pad{1200, 10e6, 0}, teflon{2200, 0.5e9, 0}, metal{7850, 210e9, 0};
   const std::vector<Layer> layers = {{0.001, 2}, {0.002, 1}, {0.017, 3}};
   for (const int degree : {1, 2})
-    for (const bool round : {false, true}) {
-      const Grid grid = round ? make_grid(CylinderPlate{0.03, 0.02, -0.01, 4, 1}, layers)
-                              : make_grid(BoxPlate{{0, 0, -0.01}, {0.05, 0.04, 0.01}, {3, 2, 9}}, layers);
+    for (const char *shape : {"round", "box", "two strips"}) {
+      const BoxPlate box{{0, 0, -0.01}, {0.05, 0.04, 0.01}, {3, 2, 9}},
+          strip{{0.07, 0, -0.01}, {0.08, 0.04, 0.01}, {1, 2, 9}};
+      const Grid grid = shape[0] == 'r'   ? make_grid(CylinderPlate{0.03, 0.02, -0.01, 4, 1}, layers)
+                        : shape[0] == 'b' ? make_grid(box, layers)
+                                          : make_grid(std::vector<BoxPlate>{box, strip}, layers);
       const ElasticModel model = make_elastic_model(grid, degree, {pad, teflon, metal});
       const double p = 1e6, area = model.volume / 0.02;
       const double closure = p * (0.001 / 10e6 + 0.002 / 0.5e9 + 0.017 / 210e9);
@@ -185,9 +188,16 @@ TEST(elastic_model, sheets_in_series_add_their_compliances) {
       double reaction = 0;
       for (const int i : nodes_on(model, low_end_tag))
         reaction += force[static_cast<std::size_t>(i)][2];
-      EXPECT_NEAR(reaction, p * area, 1e-9 * p * area) << degree << round;
+      EXPECT_NEAR(reaction, p * area, 1e-9 * p * area) << degree << shape;
       for (const Stress &s : cell_stress(model, x))
         EXPECT_NEAR(s[2], -p, 1e-8 * p);
+      // The first sheet lies at the low end.
+      const std::size_t per_cell = model.cell_nodes.size() / model.cell_material.size();
+      for (std::size_t c = 0; c < model.cell_material.size(); ++c)
+        for (std::size_t k = 0; k < per_cell; ++k) {
+          const double z = model.nodes[static_cast<std::size_t>(model.cell_nodes[per_cell * c + k])][2];
+          EXPECT_TRUE(model.cell_material[c] == 0 ? z < -0.009 + 1e-9 : z > -0.009 - 1e-9) << shape << z;
+        }
     }
 }
 

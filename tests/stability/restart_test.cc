@@ -48,7 +48,7 @@ void choose(PlatenTestSettings &s, Law law) {
 void choose(PlatenTestSettings &s, Fixed fixed) {
   if (fixed == elastic || fixed == quasi_static) {
     s.platens.elastic = coupling::ElasticPlatens{};
-    s.platens.elastic->seat = true;
+    s.platens.spherical_seat = true;
     if (fixed == quasi_static) s.platens.elastic->motion = fem::ElasticMotion::quasi_static;
   }
   if (fixed != sleeve) return;

@@ -81,6 +81,15 @@ Case elastic_platens() {
   return c;
 }
 
+// Held, moments of the grains too.
+Case ties_to_elastic_platens() {
+  Case c = elastic_platens();
+  c.name = "ties_to_elastic_platens";
+  c.settings.platens.stiffness.value = 5;
+  c.settings.platens.glued = c.settings.seat = true;
+  return c;
+}
+
 struct Outcome {
   long stopped = -1;   // step; -1: it went on
   double growth = 0;   // |residual of the energy balance| over the work that came in
@@ -157,7 +166,7 @@ TEST_P(Sweep, is_stable_below_the_limit_and_stopped_above_it) {
 
 INSTANTIATE_TEST_SUITE_P(time_step, Sweep,
                          testing::Values(chain, bonded_block, rigid_platens, stiff_ties_to_rigid_platens,
-                                         elastic_platens),
+                                         elastic_platens, ties_to_elastic_platens),
                          [](const auto &c) { return c.param().name; });
 
 // What breaks gives way before it flies: the scheme then makes cracks, and shows by its energy alone.

@@ -1,0 +1,182 @@
+#include "apps/scene/scene_stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/scene/parameters.h"
+#include "apps/scene/values.h"
+
+namespace platen::apps {
+namespace {
+
+using coupling::SideAsk;
+using coupling::SideGroup;
+using coupling::StageUntil;
+using Ask = SideAsk::Ask;
+using Reached = coupling::Until::Reached;
+
+const std::vector<std::pair<std::string, Ask>> &words_of_asks() {
+  static const std::vector<std::pair<std::string, Ask>> words{
+      {"rate", Ask::rate},         {"unload", Ask::rate},
+      {"stress", Ask::stress},     {"share of", Ask::share},
+      {"pressure", Ask::pressure}, {"hold", Ask::hold},
+      {"free", Ask::free},         {"circumferential rate", Ask::circumferential}};
+  return words;
+}
+
+const std::vector<std::pair<std::string, Reached>> &words_of_ends() {
+  static const std::vector<std::pair<std::string, Reached>> words{
+      {"strain change", Reached::strain_change},
+      {"strain", Reached::strain},
+      {"stress", Reached::stress},
+      {"share of peak", Reached::share_of_peak},
+      {"share of start", Reached::share_of_start},
+      {"circumferential strain", Reached::circumferential_strain},
+      {"time", Reached::time},
+      {"settled", Reached::settled}};
+  return words;
+}
+
+// Takes a word and the blank after it from the front of a text.
+bool take(std::string &text, const std::string &word) {
+  if (text.compare(0, word.size(), word) != 0) return false;
+  if (text.size() > word.size() && text[word.size()] != ' ') return false;
+  text = text.size() > word.size() ? text.substr(word.size() + 1) : "";
+  return true;
+}
+
+std::optional<SideGroup> take_side(std::string &text) {
+  std::optional<SideGroup> found; // the longest: "Lateral x" before "Lateral"
+  for (const SideGroup group : coupling::all_side_groups) {
+    std::string rest = text;
+    if (take(rest, key_of(group)) && (!found || key_of(group).size() > key_of(*found).size())) found = group;
+  }
+  if (found) take(text, key_of(*found));
+  return found;
+}
+
+[[noreturn]] void fail_side(const std::string &text) {
+  std::vector<std::string> sides;
+  for (const SideGroup group : coupling::all_side_groups)
+    sides.push_back(key_of(group));
+  throw ValueError("names no side in \"" + text + "\": " + joined(sides) + " are sides");
+}
+
+double value_of(const std::string &text, const std::string &unit) {
+  if (text.empty()) throw ValueError("has no value");
+  return to_si(text, unit);
+}
+
+// "0.05 1/s", "5 %/s"; a bare number is per second.
+double strain_rate_of(const std::string &text) {
+  std::string number = text;
+  for (const char *ending : {" 1/s", " /s", "/s"}) {
+    const std::size_t length = std::string(ending).size();
+    if (number.size() <= length || number.compare(number.size() - length, length, ending) != 0) continue;
+    number.resize(number.size() - length);
+    break;
+  }
+  return value_of(number, "1");
+}
+
+} // namespace
+
+bool StageSection::given() const {
+  return ramp > 0 || hold > 0 || !until.empty() ||
+         std::any_of(asks.begin(), asks.end(), [](const auto &ask) { return ask.has_value(); });
+}
+
+std::string section_of_stage(std::size_t number) {
+  return "Loading/Stage " + std::to_string(number);
+}
+
+std::string key_of(SideGroup group) {
+  std::string key = coupling::name_of(group);
+  key[0] = static_cast<char>(key[0] - 'a' + 'A');
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+std::optional<SideAsk> read_ask(const std::string &text) {
+  std::string rest = tidy(text);
+  if (rest.empty()) return std::nullopt;
+  for (const auto &[word, kind] : words_of_asks()) {
+    if (!take(rest, word)) continue;
+    SideAsk ask;
+    ask.ask = kind;
+    switch (kind) {
+      case Ask::rate:
+        ask.back = word == "unload";
+        if (!rest.empty()) ask.value = value_of(rest, "m/s");
+        if (ask.back && ask.value <= 0) throw ValueError("unloads at no speed");
+        return ask;
+      case Ask::stress:
+      case Ask::pressure:
+        ask.value = value_of(rest, "Pa");
+        return ask;
+      case Ask::circumferential:
+        ask.value = strain_rate_of(rest);
+        return ask;
+      case Ask::share: {
+        const std::optional<SideGroup> of = take_side(rest);
+        if (!of) fail_side(rest);
+        ask.of = *of;
+        ask.value = value_of(rest, "1");
+        return ask;
+      }
+      default:
+        if (!rest.empty()) throw ValueError("has \"" + rest + "\" after " + word);
+        return ask;
+    }
+  }
+  std::vector<std::string> words;
+  for (const auto &one : words_of_asks())
+    words.push_back(one.first);
+  const std::string first = rest.substr(0, rest.find(' ')), nearest = nearest_word(first, words);
+  throw ValueError("asks nothing that is known." +
+                   (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?"));
+}
+
+std::vector<StageUntil> read_until(const std::string &text) {
+  std::vector<StageUntil> ends;
+  std::string all = tidy(text);
+  while (!all.empty()) {
+    const std::size_t comma = std::min(all.find(','), all.size());
+    std::string item = tidy(all.substr(0, comma));
+    all = comma < all.size() ? tidy(all.substr(comma + 1)) : "";
+    StageUntil end;
+    if (const std::optional<SideGroup> of = take_side(item)) end.of = *of;
+    const auto found = std::find_if(words_of_ends().begin(), words_of_ends().end(),
+                                    [&](const auto &one) { return take(item, one.first); });
+    if (found == words_of_ends().end()) throw ValueError("has an end that is not known: \"" + item + "\"");
+    end.what = found->second;
+    if (end.what == Reached::settled) {
+      if (!item.empty()) throw ValueError("has \"" + item + "\" after settled");
+    } else {
+      const char *unit = end.what == Reached::stress ? "Pa" : end.what == Reached::time ? "s" : "1";
+      end.value = value_of(item, unit);
+    }
+    ends.push_back(end);
+  }
+  return ends;
+}
+
+std::vector<coupling::StageSettings> stages_of(const std::array<StageSection, most_stages> &sections) {
+  std::vector<coupling::StageSettings> stages;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const StageSection &section = sections[k];
+    if (!section.given()) continue;
+    coupling::StageSettings stage;
+    stage.name = "stage " + std::to_string(k + 1);
+    for (const SideGroup group : coupling::all_side_groups) {
+      std::optional<SideAsk> ask = section.asks.at(static_cast<std::size_t>(group));
+      if (ask) ask->side = group, stage.asks.push_back(*ask);
+    }
+    stage.ramp = section.ramp, stage.hold = section.hold, stage.until = section.until;
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,68 @@
+#include "coupling/program/drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace platen::coupling {
+
+Drive::Drive(const Parameters &parameters) : parameters_(parameters) {
+  if (parameters.platens.places.empty()) throw std::invalid_argument("drive: it moves no platen");
+  if (parameters.rate_control) rate_control_.emplace(*parameters.rate_control);
+}
+
+void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
+  if (!(rate != 0)) throw std::invalid_argument("drive: a rate of nothing");
+  const double sign = rate > 0 ? 1 : -1;
+  if (until_ == m.time()) {
+    factor_ *= std::abs(rate_ / rate);
+  } else {
+    begun_ = begun;
+    factor_ = sign;
+  }
+  if (first_ == 0) first_ = sign;
+  if (sign != first_ && rate_ * first_ > 0) turned_ = true, strain_of_turn_ = loaded_strain(m);
+  rate_ = rate, ramp_ = ramp;
+}
+
+double Drive::speed(const Measures &m) {
+  const double dt = m.time_step(), middle = m.time() - 0.5 * dt;
+  const double most = ramp_ > 0 ? 2 * dt / ramp_ : std::abs(factor_) + 1;
+  factor_ += std::clamp((rate_ > 0 ? 1 : -1) - factor_, -most, most);
+  double speed = std::abs(rate_) / static_cast<double>(parameters_.platens.places.size()) *
+                 start_of_ramp(middle - begun_, ramp_) * factor_;
+  if (rate_control_) speed *= rate_control_->factor(m.time(), dt);
+  return speed;
+}
+
+void Drive::update(const Measures &m) {
+  until_ = m.time();
+  if (rate_control_) rate_control_->update(m.time(), m.axial_stress(), m.closure_strain(), m.broken_bonds());
+}
+
+double Drive::loaded_strain(const Measures &m) const {
+  return first_ * m.closure_strain(parameters_.platens.axis);
+}
+
+bool Drive::is_cycling(const Measures &m) const {
+  return turned_ && (rate_ * first_ < 0 || loaded_strain(m) < strain_of_turn_);
+}
+
+void Drive::describe(Archive &archive) {
+  archive.version(1);
+  archive("rate", rate_, "m/s");
+  archive("ramp", ramp_, "s");
+  archive("first_direction", first_);
+  archive("begun", begun_, "s");
+  archive("driven_until", until_, "s");
+  archive("factor", factor_);
+  archive("turned", turned_);
+  archive("strain_of_turn", strain_of_turn_);
+  if (rate_control_) archive.part("rate_control", *rate_control_);
+}
+
+double RateTask::fastest() const {
+  return std::abs(rate_) * drive_->multiplier();
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,68 @@
+// Platens that close at a rate. What drives them goes on from one stage to the next: a change of the rate is
+// no jump, and unloading and reloading is one motion.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "coupling/program/platen_speed.h"
+#include "coupling/program/task.h"
+
+namespace platen::coupling {
+
+// From rest the speed starts smoothly within the ramp; from one rate to another it changes evenly, from a
+// rate to its opposite within the ramp. Compression positive.
+class Drive {
+public:
+  struct Parameters {
+    PlatensOfAxis platens;
+    std::optional<RateControl::Parameters> rate_control; // of the axial platens; none: one rate
+  };
+  explicit Drive(const Parameters &parameters);
+
+  // A stage that begins at `begun` (s) asks this closure rate (m/s, of all platens together, not 0), within
+  // `ramp` (s; 0: at once).
+  void ask(double rate, double ramp, const Measures &m, double begun);
+  // Of the step that is being made: m/s, of each platen, inward.
+  double speed(const Measures &m);
+  void update(const Measures &m); // after forces
+  const PlatensOfAxis &platens() const { return parameters_.platens; }
+  double multiplier() const { return parameters_.rate_control ? parameters_.rate_control->multiplier : 1.0; }
+  // From a turn against the first direction until the strain of the turn has been reached again.
+  bool is_cycling(const Measures &m) const;
+  void describe(Archive &archive);
+
+private:
+  double loaded_strain(const Measures &m) const; // positive the way it was loaded first
+
+  Parameters parameters_;
+  std::optional<RateControl> rate_control_;
+  double rate_ = 0;               // m/s, asked now; 0: never asked
+  double ramp_ = 0;               // s
+  double first_ = 0;              // sign of the first rate
+  double begun_ = 0, until_ = -1; // s: of the start from rest; to which it has driven
+  double factor_ = 0;             // on |rate|, on its way to the sign of the rate
+  bool turned_ = false;
+  double strain_of_turn_ = 0;
+};
+
+class RateTask : public Task {
+public:
+  RateTask(std::shared_ptr<Drive> drive, double rate, double ramp)
+      : drive_(std::move(drive)), rate_(rate), ramp_(ramp) {}
+  void begin(const Measures &m, double begun, const Handover &) override {
+    drive_->ask(rate_, ramp_, m, begun);
+  }
+  void command(const Measures &m, Commands &asked) override {
+    drive_->platens().move(m, drive_->speed(m), asked);
+  }
+  void update(const Measures &m) override { drive_->update(m); }
+  double fastest() const override;
+  void describe(Archive &archive) override { archive.version(1); } // the drive is the program's
+
+private:
+  std::shared_ptr<Drive> drive_;
+  double rate_, ramp_; // m/s, s
+};
+
+} // namespace platen::coupling

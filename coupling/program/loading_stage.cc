@@ -1,0 +1,57 @@
+#include "coupling/program/loading_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace platen::coupling {
+
+LoadingStage::LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end)
+    : parameters_(std::move(parameters)), tasks_(std::move(tasks)), end_(std::move(end)) {}
+
+void LoadingStage::on_begin(const Measures &m, const Handover &from) {
+  for (const auto &task : tasks_)
+    task->begin(m, begun(), from);
+  end_.begin(m, from);
+}
+
+void LoadingStage::command(const Measures &m, Commands &asked) {
+  for (const auto &task : tasks_)
+    task->command(m, asked);
+}
+
+void LoadingStage::update(const Measures &m) {
+  for (const auto &task : tasks_)
+    task->update(m);
+  end_.update(m, m.time() - begun());
+}
+
+bool LoadingStage::has_ended(const Measures &m) const {
+  const double passed = m.time() - begun();
+  const bool settled =
+      end_.needs_settled() && passed >= end_.parameters().least &&
+      std::all_of(tasks_.begin(), tasks_.end(), [&](const auto &task) { return task->has_settled(m); });
+  return end_.is_reached(m, passed, settled);
+}
+
+double LoadingStage::progress(const Measures &m) const {
+  const double passed = m.time() - begun(), expected = parameters_.expected_seconds;
+  const double by_end = end_.progress(m, passed);
+  if (by_end > 0 || !(expected > 0)) return by_end;
+  return std::min(1.0, passed / expected);
+}
+
+double LoadingStage::fastest() const {
+  double most = 0;
+  for (const auto &task : tasks_)
+    most = std::max(most, task->fastest());
+  return most;
+}
+
+void LoadingStage::describe(Archive &archive) {
+  Stage::describe(archive);
+  archive.part("end", end_);
+  for (std::size_t k = 0; k < tasks_.size(); ++k)
+    archive.part("task_" + std::to_string(k + 1), *tasks_[k]);
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,41 @@
+// A loading stage: what each side is asked, and when it is over.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/program/stage_end.h"
+#include "coupling/program/task.h"
+
+namespace platen::coupling {
+
+class LoadingStage : public Stage {
+public:
+  struct Parameters {
+    std::string name;
+    bool consolidates = false; // all sides alike, before the axial loading: strains count from its end
+    double expected_seconds = 0;
+  };
+  LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end);
+
+  std::string name() const override { return parameters_.name; }
+  void command(const Measures &m, Commands &asked) override;
+  void update(const Measures &m) override;
+  bool has_ended(const Measures &m) const override;
+  double expected_seconds() const override { return parameters_.expected_seconds; }
+  double progress(const Measures &m) const override;
+  double fastest() const override;
+  bool is_consolidation() const override { return parameters_.consolidates; }
+  void describe(Archive &archive) override;
+
+protected:
+  void on_begin(const Measures &m, const Handover &from) override;
+
+private:
+  Parameters parameters_;
+  std::vector<std::unique_ptr<Task>> tasks_;
+  StageEnd end_;
+};
+
+} // namespace platen::coupling

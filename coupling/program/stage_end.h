@@ -1,0 +1,62 @@
+// When a loading stage is over.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "coupling/program/task.h"
+
+namespace platen::coupling {
+
+// One of the things that end a stage.
+struct Until {
+  enum class Reached {
+    strain,         // closure strain of the axis since the end of consolidation
+    strain_change,  // since the stage began, of either sign
+    stress,         // Pa, from below or above, as the stage finds it
+    share_of_peak,  // of the largest stress of this stage, once the ramp is over: the stress has fallen to it
+    share_of_start, // of the stress that the stage finds: it has fallen to it
+    circumferential_strain,
+    time, // s, since the stage began
+    settled
+  };
+  Reached what = Reached::settled;
+  double value = 0;
+  PlatensOfAxis of; // whose strain and stress
+  // Of a strain: 1 where it rises (in compression, or in the sense of a tension test), -1 where it falls.
+  double direction = 1;
+  bool less_pressure = false; // stresses less the cell's pressure, where they are shares
+};
+
+class StageEnd {
+public:
+  struct Parameters {
+    std::vector<Until> any;
+    double ramp = 0;  // s, of the stage
+    double least = 0; // s, how long it goes on at least to have settled
+    double latest = std::numeric_limits<double>::infinity(); // s, at which it is over anyway
+  };
+  explicit StageEnd(Parameters parameters);
+
+  void begin(const Measures &m, const Handover &from);
+  void update(const Measures &m, double passed);
+  // `passed`: s since the stage began; `settled`: all tasks have.
+  bool is_reached(const Measures &m, double passed, bool settled) const;
+  bool needs_settled() const;
+  double progress(const Measures &m, double passed) const; // 0 ... 1, of a strain or a time; else 0
+  const Parameters &parameters() const { return parameters_; }
+  void describe(Archive &archive);
+
+private:
+  struct Seen { // for each of `any`
+    double found = 0, largest = 0, zero = 0;
+    void describe(Archive &archive);
+  };
+  double now(const Measures &m, const Until &until) const;
+  bool is_met(const Measures &m, const Until &until, const Seen &seen, double passed, bool settled) const;
+
+  Parameters parameters_;
+  std::vector<Seen> seen_;
+};
+
+} // namespace platen::coupling

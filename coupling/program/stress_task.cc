@@ -1,0 +1,102 @@
+#include "coupling/program/stress_task.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace platen::coupling {
+
+namespace {
+
+constexpr double settled_share = 0.01; // of the stress that is asked
+
+bool share_a_platen(const PlatensOfAxis &one, const PlatensOfAxis &other) {
+  return std::any_of(one.places.begin(), one.places.end(), [&](std::size_t place) {
+    return std::count(other.places.begin(), other.places.end(), place) > 0;
+  });
+}
+
+} // namespace
+
+StressTask::StressTask(Parameters parameters)
+    : parameters_(std::move(parameters)), servo_(parameters_.servo) {
+  const PlatensOfAxis &platens = parameters_.platens;
+  if (platens.places.empty()) throw std::invalid_argument("a stress is asked of no platen");
+  if (parameters_.followed && !(parameters_.lag > 0))
+    throw std::invalid_argument("a share of a stress needs a lag");
+  if (parameters_.followed && share_a_platen(platens, *parameters_.followed))
+    throw std::invalid_argument("a side cannot bear a share of its own stress");
+  if (!parameters_.settled_by.empty()) return;
+  for (const std::size_t place : platens.places) {
+    parameters_.settled_by.push_back(platens);
+    parameters_.settled_by.back().places = {place};
+  }
+}
+
+void StressTask::begin(const Measures &m, double begun, const Handover &from) {
+  begun_ = begun;
+  stress_found_ = parameters_.platens.stress(m);
+  speed_found_ = parameters_.platens.speed(m, from.asked);
+  if (parameters_.followed) followed_ = parameters_.followed->stress(m);
+}
+
+double StressTask::wanted(const Measures &m) const {
+  const double passed = m.time() - 0.5 * m.time_step() - begun_, ramp = parameters_.ramp;
+  double aim = parameters_.value;
+  if (parameters_.followed) {
+    const double rate = (parameters_.followed->stress(m) - followed_) / parameters_.lag; // Pa/s
+    aim *= followed_ + (parameters_.lag + parameters_.lead) * rate;
+  }
+  const double x = ramp > 0 ? passed / ramp : 1, change = aim - stress_found_;
+  const double rate = x < 1 ? 6 * x * (1 - x) / ramp * change : 0.0; // Pa/s
+  const double now = x < 1 ? stress_found_ + smooth_start(x) * change : aim;
+  return now + parameters_.lead * rate;
+}
+
+void StressTask::command(const Measures &m, Commands &asked) {
+  const std::vector<std::size_t> &places = parameters_.platens.places;
+  const double count = static_cast<double>(places.size());
+  ServoLoad mean;
+  double reaction = 0;
+  for (const std::size_t place : places) {
+    const ServoLoad load = m.servo_load(place);
+    mean.stiffness += load.stiffness / count, mean.impedance += load.impedance / count;
+    reaction += m.load(place) / count;
+  }
+  const double stress = wanted(m) + missing_;
+  double speed = servo_.velocity(stress * parameters_.platens.area, reaction, mean, m.time_step());
+  const double middle = m.time() - 0.5 * m.time_step() - begun_;
+  if (speed_found_ != 0) speed += speed_found_ * (1 - start_of_ramp(middle, parameters_.ramp_to_rest));
+  parameters_.platens.move(m, speed, asked);
+}
+
+void StressTask::update(const Measures &m) {
+  const double now = parameters_.platens.stress(m);
+  if (parameters_.integral_time > 0 && now > 0 && m.time() > begun_)
+    missing_ += m.time_step() / parameters_.integral_time * (wanted(m) - now);
+  if (!parameters_.followed || m.time() <= begun_) return;
+  const double share = std::min(1.0, m.time_step() / parameters_.lag);
+  followed_ += share * (parameters_.followed->stress(m) - followed_);
+}
+
+bool StressTask::has_settled(const Measures &m) const {
+  if (m.time() - begun_ < parameters_.ramp) return false;
+  const double asked =
+      parameters_.followed ? parameters_.value * parameters_.followed->stress(m) : parameters_.value;
+  return std::all_of(parameters_.settled_by.begin(), parameters_.settled_by.end(), [&](const auto &platens) {
+    return std::abs(platens.stress(m) - asked) < settled_share * std::abs(asked);
+  });
+}
+
+void StressTask::describe(Archive &archive) {
+  archive.version(1);
+  archive("begun", begun_, "s");
+  archive("stress_found", stress_found_, "Pa");
+  archive("speed_found", speed_found_, "m/s");
+  archive("followed", followed_, "Pa");
+  archive("missing", missing_, "Pa");
+  archive.part("servo", servo_);
+}
+
+} // namespace platen::coupling

@@ -1,0 +1,360 @@
+#include "coupling/program_of_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/program/circumferential_task.h"
+#include "coupling/program/drive.h"
+#include "coupling/program/loading_stage.h"
+#include "coupling/program/pressure_task.h"
+#include "coupling/program/stress_task.h"
+
+namespace platen::coupling {
+namespace {
+
+using Ask = SideAsk::Ask;
+using Reached = Until::Reached;
+
+// A stage whose stress does not settle is over after as much time again as ramp and hold have had.
+constexpr double patience = 2;
+// A share or a path follows with this lag in wave transits: long enough for waves to pass, and for the
+// specimen's own answer, which would ring otherwise.
+constexpr double lag_of_share = 4;
+// And may move platens this many times as fast as any close at a rate.
+constexpr double reserve_of_share = 10;
+// What is missing of a stress is asked again within this many of the servo's own times: it does not swing
+// then.
+constexpr double times_of_servo = 4;
+
+// A list of stages becomes a program: groups of sides become platens by their places.
+class ProgramMaker {
+public:
+  ProgramMaker(const PlatenTest &test, const std::vector<StageSettings> &stages)
+      : test_(test), settings_(stages), lateral_(test.sides().lateral) {}
+
+  std::unique_ptr<Program> operator()() {
+    std::vector<std::unique_ptr<Stage>> stages;
+    bool consolidates = true;
+    for (const StageSettings &stage : settings_) {
+      consolidates = consolidates && is_all_round(stage);
+      stages.push_back(made(stage, consolidates));
+    }
+    return std::make_unique<Program>(test_, std::move(stages), std::move(drives_));
+  }
+
+private:
+  PlatensOfAxis platens(SideGroup group) const {
+    PlatensOfAxis all;
+    for (const Side side : sides_of(group)) {
+      const PlatensOfAxis one = test_.platens_of(side);
+      all.area = one.area, all.length = one.length, all.axis = one.axis;
+      all.places.insert(all.places.end(), one.places.begin(), one.places.end());
+    }
+    return all;
+  }
+
+  // The lateral platens of a box are two pairs.
+  std::vector<SideAsk> asks_of(const StageSettings &stage) const {
+    std::vector<SideAsk> all;
+    for (const SideAsk &ask : stage.asks) {
+      if (ask.side != SideGroup::lateral || lateral_) {
+        all.push_back(ask);
+        continue;
+      }
+      for (const SideGroup pair : {SideGroup::lateral_x, SideGroup::lateral_y})
+        if (!platens(pair).places.empty()) all.push_back(ask), all.back().side = pair;
+    }
+    return all;
+  }
+
+  // All sides are asked the same stress.
+  bool is_all_round(const StageSettings &stage) const {
+    const std::vector<SideAsk> asks = asks_of(stage);
+    std::array<bool, 3> axes{};
+    for (const SideAsk &ask : asks) {
+      if ((ask.ask != Ask::stress && ask.ask != Ask::pressure) || ask.value != asks.front().value)
+        return false;
+      if (lateral_ && ask.side == SideGroup::lateral)
+        axes[0] = axes[1] = true;
+      else
+        axes[static_cast<std::size_t>(platens(ask.side).axis)] = true;
+    }
+    return !asks.empty() && axes[0] && axes[1] && axes[2];
+  }
+
+  std::shared_ptr<Drive> drive(const PlatensOfAxis &platens) {
+    for (const auto &drive : drives_)
+      if (drive->platens().places == platens.places) return drive;
+    drives_.push_back(std::make_shared<Drive>(
+        Drive::Parameters{platens, platens.axis == 2 ? test_.rate_control() : std::nullopt}));
+    return drives_.back();
+  }
+
+  bool asks_stress(const StageSettings &stage) const {
+    return std::any_of(stage.asks.begin(), stage.asks.end(), [](const SideAsk &ask) {
+      return ask.ask == Ask::stress || ask.ask == Ask::share || ask.ask == Ask::pressure ||
+             ask.ask == Ask::free;
+    });
+  }
+  double ramp_of(const StageSettings &stage) const {
+    if (stage.ramp > 0) return stage.ramp;
+    return asks_stress(stage) ? test_.ramp_of_stress() : test_.ramp();
+  }
+
+  Servo::Parameters servo(const SideAsk &ask, const PlatensOfAxis &platens, double ramp) const {
+    if (ask.servo) return *ask.servo;
+    const bool follows = ask.ask == Ask::share || ask.ask == Ask::free;
+    double stress = 0, rate = test_.axial_rate(); // the most that is asked, Pa, m/s
+    for (const StageSettings &stage : settings_)
+      for (const SideAsk &one : stage.asks) {
+        if (one.ask == Ask::stress || one.ask == Ask::pressure) stress = std::max(stress, one.value);
+        if (one.ask == Ask::rate) rate = std::max(rate, std::abs(rate_of(one)));
+      }
+    return test_.servo_for(stress, platens.axis, ramp,
+                           follows ? reserve_of_share * rate : test_.axial_rate());
+  }
+
+  std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp, bool consolidates) const {
+    StressTask::Parameters p;
+    p.platens = platens(ask.side);
+    p.value = ask.ask == Ask::free ? 0 : ask.value;
+    p.ramp = ramp;
+    p.ramp_to_rest = test_.ramp();
+    p.lead = std::isnan(ask.lead) ? test_.lead_of_servo() : ask.lead;
+    p.servo = servo(ask, p.platens, ramp);
+    if (!consolidates && !ask.servo) p.integral_time = times_of_servo * test_.lead_of_servo();
+    if (ask.ask == Ask::share) p.followed = platens(ask.of), p.lag = lag();
+    if (p.platens.places.size() == 1) {
+      p.settled_by = {test_.platens_along(p.platens.axis)};
+    }
+    return std::make_unique<StressTask>(p);
+  }
+
+  double lag() const { return lag_of_share * test_.facts().wave_transit; }
+
+  std::unique_ptr<Task> pressure_task(const SideAsk &ask, double ramp) const {
+    if (ask.ask == Ask::hold) return std::make_unique<HoldPressureTask>(*lateral_);
+    PressureTask::Parameters p;
+    p.place = *lateral_;
+    p.value = ask.ask == Ask::free ? 0 : ask.value;
+    p.ramp = ramp;
+    p.path = ask.path;
+    if (ask.ask == Ask::share) p.followed = platens(ask.of);
+    if (p.path != 0 || p.followed) p.lag = lag();
+    return std::make_unique<PressureTask>(p);
+  }
+
+  double rate_of(const SideAsk &ask) const {
+    return (ask.back ? -1 : 1) * (std::isnan(ask.value) ? test_.axial_rate() : ask.value);
+  }
+
+  std::unique_ptr<Task> task(const SideAsk &ask, double ramp, bool consolidates) {
+    if (lateral_ && ask.side == SideGroup::lateral) return pressure_task(ask, ramp);
+    const PlatensOfAxis of = platens(ask.side);
+    switch (ask.ask) {
+      case Ask::rate:
+        return std::make_unique<RateTask>(drive(of), rate_of(ask), ramp);
+      case Ask::hold:
+        return std::make_unique<HoldTask>(of, test_.ramp());
+      case Ask::circumferential:
+        return circumferential_task(ask, of, ramp);
+      default:
+        return stress_task(ask, ramp, consolidates);
+    }
+  }
+
+  std::unique_ptr<Task> circumferential_task(const SideAsk &ask, const PlatensOfAxis &of, double ramp) const {
+    CircumferentialTask::Parameters p;
+    p.platens = of;
+    p.rate = ask.value;
+    p.ramp = ramp;
+    p.transit = test_.facts().wave_transit;
+    p.fastest = test_.axial_rate();
+    return std::make_unique<CircumferentialTask>(p);
+  }
+
+  // What is not asked holds.
+  void add_holds(const std::vector<SideAsk> &asks, std::vector<std::unique_ptr<Task>> &tasks) const {
+    const auto asked = [&](Side side) {
+      return std::any_of(asks.begin(), asks.end(), [&](const SideAsk &ask) {
+        const std::vector<Side> sides = sides_of(ask.side);
+        return (ask.side != SideGroup::lateral || !lateral_) &&
+               std::count(sides.begin(), sides.end(), side) > 0;
+      });
+    };
+    for (const Side side : all_sides)
+      if (test_.platen(side) != nullptr && !asked(side))
+        tasks.push_back(std::make_unique<HoldTask>(test_.platens_of(side), test_.ramp()));
+    const bool pressed = std::any_of(asks.begin(), asks.end(),
+                                     [](const SideAsk &ask) { return ask.side == SideGroup::lateral; });
+    if (lateral_ && !pressed) tasks.push_back(std::make_unique<HoldPressureTask>(*lateral_));
+  }
+
+  StageEnd end_of(const StageSettings &stage, double ramp) const {
+    StageEnd::Parameters end;
+    end.ramp = ramp;
+    end.least = ramp + stage.hold;
+    for (const StageUntil &one : stage.until) {
+      Until until{one.what, one.what == Reached::settled ? 0 : one.value, platens(one.of),
+                  direction(stage, one.of), lateral_.has_value()};
+      if (one.what == Reached::settled)
+        end.latest = std::isnan(stage.latest) ? patience * end.least : stage.latest;
+      end.any.push_back(std::move(until));
+    }
+    return StageEnd(std::move(end));
+  }
+
+  // A strain falls where its axis is unloaded.
+  double direction(const StageSettings &stage, SideGroup of) const {
+    const double first = test_.settings().loading.tension ? -1 : 1;
+    for (const SideAsk &ask : stage.asks)
+      if (ask.ask == Ask::rate && platens(ask.side).axis == platens(of).axis && rate_of(ask) * first < 0)
+        return -1;
+    return 1;
+  }
+
+  // s, as far as it is known.
+  double expected_seconds(const StageSettings &stage, double ramp) const {
+    double seconds = 0;
+    for (const StageUntil &end : stage.until) {
+      if (end.what == Reached::time) return end.value;
+      const bool strain = end.what == Reached::strain || end.what == Reached::strain_change;
+      for (const SideAsk &ask : stage.asks)
+        if (strain && ask.ask == Ask::rate && platens(ask.side).axis == platens(end.of).axis &&
+            direction(stage, end.of) > 0) {
+          const double before = strain_before(stage, end);
+          const double way = (end.value - before) * platens(end.of).length;
+          const bool from_rest = before <= test_.settings().loading.start_strain;
+          seconds = std::max(seconds, (from_rest ? 0.5 * ramp : 0.0) + way / std::abs(rate_of(ask)));
+        }
+    }
+    for (const SideAsk &ask : stage.asks) // the platens go as far as the specimen widens, with the usual nu
+      for (const StageUntil &end : stage.until)
+        if (ask.ask == Ask::circumferential && end.what == Reached::circumferential_strain)
+          seconds = 0.5 * ramp + end.value / ask.value;
+    return seconds > 0 || !asks_stress(stage) ? seconds : ramp + stage.hold;
+  }
+
+  // What stages before have reached of a strain that counts from the start.
+  double strain_before(const StageSettings &stage, const StageUntil &end) const {
+    if (end.what != Reached::strain) return 0;
+    double most = test_.settings().loading.start_strain;
+    for (const StageSettings &before : settings_) {
+      if (&before == &stage) break;
+      for (const StageUntil &one : before.until)
+        if (one.what == Reached::strain && one.of == end.of && one.value < end.value)
+          most = std::max(most, one.value);
+    }
+    return most;
+  }
+
+  std::unique_ptr<Stage> made(const StageSettings &stage, bool consolidates) {
+    const double ramp = ramp_of(stage);
+    const std::vector<SideAsk> asks = asks_of(stage);
+    std::vector<std::unique_ptr<Task>> tasks;
+    for (const SideAsk &ask : asks)
+      tasks.push_back(task(ask, ramp, consolidates));
+    add_holds(asks, tasks);
+    return std::make_unique<LoadingStage>(
+        LoadingStage::Parameters{stage.name, consolidates, expected_seconds(stage, ramp)}, std::move(tasks),
+        end_of(stage, ramp));
+  }
+
+  const PlatenTest &test_;
+  const std::vector<StageSettings> &settings_;
+  std::optional<std::size_t> lateral_;
+  std::vector<std::shared_ptr<Drive>> drives_;
+};
+
+SideAsk asked(SideGroup side, Ask ask, double value) {
+  SideAsk one;
+  one.side = side, one.ask = ask, one.value = value;
+  return one;
+}
+
+StageSettings consolidation(const PlatenTest &test) {
+  const LoadingSettings &loading = test.settings().loading;
+  const double pressure = loading.cell->pressure;
+  StageSettings stage;
+  stage.name = "consolidation";
+  stage.asks = {asked(SideGroup::lateral, Ask::pressure, pressure),
+                asked(SideGroup::top, Ask::stress, pressure)};
+  stage.ramp = test.cell_ramp();
+  stage.hold = loading.hold;
+  stage.until = {{Reached::settled}};
+  return stage;
+}
+
+StageSettings held_stress(const PlatenTest &test) {
+  const LoadingSettings &loading = test.settings().loading;
+  StageSettings stage;
+  stage.name = "stress";
+  SideAsk ask = asked(SideGroup::top, Ask::stress, loading.top_stress);
+  ask.servo = test.servo_of_top();
+  ask.lead = 0;
+  stage.asks = {ask};
+  stage.ramp = test.ramp();
+  stage.hold = loading.hold;
+  stage.until = {{Reached::time, stage.ramp + stage.hold}};
+  if (std::isfinite(loading.target_strain))
+    stage.until.push_back({Reached::strain, loading.target_strain, SideGroup::axial});
+  return stage;
+}
+
+// One after the other where the platens turn round.
+std::vector<StageSettings> axial_stages(const PlatenTest &test) {
+  const LoadingSettings &loading = test.settings().loading;
+  StageSettings stage;
+  stage.name = loading.tension ? "tension" : "compression";
+  stage.ramp = test.ramp();
+  const double rate = (loading.tension ? -1 : 1) * loading.rate;
+  if (rate != 0) stage.asks = {asked(SideGroup::axial, Ask::rate, rate)};
+  if (loading.cell) {
+    SideAsk ask = asked(SideGroup::lateral, Ask::pressure, loading.cell->pressure);
+    ask.path = loading.cell->path;
+    stage.asks.push_back(ask);
+  }
+  std::vector<StageSettings> all;
+  for (const double turn : loading.unload_at) {
+    all.push_back(stage);
+    all.back().until = {{Reached::strain, turn, SideGroup::axial}};
+    all.push_back(stage);
+    all.back().name = "unloading";
+    if (rate != 0) all.back().asks.front().value = -rate;
+    all.back().until = {{Reached::share_of_start, loading.unload_to, SideGroup::axial}};
+  }
+  if (std::isfinite(loading.target_strain))
+    stage.until = {{Reached::strain, loading.target_strain, SideGroup::axial}};
+  all.push_back(stage);
+  return all;
+}
+
+} // namespace
+
+std::vector<StageSettings> stages_of_members(const PlatenTest &test) {
+  const LoadingSettings &loading = test.settings().loading;
+  std::vector<StageSettings> stages;
+  if (loading.cell) stages.push_back(consolidation(test));
+  if (loading.cell && loading.cell->alone) return stages;
+  if (loading.servo) {
+    stages.push_back(held_stress(test));
+    return stages;
+  }
+  const std::vector<StageSettings> axial = axial_stages(test);
+  stages.insert(stages.end(), axial.begin(), axial.end());
+  return stages;
+}
+
+std::unique_ptr<Program> make_program(const PlatenTest &test) {
+  const PlatenTestSettings &settings = test.settings();
+  std::vector<std::unique_ptr<Stage>> own;
+  for (const MadeFor<Stage> &make : settings.stages)
+    own.push_back(make(test));
+  if (!own.empty()) return std::make_unique<Program>(test, std::move(own));
+  if (settings.loading.stages.empty()) return ProgramMaker(test, stages_of_members(test))();
+  require_stages(settings.loading.stages, test.stage_scope());
+  return ProgramMaker(test, settings.loading.stages)();
+}
+
+} // namespace platen::coupling

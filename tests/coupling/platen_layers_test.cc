@@ -1,0 +1,163 @@
+// Platens of several layers: what they are made of, and that they yield as springs in series.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "coupling/platen_layers.h"
+#include "coupling/platen_test.h"
+#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/small_cylinder.h"
+#include "tests/measured.h"
+#include "tests/same_state.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr fem::Material steel{7850, 210e9, 0.3}, rubber{1100, 5e6, 0.45}, lead{11300, 16e9, 0.44};
+
+PlatenTestSettings elastic(double thickness) {
+  PlatenTestSettings s = elastic_settings(0.5);
+  s.platens.thickness = thickness;
+  s.platens.material = steel;
+  s.platens.elastic = ElasticPlatens{};
+  return s;
+}
+
+TEST(platen_layers, begin_at_the_specimen_and_leave_the_rest_to_the_platen) {
+  PlatenSettings p = elastic(10e-3).platens;
+  p.elastic->layers = {{1e-3, rubber}, {2e-3, lead}};
+  for (const Side side : {Side::top, Side::bottom}) {
+    const std::vector<PlatenLayer> layers = layers_of(p, side);
+    ASSERT_EQ(layers.size(), 3u);
+    EXPECT_EQ(layers[0].material.density, rubber.density);
+    EXPECT_EQ(layers[1].material.density, lead.density);
+    EXPECT_EQ(layers[2].material.density, steel.density);
+    EXPECT_NEAR(layers[2].thickness, 7e-3, 1e-17);
+    const std::vector<fem::Material> upwards = materials_of(p, side);
+    EXPECT_EQ(upwards.front().density, side == Side::top ? rubber.density : steel.density);
+    EXPECT_EQ(upwards.back().density, side == Side::top ? steel.density : rubber.density);
+    const std::vector<fem::Layer> elements = elements_of_layers(p, side, 10e-3);
+    EXPECT_EQ(side == Side::top ? elements.front().thickness : elements.back().thickness, 1e-3);
+  }
+  p.bottom.layers = {{4e-3, lead}};
+  p.bottom.thickness = 4e-3;
+  EXPECT_EQ(layers_of(p, Side::bottom).size(), 1u);
+  EXPECT_EQ(thickness_of(p, Side::bottom), 4e-3);
+  EXPECT_EQ(thickness_of(p, Side::top), 10e-3);
+  EXPECT_EQ(layers_of(p, Side::top).size(), 3u);
+  // Thicknesses that add up but for round-off leave nothing.
+  p.elastic->layers = {{0.1 * 10e-3, rubber}, {0.7 * 10e-3, lead}, {0.2 * 10e-3, rubber}};
+  EXPECT_EQ(layers_of(p, Side::top).size(), 3u);
+}
+
+std::string refused(const PlatenTestSettings &settings) {
+  try {
+    const PlatenTest problem(small_cylinder(), settings);
+    return "";
+  } catch (const BadSetup &e) {
+    return e.member() + " " + e.reason();
+  }
+}
+
+TEST(platen_layers, that_cannot_be_are_refused_by_name) {
+  PlatenTestSettings s = elastic(4e-3);
+  s.platens.elastic->layers = {{1e-3, rubber}, {3.1e-3, lead}};
+  EXPECT_NE(refused(s).find("platens.elastic.layers is 0.0041 m thick. Allowed: up to 0.004 m"),
+            std::string::npos)
+      << refused(s);
+  s.platens.elastic->layers = {{1e-3, rubber}, {0, lead}};
+  EXPECT_NE(refused(s).find("platens.elastic.layers has a layer of no thickness"), std::string::npos);
+  s.platens.elastic->layers = {{1e-3, {1100, 5e6, 0.5}}};
+  EXPECT_NE(refused(s).find("Poisson ratio"), std::string::npos);
+  s.platens.elastic->layers.clear();
+  s.platens.top.layers = {{5e-3, lead}};
+  EXPECT_NE(refused(s).find("platens.top.layers is 0.005 m thick"), std::string::npos);
+}
+
+// Without Poisson's ratio an even traction shortens layers by p sum t / E, the same everywhere on the face.
+// So by Betti any loads move the mean of the face by their sum times sum t / (E A), exactly.
+TEST(platen_layers, yield_as_springs_in_series) {
+  constexpr double side = 12e-3, thickness = 8e-3;
+  for (const ElasticPlatens &with :
+       {ElasticPlatens{}, [] {
+          ElasticPlatens p;
+          p.layers = {{1e-3, {1100, 5e6, 0}}, {2e-3, {2700, 70e9, 0}}, {0.5e-3, {2200, 0.5e9, 0}}};
+          return p;
+        }()}) {
+    PlatenSettings p = elastic(thickness).platens;
+    p.elastic = with;
+    p.elastic->motion = fem::ElasticMotion::quasi_static;
+    p.material.poisson_ratio = 0;
+    double flexibility = 0; // m/N
+    for (const PlatenLayer &layer : layers_of(p, Side::top))
+      flexibility += layer.thickness / (layer.material.young_modulus * side * side);
+    const fem::BoxPlate plate{{0, 0, 0}, {side, side, thickness}, {4, 4, 1}};
+    fem::ElasticOptions options;
+    options.motion = p.elastic->motion;
+    fem::ElasticSolid solid(fem::make_grid(plate, elements_of_layers(p, Side::top, 0.5 * side)),
+                            materials_of(p, Side::top), fem::Clamp{}, options);
+    std::vector<Vector3> loads(solid.surface().vertices.size());
+    std::vector<double> weights(loads.size(), 0.0);
+    double sum = 0;
+    for (std::size_t f = 0; f < solid.surface().faces.size(); ++f)
+      if (solid.surface().face_tags[f] == fem::low_end_tag)
+        for (const int v : solid.surface().faces[f])
+          weights[static_cast<std::size_t>(v)] += 0.25 / 16;
+    for (std::size_t v = 0; v < loads.size(); ++v) {
+      if (weights[v] == 0) continue;
+      loads[v].z = 10 + 2000 * solid.surface().vertices[v].x;
+      sum += loads[v].z;
+    }
+    const std::vector<Vector3> before = solid.surface().vertices;
+    solid.aim(loads, 0);
+    double mean = 0;
+    for (std::size_t v = 0; v < loads.size(); ++v)
+      mean += weights[v] * (solid.surface().vertices[v].z - before[v].z);
+    EXPECT_NEAR(mean, sum * flexibility, 1e-8 * mean);
+  }
+}
+
+// A pad is one more way to say two layers, to the last bit.
+TEST(platen_layers, a_pad_is_two_layers) {
+  for (const int degree : {1, 2}) {
+    PlatenTestSettings pad = elastic(4e-3), layers = pad;
+    pad.platens.elastic->degree = layers.platens.elastic->degree = degree;
+    pad.platens.elastic->pad_thickness = 1e-3;
+    pad.platens.elastic->pad = {1200, 1e9, 0.3};
+    layers.platens.elastic->layers = {{1e-3, {1200, 1e9, 0.3}}, {3e-3, steel}};
+    PlatenTest one(small_cylinder(), pad), other(small_cylinder(), layers);
+    one.advance(200), other.advance(200);
+    EXPECT_TRUE(same_state(one, other)) << degree;
+  }
+}
+
+// Physical volumes of a mesh are the layers in their order; the names alone count.
+TEST(platen_layers, of_a_mesh_are_its_physical_volumes) {
+  PlatenTestSettings made = elastic(4e-3);
+  const fem::Material hard{1200, 1e9, 0.3};
+  made.platens.elastic->layers = {{1e-3, hard}, {1e-3, lead}, {2e-3, steel}};
+  PlatenTestSettings given = made;
+  const double radius = made.platens.overhang * small_cylinder().shape.radius;
+  // Material 0 at the low end, which faces the specimen.
+  given.platens.top.grid =
+      fem::make_grid(fem::CylinderPlate{radius, 4e-3, 14e-3, made.platens.elements_across, 1},
+                     elements_of_layers(made.platens, Side::top, radius));
+  given.platens.top.layers = {{0, hard}, {0, lead}, {0, steel}};
+  PlatenTest one(small_cylinder(), made), other(small_cylinder(), given);
+  one.advance(1500), other.advance(1500);
+  ASSERT_GT(one.stress_top(), 1e3);
+  EXPECT_NEAR(other.stress_top() / one.stress_top(), 1, 1e-6);
+  EXPECT_EQ(one.top().body().mass(), other.top().body().mass());
+  given.platens.top.layers.pop_back();
+  EXPECT_NE(refused(given).find("platens.top.grid has 3 physical volumes: there are 2 layers in "
+                                "`platens.top.layers`"),
+            std::string::npos)
+      << refused(given);
+  given.platens.top.layers.clear(), given.platens.elastic->layers.clear();
+  EXPECT_NE(refused(given).find("platens.elastic.pad_modulus"), std::string::npos);
+}
+
+} // namespace
+} // namespace platen::coupling
