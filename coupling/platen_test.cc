@@ -31,6 +31,24 @@ constexpr double servo_reserve = 10;
 // (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
 
+// What a machine's spring does not go with.
+void require_machine(const PlatenTestSettings &settings) {
+  const LoadingSettings &loading = settings.loading;
+  const MachineSettings &machine = settings.platens.machine;
+  if (!machine.yields()) return;
+  const auto refuse = [](const std::string &why) { throw BadSetup("platens.machine.stiffness", why); };
+  if (settings.platens.elastic) refuse("moves a rigid platen. Allowed: no `platens.elastic`.");
+  if (settings.platens.spherical_seat)
+    refuse("moves a platen that does not turn. Allowed: no `platens.spherical_seat`.");
+  if (loading.cell)
+    refuse("would let the platen lag behind the pressure of `loading.cell`. Allowed: no cell.");
+  if (loading.start_strain > 0)
+    refuse("is not carried to a start without inertia. Allowed: `loading.start_strain` = 0.");
+  if (loading.servo && machine.damping == 0)
+    throw BadSetup("platens.machine.damping",
+                   "lets a servo swing on the spring. Allowed: above 0, or no `loading.servo`.");
+}
+
 } // namespace
 
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
@@ -66,10 +84,12 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
 void PlatenTest::require_in_range() const {
   const LoadingSettings &loading = settings_.loading;
   platen::require_in_range(settings_.platens);
+  platen::require_in_range(settings_.platens.machine);
   if (settings_.platens.elastic) platen::require_in_range(*settings_.platens.elastic);
   platen::require_in_range(loading);
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
+  require_machine(settings_);
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {

@@ -82,6 +82,8 @@ public:
   double stress(Side side) const;
   double closure_strain(int axis) const override;
   double circumferential_strain() const override;
+  const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
+  double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
   double confining_pressure() const;       // Pa, of the cell, or on the wall
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
   // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and

@@ -47,6 +47,10 @@ double PlatenTest::closure_strain(int axis) const {
   return any ? closure / length(shape(), axis) : none;
 }
 
+double PlatenTest::machine_closure() const {
+  return machine() == nullptr ? none : bottom().closure() + top().closure() + machine()->compression();
+}
+
 double PlatenTest::circumferential_strain() const {
   if (!circumference_) circumference_.emplace(model.particles, shape(), model.bonds.get());
   return circumference_->strain(model.particles);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/boundaries/machine_spring.h"
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
 #include "coupling/side.h"
@@ -54,6 +55,7 @@ struct PlatenSettings {
   PlatenSide top, bottom;
   std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
   std::optional<ElasticPlatens> elastic;              // none: rigid
+  MachineSettings machine;                            // behind the top platen
   dem::Stiffness stiffness;                           // of the mean bond, or absolute
   double tangential_ratio = 0.8;
   double damping = 0.2;    // fraction of critical

@@ -210,8 +210,15 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
   if (!p.elastic) {
     auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material);
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
-    return {std::make_unique<RigidPlaten>(name_of(side), inward(side), std::move(body), model.particles,
-                                          contact)};
+    MachineSettings machine = p.machine;
+    if (std::isnan(machine.mass)) machine.mass = body->mass();
+    if (machine.mass < body->mass())
+      throw BadSetup("platens.machine.mass",
+                     "leaves out the platen. Allowed: at least its own " + text_of(body->mass()) + " kg.");
+    auto platen =
+        std::make_unique<RigidPlaten>(name_of(side), inward(side), std::move(body), model.particles, contact);
+    if (side == Side::top && machine.yields()) platen->stand_on(MachineSpring(machine));
+    return {std::move(platen)};
   }
   auto solid = elastic_solid(s, settings, side);
   const SurfaceContact contact = contact_settings(model, s, settings, side, *solid);

@@ -62,6 +62,11 @@ std::string CompressionRun::description() const {
   if (const coupling::ElasticPlaten *top = test_->elastic_top())
     text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
                         top->solid().model().nodes.size(), top->solid().substeps(test_->time_step()));
+  if (const coupling::MachineSpring *machine = test_->machine()) {
+    const double k = machine->settings().stiffness, mass = machine->settings().mass;
+    text += fmt::format("  machine: a spring of {:.4g} N/m with {:.3g} kg on it, period {:.3g} s\n", k, mass,
+                        2 * pi * std::sqrt(mass / k));
+  }
   if (const double rate = test_->axial_rate(); rate > 0) text += fmt::format("  speed {:.4g} m/s\n", rate);
   text +=
       fmt::format("  ramp {:.3g} s, wave crossing {:.3g} s\n", test_->ramp(), test_->facts().wave_transit);

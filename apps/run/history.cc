@@ -43,6 +43,10 @@ bool bent(const PlatenTest &p) {
   return p.bent();
 }
 
+bool on_spring(const PlatenTest &p) {
+  return p.machine() != nullptr;
+}
+
 // A platen presses that side.
 template <coupling::Side side>
 bool presses(const PlatenTest &p) {
@@ -156,6 +160,13 @@ const std::vector<HistoryColumn> &history_columns() {
       {"friction_work_right_j", "J", nullptr, friction_work_at<Side::right>, number, presses<Side::right>},
       {"friction_work_front_j", "J", nullptr, friction_work_at<Side::front>, number, presses<Side::front>},
       {"friction_work_back_j", "J", nullptr, friction_work_at<Side::back>, number, presses<Side::back>},
+      {"machine_closure_m", "m", nullptr, [](const Seen &s) { return s.problem.machine_closure(); }, number,
+       on_spring},
+      {"machine_energy_j", "J", &S::machine_energy,
+       [](const Seen &s) {
+         return s.problem.machine()->elastic_energy() + s.problem.machine()->kinetic_energy();
+       },
+       number, on_spring},
       {"stage", "1", &S::stage,
        [](const Seen &s) { return 1.0 + static_cast<double>(s.problem.program().stage_number()); }, count,
        staged},

@@ -38,15 +38,18 @@ struct Sample {
   double deflection = 0;     // m, of a bent bar
   double midspan_moment = 0; // N m, of a bent bar
   double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
-  double cycling = 0;       // 1 from a turn of the platens until its strain has been reached again
-  double axial_stage = 1;   // 0 while a cell's pressure rises and stands alone
-  double stage = 1;         // of those that the scene writes, from 1
-  std::vector<double> more; // of columns without a member, in their order
+  double machine_energy = 0; // J, part of `body`: of the machine's spring and the mass on it
+  double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
+  double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
+  double stage = 1;          // of those that the scene writes, from 1
+  std::vector<double> more;  // of columns without a member, in their order
 
   double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
   double deviator() const { return stress() - cell_pressure; }         // Pa
-  double internal() const { return bond + contact + body; }            // J
-  double broken() const { return broken_tension + broken_shear; }      // bonds
+  double internal() const {                                            // J, without the machine's
+    return bond + contact + (machine_energy > 0 ? body - machine_energy : body);
+  }
+  double broken() const { return broken_tension + broken_shear; } // bonds
 };
 
 // A column of history.csv, or a number that only checkpoints keep: declared once, in history.cc. A checkpoint

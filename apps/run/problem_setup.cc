@@ -60,6 +60,7 @@ std::vector<Effect> effects(const Scene &s) {
       {bonded && m.crack_log, "crack log"},
       {s.output.fields, "fields"}};
   all.insert(all.end(), others.begin(), others.end());
+  if (s.platens.machine.yields()) all.push_back({true, "machine spring"});
   return all;
 }
 

@@ -47,9 +47,27 @@ void SceneCheck::platens() const {
   if (stress && tension)
     refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
   if (loads() && platens.deformable) deformable_platens();
+  if (loads() && platens.machine.yields()) machine();
   if (loads() && platens.deformable) layers();
   if (loads() && platens.spherical_seat) seat();
   if (loads()) meshes();
+}
+
+void SceneCheck::machine() const {
+  const auto refuse_spring = [&](const std::string &why) { refuse("Platens/Machine stiffness", why); };
+  if (app_ == AppKind::calibrate)
+    refuse_spring(
+        "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
+  if (scene_.platens.deformable) refuse_spring("moves a rigid platen. Allowed: Platens/Kind = rigid.");
+  if (scene_.platens.spherical_seat)
+    refuse_spring("moves a platen that does not turn. Allowed: Platens/Top/Seat = fixed.");
+  if (scene_.loading.confined())
+    refuse_spring("would let the platen lag behind the pressure. Allowed: Loading/Confinement = none.");
+  if (scene_.loading.start_strain > 0)
+    refuse_spring("is not carried to a start without inertia. Allowed: Loading/Start strain = 0.");
+  if (scene_.loading.servo && scene_.platens.machine.damping == 0)
+    refuse("Platens/Machine damping",
+           "lets a servo swing on the spring. Allowed: above 0, or Platens/Top/Control = motion.");
 }
 
 // What a word needs besides the entries that it stands for.

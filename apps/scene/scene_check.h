@@ -50,6 +50,7 @@ private:
   void spheres_fit() const;
   void surfaces() const;
   void deformable_platens() const;
+  void machine() const;
   void meshes() const;
   void layers() const;
   void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;

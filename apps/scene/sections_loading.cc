@@ -166,6 +166,11 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   section.entry("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");
   of("glued", "Attachment");
+  Members machine(section, platens.machine);
+  machine("stiffness", "Machine stiffness");
+  for (Declared declared : {machine("mass", "Machine mass"), machine("damping", "Machine damping")})
+    declared.only_if([](const Scene &s) { return s.platens.machine.yields(); },
+                     "Platens/Machine stiffness is not set");
   of.rest({"spherical_seat"});
   declare_side(parameters, platens, coupling::Side::top);
   Section top(parameters, "Platens/Top");

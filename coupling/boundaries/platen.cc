@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -132,6 +133,24 @@ std::vector<dem::GroundSpring> Platen::whole_springs(const dem::Particles &parti
   return layer_.ground_springs(particles, *body_, true);
 }
 
+void Platen::add_shared_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
+  const std::size_t first = springs.size();
+  Platen::add_springs(particles, springs);
+  for (std::size_t k = first; k < springs.size(); ++k) {
+    springs[k].normal_stiffness *= 1 + share_of_body;
+    springs[k].tangential_stiffness *= 1 + share_of_body;
+    if (glued()) springs[k].rotational_stiffness *= 1 + share_of_body;
+  }
+}
+
+fem::VertexSprings Platen::shared_springs(const dem::Particles &particles) const {
+  fem::VertexSprings springs = layer_.vertex_springs(particles, *body_);
+  for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
+    for (double &number : *column)
+      number *= 1 + 1 / share_of_body;
+  return springs;
+}
+
 // The mean of what forces left of the middle and right of it say.
 double Platen::midspan_moment(double z) const {
   const fem::SurfaceMesh &mesh = body_->surface();
@@ -152,10 +171,54 @@ void Platen::describe(Archive &archive) {
   archive.part("contacts", layer_);
 }
 
+void RigidPlaten::drift(const Step &step, const Command &command) {
+  if (!machine_) return Platen::drift(step, command);
+  const double along = dot(command.velocity, inward_);
+  const double speed = machine_->drift(along, load(), step.dt);
+  Platen::drift(step, {command.velocity + (speed - along) * inward_, command.pressure});
+}
+
 void RigidPlaten::finish(const Step &step) {
   const Vector3 before = force_;
   Platen::finish(step);
   power_ = dot(before + force_, body_->velocity());
+  if (!machine_) return;
+  machine_->finish(load(), step.dt);
+  // Along the way that it presses the machine acts on the spring instead.
+  power_ -= dot(before + force_, inward_) * dot(body_->velocity(), inward_) + machine_->power();
+}
+
+void RigidPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
+  if (machine_)
+    add_shared_springs(particles, springs);
+  else
+    Platen::add_springs(particles, springs);
+}
+
+StepLimit RigidPlaten::limit(const dem::Particles &particles) const {
+  if (!machine_) return {};
+  const fem::VertexSprings springs = shared_springs(particles);
+  const auto sum = [](const std::vector<double> &of) { return std::accumulate(of.begin(), of.end(), 0.0); };
+  return {machine_->stable_step(sum(springs.stiffness), sum(springs.dashpot)),
+          "a platen on the spring of the machine and those of its contacts"};
+}
+
+void RigidPlaten::add_energy(dem::EnergyLedger &energy) const {
+  Platen::add_energy(energy);
+  if (!machine_) return;
+  energy.bodies += machine_->elastic_energy() + machine_->kinetic_energy();
+  energy.damping += machine_->damping_work();
+}
+
+ServoLoad RigidPlaten::servo_load(const dem::Particles &particles) const {
+  ServoLoad load = Platen::servo_load(particles);
+  if (machine_) load.impedance += machine_->servo_impedance();
+  return load;
+}
+
+void RigidPlaten::describe(Archive &archive) {
+  Platen::describe(archive);
+  if (machine_) archive.part("machine", *machine_);
 }
 
 void DynamicPlaten::finish(const Step &step) {
@@ -164,21 +227,11 @@ void DynamicPlaten::finish(const Step &step) {
 }
 
 void DynamicPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
-  const std::size_t first = springs.size();
-  Platen::add_springs(particles, springs);
-  for (std::size_t k = first; k < springs.size(); ++k) {
-    springs[k].normal_stiffness *= 1 + share_of_body;
-    springs[k].tangential_stiffness *= 1 + share_of_body;
-    if (glued()) springs[k].rotational_stiffness *= 1 + share_of_body;
-  }
+  add_shared_springs(particles, springs);
 }
 
 StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
-  fem::VertexSprings springs = layer_.vertex_springs(particles, *body_);
-  for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
-    for (double &number : *column)
-      number *= 1 + 1 / share_of_body;
-  return {body_->stable_step(springs), reason_of_limit()};
+  return {body_->stable_step(shared_springs(particles)), reason_of_limit()};
 }
 
 void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {

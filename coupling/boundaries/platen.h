@@ -6,9 +6,11 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/archive.h"
+#include "coupling/boundaries/machine_spring.h"
 #include "coupling/boundary.h"
 #include "dem/skin.h"
 #include "fem/body.h"
@@ -88,12 +90,16 @@ public:
   // N m, what it adds to the bending moment of a bar along x at x = 0, about the height z (m): positive where
   // it pulls the lower side.
   double midspan_moment(double z) const;
+  virtual const MachineSpring *machine() const { return nullptr; } // that it stands on; null: a rigid one
   bool glued() const { return layer_.parameters().attachment == Attachment::glued; }
   // Springs of the particles near it, listed anew, in row order, with the indentations of its mesh.
   std::vector<dem::GroundSpring> whole_springs(const dem::Particles &particles);
 
 protected:
   double farthest(const Step &) const override { return body_->last_move(); }
+  // Of a body that moves by its loads: what its contacts' springs count for the particles, and for itself.
+  void add_shared_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs);
+  fem::VertexSprings shared_springs(const dem::Particles &particles) const;
   Vector3 inward_;
   std::unique_ptr<fem::Body> body_;
   ContactLayer layer_;
@@ -101,15 +107,28 @@ protected:
   double room_ = std::numeric_limits<double>::infinity();
 };
 
-// One that keeps its shape. Where its loads do work, the machine does it.
+// One that keeps its shape. Where its loads do work, the machine does it; on a spring the machine moves the
+// crosshead, and the platen has energies of its own along the way that it presses.
 class RigidPlaten : public Platen {
 public:
   using Platen::Platen;
+  // Before the first step.
+  void stand_on(const MachineSpring &spring) { machine_ = spring; }
+
+  void drift(const Step &step, const Command &command) override;
   void finish(const Step &step) override;
   double power_on_machine() const override { return power_; }
+  bool can_be_carried() const override { return !machine_; }
+  void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
+  StepLimit limit(const dem::Particles &particles) const override;
+  void add_energy(dem::EnergyLedger &energy) const override;
+  ServoLoad servo_load(const dem::Particles &particles) const override;
   double closure() const override { return dot(body_->displacement(), inward_); }
+  const MachineSpring *machine() const override { return machine_ ? &*machine_ : nullptr; }
+  void describe(Archive &archive) override;
 
 private:
+  std::optional<MachineSpring> machine_;
   double power_ = 0; // W
 };
 

@@ -1,0 +1,324 @@
+// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, what
+// falls by itself, and the energy balance of all of it.
+#include "coupling/boundaries/machine_spring.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "base/pi.h"
+#include "coupling/platen_test.h"
+#include "tests/coupling/small_cylinder.h"
+#include "tests/same_state.h"
+
+namespace platen::coupling {
+namespace {
+
+constexpr double k = 4e6, m = 0.1; // N/m, kg
+const double omega = std::sqrt(k / m);
+
+// A crosshead that starts at full speed and goes on: x - q = V/w exp(-xi w t) sin(w_d t) / sqrt(1 - xi^2), to
+// the second order of the step.
+TEST(machine_spring, swings_at_its_frequency_and_decays_by_its_damping) {
+  constexpr double speed = 0.1;
+  for (const double xi : {0.0, 0.1, 0.5}) {
+    double error[2];
+    for (const bool fine : {false, true}) {
+      MachineSpring spring({k, m, xi});
+      const double dt = (fine ? 0.01 : 0.02) / omega;
+      error[fine] = 0;
+      for (int n = 1; n * dt * omega < 30; ++n) {
+        spring.drift(speed, 0, dt);
+        spring.finish(0, dt);
+        const double t = n * dt, root = std::sqrt(1 - xi * xi);
+        const double exact = speed / omega / root * std::exp(-xi * omega * t) * std::sin(root * omega * t);
+        error[fine] = std::max(error[fine], std::abs(spring.compression() - exact) * omega / speed);
+      }
+    }
+    EXPECT_LT(error[1], 5e-4) << xi;
+    EXPECT_NEAR(error[0] / error[1], 4, 0.2) << xi;
+  }
+}
+
+// On a specimen of stiffness s, which is lossless: what the machine did is in springs and motion, or lost to
+// the dashpot, but for the band of velocity Verlet, m dt^2 a^2 / 8.
+TEST(machine_spring, its_works_are_those_that_change_its_energy) {
+  MachineSpring spring({k, m, 0.1});
+  constexpr double s = 3e6;
+  const double dt = 0.3 / omega, c = 0.2 * std::sqrt(k * m);
+  double q = 0, work = 0, most = 0, band = 0;
+  for (int n = 0; n < 400; ++n) {
+    const double speed = 0.1 * std::cos(0.02 * n); // presses, and turns round
+    const auto square = [&] {
+      const double a = (k * spring.compression() - s * q + c * (speed - spring.velocity())) / m;
+      return a * a;
+    };
+    band -= m * dt * dt / 8 * square();
+    q += dt * spring.drift(speed, s * q, dt);
+    spring.finish(s * q, dt);
+    band += m * dt * dt / 8 * square();
+    work += 0.5 * dt * spring.power();
+    const double stored = spring.elastic_energy() + spring.kinetic_energy() + 0.5 * s * q * q;
+    most = std::max(most, stored);
+    ASSERT_NEAR(stored + spring.damping_work() - work, band, 1e-12 * most) << n;
+  }
+  EXPECT_GT(spring.damping_work(), 0.03 * most);
+}
+
+// Bounded just below its limit and not above, with its own dashpot and without.
+TEST(machine_spring, its_step_is_the_largest_stable_one) {
+  constexpr double s = 3e7; // N/m, of the specimen
+  for (const double xi : {0.0, 0.3})
+    for (const double share : {0.99, 1.01}) {
+      MachineSpring spring({k, m, xi});
+      const double dt = share * spring.stable_step(s, 0);
+      double q = 0, most = 0;
+      for (int n = 0; n < 3000; ++n) {
+        q += dt * spring.drift(n == 0 ? 0.1 : 0.0, s * q, dt);
+        spring.finish(s * q, dt);
+        most = std::max(most, std::abs(q) / (0.1 * dt));
+      }
+      EXPECT_EQ(most < 100, share < 1) << xi << " " << most;
+      EXPECT_EQ(most > 1e6, share > 1) << xi << " " << most;
+    }
+  const MachineSpring spring({k, m, 0.1});
+  const double c = 500, dt = spring.stable_step(s, c);
+  EXPECT_NEAR(dt * dt * (k + s) + 2 * dt * c, 4 * m, 1e-12 * m);
+}
+
+// A specimen of stiffness s up to a peak, which then falls by f per closure.
+struct Falling {
+  double s = 1e7, peak = 1e3, f = 5e6;
+  double load(double q) const { return q < peak / s ? s * q : std::max(0.0, peak - f * (q - peak / s)); }
+};
+
+struct Fall {
+  double kinetic = 0; // J, largest until it bears nothing
+  double seconds = 0; // from the peak till then
+};
+Fall fall_of(const Falling &specimen, double stiffness, double speed) {
+  MachineSpring spring({stiffness, 1e-3, 0});
+  const double dt = 0.02 * std::sqrt(1e-3 / (stiffness + specimen.s)), peak = specimen.peak / specimen.s;
+  double q = 0;
+  Fall fall;
+  for (long n = 0; q < peak || specimen.load(q) > 0; ++n) {
+    const double ramp = std::min(1.0, 1e-4 * static_cast<double>(n)); // starts without a swing
+    q += dt * spring.drift(ramp * speed, specimen.load(q), dt);
+    spring.finish(specimen.load(q), dt);
+    fall.kinetic = std::max(fall.kinetic, spring.kinetic_energy());
+    if (q > peak) fall.seconds += dt;
+  }
+  return fall;
+}
+
+// Stable where the machine is stiffer than the fall: the platen then goes k / (k - f) as fast as the
+// crosshead. Softer, it runs ahead with what the spring gives and the specimen does not take, (P^2 / 2 f) (1
+// - k / f), however slow the test.
+TEST(machine_spring, a_specimen_falls_by_itself_where_the_machine_is_softer_than_the_fall) {
+  const Falling specimen;
+  constexpr double speed = 0.01;
+  const double path = specimen.peak / specimen.f, area = 0.5 * specimen.peak * path;
+  for (const double ratio : {0.1, 0.5, 0.9}) {
+    const Fall fall = fall_of(specimen, ratio * specimen.f, 0.1 * speed);
+    EXPECT_NEAR(fall.kinetic, area * (1 - ratio), 0.02 * area) << ratio;
+    EXPECT_LT(fall.seconds, 0.05 * path / speed) << ratio;
+  }
+  for (const double ratio : {1.5, 3.0, 10.0}) {
+    const Fall fall = fall_of(specimen, ratio * specimen.f, speed);
+    EXPECT_LT(fall.kinetic, 1e-4 * area) << ratio;
+    EXPECT_NEAR(fall.seconds * speed / path, (ratio - 1) / ratio, 0.01) << ratio;
+  }
+}
+
+TEST(machine_spring, what_is_no_spring_is_refused) {
+  EXPECT_THROW(MachineSpring({not_given, m, 0.1}), BadParameter);
+  EXPECT_THROW(MachineSpring({k, not_given, 0.1}), BadParameter);
+  EXPECT_THROW(MachineSpring({-k, m, 0.1}), BadParameter);
+  EXPECT_THROW(MachineSpring({k, 0, 0.1}), BadParameter);
+  EXPECT_THROW(MachineSpring({k, m, 1.1}), BadParameter);
+}
+
+// One sphere between two platens: a spring of half of a contact's stiffness, in series with the machine.
+constexpr double contact = 1e7; // N/m
+
+PlatenTestSettings one_sphere(double machine) {
+  PlatenTestSettings s;
+  s.model.rotation = false;
+  s.model.local_damping = 0.5;
+  s.platens.stiffness.kind = dem::Stiffness::Kind::absolute;
+  s.platens.stiffness.value = contact;
+  s.platens.thickness = 1e-3;
+  s.platens.elements_across = 2;
+  s.platens.machine.stiffness = machine;
+  s.platens.machine.damping = 0.3;
+  s.loading.rate = 0.01;
+  s.loading.ramp = 2e-4;
+  return s;
+}
+const dem::Specimen &sphere() {
+  static const dem::Specimen s = [] {
+    dem::Specimen one;
+    one.shape = dem::box(2e-3, 2e-3, 2e-3);
+    one.centre = {{0, 0, 1e-3}}, one.radius = {1e-3};
+    return one;
+  }();
+  return s;
+}
+
+void advance_to(PlatenTest &test, double seconds) {
+  while (test.time() < seconds) {
+    test.advance(100);
+    test.model.take_cracks();
+  }
+}
+
+TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff) {
+  PlatenTest rigid(sphere(), one_sphere(not_given));
+  EXPECT_EQ(rigid.machine(), nullptr);
+  EXPECT_TRUE(std::isnan(rigid.machine_closure()));
+  advance_to(rigid, 2e-3);
+  EXPECT_NEAR(rigid.top().load() / rigid.bottom().closure() / contact, 1, 1e-3); // each half of the closure
+  for (const double machine : {0.01 * contact, 0.1 * contact, contact, 100 * contact}) {
+    PlatenTest test(sphere(), one_sphere(machine));
+    advance_to(test, 2e-3);
+    const double series = 1 / (1 / machine + 2 / contact), force = test.axial_stress() * test.nominal_area();
+    // The machine's dashpot bears what its spring is behind, 2 xi / w of its rate.
+    const double lag = 2 * 0.3 * std::sqrt(test.machine()->settings().mass / machine),
+                 rate = 0.01 * (1 - 2 * series / contact);
+    EXPECT_NEAR(force / (test.machine_closure() + lag * rate) / series, 1, 1e-3) << machine;
+    // What is left of the path is the specimen's.
+    EXPECT_NEAR(test.closure_strain() * 2e-3, 2 * force / contact, 2e-3 * force / contact) << machine;
+    const dem::EnergyLedger energy = test.energy();
+    EXPECT_NEAR(energy.boundary, 0.5 * series * test.machine_closure() * test.machine_closure(),
+                0.02 * energy.boundary)
+        << machine;
+    EXPECT_NEAR(energy.residual(), 0, 1e-4 * energy.boundary) << machine;
+  }
+}
+
+// The platen's mass on a spring that is much stiffer than its contact.
+TEST(machine_spring, sets_the_time_step_where_it_is_stiff) {
+  PlatenTestSettings settings = one_sphere(1e4 * contact);
+  settings.platens.damping = 0;
+  const PlatenTest test(sphere(), settings);
+  EXPECT_NE(test.time_step_reason().find("spring of the machine"), std::string::npos);
+  const double mass = test.top().body().mass();
+  EXPECT_EQ(test.machine()->settings().mass, mass);
+  EXPECT_NEAR(test.time_step(), 0.8 * 2 * std::sqrt(mass / (1e4 * contact)), 2e-3 * test.time_step());
+}
+
+// The top platen holds its stress through the spring, without a swing.
+TEST(machine_spring, a_servo_holds_its_stress_through_it) {
+  for (const double machine : {0.03 * contact, contact}) {
+    PlatenTestSettings settings = one_sphere(machine);
+    settings.platens.machine.damping = 0.1;
+    settings.loading.servo = true;
+    settings.loading.top_stress = 2e6;
+    settings.loading.rate = 1;
+    settings.loading.ramp = 2e-3;
+    settings.loading.hold = 8e-3;
+    PlatenTest test(sphere(), settings);
+    double most = 0;
+    while (!test.program().finished()) {
+      ASSERT_GT(test.advance(10), 0);
+      most = std::max(most, test.stress_top());
+    }
+    EXPECT_NEAR(test.stress_top() / 2e6, 1, 0.01) << machine;
+    EXPECT_LT(most, 1.05 * 2e6) << machine;
+    EXPECT_NEAR(test.energy().residual(), 0, 1e-3 * test.energy().boundary) << machine;
+  }
+}
+
+// Brittle, under a machine that is as stiff as the specimen or much softer.
+PlatenTestSettings crushing(double machine) {
+  PlatenTestSettings s;
+  s.model.bond_layout.modulus = 36e9;
+  s.model.bond_layout.gap.value = 0.05;
+  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
+  s.model.contact = dem::ContactSettings{};
+  s.model.contact->damping = 0;
+  s.model.local_damping = 0.3;
+  s.ends = Ends::ground;
+  s.end_layer = 0.5;
+  s.platens.top = s.platens.bottom = {0.3, 0.2};
+  s.platens.thickness = 2e-3;
+  s.platens.machine.stiffness = machine;
+  s.loading.rate = 1;
+  s.loading.ramp = 1e-6;
+  return s;
+}
+
+TEST(machine_spring, the_energy_balance_closes_through_a_crush) {
+  for (const double machine : {1e7, 1e9}) {
+    PlatenTest test(small_cylinder(), crushing(machine));
+    while (test.model.broken_tension < 100 && test.steps() < 20000) {
+      test.advance(100);
+      test.model.take_cracks();
+    }
+    EXPECT_GE(test.model.broken_tension, 100) << machine;
+    const dem::EnergyLedger energy = test.energy();
+    EXPECT_GT(energy.bodies, 0) << machine;
+    EXPECT_LT(std::abs(energy.residual()), 2e-3 * energy.boundary) << machine;
+  }
+}
+
+TEST(machine_spring, a_stop_and_any_number_of_threads_change_nothing) {
+  const ThreadLimit one(1);
+  const dem::Specimen specimen = small_cylinder();
+  PlatenTest whole(specimen, crushing(1e8)), first(specimen, crushing(1e8));
+  const auto steps_to = [](PlatenTest &test, long steps) {
+    while (test.steps() < steps) {
+      test.advance(steps - test.steps());
+      test.model.take_cracks();
+    }
+  };
+  steps_to(whole, 1300);
+  steps_to(first, 800);
+  EXPECT_NE(first.machine()->compression(), 0);
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    PlatenTest second(specimen, crushing(1e8));
+    set_state(second, state_of(first));
+    steps_to(second, 1300);
+    EXPECT_TRUE(same_state(whole, second)) << threads;
+  }
+  PlatenTest other(specimen, crushing(1e8));
+  EXPECT_THROW(set_state(other, without(state_of(first), "machine/compression")), StateError);
+}
+
+void refuses(const PlatenTestSettings &settings, const std::string &member, const std::string &word) {
+  try {
+    const PlatenTest test(sphere(), settings);
+    ADD_FAILURE() << member << " is taken";
+  } catch (const BadSetup &e) {
+    EXPECT_EQ(e.member(), member);
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+  }
+}
+
+TEST(machine_spring, what_does_not_go_with_it_is_refused) {
+  PlatenTestSettings settings = one_sphere(1e7);
+  settings.platens.elastic.emplace();
+  refuses(settings, "platens.machine.stiffness", "rigid");
+  settings.platens.elastic.reset();
+  settings.loading.cell.emplace().pressure = 1e6;
+  refuses(settings, "platens.machine.stiffness", "loading.cell");
+  settings.loading.cell.reset();
+  settings.loading.start_strain = 1e-5;
+  refuses(settings, "platens.machine.stiffness", "loading.start_strain");
+  settings.loading.start_strain = 0;
+  settings.platens.machine.mass = 1e-6;
+  refuses(settings, "platens.machine.mass", "at least");
+  settings.platens.machine.mass = not_given;
+  settings.platens.machine.damping = 0;
+  settings.loading.servo = true;
+  refuses(settings, "platens.machine.damping", "servo");
+  settings.platens.machine.stiffness = -1;
+  EXPECT_THROW(PlatenTest(sphere(), settings), BadParameter);
+}
+
+} // namespace
+} // namespace platen::coupling
