@@ -138,7 +138,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
           "Sides", platens.sides, platen_sides,
           "Which sides of a box have platens; two: top and bottom; four x, four y: left and right (along "
           "x), or front and back (along y), too; six: all. Top and bottom do what Loading says, the others "
-          "stand still.")
+          "what its stages ask, and without stages they stand still.")
       .member("platens.left")
       .member("platens.right")
       .member("platens.front")

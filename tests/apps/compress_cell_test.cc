@@ -160,7 +160,8 @@ TEST_F(Cell, a_stress_is_held_by_a_stage) {
     if (stage[k] != 2 || time[k] < begun + 7e-4) continue;
     EXPECT_NEAR(stress[k], 10e6, 0.01 * 10e6) << time[k];
   }
-  EXPECT_NEAR(stress.back(), 1e6, 0.3e6);
+  EXPECT_LT(stress.back(), 2.5e6); // the last row before a tenth
+  EXPECT_GT(stress.back(), 0.5e6);
   EXPECT_EQ(s["stages"].size(), 3u);
 }
 
