@@ -242,13 +242,13 @@ void draw_face_pressures(const Run &run, const Extent &extent, double radius,
     const auto [across, up] = plane_of(side);
     const auto a = FacePanels::reach(extent, across), b = FacePanels::reach(extent, up);
     const std::array<double, 2> low{a[0], b[0]}, high{a[1], b[1]};
-    const FacePressure face = pressure_over(
-        contacts_with(side, nearest(run.contacts, run.moments.peak_time)), low, high, 4 * radius);
-    charts.push_back(
-        image_chart(panels.area(k), image_of(face, low, high),
-                    colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()),
-                    panels.range(across), panels.range(up)));
-    panels.add_words(k, fmt::format("{}: mean {:.2f} MPa", coupling::name_of(side), mean_of(face) / pa_per_mpa));
+    const FacePressure face = pressure_over(contacts_with(side, nearest(run.contacts, run.moments.peak_time)),
+                                            low, high, 4 * radius);
+    charts.push_back(image_chart(panels.area(k), image_of(face, low, high),
+                                 colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()),
+                                 panels.range(across), panels.range(up)));
+    panels.add_words(k,
+                     fmt::format("{}: mean {:.2f} MPa", coupling::name_of(side), mean_of(face) / pa_per_mpa));
   }
   add_chart_scene(panels.canvas(), charts);
   add_colour_bar(panels.canvas(), colouring, 1 - double(bar) / panels.canvas().width());

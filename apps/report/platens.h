@@ -36,8 +36,8 @@ RingProfile profile_of(const PlatenContacts &contacts, double radius, int rings)
 void draw_platen_profiles(const Run &run, const Extent &extent, const std::filesystem::path &png);
 // Every sphere at a platen in the same frame, in the plane of each: whether it sticks or slides.
 void draw_stick_and_slip(const Run &run, const Extent &extent, const std::filesystem::path &png);
-// Pressure on each platen of a box over its face in the same frame, over the mean of the platen: in squares of
-// about two spheres (mean radius in m) along each edge.
+// Pressure on each platen of a box over its face in the same frame, over the mean of the platen: in squares
+// of about two spheres (mean radius in m) along each edge.
 void draw_face_pressures(const Run &run, const Extent &extent, double radius,
                          const std::filesystem::path &png);
 

@@ -124,11 +124,11 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
         "ones are grey.",
         draw_stress_flow, run, before_test);
   if (has_further_sides(run)) {
-    album.add(
-        "side_pressure.png",
-        "Pressure on each platen over the face of the specimen near the peak, over the mean of that platen: what stays dark is borne "
-        "elsewhere.",
-        draw_face_pressures, run, extent, mean_radius(before_test));
+    album.add("side_pressure.png",
+              "Pressure on each platen over the face of the specimen near the peak, over the mean of that "
+              "platen: what stays dark is borne "
+              "elsewhere.",
+              draw_face_pressures, run, extent, mean_radius(before_test));
     album.add("stick_slip.png", "Spheres at each platen near the peak: which stick and which slide.",
               draw_stick_and_slip, run, extent);
   }

@@ -30,7 +30,9 @@ class Album {
 public:
   // Makes the folder where it is not there. Throws OutputError.
   explicit Album(std::filesystem::path folder);
-  void begin(const std::string &heading) { sections_.push_back({heading, {}, {}}); } // empty: without a heading
+  void begin(const std::string &heading) {
+    sections_.push_back({heading, {}, {}});
+  } // empty: without a heading
   // Draws a picture into the folder by draw(inputs..., file); the caption tells what to see in it.
   template <class Draw, class... Inputs>
   void add(const std::string &name, const std::string &caption, const Draw &draw, const Inputs &...inputs) {

@@ -112,9 +112,11 @@ void draw_three_moments(const Run &run, const Extent &extent, bool whole, const 
       view_at(run, run.moments.end_time, Quantity::displacement, "at the end")};
   for (CutView &view : views)
     view.is_whole = whole, view.shows_front = !has_further_sides(run);
-  save_cut_views(run.title, whole ? (has_further_sides(run) ? "The specimen from outside, the platen before it taken away"
-                                         : "The specimen from outside")
-                       : words_of(Quantity::displacement).title,
+  save_cut_views(run.title,
+                 whole
+                     ? (has_further_sides(run) ? "The specimen from outside, the platen before it taken away"
+                                               : "The specimen from outside")
+                     : words_of(Quantity::displacement).title,
                  views, extent, colouring_of(Quantity::displacement, views), png);
 }
 
