@@ -28,9 +28,9 @@ void PressureTask::command(const Measures &m, Commands &asked) {
 
 void PressureTask::update(const Measures &m) {
   if (m.time() <= begun_ || !(parameters_.lag > 0)) return;
-  const double share = std::min(1.0, m.time_step() / parameters_.lag);
-  if (parameters_.path != 0) deviator_ += share * (m.axial_stress() - m.lateral_pressure() - deviator_);
-  if (parameters_.followed) followed_ += share * (parameters_.followed->stress(m) - followed_);
+  const double dt = m.time_step(), lag = parameters_.lag;
+  if (parameters_.path != 0) follow(deviator_, m.axial_stress() - m.lateral_pressure(), dt, lag);
+  if (parameters_.followed) follow(followed_, parameters_.followed->stress(m), dt, lag);
 }
 
 void PressureTask::describe(Archive &archive) {

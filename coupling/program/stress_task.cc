@@ -76,8 +76,7 @@ void StressTask::update(const Measures &m) {
   if (parameters_.integral_time > 0 && now > 0 && m.time() > begun_)
     missing_ += m.time_step() / parameters_.integral_time * (wanted(m) - now);
   if (!parameters_.followed || m.time() <= begun_) return;
-  const double share = std::min(1.0, m.time_step() / parameters_.lag);
-  followed_ += share * (parameters_.followed->stress(m) - followed_);
+  follow(followed_, parameters_.followed->stress(m), m.time_step(), parameters_.lag);
 }
 
 bool StressTask::has_settled(const Measures &m) const {

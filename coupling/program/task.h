@@ -1,6 +1,7 @@
 // What one side of a specimen, or two opposite ones, are asked during a loading stage.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct PlatensOfAxis {
 
 inline double start_of_ramp(double passed, double ramp) {
   return ramp > 0 ? smooth_start(passed / ramp) : 1.0;
+}
+
+// A number that follows another with a lag (s), by a step dt (s).
+inline void follow(double &smoothed, double now, double dt, double lag) {
+  smoothed += std::min(1.0, dt / lag) * (now - smoothed);
 }
 
 class Task {
