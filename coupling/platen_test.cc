@@ -25,6 +25,10 @@ constexpr double transits_of_cell = 60;
 // it is told runs ahead by that, so that the stress on the platens keeps up with the pressure. A slower servo
 // gets as much more time.
 constexpr double gain_of_cell = 10, transits_ahead = 9;
+// Platens that lead stresses without a cell need not keep up with a pressure, but with a specimen that widens
+// as it fails: a dashpot of 2.5 impedances lets it push them off by a quarter as much. On a machine's spring
+// that would swing.
+constexpr double gain_of_platens = 40;
 // The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
 constexpr double servo_reserve = 10;
 // Spheres bear on the sleeve with springs that the pressure presses in by about a twenty-fifth of a radius
@@ -137,7 +141,7 @@ void PlatenTest::choose_rates() {
                            : transits_of_ramp * transit;
   if (loading.rate_multiplier > 1 && (!(transit > 0) || !(ramp_ > 0)))
     throw BadSetup("loading.rate_multiplier", "needs bonds: they tell when the specimen fails. Allowed: 1.");
-  servo_slowness_ = gain_of_cell / (loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell);
+  servo_slowness_ = gain_of_cell / gain_of_stages();
   if (!loading.cell) return;
   for (const StageSettings &stage : loading.stages)
     for (const SideAsk &ask : stage.asks)
@@ -212,8 +216,14 @@ PlatensOfAxis PlatenTest::platens_along(int axis) const {
   return both;
 }
 
+double PlatenTest::gain_of_stages() const {
+  const LoadingSettings &loading = settings_.loading;
+  if (loading.servo_gain > 0) return loading.servo_gain;
+  return loading.cell || settings_.platens.machine.yields() ? gain_of_cell : gain_of_platens;
+}
+
 double PlatenTest::ramp_of_stress() const {
-  return servo_slowness_ * transits_of_cell * facts_.wave_transit;
+  return std::max(1.0, servo_slowness_) * transits_of_cell * facts_.wave_transit;
 }
 
 double PlatenTest::lead_of_servo() const {
@@ -221,11 +231,10 @@ double PlatenTest::lead_of_servo() const {
 }
 
 Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, double least) const {
-  const LoadingSettings &loading = settings_.loading;
   const double stiffness =
       facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
   const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) / ramp;
-  return {loading.servo_gain > 0 ? loading.servo_gain : gain_of_cell, std::max(fastest, least)};
+  return {gain_of_stages(), std::max(fastest, least)};
 }
 
 Servo::Parameters PlatenTest::servo_of_top() const {

@@ -119,6 +119,7 @@ private:
   void add_lateral(double bond);
   void add_sleeve(const CellSettings &cell, double bond);
   void choose_rates();
+  double gain_of_stages() const; // of servos that are not the top platen's own
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;
@@ -130,7 +131,7 @@ private:
   const LateralWall *wall_ = nullptr;
   mutable std::optional<dem::Circumference> circumference_; // made when it is asked for
   double ramp_ = 0, cell_ramp_ = 0;                         // s
-  double servo_slowness_ = 1;                               // of a cell's servo, against the quickest
+  double servo_slowness_ = 1; // of the stages' servos, against a cell's quickest
 };
 
 } // namespace platen::coupling

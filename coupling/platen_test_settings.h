@@ -110,7 +110,7 @@ struct LoadingSettings {
   bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
   double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
   double hold = 0;       // s, how long that is held after the ramp, or a cell's pressure stands alone
-  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell
+  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell, 40 else
   std::optional<CellSettings> cell;
   bool wall = false;          // around the specimen, stiff and frictionless
   double wall_stiffness = 10; // multiple of the mean bond's
@@ -250,7 +250,8 @@ void LoadingSettings::describe(Visitor &&v, Self &p) {
   v("top_stress", p.top_stress, "Pa", at_least(0), "Pressing stress.");
   v("servo_gain", p.servo_gain, "1", between(0, 10),
     "Of the servo that holds the top platen at its stress or, while a cell's pressure rises, at that "
-    "pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell 10).");
+    "pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell 10; of stages between platens alone "
+    "40).");
   v("wall_stiffness", p.wall_stiffness, "1", above_up_to(0, 1000),
     "Of each sphere at the wall, as a multiple of the mean bond's.");
   v("unload_at", p.unload_at, "1", above_up_to(0, 1),

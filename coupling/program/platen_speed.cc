@@ -11,9 +11,10 @@ namespace {
 // At gain 1 the dashpot is this many times the impedance of the end particles, which is that of the specimen
 // too: an impact at the speed that it allows adds 1 % to the wanted force, and waves do not ring.
 constexpr double impedances = 100;
-// At gain 1 a step moves the platen by at most this share of the path that closes the error; 10 times as much
-// is still below the limit of stability (2) and of overshoot (1/4, with the piston's mass below).
-constexpr double share_per_step = 0.02;
+// At gain 1 a step moves the platen by at most this share of the path that closes the error, at gain 10 and
+// above by ten times as much: still below the limit of stability (2) and of overshoot (1/4, with the piston's
+// mass below).
+constexpr double share_per_step = 0.02, largest_share = 10 * share_per_step;
 // Share of the new velocity in a step: the piston's mass is c dt (1 - b)/b. It keeps dashpots in the
 // contacts, whose force follows the velocity at once, from making the velocity flicker.
 constexpr double smoothing = 0.5;
@@ -38,8 +39,9 @@ Servo::Servo(const Parameters &parameters) : parameters_(parameters) {
 
 double Servo::velocity(double wanted, double reaction, const ServoLoad &load, double dt) {
   const double error = wanted - reaction, limit = parameters_.velocity_limit;
-  const double dashpot =
-      std::max(impedances * load.impedance, load.stiffness * dt / share_per_step) / parameters_.gain;
+  const double gain = parameters_.gain;
+  const double least = load.stiffness * dt / std::min(share_per_step, largest_share / gain);
+  const double dashpot = std::max(impedances * load.impedance, least) / gain;
   double aim = dashpot > 0 ? error / dashpot : (error > 0 ? limit : (error < 0 ? -limit : 0.0));
   aim = std::clamp(aim, -limit, limit);
   velocity_ += smoothing * (aim - velocity_);

@@ -22,7 +22,7 @@ struct ServoLoad {
 class Servo {
 public:
   struct Parameters {
-    double gain = 1; // multiplies the response; 0.1 ... 10 are safe, larger is faster
+    double gain = 1; // multiplies the response; 0.1 ... 40 are safe, larger is faster
     double velocity_limit = std::numeric_limits<double>::quiet_NaN(); // m/s, > 0
   };
   // Throws std::invalid_argument where a parameter is not positive.

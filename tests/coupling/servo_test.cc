@@ -121,6 +121,43 @@ TEST(servo, velocity_never_passes_its_limit) {
   EXPECT_NEAR(servo.velocity(1, 0, {0, 0}, 1e-6), 0.2, 1e-15); // nothing near: closes in at the limit
 }
 
+// Above gain 10 a step closes no larger a share of the error than at 10, so that a stiff contact and a long
+// step do not make it swing.
+TEST(servo, a_step_is_met_without_swinging_at_the_gain_of_side_platens) {
+  for (const double step : {0.01, 0.1})
+    for (const double dashpot : {0.0, 0.5})
+      for (const double soft : {0.1, 1.0, 10.0}) {
+        Column column;
+        column.contact_damping = dashpot;
+        column.k = soft * 1e6;
+        const double c =
+            std::max(2.5 * column.load().impedance, column.k_platen * step * column.period() / 0.2);
+        const double time = 12 * c / column.static_stiffness() + 100 * column.n * column.period();
+        const Response r = respond(column, 40, step, time, no_limit);
+        EXPECT_LT(r.error, 0.01) << step << " " << dashpot << " " << soft;
+        EXPECT_LE(r.late, r.early + 0.001) << step << " " << dashpot << " " << soft;
+      }
+  // The share itself: of a contact alone, K dt / c = .2 with a long step at any gain from 10 on.
+  for (const double gain : {10.0, 40.0}) {
+    Servo servo({gain, no_limit});
+    EXPECT_NEAR(servo.velocity(1, 0, {1e6, 1e-6}, 1e-3), 0.5 * 0.2 / (1e6 * 1e-3), 1e-12) << gain;
+  }
+}
+
+// A specimen that widens at a steady speed pushes the platen off by that speed times the dashpot: a quarter
+// as much at gain 40 as at gain 10.
+TEST(servo, a_specimen_that_widens_pushes_it_off_by_speed_times_dashpot) {
+  const double widening = 1e-3; // m/s
+  for (const double gain : {1.0, 10.0, 40.0}) {
+    const double k = 1e6, impedance = 3, dt = 1e-7;
+    Servo servo({gain, no_limit});
+    double closed = 10 / k;
+    for (int n = 0; n < 4000000 / gain; ++n)
+      closed += dt * (widening + servo.velocity(10, k * closed, {k, impedance}, dt));
+    EXPECT_NEAR(k * closed - 10, widening * 100 * impedance / gain, 1e-3 / gain) << gain;
+  }
+}
+
 // The specimen loses half its stiffness at once, as a failing one does: the force comes back without
 // overshoot.
 TEST(servo, it_follows_a_specimen_that_softens) {
