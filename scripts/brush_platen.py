@@ -1,7 +1,9 @@
 """Gmsh mesh (.msh 2.2, hexahedra, millimetres) of a brush platen: square pins on a block, pins towards +z.
 
-Usage: brush_platen.py FILE [--pins 6] [--pin 10] [--gap 0.5] [--length 50] [--block 10] [--along 3]
-The same file serves both platens: with `--down` the pins point to -z, for the top one.
+Usage: brush_platen.py FILE [--pins 6] [--pins-y N] [--pin 10] [--gap 0.5] [--length 50] [--block 10] [--along 3]
+Without `--pins-y` there are as many pins along y as along x. With `--down` the pins point to -z, for the platen above, on the
+right or at the back. Of a side platen of a box x and y are, in turn, the axes that follow that of its normal: of one that
+presses along x they are y and z of the box.
 """
 import argparse
 
@@ -18,7 +20,8 @@ def lattice(pins, pin, gap):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("file")
-    parser.add_argument("--pins", type=int, default=6, help="along each side")
+    parser.add_argument("--pins", type=int, default=6, help="along x")
+    parser.add_argument("--pins-y", type=int, help="along y; as many as along x where it is not given")
     parser.add_argument("--pin", type=float, default=10, help="width, mm")
     parser.add_argument("--gap", type=float, default=0.5, help="mm")
     parser.add_argument("--length", type=float, default=50, help="of the pins, mm")
@@ -28,19 +31,19 @@ def main():
     a = parser.parse_args()
 
     x = lattice(a.pins, a.pin, a.gap)
+    y = lattice(a.pins if a.pins_y is None else a.pins_y, a.pin, a.gap)
     z = [-a.block - a.length, -a.length] + [-a.length * (1 - (k + 1) / a.along) for k in range(a.along)]
-    columns = len(x) - 1
     number, nodes, cells = {}, [], []
 
     def node(i, j, k):
         if (i, j, k) not in number:
             number[i, j, k] = len(nodes) + 1
-            nodes.append((x[i], x[j], z[k]))
+            nodes.append((x[i], y[j], z[k]))
         return number[i, j, k]
 
     for k in range(len(z) - 1):
-        for j in range(columns):
-            for i in range(columns):
+        for j in range(len(y) - 1):
+            for i in range(len(x) - 1):
                 if k > 0 and (i % 2 or j % 2):
                     continue  # between the pins
                 cells.append([node(i + di, j + dj, k + dk) for dk in (0, 1)

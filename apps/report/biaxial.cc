@@ -22,7 +22,7 @@ constexpr const char *published_source = "Kupfer, Hilsdorf and Ruesch 1969, brus
 std::string platens_of(const Run &run) {
   std::string text;
   for (const char *entry : {"Surface", "Kind", "Friction static", "Friction dynamic", "Top/Surface",
-                            "Top/Friction static", "Top/Friction dynamic"})
+                            "Top/Friction static", "Top/Friction dynamic", "Top/Mesh file"})
     text += scene_entry(run.folder / "scene.prm", std::string("Platens/") + entry) + "; ";
   return text;
 }
@@ -31,8 +31,11 @@ std::string surface_of(const Run &run) {
   const auto entry = [&](const char *key) {
     return scene_entry(run.folder / "scene.prm", std::string("Platens/") + key);
   };
-  const std::string word = entry("Surface");
-  return word.empty() || word == "custom" ? "friction " + entry("Friction static") : word;
+  const std::string word = entry("Surface"), mesh = entry("Top/Mesh file");
+  const std::string surface =
+      word.empty() || word == "custom" ? "friction " + entry("Friction static") : word;
+  if (!mesh.empty()) return surface + ", mesh " + std::filesystem::path(mesh).stem().string();
+  return entry("Kind") == "deformable" ? surface + ", elastic" : surface;
 }
 
 bool has_failed(const Run &run) {

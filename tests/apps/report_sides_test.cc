@@ -111,12 +111,13 @@ TEST(ReportSides, contacts_of_a_side_are_told_by_their_direction_in_its_own_plan
     EXPECT_TRUE(contacts_with(side, frame).empty()) << coupling::name_of(side);
 }
 
-Run between(const TestFolder &folder, Run run, const std::string &surface) {
+Run between(const TestFolder &folder, Run run, const std::string &surface, const std::string &mesh = "") {
   run.folder = folder / run.name;
   std::filesystem::create_directories(run.folder);
   std::ofstream(run.folder / "scene.prm")
       << "subsection Platens\n  set Surface = " << surface
-      << " # as used\n  subsection Top\n    set Surface = common\n  end\nend\n";
+      << " # as used\n  subsection Top\n    set Surface = common\n    set Mesh file = " << mesh
+      << "\n  end\nend\n";
   return run;
 }
 
@@ -145,6 +146,15 @@ TEST(ReportSides, biaxial_strength_is_over_that_of_free_sides_between_the_same_p
   EXPECT_NE(found.left_out[1].find("all is pressed along three axes"), std::string::npos);
   EXPECT_NE(found.left_out[2].find("unbroken has not failed"), std::string::npos);
   EXPECT_TRUE(tells_envelope(found));
+  // A brush that a mesh makes is no other brush's reference.
+  const BiaxialStrengths pins = biaxial_strengths(
+      {between(folder, run_with("bare", 40e6, {}), "brush"),
+       between(folder, run_with("pins", 46e6, {{"left", 23e6}, {"right", 23e6}}), "brush", "meshes/pins.msh"),
+       between(folder, run_with("bare pins", 46e6, {}), "brush", "meshes/pins.msh")});
+  ASSERT_EQ(pins.points.size(), 3u);
+  EXPECT_EQ(pins.points[0].surface, "brush");
+  EXPECT_EQ(pins.points[1].surface, "brush, mesh pins");
+  EXPECT_NEAR(pins.points[1].first, 1, 1e-12);
   EXPECT_FALSE(tells_envelope(biaxial_strengths({between(folder, run_with("bare", 40e6, {}), "brush")})));
 }
 
