@@ -89,9 +89,10 @@ class_two() {
 }
 
 machine() {
-  queue machine_rigid demo_dry -s "Output/Fields = off"
+  queue machine_rigid demo_dry -s "Output/Fields = off" -s "Loading/Target strain = 0.02"
   for stiffness in 3e9 4.5e8 1e8; do
-    queue "machine_$stiffness" demo_dry -s "Output/Fields = off" -s "Platens/Machine stiffness = $stiffness"
+    queue "machine_$stiffness" demo_dry -s "Output/Fields = off" -s "Loading/Target strain = 0.02" \
+      -s "Platens/Machine stiffness = $stiffness"
   done
 }
 

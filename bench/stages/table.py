@@ -180,10 +180,14 @@ def machine():
         falls = [row for row in rows[peak:] if axial(row) < 0.8 * axial(rows[peak])]
         below = [row for row in falls if axial(row) < 0.2 * axial(rows[peak])]
         span = f"{1e6 * (below[0]['time_s'] - falls[0]['time_s']):.0f}" if below else "not reached"
-        kinetic = max(row["kinetic_energy_j"] / (row["bond_energy_j"] + row["contact_energy_j"]) for row in falls) if falls else 0
+        kinetic = max(row["kinetic_energy_j"] / (row["bond_energy_j"] + row["contact_energy_j"]) for row in falls
+                      if axial(row) > 0.2 * axial(rows[peak]))
         line(stiffness, f"{summary['strength_pa'] / 1e6:.1f}", span, f"{kinetic:.1e}", f"{summary['energy_residual_relative']:.1e}")
     print()
 
 
-for part in (biaxial, true_triaxial, turned, multistage, class_two, machine):
-    part()
+groups = {"biaxial": biaxial, "six": true_triaxial, "equal": turned, "multistage": multistage, "led": class_two,
+          "machine": machine}
+for start, part in groups.items():
+    if any(folder.glob(start + "_*/summary.json")):
+        part()
