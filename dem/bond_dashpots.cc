@@ -10,7 +10,7 @@ namespace {
 // Onate's dashpot acts along the normal alone, c_n = 2 gamma alpha (r_c/|D|) sqrt(m k_n), with alpha r_c^2
 // the square of the bond's radius (docs/theory.md).
 double fraction_of(const Bonds &b, std::size_t k, double smaller_radius, double alpha) {
-  if (!has_history(b.law)) return alpha;
+  if (!bonds_by_range(b.law)) return alpha;
   return alpha * b.bond_radius[k] * b.bond_radius[k] / (smaller_radius * b.rest_length[k]);
 }
 
@@ -26,7 +26,7 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
     shear = std::min(shear, s.shear / s.axial);
     if (moments) twist = std::min(twist, s.twisting / s.bending);
   }
-  dashpot_shear_ratio = std::isfinite(shear) && !has_history(law) ? std::sqrt(shear) : 0;
+  dashpot_shear_ratio = std::isfinite(shear) && !bonds_by_range(law) ? std::sqrt(shear) : 0;
   dashpot_twist_ratio = std::isfinite(twist) ? std::sqrt(twist) : 0;
   dashpot = &table.add<double>("dashpot", "N s/m");
   dashpot_force = &table.add<Vector3>("dashpot_force", "N");

@@ -237,6 +237,8 @@ InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
   InterfaceGeometry<double> g{rest_length[k], lever[k], normal_stiffness[k],
                               pi * bond_radius[k] * bond_radius[k]};
   if (strength_factor != nullptr) g.strength_factor = (*strength_factor)[k];
+  g.reference = triple(reference[k]);
+  g.radius = bond_radius[k];
   return g;
 }
 
@@ -253,10 +255,16 @@ BondStiffness Bonds::stiffness(std::size_t k) const {
 BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   const int i = first[k], j = second[k];
   const Triple<double> d = triple(p.position[j] - p.position[i]);
-  if (has_history(law))
+  if (has_history(law)) {
+    InterfaceMotion<double> now{};
+    now.distance = d;
+    const Quaternion unturned{1, 0, 0, 0};
+    now.turn_i = rotation(p.has_rotation() ? (*p.orientation)[i] : unturned);
+    now.turn_j = rotation(p.has_rotation() ? (*p.orientation)[j] : unturned);
     return with_memory(k, [&](const auto &of, const auto &remembered) {
-      return of.bond_response(remembered, interface_geometry(k), d);
+      return of.bond_response(remembered, interface_geometry(k), now);
     });
+  }
   return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {
     if (p.has_rotation())
       return elastic(geometry(k),

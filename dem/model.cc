@@ -25,6 +25,10 @@ ModelSettings completed(const Specimen &specimen, const ModelSettings &settings)
   return s;
 }
 
+bool rubs(const ModelSettings &s) {
+  return s.contact && s.contact->tangential != TangentialContact::none;
+}
+
 // Contacts between grains of two phases follow their bonds.
 ContactSettings contact_settings(const ModelSettings &s) {
   ContactSettings contact = *s.contact;
@@ -56,6 +60,7 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
   if (settings.phi() > 1) particles.add_excess();
   if (settings.phases) mark_phases(particles, *settings.phases);
   if (settings.bond) bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond);
+  if (bonds) set_grain_friction(bonds->law, rubs(settings) ? settings.contact->friction : 0);
   if (bonds && settings.phases) apply_phases(*bonds, particles, *settings.phases);
   if (bonds && settings.strength_scatter) scatter_strengths(*bonds, *settings.strength_scatter);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);

@@ -35,7 +35,7 @@ SofteningByHand InterfaceSection::shear(double pressure) const {
 
 double InterfaceSection::yield_stress(double closing) const {
   double at = 0, stress = 0, slope = normal_stiffness();
-  for (const auto &branch : law.branches) {
+  for (const auto &branch : law.compression.branches) {
     const double next = at + (branch.limit - stress) / slope;
     if (closing <= next) break;
     at = next, stress = branch.limit, slope = normal_stiffness() / branch.slope;
@@ -45,7 +45,7 @@ double InterfaceSection::yield_stress(double closing) const {
 
 double InterfaceSection::closing_at(double wanted) const {
   double at = 0, stress = 0, slope = normal_stiffness();
-  for (const auto &branch : law.branches) {
+  for (const auto &branch : law.compression.branches) {
     if (wanted <= branch.limit) break;
     at += (branch.limit - stress) / slope;
     stress = branch.limit, slope = normal_stiffness() / branch.slope;
@@ -135,7 +135,7 @@ std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
       opening(place);
   } else {
     const SofteningByHand tension = section_.tension(), shear = section_.shear(pressure());
-    for (const auto &branch : section_.law.branches)
+    for (const auto &branch : section_.law.compression.branches)
       opening(-section_.closing_at(branch.limit));
     for (const double place : {tension.limit(), widest_, tension.end() * (1 - beside_failure),
                                tension.end() * (1 + beside_failure), 0.0})

@@ -58,8 +58,9 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
-// What the pair has done since its last state, at the velocities of the drift that led here.
-template <bool rotation>
+// What the pair has done since its last state, at the velocities of the drift that led here. Without rotation the
+// orientations that a law needs are those of the reference.
+template <bool rotation, bool needs_orientations>
 PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                               const Pack &lever, double dt) {
   const int *i = c.first + k, *j = c.second + k;
@@ -74,6 +75,14 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
     v = v + cross(m.distance, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
     const Pack length = root(dot(m.distance, m.distance));
     m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
+    if constexpr (needs_orientations) {
+      m.turn_i = orientations(ends.first), m.turn_j = orientations(ends.second);
+      m.turned_i = scale(Pack(dt), wi), m.turned_j = scale(Pack(dt), wj);
+    }
+  } else if constexpr (needs_orientations) {
+    const Pack none(0.0);
+    m.turn_i = m.turn_j = {Pack(1.0), none, none, none};
+    m.turned_i = m.turned_j = {none, none, none};
   }
   m.moved = scale(Pack(dt), v);
   return m;
@@ -87,14 +96,18 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
   InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
                             Pack(pi * radius * radius)};
   if constexpr (factors) g.strength_factor = load(b.strength_factor + k);
+  if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const InterfaceMotion<Pack> m = motion_of<rotation>(b, k, ends, g.lever, dt);
+  const InterfaceMotion<Pack> m = motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
-  // Only what is across the distance has a moment: d x F = d x F_s.
-  const Triple<Pack> moment = cross(m.distance, response.force);
-  scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+  if constexpr (Law::needs_orientations) {
+    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+  } else { // only what is across the distance has a moment: d x F = d x F_s
+    const Triple<Pack> moment = cross(m.distance, response.force);
+    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+  }
   return response.failed_now;
 }
 

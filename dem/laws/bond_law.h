@@ -5,10 +5,11 @@
 #include "dem/laws/elasto_damage_plastic.h"
 #include "dem/laws/law_list.h"
 #include "dem/laws/parallel_bond.h"
+#include "dem/laws/yielding_parallel_bond.h"
 
 namespace platen::dem {
 
-using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic>;
+using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic, YieldingParallelBond>;
 using BondLaw = BondLaws::Law;
 using BondParameters = BondLaws::Parameters;
 
@@ -40,6 +41,15 @@ inline bool over_distance(const BondLaw &law) {
 // strength bit by bit, and what has failed goes on as a contact of its own.
 inline bool has_history(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.has_history; }, law);
+}
+
+// Pairs within a share of the sum of their radii are bonded, whatever their gap.
+inline bool bonds_by_range(const BondLaw &law) {
+  return std::visit([](const auto &l) { return l.bonds_by_range; }, law);
+}
+// What has broken rubs as grains do, of laws that have no friction of their own for it.
+inline void set_grain_friction(BondLaw &law, double friction) {
+  if (auto *yielding = std::get_if<YieldingParallelBond>(&law)) yielding->grain_friction = friction;
 }
 
 // f(law) where the law held is elastic; else f's result as it is made of nothing.

@@ -14,34 +14,17 @@
 // interface whose tension or shear is used up has failed in both.
 #pragma once
 
-#include <algorithm>
-#include <string>
 #include <vector>
 
 #include "base/pi.h"
-#include "dem/laws/bond_form.h"
+#include "dem/laws/compression_branches.h"
+#include "dem/laws/interface_form.h"
 
 namespace platen::dem {
 
 // The choice between the two lines of failure: whether tension takes from the strength in shear.
 enum class FailureLine { uncoupled, coupled };
 
-template <class Real>
-struct InterfaceGeometry {
-  Real rest_length;                 // |D|, m
-  Real lever;                       // a
-  Real normal_stiffness;            // k_n, Pa/m
-  Real area;                        // A, m^2
-  Real strength_factor = Real(1.0); // of both strengths
-};
-// From the last step to this one.
-template <class Real>
-struct InterfaceMotion {
-  Triple<Real> distance;  // d, m, now
-  Triple<Real> travelled; // of the second centre against the first, m
-  Triple<Real> moved;     // the same at their point of contact, where rotations count too, m
-  Real spun;              // both about d, rad
-};
 template <class Real>
 struct InterfaceState {
   Real plastic;                      // q, Pa, >= 0
@@ -61,15 +44,6 @@ struct InterfaceState {
     v("friction_spring", "m", s.slider...);
   }
 };
-template <class Real>
-struct InterfaceResponse {
-  Triple<Real> force;   // N, on the first
-  Real normal, tension; // F_n, N; T, Pa
-  Triple<Real> shear;   // N, on the first
-  Real energy;          // J, stored
-  Real failed_now;      // positive where it has failed in this step
-};
-
 struct ElastoDamagePlastic {
   static constexpr const char *word = "elasto damage plastic";
   struct Parameters {
@@ -91,18 +65,14 @@ struct ElastoDamagePlastic {
     static void describe(Visitor &&v, Self &p);
   };
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
-                        has_history = true, bonds_by_range = true;
+                        has_history = true, bonds_by_range = true, needs_orientations = false;
 
   // Throws BadParameter where the branches are no three, or bend up again.
   ElastoDamagePlastic(const Parameters &p);
   ElastoDamagePlastic() : ElastoDamagePlastic(Parameters()) {}
 
   Parameters parameters; // as given
-  struct Branch {
-    double limit = 0, slope = 1; // slope 1: no yield
-  };
-  static constexpr std::size_t most_branches = 3;
-  Branch branches[most_branches] = {}; // where fewer are given, the last goes on
+  CompressionBranches compression;
 
   template <class Real>
   using State = InterfaceState<Real>;
@@ -125,17 +95,15 @@ struct ElastoDamagePlastic {
   // The same as other bonds tell it. Ratios are those of the elastic stress to the strength: 1 where damage
   // begins, 1 + delta where it ends.
   BondResponse<double> bond_response(const InterfaceState<double> &s, const InterfaceGeometry<double> &g,
-                                     const Triple<double> &d) const;
+                                     const InterfaceMotion<double> &m) const;
   // J, taken by the plastic closing of a state.
-  double plastic_work(const InterfaceState<double> &s, const InterfaceGeometry<double> &g) const;
-  // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
-  template <class Real>
-  Real envelope(const Real &elastic) const;
+  double plastic_work(const InterfaceState<double> &s, const InterfaceGeometry<double> &g) const {
+    return g.area * compression.work(s.plastic) / g.normal_stiffness;
+  }
 
 private:
   // Pa; of what is never reached a number whose square is one too.
   double tensile_strength_, shear_strength_;
-  double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
   // What has broken has no stiffness, and nothing to divide by it.
   template <class Real>
   static Real divisor(const Real &stiffness) {
@@ -176,11 +144,7 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
   v("fracture_energy_tension", p.fracture_energy_tension, "J/m2", at_least(0),
     "Area under the softening branch, for any size of spheres; 0: by the softening in tension.");
   v("fracture_energy_shear", p.fracture_energy_shear, "J/m2", at_least(0), "The same in shear.");
-  v("compression_limits", p.compression_limits, "Pa", above(0),
-    "Up to three stresses, ascending, where the branches of compression begin (LCS); empty: elastic without "
-    "limit.");
-  v("compression_slopes", p.compression_slopes, "1", at_least(1),
-    "Modulus over that of each branch, not descending (YRC); as many as limits.");
+  describe_compression(v, p);
   v("failure_line", p.failure_line,
     Words<FailureLine>{{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
     "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
@@ -188,49 +152,9 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
 
 inline ElastoDamagePlastic::ElastoDamagePlastic(const Parameters &p)
     : parameters(p),
+      compression(Parameters::name, p.compression_limits, p.compression_slopes),
       tensile_strength_(std::fmin(never_if_zero(p.tensile_strength), 1e100)),
-      shear_strength_(std::fmin(never_if_zero(p.shear_strength), 1e100)) {
-  const std::vector<double> &limits = p.compression_limits, &slopes = p.compression_slopes;
-  const std::string count = std::to_string(limits.size());
-  const auto refuse = [](const char *member, const std::string &why) {
-    throw BadParameter(Parameters::name, member, "", why);
-  };
-  if (limits.size() > most_branches)
-    refuse("compression_limits", "has " + count + " stresses. Allowed: up to 3.");
-  if (slopes.size() != limits.size())
-    refuse("compression_slopes",
-           "has " + std::to_string(slopes.size()) + " numbers. Allowed: as many as limits, " + count + ".");
-  if (!std::is_sorted(limits.begin(), limits.end()))
-    refuse("compression_limits", "descends. Allowed: ascending stresses.");
-  if (!std::is_sorted(slopes.begin(), slopes.end()))
-    refuse("compression_slopes",
-           "descends: compression would grow stiffer again. Allowed: ascending numbers.");
-  Branch last;
-  for (std::size_t b = 0; b < most_branches; ++b) {
-    if (b < limits.size()) last = {limits[b], slopes[b]};
-    branches[b] = last;
-  }
-}
-
-// The straight branches bend ever further down, so that the lowest of their lines is the envelope.
-template <class Real>
-PLATEN_INLINE Real ElastoDamagePlastic::envelope(const Real &elastic) const {
-  Real lowest = elastic;
-  for (int b = 0; b < 3; ++b) {
-    const Branch &branch = branches[b];
-    const Real line = branch.limit + (elastic - begin_of(b)) * (1.0 / branch.slope);
-    lowest = lowest - positive_part(Real(lowest - line));
-  }
-  return lowest;
-}
-
-inline double ElastoDamagePlastic::begin_of(int branch) const {
-  const Branch *b = branches;
-  double begin = b[0].limit;
-  for (int k = 1; k <= branch; ++k)
-    begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
-  return begin;
-}
+      shear_strength_(std::fmin(never_if_zero(p.shear_strength), 1e100)) {}
 
 template <class Real>
 PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> &g) const -> Softening<Real> {
@@ -310,38 +234,19 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
                                                                       const InterfaceGeometry<Real> &g,
                                                                       const InterfaceMotion<Real> &m) const {
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
-  const Real square = dot(m.distance, m.distance), length = root(square);
-  const Triple<Real> n = scale(Real(1.0 / length), m.distance);
+  const Real length = root(dot(m.distance, m.distance));
+  const PlaneMotion<Real> plane(m, length);
   const Real elastic = kn * (g.rest_length - length);
   const Softening<Real> delta = softening(g);
   const InterfaceState<Real> last = s;
-  s.plastic = larger(s.plastic, Real(elastic - envelope(elastic)));
+  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
   const Real tension = s.plastic - elastic, zero = tension * 0.0, one = zero + 1.0;
-  const Real nothing = zero + 1e-300; // m^2: no length of anything, and no division by zero
-
-  // Both vectors turn with the plane, by the least rotation but for third powers of its angle and without
-  // change of length, and spin with the pair (Cayley's form).
-  const Real half = 0.5 * m.spun, whole = 1.0 / (1.0 + half * half);
-  const Real drawn = dot(m.travelled, n);
-  const Triple<Real> across = m.travelled - scale(drawn, n);
-  const Triple<Real> between_normals = n - scale(Real(0.5 / length), across);
-  const Triple<Real> moved = m.moved - scale(dot(m.moved, n), n);
-  const auto carry = [&](const Triple<Real> &v) {
-    const Triple<Real> leant = v - scale(dot(v, n), between_normals);
-    const Triple<Real> flat = leant - scale(dot(leant, n), n);
-    const Real before = dot(v, v), after = dot(flat, flat);
-    const Real keep = root(Real(before / larger(after, nothing)));
-    const Triple<Real> turned =
-        scale(Real((1.0 - half * half) * whole), flat) + scale(Real(2.0 * half * whole), cross(n, flat));
-    return scale(keep, turned) + moved;
-  };
-  s.shear = carry(s.shear);
-  s.slider = carry(s.slider);
-  const Triple<Real> shear_before = s.shear - moved, slider_before = s.slider - moved; // turned alone
-  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension));        // Pa
-  const Real pull = ks * root(dot(s.slider, s.slider));
-  const Real over = positive_part(Real(pull - cap)); // Pa
-  const Real let_slip = over / where_positive(pull, pull, one);
+  s.shear = plane.carried(s.shear);
+  s.slider = plane.carried(s.slider);
+  const Triple<Real> shear_before = s.shear - plane.moved,
+                     slider_before = s.slider - plane.moved;                    // turned alone
+  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
+  const Real let_slip = slipping_share(s.slider, ks, cap);
   const Triple<Real> slip = scale(let_slip, s.slider);
   s.slider = scale(Real(1.0 - let_slip), s.slider);
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
@@ -350,8 +255,8 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
   // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
   // off by the kink, as in any contact: that is no loss.
-  const Real tension_before =
-      tension + (last.plastic - s.plastic) - kn * (drawn - 0.5 * dot(across, across) / length);
+  const Real tension_before = tension + (last.plastic - s.plastic) -
+                              kn * (plane.drawn - 0.5 * dot(plane.across, plane.across) / length);
   const Shares<Real> was = shares(last, delta), is = shares(s, delta);
   const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / divisor(kn);
   const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
@@ -371,9 +276,9 @@ inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &
 
 inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,
                                                                const InterfaceGeometry<double> &g,
-                                                               const Triple<double> &d) const {
-  const InterfaceResponse<double> from = response(s, g, d);
-  const Triple<double> moment = cross(d, from.force);
+                                                               const InterfaceMotion<double> &m) const {
+  const InterfaceResponse<double> from = response(s, g, m.distance);
+  const Triple<double> moment = cross(m.distance, from.force);
   BondResponse<double> r;
   r.force = from.force;
   r.torque_i = scale(g.lever, moment);
@@ -389,24 +294,6 @@ inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceSt
   r.shear = from.shear;
   r.shear_force = root(dot(from.shear, from.shear));
   return r;
-}
-
-// Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a
-// branch of slope 1 adds no closing.
-inline double ElastoDamagePlastic::plastic_work(const InterfaceState<double> &s,
-                                                const InterfaceGeometry<double> &g) const {
-  double work = 0, from = 0;
-  for (int b = 0; b < 3 && from < s.plastic; ++b) {
-    const Branch &branch = branches[b];
-    if (!(branch.slope > 1)) continue;
-    const double to = b == 2 ? s.plastic : std::fmin(s.plastic, begin_of(b + 1) - branches[b + 1].limit);
-    const auto yield = [&](double q) {
-      return (branch.limit * branch.slope + q - begin_of(b)) / (branch.slope - 1);
-    };
-    work += 0.5 * (yield(from) + yield(to)) * (to - from);
-    from = to;
-  }
-  return g.area * work / g.normal_stiffness;
 }
 
 } // namespace platen::dem

@@ -50,8 +50,8 @@ TEST(describe, branches_of_compression_are_three_and_bend_down) {
   p.compression_slopes = {2, 3};
   EXPECT_EQ(refusal(p), "");
   const ElastoDamagePlastic law(p);
-  EXPECT_EQ(law.branches[2].limit, 2e6); // the last one goes on
-  EXPECT_EQ(law.branches[2].slope, 3);
+  EXPECT_EQ(law.compression.branches[2].limit, 2e6); // the last one goes on
+  EXPECT_EQ(law.compression.branches[2].slope, 3);
   p.compression_limits = p.compression_slopes = {1e6, 2e6, 3e6, 4e6};
   EXPECT_NE(refusal(p).find("compression_limits has 4 stresses. Allowed: up to 3."), std::string::npos);
 }

@@ -34,7 +34,7 @@ struct YieldingBond {
     }
   };
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
-                        has_history = true, bonds_by_range = false;
+                        has_history = true, bonds_by_range = false, needs_orientations = false;
 
   Parameters parameters;
   YieldingBond() = default;
@@ -65,8 +65,8 @@ struct YieldingBond {
     return r;
   }
   BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
-                                     const Triple<double> &d) const {
-    const InterfaceResponse<double> from = response(s, g, d);
+                                     const InterfaceMotion<double> &m) const {
+    const InterfaceResponse<double> from = response(s, g, m.distance);
     BondResponse<double> r{};
     r.force = from.force;
     r.excess = -1;

@@ -1,0 +1,105 @@
+// Yield of an interface in compression along straight branches that bend ever further down, with elastic
+// unloading. In stresses: e = -k_n u_n is that of closing without yield, q = k_n p the plastic closing p,
+// which never decreases: q >= e - envelope(e) (Onate et al. 2015; docs/theory.md).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "dem/laws/bond_form.h"
+
+namespace platen::dem {
+
+// Described as members of the law that has them.
+template <class Visitor, class Parameters>
+void describe_compression(Visitor &&v, Parameters &p) {
+  v("compression_limits", p.compression_limits, "Pa", above(0),
+    "Up to three stresses, ascending, where the branches of compression begin (LCS); empty: elastic without "
+    "limit.");
+  v("compression_slopes", p.compression_slopes, "1", at_least(1),
+    "Modulus over that of each branch, not descending (YRC); as many as limits.");
+}
+
+struct CompressionBranches {
+  struct Branch {
+    double limit = 0, slope = 1; // Pa; modulus over that of the branch, 1: no yield
+  };
+  static constexpr std::size_t most = 3;
+  Branch branches[most] = {}; // where fewer are given, the last goes on
+
+  CompressionBranches() = default;
+  // Throws BadParameter of the law's parameters of this name.
+  CompressionBranches(const char *law, const std::vector<double> &limits, const std::vector<double> &slopes);
+
+  // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
+  template <class Real>
+  Real envelope(const Real &elastic) const;
+  // J/m^2 Pa/m: taken by plastic closing up to q (Pa), times the stiffness k_n.
+  double work(double q) const;
+
+private:
+  double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
+};
+
+inline CompressionBranches::CompressionBranches(const char *law, const std::vector<double> &limits,
+                                                const std::vector<double> &slopes) {
+  const std::string count = std::to_string(limits.size());
+  const auto refuse = [&](const char *member, const std::string &why) {
+    throw BadParameter(law, member, "", why);
+  };
+  if (limits.size() > most) refuse("compression_limits", "has " + count + " stresses. Allowed: up to 3.");
+  if (slopes.size() != limits.size())
+    refuse("compression_slopes",
+           "has " + std::to_string(slopes.size()) + " numbers. Allowed: as many as limits, " + count + ".");
+  if (!std::is_sorted(limits.begin(), limits.end()))
+    refuse("compression_limits", "descends. Allowed: ascending stresses.");
+  if (!std::is_sorted(slopes.begin(), slopes.end()))
+    refuse("compression_slopes",
+           "descends: compression would grow stiffer again. Allowed: ascending numbers.");
+  Branch last;
+  for (std::size_t b = 0; b < most; ++b) {
+    if (b < limits.size()) last = {limits[b], slopes[b]};
+    branches[b] = last;
+  }
+}
+
+// The straight branches bend ever further down, so that the lowest of their lines is the envelope.
+template <class Real>
+PLATEN_INLINE Real CompressionBranches::envelope(const Real &elastic) const {
+  Real lowest = elastic;
+  for (int b = 0; b < 3; ++b) {
+    const Branch &branch = branches[b];
+    const Real line = branch.limit + (elastic - begin_of(b)) * (1.0 / branch.slope);
+    lowest = lowest - positive_part(Real(lowest - line));
+  }
+  return lowest;
+}
+
+inline double CompressionBranches::begin_of(int branch) const {
+  const Branch *b = branches;
+  double begin = b[0].limit;
+  for (int k = 1; k <= branch; ++k)
+    begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
+  return begin;
+}
+
+// Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a
+// branch of slope 1 adds no closing.
+inline double CompressionBranches::work(double q) const {
+  double work = 0, from = 0;
+  for (int b = 0; b < 3 && from < q; ++b) {
+    const Branch &branch = branches[b];
+    if (!(branch.slope > 1)) continue;
+    const double to = b == 2 ? q : std::fmin(q, begin_of(b + 1) - branches[b + 1].limit);
+    const auto yield = [&](double at) {
+      return (branch.limit * branch.slope + at - begin_of(b)) / (branch.slope - 1);
+    };
+    work += 0.5 * (yield(from) + yield(to)) * (to - from);
+    from = to;
+  }
+  return work;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,85 @@
+// What bonds that remember have in common: what they see of the pair, what they answer, and how a vector in
+// the plane between the two goes along with it from step to step.
+#pragma once
+
+#include "dem/laws/bond_form.h"
+
+namespace platen::dem {
+
+template <class Real>
+struct InterfaceGeometry {
+  Real rest_length;                 // |D|, m
+  Real lever;                       // a
+  Real normal_stiffness;            // k_n, Pa/m
+  Real area;                        // A, m^2
+  Real strength_factor = Real(1.0); // of both strengths
+  // Where the law needs orientations.
+  Triple<Real> reference = {}; // D, m
+  Real radius = {};            // R_b, m
+};
+// From the last step to this one.
+template <class Real>
+struct InterfaceMotion {
+  Triple<Real> distance;  // d, m, now
+  Triple<Real> travelled; // of the second centre against the first, m
+  Triple<Real> moved;     // the same at their point of contact, where rotations count too, m
+  Real spun;              // both about d, rad
+  // Where the law needs orientations: from the reference to now; and what each has turned by, rad.
+  Rotation<Real> turn_i = {}, turn_j = {};
+  Triple<Real> turned_i = {}, turned_j = {};
+};
+template <class Real>
+struct InterfaceResponse {
+  Triple<Real> force;   // N, on the first
+  Real normal, tension; // F_n, N; T, Pa
+  Triple<Real> shear;   // N, on the first
+  Real energy;          // J, stored
+  Real failed_now;      // positive where it has failed in this step
+  // Where the law needs orientations, N m; else what the force does at its arms.
+  Triple<Real> torque_i = {}, torque_j = {};
+};
+
+// The plane between the two, from the last step to this one. What lies in it turns with it by the least
+// rotation but for third powers of its angle and without change of length, and spins with the pair (Cayley's
+// form).
+template <class Real>
+struct PlaneMotion {
+  Triple<Real> n;               // to the second, now
+  Real drawn;                   // of what was travelled, along n, m
+  Triple<Real> across;          // the rest of it, m
+  Triple<Real> between_normals; // n in the middle of the step, but for its length
+  Triple<Real> moved;           // in the plane, m
+  Real half, whole;             // of the spin
+
+  // `length` is |d|.
+  PLATEN_INLINE PlaneMotion(const InterfaceMotion<Real> &m, const Real &length)
+      : n(scale(Real(1.0 / length), m.distance)),
+        drawn(dot(m.travelled, n)),
+        across(m.travelled - scale(drawn, n)),
+        between_normals(n - scale(Real(0.5 / length), across)),
+        moved(m.moved - scale(dot(m.moved, n), n)),
+        half(0.5 * m.spun),
+        whole(1.0 / (1.0 + half * half)) {}
+
+  // A displacement at the point of contact: turned, and what the step has added to it.
+  PLATEN_INLINE Triple<Real> carried(const Triple<Real> &v) const {
+    const Real nothing = drawn * 0.0 + 1e-300; // m^2: no length of anything, and no division by zero
+    const Triple<Real> leant = v - scale(dot(v, n), between_normals);
+    const Triple<Real> flat = leant - scale(dot(leant, n), n);
+    const Real before = dot(v, v), after = dot(flat, flat);
+    const Real keep = root(Real(before / larger(after, nothing)));
+    const Triple<Real> turned =
+        scale(Real((1.0 - half * half) * whole), flat) + scale(Real(2.0 * half * whole), cross(n, flat));
+    return scale(keep, turned) + moved;
+  }
+};
+
+// A spring of friction, k x with |k x| <= cap (Pa): the share of x (m) that slips and is lost.
+template <class Real>
+PLATEN_INLINE Real slipping_share(const Triple<Real> &spring, const Real &stiffness, const Real &cap) {
+  const Real pull = stiffness * root(dot(spring, spring));
+  const Real over = positive_part(Real(pull - cap)); // Pa
+  return over / where_positive(pull, pull, Real(pull * 0.0 + 1.0));
+}
+
+} // namespace platen::dem

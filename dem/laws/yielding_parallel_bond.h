@@ -1,0 +1,212 @@
+// Parallel bond that yields in compression: brittle in tension and shear as parallel_bond.h, whose shear,
+// bending and twisting it has in total form, with a plastic closing along straight branches
+// (compression_branches.h). A bond that has broken stays as the contact of its pair: with the same zero, so
+// that its compression goes on yielding, with what is left of its shear force up to Coulomb's limit, and
+// without moments or tension.
+//
+// In stresses: k_n = G_b/|D| per area, q = k_n p the plastic closing, u_s the slip at the point of contact:
+//   T = k_n (|d| - |D|) + q                          > 0: tension
+//   q >= e - envelope(e), e = -k_n (|d| - |D|)       also once it has broken
+//   breaks where T + beta |M_b| R_b/I >= sigma_c, or |F_s|/A + beta |M_t| R_b/J >= tau_c + tan(phi_b) max(-T,
+//   0) whole:  F_n = A T, F_s = r k_n A u_s, moments k_n I and r k_n J times the relative rotation broken:
+//   F_n = A min(T, 0), F_s = r k_n A x with |r k_n x| <= mu max(-T, 0), x at first u_s
+#pragma once
+
+#include <vector>
+
+#include "dem/laws/compression_branches.h"
+#include "dem/laws/interface_form.h"
+#include "dem/laws/parallel_bond.h"
+
+namespace platen::dem {
+
+struct YieldingParallelBond {
+  static constexpr const char *word = "yielding parallel bond";
+  struct Parameters : ParallelBond::Parameters {
+    // Pa, and modulus over that of the branch that begins there. Up to three; none: no yield.
+    std::vector<double> compression_limits, compression_slopes;
+
+    static constexpr const char *name = "YieldingParallelBond";
+    template <class Visitor, class Self>
+    static void describe(Visitor &&v, Self &p) {
+      ParallelBond::Parameters::describe(v, p);
+      describe_compression(v, p);
+    }
+  };
+  static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
+                        has_history = true, bonds_by_range = false, needs_orientations = true;
+
+  YieldingParallelBond() : YieldingParallelBond(Parameters()) {}
+  // Throws BadParameter where the branches are no three, or bend up again.
+  YieldingParallelBond(const Parameters &p)
+      : parameters(p),
+        strength(p),
+        compression(Parameters::name, p.compression_limits, p.compression_slopes) {}
+
+  Parameters parameters; // as given
+  BondStrength strength; // of them
+  CompressionBranches compression;
+  double grain_friction = 0; // mu, of what has broken: that of contacts between grains
+
+  template <class Real>
+  struct State {
+    Real plastic;        // q, Pa, >= 0
+    Real broken;         // 0: whole; 1: broken in tension, 2: in shear
+    Real dissipated;     // J: at the break until it is told, by friction from then on
+    Triple<Real> slider; // x, m; of a broken one
+
+    template <class Visitor, class... States>
+    static void describe(Visitor &&v, States &...s) {
+      v("plastic", "Pa", s.plastic...);
+      v("broken", "1", s.broken...);
+      v("dissipated", "J", s.dissipated...);
+      v("friction_spring", "m", s.slider...);
+    }
+  };
+  static double damage_of(const State<double> &s) { return s.broken > 0 ? 1 : 0; }
+  static bool failed_in_tension(const State<double> &s) { return s.broken == 1; }
+
+  bool bends() const { return parameters.moments; }
+  BondStiffness stiffness(const BondGeometry<double> &g) const {
+    return ParallelBond(parameters).stiffness(g);
+  }
+
+  // Brings the state up to date and tells what acts.
+  template <class Real>
+  InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
+                                     const InterfaceMotion<Real> &m) const;
+  // What acts in a state as it is.
+  BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
+                                     const InterfaceMotion<double> &m) const;
+  // J, taken by the plastic closing of a state.
+  double plastic_work(const State<double> &s, const InterfaceGeometry<double> &g) const {
+    return g.area * compression.work(s.plastic) / g.normal_stiffness;
+  }
+
+private:
+  template <class Real>
+  BondResponse<Real> whole(const Real &plastic, const InterfaceGeometry<Real> &g,
+                           const InterfaceMotion<Real> &m, Triple<Real> &slip) const;
+  template <class Real>
+  BondResponse<Real> broken(const State<Real> &s, const InterfaceGeometry<Real> &g,
+                            const InterfaceMotion<Real> &m) const;
+};
+
+// As ParallelBond::turning, but for what has yielded.
+template <class Real>
+PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic,
+                                                             const InterfaceGeometry<Real> &g,
+                                                             const InterfaceMotion<Real> &m,
+                                                             Triple<Real> &slip) const {
+  const Parameters &p = parameters;
+  const Real area_stiffness = g.area * g.normal_stiffness, kn = g.normal_stiffness;
+  const BondGeometry<Real> bond{g.reference, g.rest_length, g.lever, kn, g.radius, g.strength_factor};
+  const BondMotion<Real> motion{m.distance, m.turn_i, m.turn_j};
+  BondStrain<Real> e;
+  BondResponse<Real> r =
+      stretch_and_shear(bond, motion, area_stiffness, Real(p.stiffness_ratio * area_stiffness), e);
+  if (p.moments)
+    bend_and_twist(r, e, Real(0.25 * g.radius * g.radius * area_stiffness), 2.0 * p.stiffness_ratio - 1.0,
+                   motion);
+  const Real yielded = g.area * plastic; // N, on top of what the stretch would do
+  r.force = r.force + scale(Real(yielded * e.length * e.per_square), m.distance);
+  r.energy = r.energy + yielded * (e.stretch + 0.5 * plastic / kn);
+  r.normal_force = r.normal_force + yielded;
+  slip = e.slip;
+
+  const Real shear_modulus = p.stiffness_ratio * kn;
+  const Real turning = (2.0 * p.moment_contribution) * magnitude(e.half_cosine) * g.radius;
+  const Real bending_modulus = turning * kn;
+  compare_with_strength(r, strength, Real(kn * e.stretch + plastic),
+                        Real(bending_modulus * bending_modulus * e.bend_square),
+                        Real(shear_modulus * shear_modulus * e.slip_square),
+                        Real(turning * shear_modulus * magnitude(e.twist)), g.strength_factor);
+  return r;
+}
+
+template <class Real>
+PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> &s,
+                                                              const InterfaceGeometry<Real> &g,
+                                                              const InterfaceMotion<Real> &m) const {
+  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
+  const Real length = root(dot(m.distance, m.distance));
+  const Real closing = positive_part(Real(kn * (g.rest_length - length) - s.plastic));
+  BondResponse<Real> r;
+  r.normal_force = -g.area * closing;
+  r.shear = scale(Real(g.area * ks), s.slider);
+  r.force = scale(Real(r.normal_force / length), m.distance) + r.shear;
+  const Triple<Real> moment = cross(m.distance, r.shear);
+  r.torque_i = scale(g.lever, moment);
+  r.torque_j = scale(Real(1.0 - g.lever), moment);
+  r.energy = 0.5 * g.area * (closing * closing / kn + ks * dot(s.slider, s.slider));
+  return r;
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Real> &s,
+                                                                       const InterfaceGeometry<Real> &g,
+                                                                       const InterfaceMotion<Real> &m) const {
+  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
+  const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
+  const Real zero = elastic * 0.0, one = zero + 1.0;
+  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
+  Triple<Real> slip;
+  const BondResponse<Real> bond = whole(s.plastic, g, m, slip);
+
+  // Which has broken in this step, and how.
+  const Real mode = where_positive(Real(bond.shear_ratio - bond.tension_ratio), Real(one + 1.0), one);
+  const Real breaks = where_positive(s.broken, zero, where_positive(Real(-bond.excess), zero, mode));
+  const Real was_broken = s.broken;
+  s.broken = s.broken + breaks;
+
+  // A broken one slides from where it was, or from the slip that it broke with.
+  const PlaneMotion<Real> plane(m, length);
+  const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {
+    return Triple<Real>{where_positive(x, a.x, b.x), where_positive(x, a.y, b.y),
+                        where_positive(x, a.z, b.z)};
+  };
+  const Triple<Real> nothing{zero, zero, zero};
+  const Triple<Real> carried = plane.carried(s.slider);
+  const Triple<Real> spring = choose(was_broken, carried, choose(breaks, slip, nothing));
+  const Real cap = grain_friction * positive_part(Real(elastic - s.plastic)); // Pa
+  const Real let_slip = slipping_share(spring, ks, cap);
+  s.slider = scale(Real(1.0 - let_slip), spring);
+  const BondResponse<Real> contact = broken(s, g, m);
+
+  // Friction: (F before + F now)/2 times the slip. A break: what is no longer stored, less half of what the
+  // force that is gone would have taken in the step, by the trapezoid over the drift.
+  const Triple<Real> before = carried - plane.moved;
+  const Real rubbed = 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, spring));
+  const auto taken = [&](const BondResponse<Real> &r) { // J
+    return dot(r.force, m.travelled) - dot(r.torque_i, m.turned_i) - dot(r.torque_j, m.turned_j);
+  };
+  const Real released = bond.energy - contact.energy - 0.5 * (taken(bond) - taken(contact));
+  s.dissipated = s.dissipated + where_positive(was_broken, rubbed, where_positive(breaks, released, zero));
+
+  InterfaceResponse<Real> r;
+  r.force = choose(s.broken, contact.force, bond.force);
+  r.torque_i = choose(s.broken, contact.torque_i, bond.torque_i);
+  r.torque_j = choose(s.broken, contact.torque_j, bond.torque_j);
+  r.shear = choose(s.broken, contact.shear, bond.shear);
+  r.normal = where_positive(s.broken, contact.normal_force, bond.normal_force);
+  r.energy = where_positive(s.broken, contact.energy, bond.energy);
+  r.tension = s.plastic - elastic;
+  r.failed_now = breaks;
+  return r;
+}
+
+inline BondResponse<double> YieldingParallelBond::bond_response(const State<double> &s,
+                                                                const InterfaceGeometry<double> &g,
+                                                                const InterfaceMotion<double> &m) const {
+  Triple<double> slip;
+  BondResponse<double> r = whole(s.plastic, g, m, slip);
+  if (s.broken > 0) {
+    const BondResponse<double> contact = broken(s, g, m);
+    r.force = contact.force, r.torque_i = contact.torque_i, r.torque_j = contact.torque_j;
+    r.energy = contact.energy, r.normal_force = contact.normal_force, r.shear = contact.shear;
+  }
+  r.shear_force = root(dot(r.shear, r.shear));
+  return r;
+}
+
+} // namespace platen::dem
