@@ -58,8 +58,8 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
-// What the pair has done since its last state, at the velocities of the drift that led here. Without rotation the
-// orientations that a law needs are those of the reference.
+// What the pair has done since its last state, at the velocities of the drift that led here. Without
+// rotation the orientations that a law needs are those of the reference.
 template <bool rotation, bool needs_orientations>
 PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                               const Pack &lever, double dt) {
