@@ -24,6 +24,7 @@ struct Contacts::Touch {
   std::size_t i, j;
   Vector3 n, slip_velocity; // m/s
   double pressing, kn;      // N, N/m
+  double spun;              // rad, both about n in this step
   Vector3 force, drag;      // N, on the first; drag: the dashpots' part
 };
 
@@ -68,6 +69,8 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
     Vector3 v = p.velocity[t.j] - p.velocity[t.i];
     if constexpr (Effects::rotation)
       v += cross((*p.angular_velocity)[t.j], rj) - cross((*p.angular_velocity)[t.i], ri);
+    if constexpr (Effects::rotation)
+      t.spun = 0.5 * dt * dot((*p.angular_velocity)[t.i] + (*p.angular_velocity)[t.j], t.n);
     const double vn = dot(v, t.n);
     touching[k] = 1;
     overlap[k] = rest_distance[k] - length;
@@ -106,11 +109,17 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
   return lost;
 }
 
+// A vector in the plane of contact k as the last step left it, turned with the plane and with the pair about
+// its normal.
+Vector3 Contacts::turned(const Vector3 &vector, std::size_t k, const Touch &t) const {
+  return spin_in_plane(carry_with_plane(vector, (*normal)[k], t.n), t.n, t.spun);
+}
+
 // Coulomb's spring in the turned contact plane.
 template <class Effects>
 void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, Touch &t, Dissipation &lost) {
   double &kt = (*tangential_stiffness)[k];
-  CoulombFriction::State state{carry_with_plane((*spring)[k], (*normal)[k], t.n), (*sliding)[k]};
+  CoulombFriction::State state{turned((*spring)[k], k, t), (*sliding)[k]};
   if constexpr (!Effects::Law::constant_stiffness) {
     // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and the ledger gets
     // it.
@@ -151,7 +160,7 @@ void Contacts::rolling_moment(const Particles &p, double dt, std::size_t k, cons
   if (!(stiffness > 0)) return; // Hertz' contact at its first step
   const Vector3 w = (*p.angular_velocity)[t.j] - (*p.angular_velocity)[t.i];
   const double limit = settings_.rolling_friction * effective;
-  CoulombFriction::State state{carry_with_plane((*rolling)[k], (*normal)[k], t.n), 0};
+  CoulombFriction::State state{turned((*rolling)[k], k, t), 0};
   const CoulombFriction::Result result =
       CoulombFriction{{limit, limit}}(state, dt * (w - dot(w, t.n) * t.n), t.pressing, stiffness);
   if constexpr (Effects::ledger) lost.friction += result.dissipated;

@@ -77,6 +77,7 @@ private:
   struct With;
   template <class Effects>
   Dissipation compute_block(Particles &particles, double dt, std::size_t block);
+  Vector3 turned(const Vector3 &vector, std::size_t k, const Touch &t) const;
   template <class Effects>
   void tangential_force(const Particles &particles, double dt, std::size_t k, Touch &t, Dissipation &lost);
   template <class Effects>

@@ -184,6 +184,46 @@ TEST(contact, sliding_starts_at_the_coulomb_limit) {
   EXPECT_NEAR(onset, mu * pressing, 2e-3 * mu * pressing);
 }
 
+// Two grains pressed on each other, the second pushed aside without sliding, then a quarter turn of the pair
+// as one about the line of their centres and one about an axis across it: the spring of friction and the
+// rolling moment lie as they did in the pair, and nothing is lost.
+TEST(contact, friction_and_rolling_springs_turn_with_the_pair) {
+  for (const Vector3 &axis : {Vector3{1, 0, 0}, Vector3{0, 0, 1}, Vector3{0, 1, 0}}) {
+    ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb_with_rolling, 1e6);
+    settings.contact->friction = settings.contact->rolling_friction = 0.5;
+    Model model(nearly_touching(), settings);
+    Particles &p = model.particles;
+    const auto move = [&](const Vector3 &by, const Vector3 &turn_first, const Vector3 &turn_second,
+                          double seconds) {
+      p.velocity[0] = {}, p.velocity[1] = by / seconds;
+      (*p.angular_velocity)[0] = turn_first / seconds, (*p.angular_velocity)[1] = turn_second / seconds;
+      p.force[0] = p.force[1] = (*p.torque)[0] = (*p.torque)[1] = {}; // at rest: no kick
+      model.begin_step(seconds);
+      model.compute_forces(seconds);
+    };
+    const double press = 1e-2 * radius;
+    move({-press, 0, 0}, {}, {}, 1);
+    move({0, 1e-3 * radius, 0}, {}, {0, 1e-3, 0}, 1);
+    ASSERT_EQ(model.contacts->table.size(), 1u);
+    const Vector3 spring = (*model.contacts->spring)[0], rolling = (*model.contacts->rolling)[0];
+    ASSERT_GT(norm(spring), 0);
+    ASSERT_GT(norm(rolling), 0);
+    const double lost = model.contacts->friction_work;
+    const int steps = 20000;
+    const Quaternion step = rotation_quaternion(0.5 * pi / steps * axis),
+                     whole = rotation_quaternion(0.5 * pi * axis);
+    for (int k = 0; k < steps; ++k) {
+      const Vector3 d = p.position[1] - p.position[0], turn = 0.5 * pi / steps * axis;
+      move(rotate(step, d) - d, turn, turn, 1);
+    }
+    const Vector3 wanted = rotate(whole, spring), wanted_moment = rotate(whole, rolling);
+    EXPECT_LT(norm((*model.contacts->spring)[0] - wanted), 1e-4 * norm(spring)) << axis.x << axis.y << axis.z;
+    EXPECT_LT(norm((*model.contacts->rolling)[0] - wanted_moment), 1e-4 * norm(rolling))
+        << axis.x << axis.y << axis.z;
+    EXPECT_NEAR(model.contacts->friction_work, lost, 1e-4 * model.contacts->energy());
+  }
+}
+
 // Springs and dashpots together: a contact that is not pressed does not drag.
 TEST(contact, friction_never_exceeds_its_limit) {
   for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
