@@ -118,6 +118,7 @@ private:
   std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp, bool consolidates) const {
     StressTask::Parameters p;
     p.platens = platens(ask.side);
+    p.side = words_of(ask.side);
     p.value = ask.ask == Ask::free ? 0 : ask.value;
     p.ramp = ramp;
     p.ramp_to_rest = test_.ramp();
