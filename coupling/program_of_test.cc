@@ -348,6 +348,21 @@ std::vector<StageSettings> stages_of_members(const PlatenTest &test) {
   return stages;
 }
 
+int loaded_axis(const PlatenTest &test) {
+  constexpr int axial = 2;
+  std::optional<int> first;
+  for (const StageSettings &stage : test.settings().loading.stages)
+    for (const SideAsk &ask : stage.asks) {
+      if (ask.ask != Ask::rate && ask.ask != Ask::circumferential) continue;
+      for (const Side side : sides_of(ask.side)) {
+        if (test.platen(side) == nullptr) continue;
+        if (axis_of(side) == axial) return axial;
+        if (!first) first = axis_of(side);
+      }
+    }
+  return first.value_or(axial);
+}
+
 std::unique_ptr<Program> make_program(const PlatenTest &test) {
   const PlatenTestSettings &settings = test.settings();
   std::vector<std::unique_ptr<Stage>> own;

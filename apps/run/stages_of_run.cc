@@ -41,6 +41,11 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     stage["axial_stress_pa"] = s.stress();
     stage["largest_axial_stress_pa"] = largest;
     stage["confining_pressure_pa"] = s.confining_pressure;
+    for (const int axis : {0, 1})
+      if (!problem.platens_along(axis).places.empty()) {
+        stage[std::string("strain_") + "xy"[axis]] = s.*platen_strain(axis);
+        stage[std::string("stress_") + "xy"[axis] + "_pa"] = s.stress(axis);
+      }
     stages.push_back(stage);
     largest = not_measured;
   }

@@ -75,10 +75,10 @@ void add_sides(Json &to, const coupling::PlatenTest &problem, const Results &res
   const std::vector<coupling::Side> sides = further_sides(problem);
   if (sides.empty()) return;
   Json seats, stresses;
-  for (const coupling::Side side : sides) {
+  for (const coupling::Side side : sides)
     seats[coupling::name_of(side)] = problem.platen(side)->layer().seats();
+  for (const coupling::Side side : further_sides(problem, results.axis()))
     stresses[coupling::name_of(side)] = results.side_stress_at_peak(side);
-  }
   to["seated_sides"] = seats;
   to["side_stress_at_peak_pa"] = stresses;
   withdraw_moduli(to);
@@ -129,10 +129,10 @@ const char *app_of(const coupling::PlatenTest &problem) {
   return problem.shape().kind == dem::ShapeKind::disc ? "platen-brazilian" : "platen-compress";
 }
 
-std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem) {
+std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem, int axis) {
   std::vector<coupling::Side> sides;
   for (const coupling::Side side : coupling::all_sides)
-    if (coupling::axis_of(side) != 2 && problem.platen(side) != nullptr) sides.push_back(side);
+    if (coupling::axis_of(side) != axis && problem.platen(side) != nullptr) sides.push_back(side);
   return sides;
 }
 
@@ -149,6 +149,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   Json s = summary_head(scene, app_of(problem), status, effects_on(scene));
   s["effects_off"] = effects_off(scene);
   s["test"] = word_of(loading_tests, scene.loading.test);
+  s["loaded_axis"] = std::string(1, "xyz"[results.axis()]);
   s["particles"] = model.particles.size();
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
