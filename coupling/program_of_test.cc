@@ -118,6 +118,7 @@ private:
   std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp, bool consolidates) const {
     StressTask::Parameters p;
     p.platens = platens(ask.side);
+    p.side = words_of(ask.side);
     p.value = ask.ask == Ask::free ? 0 : ask.value;
     p.ramp = ramp;
     p.ramp_to_rest = test_.ramp();
@@ -345,6 +346,21 @@ std::vector<StageSettings> stages_of_members(const PlatenTest &test) {
   const std::vector<StageSettings> axial = axial_stages(test);
   stages.insert(stages.end(), axial.begin(), axial.end());
   return stages;
+}
+
+int loaded_axis(const PlatenTest &test) {
+  constexpr int axial = 2;
+  std::optional<int> first;
+  for (const StageSettings &stage : test.settings().loading.stages)
+    for (const SideAsk &ask : stage.asks) {
+      if (ask.ask != Ask::rate && ask.ask != Ask::circumferential) continue;
+      for (const Side side : sides_of(ask.side)) {
+        if (test.platen(side) == nullptr) continue;
+        if (axis_of(side) == axial) return axial;
+        if (!first) first = axis_of(side);
+      }
+    }
+  return first.value_or(axial);
 }
 
 std::unique_ptr<Program> make_program(const PlatenTest &test) {

@@ -18,6 +18,12 @@ std::string name_of(SideGroup group) {
   return names.at(static_cast<std::size_t>(group));
 }
 
+std::string words_of(SideGroup group) {
+  std::string words = name_of(group);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 std::vector<Side> sides_of(SideGroup group) {
   switch (group) {
     case SideGroup::axial:

@@ -19,6 +19,7 @@ enum class SideGroup { axial, lateral, lateral_x, lateral_y, bottom, top, left, 
 
 // "axial", "lateral_x"
 std::string name_of(SideGroup group);
+std::string words_of(SideGroup group); // "lateral x"
 inline constexpr std::array<SideGroup, 10> all_side_groups{
     SideGroup::axial, SideGroup::lateral, SideGroup::lateral_x, SideGroup::lateral_y, SideGroup::bottom,
     SideGroup::top,   SideGroup::left,    SideGroup::right,     SideGroup::front,     SideGroup::back};

@@ -5,8 +5,9 @@
 namespace platen::apps {
 
 double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results) {
-  return problem.facts().wave_transit > 0 ? results.axial_time_to_peak() / problem.facts().wave_transit
-                                          : not_measured;
+  const double share = coupling::length(problem.shape(), results.axis()) / problem.shape().height;
+  const double transit = share * problem.facts().wave_transit;
+  return transit > 0 ? results.axial_time_to_peak() / transit : not_measured;
 }
 
 double flexural_modulus(const coupling::PlatenTest &problem, const Results &results) {

@@ -10,7 +10,8 @@ namespace platen::apps {
 // the share changes by a sixth.
 constexpr double assumed_poisson_ratio = 0.2;
 
-// Speed of a slow test: how often a wave crosses the specimen from the start of the axial stage to the peak.
+// Speed of a slow test: how often a wave crosses the specimen, along the axis that is loaded, from the start
+// of the axial stage to the peak.
 double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results);
 
 // Of a bent bar: Pa; the moment at mid-span over P L / 4; how often it could have swung until the peak.

@@ -7,6 +7,7 @@
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
 #include "apps/run/quasi_static.h"
+#include "apps/run/stages_of_run.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 
@@ -22,11 +23,19 @@ RunCosts CompressionRun::costs() const {
   return c;
 }
 
+// Stages whose time was over before their stresses were borne, of those that ended after so many.
+void CompressionRun::tell_unsettled(std::size_t from) const {
+  for (std::size_t k = from; k < test_->program().stages_ended(); ++k)
+    if (const std::string words = unsettled_words(*test_, k); !words.empty()) log_.warning("{}", words);
+}
+
 void CompressionRun::loop() {
   Progress progress(log_);
   loop_start_ = Clock::now();
   while (!finished()) {
+    const std::size_t ended = test_->program().stages_ended();
     test_->advance(steps_unobserved());
+    tell_unsettled(ended);
     if (!test_->model.cracks.empty()) write_cracks();
     if (due(scene_.output.every, automatic_rows)) sample();
     // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
@@ -69,6 +78,7 @@ int CompressionRun::run() {
   if (fields_) fields_->write(*test_);
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
+  tell_unsettled(0);
   const std::vector<std::string> reasons =
       reasons_not_quasi_static(slowness(*test_, results_), test_->bent());
   if (!reasons.empty())

@@ -48,6 +48,7 @@ private:
   bool checkpoint_due() const;
   ProgressSample where() const;
   bool finished() const;
+  void tell_unsettled(std::size_t from) const;
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
   void write_events() const;

@@ -62,8 +62,8 @@ ProgressSample CompressionRun::where() const {
   p.fraction = test_->program().progress();
   p.step = static_cast<std::uint64_t>(test_->steps());
   p.time = test_->time();
-  p.strain = test_->closure_strain();
-  p.stress = test_->axial_stress();
+  p.strain = test_->closure_strain(results_.axis());
+  p.stress = test_->platens_along(results_.axis()).stress(*test_);
   p.broken_bonds = test_->model.broken_tension + test_->model.broken_shear;
   return p;
 }

@@ -9,6 +9,7 @@
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
+#include "coupling/program_of_test.h"
 #include "coupling/static_press.h"
 
 namespace platen::apps {
@@ -39,16 +40,15 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
 } // namespace
 
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
-    : command_(command),
-      scene_(scene),
-      output_(command, scene, true),
-      results_(scene.loading.test == LoadingTest::tension, {scene.output.sound_share}) {
+    : command_(command), scene_(scene), output_(command, scene, true) {
   const bool resumes = command.resume && !command.dry_run;
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
+  results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
+                     coupling::loaded_axis(*test_));
   sampler_ = std::make_unique<Sampler>(*test_);
   if (scene.loading.start_strain > 0 && !resumes) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());

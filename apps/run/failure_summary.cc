@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "coupling/program_of_test.h"
 
 namespace platen::apps {
 namespace {
@@ -82,7 +83,7 @@ void add_state(Json &to, const std::string &start, const Pattern &p, bool patter
 
 bool tells_pattern(const Scene &scene, const coupling::PlatenTest &problem) {
   return scene.loading.test == LoadingTest::compression && problem.shape().kind != dem::ShapeKind::disc &&
-         !problem.bent();
+         !problem.bent() && coupling::loaded_axis(problem) == 2;
 }
 
 void add_failure(Json &to, const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {

@@ -38,19 +38,29 @@ struct Sample {
   double deflection = 0;     // m, of a bent bar
   double midspan_moment = 0; // N m, of a bent bar
   double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
-  double machine_energy = 0; // J, part of `body`: of the machine's spring and the mass on it
-  double cycling = 0;        // 1 from a turn of the platens until its strain has been reached again
-  double axial_stage = 1;    // 0 while a cell's pressure rises and stands alone
-  double stage = 1;          // of those that the scene writes, from 1
-  std::vector<double> more;  // of columns without a member, in their order
+  double strain_x = 0, strain_y = 0; // of the platens there, as strain_platen is along z
+  double machine_energy = 0;         // J, part of `body`: of the machine's spring and the mass on it
+  double cycling = 0;                // 1 from a turn of the platens until its strain has been reached again
+  double axial_stage = 1;            // 0 while a cell's pressure rises and stands alone
+  double stage = 1;                  // of those that the scene writes, from 1
+  std::vector<double> more;          // of columns without a member, in their order
 
-  double stress() const { return 0.5 * (stress_top + stress_bottom); } // Pa
-  double deviator() const { return stress() - cell_pressure; }         // Pa
-  double internal() const {                                            // J, without the machine's
+  // Pa, mean of both platens of an axis, 0 x, 1 y, 2 z; less the cell's pressure.
+  double stress(int axis = 2) const {
+    return 0.5 * (axis == 0   ? stress_left + stress_right
+                  : axis == 1 ? stress_front + stress_back
+                              : stress_top + stress_bottom);
+  }
+  double deviator(int axis = 2) const { return stress(axis) - cell_pressure; }
+  double internal() const { // J, without the machine's
     return bond + contact + (machine_energy > 0 ? body - machine_energy : body);
   }
   double broken() const { return broken_tension + broken_shear; } // bonds
 };
+
+constexpr double Sample::*platen_strain(int axis) {
+  return axis == 0 ? &Sample::strain_x : axis == 1 ? &Sample::strain_y : &Sample::strain_platen;
+}
 
 // A column of history.csv, or a number that only checkpoints keep: declared once, in history.cc. A checkpoint
 // that was written before there was a column gives NaN for it.

@@ -22,16 +22,28 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// 1/s. The speed of the axial platens is measured, that of others follows from what they have closed.
+double strain_rate(const std::vector<Sample> &rise, std::size_t row, const coupling::PlatenTest &problem,
+                   int axis) {
+  if (axis == 2) return std::abs(rise[row].platen_speed) / problem.shape().height;
+  if (row == 0) return not_measured;
+  const auto strain = platen_strain(axis);
+  return std::abs((rise[row].*strain - rise[row - 1].*strain) / (rise[row].time - rise[row - 1].time));
+}
+
 } // namespace
 
 Slowness slowness(const coupling::PlatenTest &problem, const Results &results) {
   Slowness s;
   s.kinetic = results.kinetic_to_internal_max();
   std::vector<double> unbalanced;
-  const double height = problem.shape().height, diameter = 2 * problem.facts().mean_radius;
-  for (const Sample &sample : results.rise()) {
+  const double diameter = 2 * problem.facts().mean_radius;
+  const std::vector<Sample> rise = results.rise();
+  for (std::size_t k = 0; k < rise.size(); ++k) {
+    const Sample &sample = rise[k];
     if (!std::isnan(sample.unbalanced)) unbalanced.push_back(sample.unbalanced);
-    const double rate = std::abs(sample.platen_speed) / height, stress = std::abs(sample.stress());
+    const double rate = strain_rate(rise, k, problem, results.axis()),
+                 stress = std::abs(sample.stress(results.axis()));
     if (stress > 0)
       s.inertial = std::fmax(s.inertial, rate * diameter * std::sqrt(problem.facts().grain_density / stress));
   }

@@ -14,7 +14,7 @@ struct Slowness {
   double kinetic = not_measured;    // largest kinetic over internal energy
   double unbalanced = not_measured; // median of the mean net force over the mean bond force
   double inertial = not_measured;   // largest inertial number, d eps/dt d sqrt(rho / sigma) (GDR MiDi 2004)
-  double wave_transits = not_measured; // of a wave over the height, from the start of the axial stage
+  double wave_transits = not_measured; // of a wave over the loaded length, from the start of the axial stage
 };
 Slowness slowness(const coupling::PlatenTest &problem, const Results &results);
 

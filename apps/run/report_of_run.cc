@@ -45,7 +45,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
     report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
   }
   std::vector<std::string> sides;
-  for (const coupling::Side side : further_sides(problem))
+  for (const coupling::Side side : further_sides(problem, results.axis()))
     sides.push_back(
         fmt::format("{} {:.2f}", coupling::name_of(side), results.side_stress_at_peak(side) / 1e6));
   if (!sides.empty() && !std::isnan(results.strength()))
@@ -59,6 +59,12 @@ void report_stiffness(Report &report, const coupling::PlatenTest &problem, const
                 flexural_modulus(problem, results) / 1e9,
                 problem.three_points().shear_share(assumed_poisson_ratio));
     report.line("moment at mid-span over PL/4", "{:.3f}", moment_over_nominal(problem, results));
+    return;
+  }
+  if (results.axis() != 2) {
+    report.words("loaded along", std::string(1, "xyz"[results.axis()]));
+    report.line("strain at peak (platen)", "{:.5f}", results.strain_at_peak_platen());
+    report.line("stress over strain, at 40 %", "{:.2f} GPa", results.youngs_modulus_platen() / 1e9);
     return;
   }
   report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),

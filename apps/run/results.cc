@@ -13,13 +13,13 @@ constexpr double pattern_share = 0.8;
 // Moduli are secants at this share of the strength (Bamforth; Tannu 2017).
 constexpr double modulus_share = 0.4;
 
-Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness) {
+Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness, int axis) {
   Pattern p;
   p.time = problem.time();
-  p.strain = problem.closure_strain();
+  p.strain = problem.closure_strain(axis);
   if (!problem.model.bonds) return p;
   const dem::Bonds &bonds = *problem.model.bonds;
-  p.failure = dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness);
+  if (axis == 2) p.failure = dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness);
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
   return p;
@@ -34,13 +34,13 @@ bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   if (now > peak_) {
     peak_ = now;
     at_eighty_ = Pattern{};
-    if (problem.model.bonds)
+    if (problem.model.bonds && axis_ == 2)
       barrel_ =
           dem::barrel(dem::skin_opening(problem.model.particles, *problem.model.bonds, problem.shape()));
     return false;
   }
   if (peak_ > 0 && now < pattern_share * peak_ && measured_for_ != peak_) {
-    at_eighty_ = measure_pattern(problem, soundness_);
+    at_eighty_ = measure_pattern(problem, soundness_, axis_);
     measured_for_ = peak_;
     return true;
   }
@@ -53,7 +53,7 @@ void Results::listen(const dem::Crack &c) {
 }
 
 void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow &window) {
-  last_ = measure_pattern(problem, soundness_);
+  last_ = measure_pattern(problem, soundness_, axis_);
   emission_.events = dem::gather_events(emission_.pulses, window);
   std::vector<double> before, after;
   for (const dem::AcousticEvent &event : emission_.events)
@@ -83,7 +83,7 @@ std::size_t Results::peak_row() const {
 }
 
 double Results::strength() const {
-  return peak_ > 0 ? sign_ * samples_[peak_row()].stress() : not_measured;
+  return peak_ > 0 ? sign_ * samples_[peak_row()].stress(axis_) : not_measured;
 }
 double Results::deviator_strength() const {
   return peak_ > 0 ? peak_ : not_measured;
@@ -156,7 +156,7 @@ double Results::lateral_over_axial() const {
 }
 double Results::bulging(double Sample::*across, double Sample::*along) const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? -gained(c, across) / gained(c, along) : not_measured;
+  return c.found ? of_axial(-gained(c, across) / gained(c, along)) : not_measured;
 }
 
 // Without an axial stage the energy balance is read from half the pressure on.

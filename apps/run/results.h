@@ -16,7 +16,7 @@ constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 // Damage, opening, cones and cracks when the stress has fallen to 0.8 of the peak (or at the end of a run).
 struct Pattern {
-  double time = not_measured, strain = not_measured; // s, platen strain
+  double time = not_measured, strain = not_measured; // s, platen strain along the loaded axis
   dem::FailureMeasures failure;
   double broken_tension = not_measured, broken_shear = not_measured;
   void describe(Archive &archive);
@@ -33,10 +33,11 @@ struct Emission {
 class Results {
 public:
   // Stresses and strains are taken with this sign: +1 compression, -1 tension. Peak, moduli and strains are
-  // of the deviator (axial stress minus confining pressure), from the end of the hydrostatic stage on, as
-  // laboratories count them.
-  explicit Results(bool tension, const dem::Soundness &soundness = {})
-      : sign_(tension ? -1.0 : 1.0), soundness_(soundness) {}
+  // of the deviator (stress minus confining pressure) along the axis that the test loads (0 x, 1 y, 2 z),
+  // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends, cones and what
+  // the gauge measures are of a specimen that is loaded along z; along another axis they are not measured.
+  explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2)
+      : sign_(tension ? -1.0 : 1.0), soundness_(soundness), axis_(axis) {}
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
@@ -49,15 +50,16 @@ public:
   void finish(const coupling::PlatenTest &problem, const dem::EventWindow &window);
 
   // Of all samples; NaN where the run did not get there.
-  double strength() const;          // Pa, positive: largest axial stress, or that at the largest deviator
+  int axis() const { return axis_; }
+  double strength() const;          // Pa, positive: largest stress, or that at the largest deviator
   double deviator_strength() const; // Pa, positive
   // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
   double bulk_modulus() const;
-  double strain_at_peak_platen() const { return gained_at_peak(&Sample::strain_platen); }
-  double strain_at_peak_gauge() const { return gained_at_peak(&Sample::strain_gauge); }
+  double strain_at_peak_platen() const { return gained_at_peak(platen_strain(axis_)); }
+  double strain_at_peak_gauge() const { return of_axial(gained_at_peak(&Sample::strain_gauge)); }
   // Pa, secant at 40 % of the strength.
-  double youngs_modulus_gauge() const { return secant(&Sample::strain_gauge); }
-  double youngs_modulus_platen() const { return secant(&Sample::strain_platen); }
+  double youngs_modulus_gauge() const { return of_axial(secant(&Sample::strain_gauge)); }
+  double youngs_modulus_platen() const { return secant(platen_strain(axis_)); }
   double lateral_over_axial() const; // pressure on a wall over axial stress, at 40 % of its largest value
   // At 40 % of the strength: gauge, and Tannu's way.
   double poisson_ratio() const { return bulging(&Sample::lateral_strain, &Sample::strain_gauge); }
@@ -96,7 +98,8 @@ private:
   };
   Crossing ascending(double share) const;
   double at(const Crossing &crossing, double Sample::*value) const;
-  double stress(const Sample &s) const { return sign_ * s.deviator(); }
+  double stress(const Sample &s) const { return sign_ * s.deviator(axis_); }
+  double of_axial(double value) const { return axis_ == 2 ? value : not_measured; }
   const Sample &zero() const; // where the strains of the axial stage begin
   double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
   double gained_at_peak(double Sample::*value) const;
@@ -104,11 +107,12 @@ private:
   // Stress over what is gained, and minus what is gained across over what is gained along, at the share of
   // the strength where moduli are told.
   double secant(double Sample::*value) const;
-  double bulging(double Sample::*across, double Sample::*along) const;
+  double bulging(double Sample::*across, double Sample::*along) const; // of a test along z
   std::size_t whole_balance_from() const; // first sample where the balance says more than noise
 
   double sign_;
   dem::Soundness soundness_;
+  int axis_;
   std::vector<Sample> samples_;
   Pattern at_eighty_, last_;
   Emission emission_;

@@ -17,4 +17,5 @@ set(PLATEN_RUN_SOURCES
   run/results.cc
   run/run_state.cc
   run/specimen_setup.cc
+  run/stages_of_run.cc
   run/summary_of_run.cc)

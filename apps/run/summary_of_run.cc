@@ -8,6 +8,7 @@
 #include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
+#include "apps/run/stages_of_run.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
@@ -74,38 +75,13 @@ void add_sides(Json &to, const coupling::PlatenTest &problem, const Results &res
   const std::vector<coupling::Side> sides = further_sides(problem);
   if (sides.empty()) return;
   Json seats, stresses;
-  for (const coupling::Side side : sides) {
+  for (const coupling::Side side : sides)
     seats[coupling::name_of(side)] = problem.platen(side)->layer().seats();
+  for (const coupling::Side side : further_sides(problem, results.axis()))
     stresses[coupling::name_of(side)] = results.side_stress_at_peak(side);
-  }
   to["seated_sides"] = seats;
   to["side_stress_at_peak_pa"] = stresses;
   withdraw_moduli(to);
-}
-
-// Where each stage ended, of those that the scene writes.
-void add_stages(Json &to, const coupling::PlatenTest &problem, const Results &results) {
-  if (problem.settings().loading.stages.empty()) return;
-  Json stages = Json::array();
-  const std::vector<Sample> &samples = results.samples();
-  double largest = not_measured;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const Sample &s = samples[k];
-    largest = largest >= s.stress() ? largest : s.stress();
-    if (k + 1 < samples.size() && samples[k + 1].stage == s.stage) continue;
-    Json stage;
-    stage["stage"] = static_cast<int>(s.stage);
-    stage["end_s"] = s.time;
-    stage["axial_strain_platen"] = s.strain_platen;
-    stage["axial_strain_gauge"] = s.strain_gauge;
-    stage["lateral_strain"] = s.lateral_strain;
-    stage["axial_stress_pa"] = s.stress();
-    stage["largest_axial_stress_pa"] = largest;
-    stage["confining_pressure_pa"] = s.confining_pressure;
-    stages.push_back(stage);
-    largest = not_measured;
-  }
-  to["stages"] = stages;
 }
 
 // Of a disc: strength is 2 P / (pi D t); Young's modulus is not measured.
@@ -153,10 +129,10 @@ const char *app_of(const coupling::PlatenTest &problem) {
   return problem.shape().kind == dem::ShapeKind::disc ? "platen-brazilian" : "platen-compress";
 }
 
-std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem) {
+std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem, int axis) {
   std::vector<coupling::Side> sides;
   for (const coupling::Side side : coupling::all_sides)
-    if (coupling::axis_of(side) != 2 && problem.platen(side) != nullptr) sides.push_back(side);
+    if (coupling::axis_of(side) != axis && problem.platen(side) != nullptr) sides.push_back(side);
   return sides;
 }
 
@@ -173,6 +149,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   Json s = summary_head(scene, app_of(problem), status, effects_on(scene));
   s["effects_off"] = effects_off(scene);
   s["test"] = word_of(loading_tests, scene.loading.test);
+  s["loaded_axis"] = std::string(1, "xyz"[results.axis()]);
   s["particles"] = model.particles.size();
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
@@ -207,7 +184,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   add_cell(s, problem, results);
   add_wall(s, problem, results);
   add_sides(s, problem, results);
-  add_stages(s, problem, results);
+  add_stages(s, scene, problem, results);
   add_disc(s, problem, results);
   add_bar(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);

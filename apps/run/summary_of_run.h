@@ -27,8 +27,8 @@ nlohmann::ordered_json summary_of_run(const std::string &status, const Scene &sc
 // "platen-compress" or "platen-brazilian".
 const char *app_of(const coupling::PlatenTest &problem);
 
-// The sides with platens besides top and bottom.
-std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem);
+// The sides with platens besides those of an axis: top and bottom.
+std::vector<coupling::Side> further_sides(const coupling::PlatenTest &problem, int axis = 2);
 
 // Bytes of one bond in its columns and in its block.
 std::size_t bytes_per_bond(const dem::Model &model);

@@ -25,18 +25,11 @@ const std::vector<std::pair<std::string, Ask>> &words_of_asks() {
   return words;
 }
 
-const std::vector<std::pair<std::string, Reached>> &words_of_ends() {
-  static const std::vector<std::pair<std::string, Reached>> words{
-      {"strain change", Reached::strain_change},
-      {"strain", Reached::strain},
-      {"stress", Reached::stress},
-      {"share of peak", Reached::share_of_peak},
-      {"share of start", Reached::share_of_start},
-      {"circumferential strain", Reached::circumferential_strain},
-      {"time", Reached::time},
-      {"settled", Reached::settled}};
-  return words;
-}
+// "strain change" before "strain".
+constexpr std::array all_ends{Reached::strain_change,  Reached::strain,
+                              Reached::stress,         Reached::share_of_peak,
+                              Reached::share_of_start, Reached::circumferential_strain,
+                              Reached::time,           Reached::settled};
 
 // Takes a word and the blank after it from the front of a text.
 bool take(std::string &text, const std::string &word) {
@@ -92,9 +85,8 @@ std::string section_of_stage(std::size_t number) {
 }
 
 std::string key_of(SideGroup group) {
-  std::string key = coupling::name_of(group);
+  std::string key = coupling::words_of(group);
   key[0] = static_cast<char>(key[0] - 'a' + 'A');
-  std::replace(key.begin(), key.end(), '_', ' ');
   return key;
 }
 
@@ -147,10 +139,10 @@ std::vector<StageUntil> read_until(const std::string &text) {
     all = comma < all.size() ? tidy(all.substr(comma + 1)) : "";
     StageUntil end;
     if (const std::optional<SideGroup> of = take_side(item)) end.of = *of;
-    const auto found = std::find_if(words_of_ends().begin(), words_of_ends().end(),
-                                    [&](const auto &one) { return take(item, one.first); });
-    if (found == words_of_ends().end()) throw ValueError("has an end that is not known: \"" + item + "\"");
-    end.what = found->second;
+    const auto found = std::find_if(all_ends.begin(), all_ends.end(),
+                                    [&](Reached what) { return take(item, coupling::name_of(what)); });
+    if (found == all_ends.end()) throw ValueError("has an end that is not known: \"" + item + "\"");
+    end.what = *found;
     if (end.what == Reached::settled) {
       if (!item.empty()) throw ValueError("has \"" + item + "\" after settled");
     } else {

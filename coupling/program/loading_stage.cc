@@ -25,12 +25,30 @@ void LoadingStage::update(const Measures &m) {
   end_.update(m, m.time() - begun());
 }
 
-bool LoadingStage::has_ended(const Measures &m) const {
+int LoadingStage::reached(const Measures &m) const {
   const double passed = m.time() - begun();
   const bool settled =
       end_.needs_settled() && passed >= end_.parameters().least &&
       std::all_of(tasks_.begin(), tasks_.end(), [&](const auto &task) { return task->has_settled(m); });
-  return end_.is_reached(m, passed, settled);
+  return end_.reached(m, passed, settled);
+}
+
+void LoadingStage::end(const Measures &m) {
+  ended_by_ = reached(m);
+  for (const auto &task : tasks_)
+    task->end(m);
+}
+
+std::string LoadingStage::ended_by() const {
+  if (ended_by_ == StageEnd::too_late) return not_settled;
+  return ended_by_ > 0 ? name_of(end_.parameters().any[static_cast<std::size_t>(ended_by_) - 1].what) : "";
+}
+
+std::vector<AskedStress> LoadingStage::stresses_at_end() const {
+  std::vector<AskedStress> all;
+  for (const auto &task : tasks_)
+    if (const std::optional<AskedStress> one = task->stress_at_end()) all.push_back(*one);
+  return all;
 }
 
 double LoadingStage::progress(const Measures &m) const {
@@ -49,6 +67,9 @@ double LoadingStage::fastest() const {
 
 void LoadingStage::describe(Archive &archive) {
   Stage::describe(archive);
+  archive("ended_by", ended_by_, "1", 0);
+  if (ended_by_ < StageEnd::too_late || ended_by_ > static_cast<int>(end_.parameters().any.size()))
+    throw StateError("program: a stage ended by what it does not wait for");
   archive.part("end", end_);
   for (std::size_t k = 0; k < tasks_.size(); ++k)
     archive.part("task_" + std::to_string(k + 1), *tasks_[k]);

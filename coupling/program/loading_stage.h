@@ -22,7 +22,10 @@ public:
   std::string name() const override { return parameters_.name; }
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
-  bool has_ended(const Measures &m) const override;
+  bool has_ended(const Measures &m) const override { return reached(m) != 0; }
+  void end(const Measures &m) override;
+  std::string ended_by() const override;
+  std::vector<AskedStress> stresses_at_end() const override;
   double expected_seconds() const override { return parameters_.expected_seconds; }
   double progress(const Measures &m) const override;
   double fastest() const override;
@@ -33,9 +36,12 @@ protected:
   void on_begin(const Measures &m, const Handover &from) override;
 
 private:
+  int reached(const Measures &m) const; // as its end has it
+
   Parameters parameters_;
   std::vector<std::unique_ptr<Task>> tasks_;
   StageEnd end_;
+  int ended_by_ = 0; // as its end has it; 0: it goes on, or a checkpoint before there was this says nothing
 };
 
 } // namespace platen::coupling

@@ -48,6 +48,7 @@ void Program::command(Commands &asked) {
 void Program::update() {
   stages_[now_]->update(measures_);
   while (!finished_ && stages_[now_]->has_ended(measures_)) {
+    stages_[now_]->end(measures_);
     finished_ = now_ + 1 == stages_.size();
     if (finished_) return;
     ++now_;

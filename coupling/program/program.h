@@ -53,6 +53,12 @@ struct Handover {
   std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
 };
 
+// A stress that a stage asks of platens, and what they bear, at its end; Pa, compression positive.
+struct AskedStress {
+  std::string side; // "lateral x"
+  double asked = 0, borne = 0;
+};
+
 class Stage {
 public:
   virtual ~Stage() = default;
@@ -64,6 +70,13 @@ public:
   // After forces.
   virtual void update(const Measures &) {}
   virtual bool has_ended(const Measures &m) const = 0;
+  // Once, when it has ended.
+  virtual void end(const Measures &) {}
+  // Of one that has ended, where it says so: by what, "strain", "settled" or `not_settled`: its time was over
+  // and its stresses were not all borne; these stresses.
+  static constexpr const char *not_settled = "not settled";
+  virtual std::string ended_by() const { return ""; }
+  virtual std::vector<AskedStress> stresses_at_end() const { return {}; }
 
   virtual double expected_seconds() const = 0;            // until it ends, as far as that is known
   virtual double progress(const Measures &m) const = 0;   // 0 ... 1
@@ -100,6 +113,7 @@ public:
 
   bool finished() const { return finished_; }
   const Stage &stage() const { return *stages_[now_]; }
+  const Stage &stage(std::size_t number) const { return *stages_[number]; }
   double fastest() const; // m/s, closure speed of any stage
   double expected_seconds() const;
   double progress() const; // 0 ... 1, of all stages by their expected times
@@ -109,6 +123,7 @@ public:
   bool is_cycling() const;
   std::size_t stage_number() const { return now_; } // from 0
   std::size_t stage_count() const { return stages_.size(); }
+  std::size_t stages_ended() const { return now_ + (finished_ ? 1 : 0); }
   void describe(Archive &archive);
 
 private:

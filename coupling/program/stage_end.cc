@@ -1,6 +1,7 @@
 #include "coupling/program/stage_end.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,13 @@ bool is_share(const Until &until) {
 }
 
 } // namespace
+
+const char *name_of(Reached what) {
+  static constexpr std::array<const char *, 8> names{
+      "strain",         "strain change",          "stress", "share of peak",
+      "share of start", "circumferential strain", "time",   "settled"};
+  return names.at(static_cast<std::size_t>(what));
+}
 
 StageEnd::StageEnd(Parameters parameters)
     : parameters_(std::move(parameters)), seen_(parameters_.any.size()) {
@@ -79,11 +87,10 @@ bool StageEnd::is_met(const Measures &m, const Until &until, const Seen &seen, d
   }
 }
 
-bool StageEnd::is_reached(const Measures &m, double passed, bool settled) const {
-  if (passed >= parameters_.latest) return true;
+int StageEnd::reached(const Measures &m, double passed, bool settled) const {
   for (std::size_t k = 0; k < seen_.size(); ++k)
-    if (is_met(m, parameters_.any[k], seen_[k], passed, settled)) return true;
-  return false;
+    if (is_met(m, parameters_.any[k], seen_[k], passed, settled)) return static_cast<int>(k) + 1;
+  return passed >= parameters_.latest ? too_late : 0;
 }
 
 bool StageEnd::needs_settled() const {

@@ -28,6 +28,9 @@ struct Until {
   bool less_pressure = false; // stresses less the cell's pressure, where they are shares
 };
 
+// "strain change", "share of peak"
+const char *name_of(Until::Reached what);
+
 class StageEnd {
 public:
   struct Parameters {
@@ -40,8 +43,10 @@ public:
 
   void begin(const Measures &m, const Handover &from);
   void update(const Measures &m, double passed);
+  // Which of `any` is met, from 1; `too_late` where none is though the latest time has come; 0: it goes on.
   // `passed`: s since the stage began; `settled`: all tasks have.
-  bool is_reached(const Measures &m, double passed, bool settled) const;
+  static constexpr int too_late = -1;
+  int reached(const Measures &m, double passed, bool settled) const;
   bool needs_settled() const;
   double progress(const Measures &m, double passed) const; // 0 ... 1, of a strain or a time; else 0
   const Parameters &parameters() const { return parameters_; }

@@ -54,6 +54,19 @@ double StressTask::wanted(const Measures &m) const {
   return now + parameters_.lead * rate;
 }
 
+double StressTask::asked(const Measures &m) const {
+  return parameters_.followed ? parameters_.value * parameters_.followed->stress(m) : parameters_.value;
+}
+
+double StressTask::farthest(const Measures &m) const {
+  const double aim = asked(m);
+  double farthest = aim;
+  for (const PlatensOfAxis &platens : parameters_.settled_by)
+    if (const double now = platens.stress(m); !(std::abs(now - aim) <= std::abs(farthest - aim)))
+      farthest = now;
+  return farthest;
+}
+
 void StressTask::command(const Measures &m, Commands &asked) {
   const std::vector<std::size_t> &places = parameters_.platens.places;
   const double count = static_cast<double>(places.size());
@@ -81,11 +94,12 @@ void StressTask::update(const Measures &m) {
 
 bool StressTask::has_settled(const Measures &m) const {
   if (m.time() - begun_ < parameters_.ramp) return false;
-  const double asked =
-      parameters_.followed ? parameters_.value * parameters_.followed->stress(m) : parameters_.value;
-  return std::all_of(parameters_.settled_by.begin(), parameters_.settled_by.end(), [&](const auto &platens) {
-    return std::abs(platens.stress(m) - asked) < settled_share * std::abs(asked);
-  });
+  const double aim = asked(m);
+  return aim == 0 || std::abs(farthest(m) - aim) < settled_share * std::abs(aim);
+}
+
+void StressTask::end(const Measures &m) {
+  asked_at_end_ = asked(m), borne_at_end_ = farthest(m);
 }
 
 void StressTask::describe(Archive &archive) {
@@ -95,6 +109,8 @@ void StressTask::describe(Archive &archive) {
   archive("speed_found", speed_found_, "m/s");
   archive("followed", followed_, "Pa");
   archive("missing", missing_, "Pa");
+  archive("asked_at_end", asked_at_end_, "Pa", not_yet);
+  archive("borne_at_end", borne_at_end_, "Pa", not_yet);
   archive.part("servo", servo_);
 }
 

@@ -1,7 +1,9 @@
 // Platens that bear a stress, or a share of what other platens bear, by a servo.
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "coupling/program/platen_speed.h"
@@ -16,6 +18,7 @@ class StressTask : public Task {
 public:
   struct Parameters {
     PlatensOfAxis platens;
+    std::string side;                      // in words, "lateral x"
     double value = 0;                      // Pa; 1 of `followed`
     std::optional<PlatensOfAxis> followed; // none: a stress
     double ramp = 0, lead = 0, lag = 0;    // s; lag > 0 where there is a followed one
@@ -34,16 +37,24 @@ public:
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override;
+  void end(const Measures &m) override;
+  std::optional<AskedStress> stress_at_end() const override {
+    return AskedStress{parameters_.side, asked_at_end_, borne_at_end_};
+  }
   double fastest() const override { return parameters_.servo.velocity_limit; }
   void describe(Archive &archive) override;
 
 private:
-  double wanted(const Measures &m) const; // Pa
+  static constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
+  double wanted(const Measures &m) const;   // Pa, now
+  double asked(const Measures &m) const;    // Pa, beyond the ramp
+  double farthest(const Measures &m) const; // Pa, of those that have to bear what is asked
 
   Parameters parameters_;
   Servo servo_;
-  double begun_ = 0, stress_found_ = 0, speed_found_ = 0; // s, Pa, m/s
-  double followed_ = 0, missing_ = 0;                     // Pa: smoothed; over time, what was missing
+  double begun_ = 0, stress_found_ = 0, speed_found_ = 0;  // s, Pa, m/s
+  double followed_ = 0, missing_ = 0;                      // Pa: smoothed; over time, what was missing
+  double asked_at_end_ = not_yet, borne_at_end_ = not_yet; // Pa
 };
 
 } // namespace platen::coupling

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/archive.h"
@@ -42,6 +43,9 @@ public:
   virtual void update(const Measures &) {}
   // The specimen bears what is asked.
   virtual bool has_settled(const Measures &) const { return true; }
+  // Once, when its stage has ended; what it asked of platens then, and what they bore.
+  virtual void end(const Measures &) {}
+  virtual std::optional<AskedStress> stress_at_end() const { return std::nullopt; }
   virtual double fastest() const { return 0; } // m/s, closure speed that it may ask for
   virtual void describe(Archive &archive) = 0;
 };

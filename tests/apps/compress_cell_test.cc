@@ -139,9 +139,62 @@ TEST_F(Cell, stages_are_what_the_keys_mean) {
     EXPECT_EQ(column("keys", name), column("stages", name)) << name;
   ASSERT_EQ(by_stages["stages"].size(), 4u);
   EXPECT_FALSE(by_keys.contains("stages"));
+  const std::vector<std::string> ends{"settled", "strain", "share of start", "strain"};
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    EXPECT_EQ(by_stages["stages"][k]["ended_by"], ends[k]) << k;
   const std::vector<double> stage = column("stages", "stage");
   EXPECT_EQ(stage.front(), 1);
   EXPECT_EQ(stage.back(), 4);
+}
+
+// A ramp of a few wave crossings leaves no time: the run says so when it happens and at its end, and a run
+// that was stopped between says the same.
+TEST_F(Cell, a_stage_that_does_not_settle_is_told) {
+  const std::vector<std::string> entries{"Loading/Stop at residual = 0",
+                                         "Loading/Confinement = particles",
+                                         "Loading/Stage 1/Lateral = pressure 3 MPa",
+                                         "Loading/Stage 1/Top = stress 3 MPa",
+                                         "Loading/Stage 1/Ramp = 3 us",
+                                         "Loading/Stage 1/Until = settled",
+                                         "Loading/Stage 2/Axial = rate",
+                                         "Loading/Stage 2/Until = strain 0.3 %",
+                                         "Loading/Stage 3/Axial = stress 3 MPa",
+                                         "Loading/Stage 3/Until = time 10 us",
+                                         "Checkpoint/Every = 100"};
+  const nlohmann::json s = crush("hasty", entries);
+  ASSERT_EQ(s["stages"].size(), 3u);
+  EXPECT_EQ(s["stages"][0]["ended_by"], "not settled");
+  EXPECT_EQ(s["stages"][1]["ended_by"], "strain");
+  EXPECT_EQ(s["stages"][2]["ended_by"], "time");
+  const auto told = [&](const std::string &name) {
+    const std::string log = content_of(folder_ / name / "run.log");
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; (at = log.find("stage 1 did not settle", at)) != std::string::npos; ++at)
+      lines.push_back(log.substr(at, log.find('\n', at) - at));
+    return lines;
+  };
+  const std::vector<std::string> lines = told("hasty");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_TRUE(contains(lines[0], "in its time: top ")) << lines[0];
+  EXPECT_TRUE(contains(lines[0], " of 3 MPa")) << lines[0];
+  EXPECT_EQ(lines[0], lines[1]);
+  EXPECT_FALSE(contains(content_of(folder_ / "hasty/run.log"), "stage 2 did"));
+
+  std::vector<std::string> arguments{test_scene("crushed.prm"), "-o", "stopped", "-s", "Output/Fields = off"};
+  for (const std::string &entry : entries)
+    arguments.insert(arguments.end(), {"-s", entry});
+  Program program(compress_command(arguments), folder_);
+  EXPECT_TRUE(program.wait_until([&] { return lines_in(folder_ / "stopped/history.csv") >= 20; }));
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait(), 143);
+  const nlohmann::json part = summary_in(folder_ / "stopped");
+  EXPECT_EQ(part["stages"][0]["ended_by"], "not settled");
+  EXPECT_EQ(part["stages"].back()["ended_by"], "stopped");
+  arguments.push_back("--resume");
+  const Outcome rest = run_compress(arguments, folder_);
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  EXPECT_EQ(summary_in(folder_ / "stopped")["stages"], s["stages"]);
+  EXPECT_EQ(told("stopped"), (std::vector<std::string>{lines[0], lines[0], lines[0]}));
 }
 
 // Held between its own servo and the specimen: the stress stays, and what is loaded again climbs where it

@@ -65,6 +65,7 @@ TEST_F(Sides, held_sides_bear_what_a_stiff_wall_bears) {
   // Neither is measured where sides are held.
   EXPECT_TRUE(six["youngs_modulus_gauge_pa"].is_null());
   EXPECT_TRUE(six["poisson_ratio"].is_null());
+  EXPECT_EQ(six["loaded_axis"], "z");
   EXPECT_EQ(six["side_stress_at_peak_pa"].size(), 4u);
   EXPECT_EQ(six["side_stress_at_peak_pa"]["left"], last("six", "stress_left_pa")); // it ends at its peak
   EXPECT_GT(six["seated_sides"]["back"], 20);
@@ -150,6 +151,38 @@ TEST_F(Sides, frames_hold_all_platens_and_the_start_tells_them) {
   EXPECT_TRUE(contains(outcome.out, ", back "));
   EXPECT_TRUE(contains(outcome.out, "  top, bottom, right, front, back platens: custom, friction 0 static"));
   EXPECT_TRUE(contains(outcome.out, "  left platen: grease, friction 0.0048 static"));
+}
+
+// The platens of the sides crush the box between top and bottom that bear a stress.
+TEST_F(Sides, strength_follows_the_axis_that_stages_drive) {
+  const nlohmann::json s = press(
+      "across", {"Bond/Tensile strength = 6 MPa", "Bond/Shear strength = 15 MPa",
+                 "Loading/Stop at residual = 0.75", "Loading/Stage 1/Axial = stress 1 MPa",
+                 "Loading/Stage 1/Lateral = stress 1 MPa", "Loading/Stage 1/Until = settled",
+                 "Loading/Stage 2/Lateral x = rate", "Loading/Stage 2/Axial = stress 1 MPa",
+                 "Loading/Stage 2/Lateral y = stress 1 MPa", "Loading/Stage 2/Until = Lateral x strain 3 %"});
+  const auto column = [&](const char *name) { return column_of(folder_ / "across/history.csv", name); };
+  const std::vector<double> stage = column("stage"), left = column("stress_left_pa"),
+                            right = column("stress_right_pa"), strain = column("strain_x"),
+                            top = column("axial_stress_top_pa");
+  std::size_t peak = 0, zero = 0;
+  for (std::size_t k = 0; k < stage.size(); ++k) {
+    if (stage[k] == 1) zero = peak = k;
+    if (left[k] + right[k] > left[peak] + right[peak]) peak = k;
+  }
+  EXPECT_EQ(s["loaded_axis"], "x");
+  EXPECT_EQ(s["strength_pa"], 0.5 * (left[peak] + right[peak]));
+  EXPECT_GT(s["strength_pa"], 10e6);
+  EXPECT_EQ(s["strain_at_peak_platen"], strain[peak] - strain[zero]);
+  EXPECT_EQ(s["side_stress_at_peak_pa"]["top"], top[peak]);
+  EXPECT_FALSE(s["side_stress_at_peak_pa"].contains("left"));
+  EXPECT_EQ(s["stages"][1]["ended_by"], "stop at residual");
+  EXPECT_EQ(s["stages"][1]["stress_x_pa"], 0.5 * (left.back() + right.back()));
+  EXPECT_EQ(s["stages"][1]["strain_x"], strain.back());
+  EXPECT_LT(left.back() + right.back(), 2 * 0.75 * s["strength_pa"].get<double>());
+  for (const char *key : {"cone_top", "cone_bottom", "pattern", "end_damage_top", "middle_damage",
+                          "end_spread", "barrel_at_peak", "strain_at_peak_gauge", "final_end_damage_top"})
+    EXPECT_TRUE(s[key].is_null()) << key;
 }
 
 // What the packed shape and the library decide is told by file, line, key and value too.

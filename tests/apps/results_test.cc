@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/platen_test.h"
+#include <cmath>
+
+#include "coupling/program_of_test.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/coupling/elastic_problem.h"
 
@@ -47,6 +49,95 @@ TEST_F(FallenTo, without_bonds_a_fall_is_a_fall) {
   at(6e5, 0);
   EXPECT_TRUE(results_.fallen_to(0.7));
   EXPECT_FALSE(results_.fallen_to(0.5));
+}
+
+// A box between six platens, those along x driven.
+coupling::PlatenTestSettings driven_along_x() {
+  coupling::PlatenTestSettings s = coupling::elastic_settings(0.5);
+  coupling::PlatenSide side;
+  s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
+  coupling::StageSettings stage;
+  stage.asks.emplace_back();
+  stage.asks.back().side = coupling::SideGroup::lateral_x;
+  stage.asks.back().ask = coupling::SideAsk::Ask::rate;
+  stage.asks.back().value = 0.1;
+  stage.until = {{coupling::Until::Reached::time, 1}};
+  s.loading.stages = {stage};
+  return s;
+}
+
+class Along : public testing::Test {
+protected:
+  Along() { problem_.advance(500); }
+  // Stresses along x and y in Pa, strains there of x; the axial platens bear and close more.
+  bool at(Results &results, double x, double strain_x, double y, double axial_stage = 1) {
+    Sample s;
+    s.time = ++time_;
+    s.stress_left = 1.1 * x, s.stress_right = 0.9 * x, s.strain_x = strain_x;
+    s.stress_front = 1.2 * y, s.stress_back = 0.8 * y, s.strain_y = 2 * strain_x;
+    s.stress_top = s.stress_bottom = 60e6 + x, s.strain_platen = 7 * strain_x, s.strain_gauge = 5 * strain_x;
+    s.lateral_strain = -strain_x;
+    s.broken_tension = time_, s.intact_bonds = 100 - time_;
+    s.axial_stage = axial_stage;
+    return results.add(s, problem_);
+  }
+  void crush(Results &results) {
+    at(results, 1e6, 1e-4, 1e6, 0);
+    at(results, 10e6, 5e-4, 1e6);
+    at(results, 20e6, 1.1e-3, 2e6);
+    EXPECT_FALSE(at(results, 17e6, 1.2e-3, 30e6));
+    EXPECT_FALSE(results.fallen_to(0.85));
+    const bool fallen = at(results, 15e6, 1.3e-3, 20e6);
+    EXPECT_EQ(fallen, results.axis() != 2);
+    results.finish(problem_, {});
+  }
+  double time_ = 0;
+  coupling::PlatenTest problem_{
+      dem::advancing_front(dem::box(10e-3, 10e-3, 12e-3), dem::equal_radii(1e-3), 3), driven_along_x()};
+};
+
+TEST_F(Along, strength_and_strain_are_of_the_axis_that_is_driven) {
+  Results x(false, {}, 0), y(false, {}, 1), z(false, {}, 2);
+  for (Results *results : {&x, &y, &z})
+    time_ = 0, crush(*results);
+  EXPECT_NEAR(x.strength(), 20e6, 1);
+  EXPECT_NEAR(x.strain_at_peak_platen(), 1e-3, 1e-15); // since the end of the consolidation
+  EXPECT_NEAR(x.youngs_modulus_platen(), 8e6 / (1e-4 + 4e-4 * 7 / 9 - 1e-4), 1);
+  EXPECT_EQ(x.time_at_peak(), 3);
+  EXPECT_TRUE(x.fallen_to(0.8));
+  EXPECT_FALSE(x.fallen_to(0.7));
+  EXPECT_NEAR(y.strength(), 30e6, 1);
+  EXPECT_NEAR(y.strain_at_peak_platen(), 2.2e-3, 1e-15);
+  EXPECT_TRUE(y.fallen_to(0.7));
+  EXPECT_NEAR(z.strength(), 80e6, 1);
+  EXPECT_NEAR(z.strain_at_peak_platen(), 7e-3, 1e-15);
+  EXPECT_FALSE(z.fallen_to(0.9));
+  EXPECT_EQ(x.side_stress_at_peak(coupling::Side::top), 80e6);
+}
+
+TEST_F(Along, the_pattern_is_taken_where_that_stress_has_fallen) {
+  ASSERT_EQ(coupling::loaded_axis(problem_), 0);
+  ASSERT_GT(std::abs(problem_.closure_strain(0)), 1e-5);
+  Results x(false, {}, 0), z(false, {}, 2);
+  crush(x), time_ = 0, crush(z);
+  EXPECT_EQ(x.pattern().strain, problem_.closure_strain(0));
+  EXPECT_EQ(x.pattern().broken_tension, 0);
+  EXPECT_TRUE(std::isnan(z.pattern().strain));
+  EXPECT_EQ(z.last_pattern().strain, problem_.closure_strain());
+}
+
+// Ends, cones and the gauge are those of a specimen that is loaded along z.
+TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
+  Results x(false, {}, 0), z(false, {}, 2);
+  crush(x), time_ = 0, crush(z);
+  for (Results *results : {&x, &z}) {
+    const dem::FailureMeasures &failure = results->last_pattern().failure;
+    for (const double value :
+         {failure.broken_share, failure.damage.end_top, failure.damage.middle,
+          results->strain_at_peak_gauge(), results->youngs_modulus_gauge(), results->poisson_ratio()})
+      EXPECT_EQ(std::isnan(value), results == &x);
+  }
+  EXPECT_TRUE(std::isnan(x.pattern().failure.broken_share));
 }
 
 } // namespace

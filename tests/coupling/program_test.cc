@@ -70,6 +70,7 @@ std::shared_ptr<Drive> drive_of_both(const std::optional<RateControl::Parameters
 std::unique_ptr<Task> stress_on_top(double stress, double ramp) {
   StressTask::Parameters p;
   p.platens = top;
+  p.side = "top";
   p.value = stress;
   p.ramp = ramp;
   p.servo = {10, 0.1};
@@ -343,6 +344,75 @@ TEST(consolidation, does_not_wait_for_ever) {
   EXPECT_TRUE(program.finished());
 }
 
+// What it tells stays what it was at the end, and goes with the state; a state from before it was told says
+// nothing.
+TEST(consolidation, tells_that_its_stress_was_not_borne) {
+  for (const double borne : {3.95e6, 3.97e6}) {
+    const bool settles = borne > 3.96e6;
+    Seen seen;
+    Program program(seen, list_of(consolidation(4e6)));
+    seen.stress = borne, seen.now = settles ? 1.6e-3 : 3e-3;
+    ask(program);
+    EXPECT_EQ(program.stage(0).ended_by(), "");
+    EXPECT_EQ(program.stages_ended(), 0u);
+    program.update();
+    seen.stress = 1e6;
+    Program resumed(seen, list_of(consolidation(4e6))), older(seen, list_of(consolidation(4e6)));
+    const State state = state_of(program);
+    set_state(resumed, state);
+    set_state(older, without(without(state, "ended_by"), "at_end"));
+    EXPECT_TRUE(same_state(program, resumed));
+    for (const Program *one : {&program, &resumed}) {
+      EXPECT_EQ(one->stages_ended(), 1u);
+      EXPECT_EQ(one->stage(0).ended_by(), settles ? "settled" : "not settled");
+      const std::vector<AskedStress> stresses = one->stage(0).stresses_at_end();
+      ASSERT_EQ(stresses.size(), 1u);
+      EXPECT_EQ(stresses[0].side, "top");
+      EXPECT_EQ(stresses[0].asked, 4e6);
+      EXPECT_EQ(stresses[0].borne, borne);
+    }
+    EXPECT_EQ(older.stages_ended(), 1u);
+    EXPECT_EQ(older.stage(0).ended_by(), "");
+    for (const std::string &name : state.names())
+      if (name.find("ended_by") != std::string::npos) {
+        EXPECT_THROW(set_state(older, with_rows(state, name, std::vector<int>{2})), StateError);
+        EXPECT_THROW(set_state(older, with_rows(state, name, std::vector<int>{-2})), StateError);
+      }
+  }
+}
+
+// Of platens that have to bear it each by itself the one that is farthest is told.
+TEST(stress, the_platen_that_is_farthest_from_it_is_told) {
+  struct Uneven : Seen {
+    double load(std::size_t boundary) const override { return area * (boundary == 0 ? 4.98e6 : low); }
+    double low = 4.94e6;
+  } seen;
+  StressTask::Parameters p;
+  p.platens = {{0, 1}, area, 0.1, 0}; // along x
+  p.value = 5e6;
+  p.servo = {10, 0.1};
+  StressTask task(p);
+  task.begin(seen, 0, {});
+  EXPECT_FALSE(task.has_settled(seen)); // though their mean is within 1 %
+  task.end(seen);
+  EXPECT_EQ(task.stress_at_end()->borne, 4.94e6);
+  seen.low = 5.04e6;
+  EXPECT_TRUE(task.has_settled(seen));
+  task.end(seen);
+  EXPECT_EQ(task.stress_at_end()->borne, 5.04e6);
+}
+
+// One per cent of nothing would never be reached.
+TEST(stress, none_has_settled_after_its_ramp) {
+  Seen seen;
+  const std::unique_ptr<Task> task = stress_on_top(0, 1e-3);
+  task->begin(seen, 0, {});
+  seen.stress = 10, seen.now = 0.9e-3;
+  EXPECT_FALSE(task->has_settled(seen));
+  seen.now = 1.1e-3;
+  EXPECT_TRUE(task->has_settled(seen));
+}
+
 TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
   Seen seen;
   seen.pressure = 10e6, seen.stress = 16e6; // a deviator of 6 MPa
@@ -427,8 +497,8 @@ TEST(stage_end, is_met_at_its_value) {
     const Case &c = cases[k];
     StageEnd end({{c.until}, 0, 0, std::numeric_limits<double>::infinity()});
     end.begin(c.at_begin, handover);
-    EXPECT_FALSE(end.is_reached(c.before, c.before.now - 1, false)) << k;
-    EXPECT_TRUE(end.is_reached(c.at, c.at.now - 1, false)) << k;
+    EXPECT_EQ(end.reached(c.before, c.before.now - 1, false), 0) << k;
+    EXPECT_EQ(end.reached(c.at, c.at.now - 1, false), 1) << k;
   }
 }
 
@@ -441,13 +511,42 @@ TEST(stage_end, a_share_of_the_peak_counts_after_the_ramp) {
   const auto at = [&](double passed, double stress) {
     seen.stress = stress;
     end.update(seen, passed);
-    return end.is_reached(seen, passed, false);
+    return end.reached(seen, passed, false) == 1;
   };
   EXPECT_FALSE(at(1e-4, 3e6));
   EXPECT_FALSE(at(2e-4, 1.5e6)); // waves of the start
   EXPECT_FALSE(at(2e-3, 11e6));
   EXPECT_FALSE(at(3e-3, 6.1e6));
   EXPECT_TRUE(at(4e-3, 6e6)); // 5 of 10 MPa
+}
+
+// The first of the list that is met; that its time is over counts where none is.
+TEST(stage_end, says_which_of_its_list_it_was) {
+  using R = Until::Reached;
+  Seen seen;
+  StageEnd end({{until(R::strain, 1e-3), until(R::settled, 0), until(R::stress, 9e6)}, 0, 1e-3, 2e-3});
+  end.begin(seen, {});
+  EXPECT_EQ(end.reached(seen, 0.9e-3, true), 0); // not before it has gone on for its least time
+  EXPECT_EQ(end.reached(seen, 1e-3, true), 2);
+  EXPECT_EQ(end.reached(seen, 1.999e-3, false), 0);
+  EXPECT_EQ(end.reached(seen, 2e-3, false), StageEnd::too_late);
+  EXPECT_EQ(end.reached(seen, 2e-3, true), 2);
+  seen.stress = 9e6;
+  EXPECT_EQ(end.reached(seen, 2e-3, false), 3);
+  seen.closure = 1e-3;
+  EXPECT_EQ(end.reached(seen, 2e-3, true), 1);
+}
+
+TEST(stage_end, every_end_has_its_word) {
+  using R = Until::Reached;
+  EXPECT_STREQ(name_of(R::strain), "strain");
+  EXPECT_STREQ(name_of(R::strain_change), "strain change");
+  EXPECT_STREQ(name_of(R::stress), "stress");
+  EXPECT_STREQ(name_of(R::share_of_peak), "share of peak");
+  EXPECT_STREQ(name_of(R::share_of_start), "share of start");
+  EXPECT_STREQ(name_of(R::circumferential_strain), "circumferential strain");
+  EXPECT_STREQ(name_of(R::time), "time");
+  EXPECT_STREQ(name_of(R::settled), "settled");
 }
 
 // The strain asked is the integral of a smooth start; the platens close faster where the specimen lags, and

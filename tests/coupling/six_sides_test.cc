@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "coupling/program_of_test.h"
 #include "dem/packing/advancing_front.h"
 #include "fem/grids.h"
 #include "tests/coupling/small_cylinder.h"
@@ -207,6 +208,37 @@ TEST(six_sides, meshes_lie_on_their_sides_and_short_of_each_other) {
   EXPECT_LT(norm(low - Vector3{-0.5 * edge - 2e-3, -5e-3, 0.5 * edge - 3e-3}), 1e-12);
   EXPECT_LT(norm(high - Vector3{-0.5 * edge, 5e-3, 0.5 * edge + 3e-3}), 1e-12);
   refuses(cube(), with_mesh(5.9e-3), "platens.left.grid", "along y, where the platen");
+}
+
+// The axis of the platens that go at a rate, the axial one among several; what holds or bears a stress loads
+// nothing.
+TEST(six_sides, a_test_loads_the_axis_that_its_stages_drive) {
+  using G = SideGroup;
+  using Ask = SideAsk::Ask;
+  const auto axis = [](const std::vector<SideAsk> &first, const std::vector<SideAsk> &second) {
+    PlatenTestSettings settings = six_platens();
+    settings.loading.stages = {{}, {}};
+    settings.loading.stages[0].asks = first, settings.loading.stages[1].asks = second;
+    for (StageSettings &stage : settings.loading.stages)
+      stage.until = {{Until::Reached::time, 1e-3}};
+    return loaded_axis(PlatenTest(cube(), settings));
+  };
+  const SideAsk held = asked_of(G::axial, Ask::stress, 1e6), x = asked_of(G::lateral_x, Ask::rate, 0.1),
+                left = asked_of(G::left, Ask::rate, 0.1), y = asked_of(G::lateral_y, Ask::rate, 0.1),
+                top = asked_of(G::top, Ask::rate, 0.1), sides = asked_of(G::lateral, Ask::rate, 0.1),
+                stress_x = asked_of(G::lateral_x, Ask::stress, 2e6);
+  EXPECT_EQ(axis({held}, {x, held}), 0);
+  EXPECT_EQ(axis({held}, {left, held}), 0);
+  EXPECT_EQ(axis({held, stress_x}, {y, held}), 1);
+  EXPECT_EQ(axis({x}, {y, held}), 0);
+  EXPECT_EQ(axis({y}, {x, held}), 1);
+  EXPECT_EQ(axis({x}, {top}), 2);
+  EXPECT_EQ(axis({held}, {stress_x}), 2);
+  EXPECT_EQ(axis({held}, {sides}), 0);
+  PlatenTestSettings by_keys = six_platens();
+  by_keys.loading.stages.clear();
+  by_keys.loading.rate = 0.1;
+  EXPECT_EQ(loaded_axis(PlatenTest(cube(), by_keys)), 2);
 }
 
 // Steel would meet steel: the run ends before it does, and says which platen.

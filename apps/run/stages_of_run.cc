@@ -1,0 +1,65 @@
+#include "apps/run/stages_of_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace platen::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Null where a checkpoint before this was told says nothing.
+Json ended_by(std::size_t stage, const Scene &scene, const coupling::PlatenTest &problem,
+              const Results &results) {
+  const coupling::Program &program = problem.program();
+  if (stage < program.stages_ended()) {
+    const std::string word = program.stage(stage).ended_by();
+    return word.empty() ? Json() : Json(word);
+  }
+  const double share = scene.loading.stop_at_residual;
+  return share > 0 && results.fallen_to(share) ? "stop at residual" : "stopped";
+}
+
+} // namespace
+
+void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
+  if (problem.settings().loading.stages.empty()) return;
+  Json stages = Json::array();
+  const std::vector<Sample> &samples = results.samples();
+  double largest = not_measured;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Sample &s = samples[k];
+    largest = largest >= s.stress() ? largest : s.stress();
+    if (k + 1 < samples.size() && samples[k + 1].stage == s.stage) continue;
+    Json stage;
+    stage["stage"] = static_cast<int>(s.stage);
+    stage["ended_by"] = ended_by(static_cast<std::size_t>(s.stage) - 1, scene, problem, results);
+    stage["end_s"] = s.time;
+    stage["axial_strain_platen"] = s.strain_platen;
+    stage["axial_strain_gauge"] = s.strain_gauge;
+    stage["lateral_strain"] = s.lateral_strain;
+    stage["axial_stress_pa"] = s.stress();
+    stage["largest_axial_stress_pa"] = largest;
+    stage["confining_pressure_pa"] = s.confining_pressure;
+    for (const int axis : {0, 1})
+      if (!problem.platens_along(axis).places.empty()) {
+        stage[std::string("strain_") + "xy"[axis]] = s.*platen_strain(axis);
+        stage[std::string("stress_") + "xy"[axis] + "_pa"] = s.stress(axis);
+      }
+    stages.push_back(stage);
+    largest = not_measured;
+  }
+  to["stages"] = stages;
+}
+
+std::string unsettled_words(const coupling::PlatenTest &problem, std::size_t stage) {
+  const coupling::Stage &over = problem.program().stage(stage);
+  if (over.ended_by() != coupling::Stage::not_settled) return "";
+  std::vector<std::string> stresses;
+  for (const coupling::AskedStress &one : over.stresses_at_end())
+    stresses.push_back(fmt::format("{} {:.4g} of {:.4g} MPa", one.side, 1e-6 * one.borne, 1e-6 * one.asked));
+  return fmt::format("stage {} did not settle in its time: {}; a longer Hold gives it more", stage + 1,
+                     fmt::join(stresses, ", "));
+}
+
+} // namespace platen::apps
