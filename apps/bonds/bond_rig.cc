@@ -69,6 +69,8 @@ dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiff
   settings.bond_layout.gap.relative = true;
   if (auto *bond = std::get_if<dem::ParallelBond::Parameters>(&*settings.bond))
     bond->stiffness_ratio = stiffness_ratio;
+  if (auto *bond = std::get_if<dem::YieldingParallelBond::Parameters>(&*settings.bond))
+    bond->stiffness_ratio = stiffness_ratio;
   return settings;
 }
 

@@ -2,40 +2,66 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace platen::apps {
 namespace {
 
-constexpr double beside_failure = 1e-9; // of the displacement of failure: rows stand on both of its sides
+// Of the displacement of failure: rows stand on both of its sides. What turns is known less closely.
+constexpr double beside_failure = 1e-9, beside_turned_failure = 1e-6;
 
 // Share of the softening that is used up at a displacement so far.
 double share(const SofteningByHand &of, double farthest) {
-  if (!std::isfinite(of.limit())) return 0;
-  return std::clamp((farthest - of.limit()) / (of.end() - of.limit()), 0.0, 1.0);
+  return std::isfinite(of.limit()) ? of.damage(farthest / of.limit()) : 0;
+}
+
+void take(InterfaceSection &s, const dem::ElastoDamagePlastic &law) {
+  const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
+  s.shear_ratio = 0.5 / (1 + p.poisson_ratio);
+  s.friction_static = p.friction_static, s.friction_dynamic = p.friction_dynamic;
+  s.softening_tension = p.softening_tension, s.softening_shear = p.softening_shear;
+  s.fracture_energy_tension = p.fracture_energy_tension, s.fracture_energy_shear = p.fracture_energy_shear;
+  s.coupled = p.failure_line == dem::FailureLine::coupled;
+}
+void take(InterfaceSection &s, const dem::YieldingParallelBond &law) {
+  s.arms_at_rest = true;
+  s.shear_ratio = law.parameters.stiffness_ratio;
+  s.friction_static = std::tan(law.parameters.friction_angle), s.friction_dynamic = law.grain_friction;
 }
 
 } // namespace
 
+InterfaceSection section_of(const dem::BondLaw &law, double length, double area, double modulus) {
+  InterfaceSection s;
+  s.length = length, s.area = area, s.modulus = modulus;
+  const bool remembers = dem::of_remembering(law, [&](const auto &of) {
+    s.tensile_strength = of.parameters.tensile_strength, s.shear_strength = of.parameters.shear_strength;
+    s.compression = of.compression;
+    take(s, of);
+    return true;
+  });
+  if (!remembers) throw std::logic_error("a bond without history has other closed forms");
+  return s;
+}
+
 SofteningByHand InterfaceSection::tension() const {
-  const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
-  SofteningByHand s{dem::never_if_zero(p.tensile_strength), normal_stiffness(), p.softening_tension};
-  if (p.fracture_energy_tension > 0)
-    s.softening = 2 * p.fracture_energy_tension * s.stiffness / (s.strength * s.strength);
+  SofteningByHand s{dem::never_if_zero(tensile_strength), normal_stiffness(), softening_tension};
+  if (fracture_energy_tension > 0)
+    s.softening = 2 * fracture_energy_tension * s.stiffness / (s.strength * s.strength);
   return s;
 }
 
 SofteningByHand InterfaceSection::shear(double pressure) const {
-  const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
-  const double strength = dem::never_if_zero(p.shear_strength);
-  SofteningByHand s{strength + p.friction_static * pressure, shear_stiffness(), p.softening_shear};
-  if (p.fracture_energy_shear > 0)
-    s.softening = 2 * p.fracture_energy_shear * s.stiffness / (strength * strength);
+  const double strength = dem::never_if_zero(shear_strength);
+  SofteningByHand s{strength + friction_static * pressure, shear_stiffness(), softening_shear};
+  if (fracture_energy_shear > 0)
+    s.softening = 2 * fracture_energy_shear * s.stiffness / (strength * strength);
   return s;
 }
 
 double InterfaceSection::yield_stress(double closing) const {
   double at = 0, stress = 0, slope = normal_stiffness();
-  for (const auto &branch : law.compression.branches) {
+  for (const auto &branch : compression.branches) {
     const double next = at + (branch.limit - stress) / slope;
     if (closing <= next) break;
     at = next, stress = branch.limit, slope = normal_stiffness() / branch.slope;
@@ -45,7 +71,7 @@ double InterfaceSection::yield_stress(double closing) const {
 
 double InterfaceSection::closing_at(double wanted) const {
   double at = 0, stress = 0, slope = normal_stiffness();
-  for (const auto &branch : law.compression.branches) {
+  for (const auto &branch : compression.branches) {
     if (wanted <= branch.limit) break;
     at += (branch.limit - stress) / slope;
     stress = branch.limit, slope = normal_stiffness() / branch.slope;
@@ -60,21 +86,36 @@ double InterfaceByHand::pressure() const {
   return std::max(0.0, -section_.normal_stiffness() * (at_.opening + plastic_));
 }
 
+double InterfaceByHand::stretch() const {
+  return section_.friction_dynamic * pressure() / section_.shear_stiffness();
+}
+
+// Both spheres have turned by slip/d, the arms at rest with them.
+double InterfaceByHand::own_slip(double slip) const {
+  if (!section_.arms_at_rest) return slip;
+  return section_.length * std::sin(slip / (section_.length + at_.opening));
+}
+
+double InterfaceByHand::slip_of(double own) const {
+  if (!section_.arms_at_rest) return own;
+  return (section_.length + at_.opening) * std::asin(own / section_.length);
+}
+
 InterfaceByHand::Used InterfaceByHand::used() const {
   const SofteningByHand tension = section_.tension(), shear = section_.shear(0);
   const double n = widest_ / tension.limit(), s = slip_ratio_ * widest_ / shear.limit();
-  if (section_.law.parameters.failure_line == dem::FailureLine::coupled) return {n + s, n + s};
+  if (section_.coupled) return {n + s, n + s};
   return {n, s};
 }
 
 double InterfaceByHand::tension_damage() const {
   const SofteningByHand tension = section_.tension();
-  if (combined_) return std::clamp((used().tension - 1) / tension.softening, 0.0, 1.0);
+  if (combined_) return tension.damage(used().tension);
   return share(tension, widest_);
 }
 
 double InterfaceByHand::shear_damage() const {
-  if (combined_) return std::clamp((used().shear - 1) / section_.shear(0).softening, 0.0, 1.0);
+  if (combined_) return section_.shear(0).damage(used().shear);
   return share(section_.shear(pressure()), farthest_);
 }
 
@@ -92,7 +133,11 @@ InterfaceByHand::Stresses InterfaceByHand::stresses() const {
   const double dn = tension_damage(), ds = failed_ ? 1 : shear_damage();
   s.normal = kn * open;
   if (open > 0 && dn > 0) s.normal = failed_ ? 0 : tension.strength * (1 - dn) * open / widest_;
-  s.cohesion = ks * at_.slip;
+  // The moment of a force at these arms is what the energy gives: K u_s over the lever of the present
+  // distance.
+  const double lean = section_.arms_at_rest ? section_.length / (section_.length + at_.opening) : 1.0;
+  const double turn = section_.arms_at_rest ? at_.slip / (section_.length + at_.opening) : 0.0;
+  s.cohesion = ks * own_slip(at_.slip) * lean * std::cos(turn);
   if (ds > 0) s.cohesion = ds < 1 ? shear.strength * (1 - ds) * at_.slip / farthest_ : 0;
   s.friction_share = ds;
   return s;
@@ -101,15 +146,22 @@ InterfaceByHand::Stresses InterfaceByHand::stresses() const {
 double InterfaceByHand::stored() const {
   const Stresses s = stresses();
   const double friction = s.friction_share * section_.shear_stiffness() * slider_ * slider_;
-  return 0.5 * section_.area * (s.normal * (at_.opening + plastic_) + s.cohesion * at_.slip + friction);
+  const double own = failed_ || !section_.arms_at_rest
+                         ? s.cohesion * at_.slip
+                         : section_.shear_stiffness() * own_slip(at_.slip) * own_slip(at_.slip);
+  return 0.5 * section_.area * (s.normal * (at_.opening + plastic_) + own + friction);
 }
 
 void InterfaceByHand::update() {
   deepest_ = std::max(deepest_, -at_.opening);
   plastic_ = deepest_ - section_.yield_stress(deepest_) / section_.normal_stiffness();
   widest_ = std::max(widest_, at_.opening + plastic_);
-  farthest_ = std::max(farthest_, std::abs(at_.slip));
-  failed_ = failed_ || damage() >= 1;
+  farthest_ = std::max(farthest_, std::abs(own_slip(at_.slip)));
+  if (!failed_ && damage() >= 1) {
+    failed_ = true;
+    // What is brittle slides from the slip that it broke with.
+    if (section_.shear(0).is_brittle()) slider_ = std::clamp(own_slip(at_.slip), -stretch(), stretch());
+  }
   const Stresses s = stresses();
   now_ = {section_.area * s.normal,
           section_.area * (s.cohesion + s.friction_share * section_.shear_stiffness() * slider_)};
@@ -128,25 +180,28 @@ std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
   if (combined_) {
     const SofteningByHand tension = section_.tension(), shear = section_.shear(0);
     const double per_n = 1 / tension.limit(), per_s = slip_ratio_ / shear.limit();
-    const bool coupled = section_.law.parameters.failure_line == dem::FailureLine::coupled;
+    const bool coupled = section_.coupled;
     const double un = 1 / (coupled ? per_n + per_s : per_n), us = 1 / (coupled ? per_n + per_s : per_s);
     const double end = std::min(un * (1 + tension.softening), us * (1 + shear.softening));
-    for (const double place : {un, us, widest_, end * (1 - beside_failure), end * (1 + beside_failure)})
+    if (!tension.is_brittle()) opening(un), opening(us); // else the bond may hold there, or not
+    for (const double place : {widest_, end * (1 - beside_failure), end * (1 + beside_failure)})
       opening(place);
   } else {
     const SofteningByHand tension = section_.tension(), shear = section_.shear(pressure());
-    for (const auto &branch : section_.law.compression.branches)
+    for (const auto &branch : section_.compression.branches)
       opening(-section_.closing_at(branch.limit));
-    for (const double place : {tension.limit(), widest_, tension.end() * (1 - beside_failure),
-                               tension.end() * (1 + beside_failure), 0.0})
+    if (!tension.is_brittle()) opening(tension.limit() - plastic_);
+    for (const double place :
+         {widest_, tension.end() * (1 - beside_failure), tension.end() * (1 + beside_failure), 0.0})
       opening(place - plastic_);
     opening(-deepest_);
-    for (const double place :
-         {shear.limit(), farthest_, shear.end() * (1 - beside_failure), shear.end() * (1 + beside_failure)})
-      for (const double side : {-1.0, 1.0})
-        slip(side * place);
-    const double stretch = section_.law.parameters.friction_dynamic * pressure() / section_.shear_stiffness();
-    slip(at_.slip + std::copysign(stretch, slipped) - slider_);
+    for (const double side : {-1.0, 1.0}) {
+      if (!shear.is_brittle()) slip(slip_of(side * shear.limit()));
+      const double beside = section_.arms_at_rest ? beside_turned_failure : beside_failure;
+      for (const double place : {farthest_, shear.end() * (1 - beside), shear.end() * (1 + beside)})
+        slip(slip_of(side * place));
+    }
+    slip(at_.slip + std::copysign(stretch(), slipped) - slider_);
   }
   std::sort(shares.begin(), shares.end());
   return shares;
@@ -161,8 +216,7 @@ void InterfaceByHand::go(const InterfacePlace &to) {
     const InterfacePlace last = at_;
     at_.opening = end < 1 ? from.opening + end * (to.opening - from.opening) : to.opening;
     at_.slip = end < 1 ? from.slip + end * (to.slip - from.slip) : to.slip;
-    const double stretch = section_.law.parameters.friction_dynamic * pressure() / section_.shear_stiffness();
-    slider_ = std::clamp(slider_ + at_.slip - last.slip, -stretch, stretch);
+    slider_ = std::clamp(slider_ + at_.slip - last.slip, -stretch(), stretch());
     update();
     work_ += 0.5 * ((before.normal + now_.normal) * (at_.opening - last.opening) +
                     (before.shear + now_.shear) * (at_.slip - last.slip));

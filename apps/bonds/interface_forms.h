@@ -1,20 +1,27 @@
-// What an elasto-damage-plastic bond between two spheres does that are moved from place to place, by hand:
-// strengths, displacements and fracture energies of theory 2.6 as straight lines, of which the law itself
-// knows nothing.
+// What a bond that remembers does between two spheres that are moved from place to place, by hand: strengths,
+// displacements and fracture energies of theory 2.6 and 2.7 as straight lines, of which the laws themselves
+// know nothing.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "dem/laws/elasto_damage_plastic.h"
+#include "dem/laws/bond_law.h"
 
 namespace platen::apps {
 
-// Linear softening of one direction. SI units, stresses.
+// Linear softening of one direction, or none: brittle. SI units, stresses.
 struct SofteningByHand {
   double strength = 0;  // Pa; infinite where it never fails
   double stiffness = 0; // Pa/m
   double softening = 0; // u_f / u_l - 1
+
+  bool is_brittle() const { return !(softening > 0); }
+  // Damage at so many times the limit.
+  double damage(double used) const {
+    if (is_brittle()) return used > 1 ? 1 : 0;
+    return std::clamp((used - 1) / softening, 0.0, 1.0);
+  }
 
   double limit() const { return strength / stiffness; }    // u_l, m, where damage begins
   double end() const { return limit() * (1 + softening); } // u_f, m, where nothing is left
@@ -23,18 +30,25 @@ struct SofteningByHand {
 };
 
 struct InterfaceSection {
-  dem::ElastoDamagePlastic law;
-  double length = 0, area = 0, modulus = 0; // m, m^2, Pa
+  double length = 0, area = 0, modulus = 0;                                                   // m, m^2, Pa
+  double shear_ratio = 0;                                                                     // k_s / k_n
+  double tensile_strength = 0, shear_strength = 0, friction_static = 0, friction_dynamic = 0; // Pa; 0: never
+  // As ElastoDamagePlastic::Parameters; 0: brittle.
+  double softening_tension = 0, softening_shear = 0, fracture_energy_tension = 0, fracture_energy_shear = 0;
+  bool coupled = false; // shares of tension and shear add up
+  // Slip and shear force count at arms of the length at rest, not of the present one (theory 2.2).
+  bool arms_at_rest = false;
+  dem::CompressionBranches compression;
 
-  double normal_stiffness() const { return modulus / length; } // Pa/m
-  double shear_stiffness() const {
-    return 0.5 * normal_stiffness() / (1 + law.parameters.poisson_ratio);
-  } // Pa/m
+  double normal_stiffness() const { return modulus / length; }                // Pa/m
+  double shear_stiffness() const { return shear_ratio * normal_stiffness(); } // Pa/m
   SofteningByHand tension() const;
   SofteningByHand shear(double pressure) const; // Pa, under which it is sheared
   double yield_stress(double closing) const;    // Pa, of closing so far (m) for the first time
   double closing_at(double stress) const;       // m, inverse of the same
 };
+// Of a law that remembers; std::logic_error of another.
+InterfaceSection section_of(const dem::BondLaw &law, double length, double area, double modulus);
 
 // One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
 struct InterfacePlace {
@@ -72,7 +86,10 @@ private:
   double shear_damage() const;
   Used used() const; // combined: of the strengths, at the largest opening so far
   Stresses stresses() const;
-  double pressure() const; // Pa, that closes it now
+  double pressure() const;            // Pa, that closes it now
+  double stretch() const;             // m, of the spring of friction at its limit
+  double own_slip(double slip) const; // m, what it counts as
+  double slip_of(double own) const;   // m, inverse of the same
   void update();
 
   InterfaceSection section_;

@@ -13,15 +13,26 @@ constexpr double step = 1;        // s; places are prescribed, so that no time e
 constexpr double same_row = 1e-7; // share of a displacement: an equal step that close to a kink is left out
 
 // Dashpots would act at speeds that mean nothing here.
-dem::ModelSettings settings_of(const Scene &scene, double modulus) {
-  dem::ModelSettings settings = rig_settings(scene, modulus, 0);
+dem::ModelSettings settings_of(const Scene &scene, double modulus, double stiffness_ratio) {
+  dem::ModelSettings settings = rig_settings(scene, modulus, stiffness_ratio);
   settings.bond_dashpot = 0;
   return settings;
 }
 
-InterfaceSection section_of(const dem::Bonds &bonds, double modulus) {
+InterfaceSection section_of_one(const dem::Bonds &bonds, double modulus) {
   const double radius = bonds.bond_radius[0];
-  return {std::get<dem::ElastoDamagePlastic>(bonds.law), bonds.rest_length[0], pi * radius * radius, modulus};
+  return section_of(bonds.law, bonds.rest_length[0], pi * radius * radius, modulus);
+}
+
+// Plastic closing as a stress, damage in tension and in shear, of what one bond remembers.
+struct Remembered {
+  double plastic = 0, tension = 0, shear = 0;
+};
+Remembered remembered(const dem::InterfaceState<double> &s) {
+  return {s.plastic, s.tension_damage, s.shear_damage};
+}
+Remembered remembered(const dem::YieldingParallelBond::State<double> &s) {
+  return {s.plastic, s.broken == 1 ? 1.0 : 0.0, s.broken == 2 ? 1.0 : 0.0};
 }
 
 bool slides(const PairTest &test) {
@@ -65,10 +76,10 @@ std::vector<InterfacePlace> turning_places(const PairTest &test, const Interface
 
 } // namespace
 
-InterfaceTest::InterfaceTest(const Scene &scene, double modulus)
+InterfaceTest::InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio)
     : test_(scene.pair_test),
-      model_(touching_spheres(scene), settings_of(scene, modulus)),
-      section_(section_of(*model_.bonds, modulus)),
+      model_(touching_spheres(scene), settings_of(scene, modulus, stiffness_ratio)),
+      section_(section_of_one(*model_.bonds, modulus)),
       by_hand_(section_, test_.path == PairPath::combined, test_.slip_ratio) {
   (model_.particles.id[0] == 0 ? lower_ : upper_) = 1; // sphere 0 of the specimen is the upper one
 }
@@ -102,13 +113,12 @@ void InterfaceTest::move(const InterfacePlace &to) {
 InterfaceReading InterfaceTest::read() const {
   const dem::Bonds &b = *model_.bonds;
   const dem::BondTotals totals = b.interface_totals(model_.particles);
-  const auto state = b.memory<dem::InterfaceState<double>>(0);
-  return {state.tension_damage,
-          state.shear_damage,
-          state.plastic / section_.normal_stiffness(),
-          work_,
-          totals.energy,
-          model_.works.fracture + totals.damage + totals.friction + totals.plastic};
+  const Remembered state = dem::of_remembering(b.law, [&](const auto &of) {
+    return remembered(b.memory<typename std::decay_t<decltype(of)>::template State<double>>(0));
+  });
+  return {
+      state.tension, state.shear,   state.plastic / section_.normal_stiffness(),
+      work_,         totals.energy, model_.works.fracture + totals.damage + totals.friction + totals.plastic};
 }
 
 void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
@@ -139,7 +149,7 @@ void InterfaceTest::conclude(BondRun &run) const {
     const InterfacePlace end = turning_places(test_, section_).front();
     const std::vector<double> kinks = fresh.kinks(end);
     run.strength_by_hand = not_given;
-    if (!kinks.empty()) {
+    if (!kinks.empty()) { // of a brittle one just before it breaks
       fresh.go({kinks.front() * end.opening, kinks.front() * end.slip});
       run.strength_by_hand = fresh.load().normal;
     }
@@ -153,7 +163,7 @@ void InterfaceTest::conclude(BondRun &run) const {
   for (; rows[failed].intact > 0; ++failed)
     if (height(failed) > height(peak)) peak = failed;
   run.path.break_load = rows[peak].force;
-  if (combined || (slides(test_) && test_.pressure > 0)) return;
+  if (combined || (slides(test_) && test_.pressure > 0) || softening.is_brittle()) return;
   result.fracture_energy =
       (result.rows[failed].measured.work - result.rows[peak].measured.work) / section_.area;
   result.fracture_energy_by_hand = softening.fracture_energy();

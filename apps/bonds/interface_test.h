@@ -1,4 +1,4 @@
-// The test of an elasto-damage-plastic bond, measured and by hand side by side: two spheres go from place to
+// The test of a bond that remembers, measured and by hand side by side: two spheres go from place to
 // place without inertia, for what such a bond remembers is the path that the test states, not the
 // oscillations of free spheres. The bond itself is the model's own, brought on by its kernels.
 #pragma once
@@ -36,7 +36,7 @@ struct BondRun;
 class InterfaceTest {
 public:
   // Throws InputError where this build leaves out what the scene asks for.
-  InterfaceTest(const Scene &scene, double modulus);
+  InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio);
 
   // Rows stand at `Pair test/Steps` equal steps and wherever the lines by hand bend, so that sums between
   // rows are exact. To be called once.

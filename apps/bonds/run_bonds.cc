@@ -19,7 +19,7 @@ void check(const Scene &scene) {
   const PairTest &test = scene.pair_test;
   if (!is_prescribed(scene) && !is_beam(scene) && !scene.bond.is<dem::ParallelBond>())
     refuse(scene, "Effects/Bond", "has no closed form here. Allowed: any other.");
-  if ((is_beam(scene) || is_prescribed(scene)) && test.stiffness_ratios.size() > 1)
+  if (!scene.bond.has("stiffness_ratio") && test.stiffness_ratios.size() > 1)
     refuse(scene, "Pair test/Stiffness ratio list",
            std::string("is for parallel bonds: ") +
                (is_beam(scene) ? "a beam has the ratio of its section."
@@ -72,7 +72,7 @@ std::string description(const Scene &scene) {
 }
 
 BondRun run_one(const Scene &scene, double modulus, double ratio) {
-  if (is_prescribed(scene)) return InterfaceTest(scene, modulus).run();
+  if (is_prescribed(scene)) return InterfaceTest(scene, modulus, ratio).run();
   BondRig rig(scene, modulus, ratio);
   BondRun run;
   run.modulus = modulus;
@@ -116,7 +116,7 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
     throw InputError("--resume: a bond test takes seconds and keeps no checkpoint; run it anew");
   AppOutput output(command, scene);
   if (command.dry_run && is_prescribed(scene)) {
-    const InterfaceTest test(scene, scene.pair_test.moduli.front());
+    const InterfaceTest test(scene, scene.pair_test.moduli.front(), scene.pair_test.stiffness_ratios.front());
     fmt::print("{}  led without inertia: no time step\n", description(scene));
     return status_done;
   }

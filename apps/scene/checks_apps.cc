@@ -14,7 +14,8 @@ void SceneCheck::pair_test() const {
   if (scene_.bond.remembers()) return led_pair();
   if (scene_.pair_test.path == PairPath::combined)
     refuse("Pair test/Path",
-           "needs Effects/Bond = elasto damage plastic. Allowed: tension, compression, "
+           "needs a bond that remembers (elasto damage plastic, yielding parallel bond). Allowed: tension, "
+           "compression, "
            "shear, bending, twisting, cyclic.");
   if (!given(scene_.pair_test.force) && !given(scene_.pair_test.displacement))
     refuse("Pair test/Force", "is not set, nor is Pair test/Displacement. Allowed: at least one of them.");
@@ -29,7 +30,7 @@ void SceneCheck::led_pair() const {
            "leaves a bond that remembers to the oscillations of free spheres. Allowed: 2.");
   if (test.path == PairPath::bending || test.path == PairPath::twisting)
     refuse("Pair test/Path",
-           "moves nothing in an elasto damage plastic bond, which neither bends nor twists. "
+           "moves nothing here: a bond that is led from place to place neither bends nor twists. "
            "Allowed: tension, compression, shear, cyclic, combined.");
   if (given(test.force))
     refuse("Pair test/Force",

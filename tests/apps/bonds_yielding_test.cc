@@ -1,0 +1,88 @@
+// platen-bonds on a yielding parallel bond that is led, beside theory 2.7. PLATEN_SCENES is the folder of the
+// scenes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/bonds/run_bonds.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// The scene's concrete: spheres of 1 mm, G_b 48 GPa.
+constexpr double area = 3.14159265358979323846e-6;
+
+BondRun run_pair(Words overrides) {
+  if (!overrides.empty()) overrides.insert(overrides.begin(), "Pair test/Turns =");
+  return run_bond_tests(
+             read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm", overrides, AppKind::bonds))
+      .at(0);
+}
+
+void expect_by_hand(const BondRun &run, double close) {
+  EXPECT_LT(run.interface.largest_difference(), close);
+  const InterfaceRow &last = run.interface.rows.back();
+  const InterfaceReading &m = last.measured;
+  EXPECT_NEAR(m.dissipated, last.dissipated_by_hand, 10 * close * m.work);
+  EXPECT_NEAR(m.work, m.stored + m.dissipated, 10 * close * m.work);
+}
+
+TEST(bonds_yielding, closing_yields_unloads_and_comes_back_as_by_hand) {
+  const BondRun run = run_pair({});
+  expect_by_hand(run, 1e-8);
+  // 160 MPa at 60 + 150 + 600 over 48000 MPa, then a slope of G_b/22 up to 50 um of 2 mm.
+  const double stress = 160e6 + (0.025 - 810e6 / 48e9) * 48e9 / 22;
+  EXPECT_NEAR(run.path.rows.back().force, -stress * area, 1e-8 * stress * area);
+  EXPECT_NEAR(run.interface.rows.back().measured.plastic_closing, 2e-3 * (0.025 - stress / 48e9), 1e-12);
+  EXPECT_EQ(run.broken_tension + run.broken_shear, 0);
+}
+
+TEST(bonds_yielding, tension_is_brittle_at_its_strength) {
+  const BondRun run = run_pair({"Pair test/Path = tension", "Pair test/Displacement = 0.5 um"});
+  expect_by_hand(run, 1e-8);
+  EXPECT_NEAR(run.path.break_load, 9e6 * area, 1e-8 * 9e6 * area);
+  EXPECT_EQ(run.path.rows.back().force, 0);
+  EXPECT_EQ(run.broken_tension, 1);
+  const double whole = 0.5 * 9e6 * area * 9e6 / 48e9 * 2e-3;
+  EXPECT_NEAR(run.interface.rows.back().measured.dissipated, whole, 1e-8 * whole);
+}
+
+TEST(bonds_yielding, shear_under_pressure_falls_to_the_friction_of_grains) {
+  const Words sheared{"Pair test/Path = shear", "Pair test/Pressure = 80 MPa"};
+  Words there = sheared, there_and_back = sheared;
+  there.emplace_back("Pair test/Displacement = 20 um");
+  there_and_back.emplace_back("Pair test/Turns = 5 um, -8 um, 20 um, -20 um");
+  for (const BondRun &run : {run_pair(there), run_pair(there_and_back)}) {
+    expect_by_hand(run, 1e-5);
+    EXPECT_EQ(run.broken_shear, 1);
+    EXPECT_NEAR(std::abs(run.path.rows.back().force), 0.35 * 80e6 * area, 1e-8 * 80e6 * area);
+    EXPECT_NEAR(run.path.break_load, (36e6 + 40e6) * area,
+                5e-3 * 76e6 * area); // at arms that are 0.25 % shorter
+  }
+}
+
+TEST(bonds_yielding, tension_and_shear_at_once_break_by_the_first_of_both) {
+  const BondRun run =
+      run_pair({"Pair test/Path = combined", "Pair test/Slip ratio = 3", "Pair test/Displacement = 3 um"});
+  EXPECT_EQ(run.broken_tension, 1);                    // 9 MPa against 3 / 4 of it in shear
+  EXPECT_LT(run.interface.largest_difference(), 1e-3); // lines by hand are of small strains
+  EXPECT_EQ(run.path.rows.back().force, 0);
+}
+
+TEST(bonds_yielding, stiffness_ratios_are_a_list_as_of_the_parallel_bond) {
+  const auto scene =
+      read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm",
+                 {"Pair test/Turns =", "Pair test/Path = shear", "Pair test/Displacement = 1 um",
+                  "Pair test/Stiffness ratio list = 0.2, 0.4"},
+                 AppKind::bonds);
+  const std::vector<BondRun> runs = run_bond_tests(scene);
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_NEAR(runs[1].path.rows.back().force, 2 * runs[0].path.rows.back().force,
+              1e-9 * std::abs(runs[1].path.rows.back().force));
+}
+
+} // namespace
+} // namespace platen::apps
