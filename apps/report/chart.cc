@@ -149,22 +149,44 @@ void set_legend(vtkChartXY &chart, bool left) {
   legend->GetPen()->SetOpacity(0);
 }
 
+bool given(const std::array<double, 2> &range) {
+  return range[0] != 0 || range[1] != 0;
+}
+
+std::array<double, 2> shown_x(const Chart &chart) {
+  return given(chart.x_range) ? chart.x_range : x_range_of(chart);
+}
+
+void add_span_words(Canvas &canvas, const PlotArea &area, const Chart &chart) {
+  constexpr double over = 24, width_of_letter = 0.6 * small_size; // pixels
+  const std::array<double, 2> x = shown_x(chart);
+  const double scale = area.width / (x[1] - x[0]); // pixels per unit
+  for (const Span &span : chart.spans) {
+    if ((span.to - span.from) * scale < width_of_letter * static_cast<double>(span.words.size())) continue;
+    const double middle = area.left + scale * (0.5 * (span.from + span.to) - x[0]);
+    canvas.add_text(span.words, middle / canvas.width(), (area.bottom + area.height + over) / canvas.height(),
+                    small_size);
+  }
+}
+
 vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea &area) {
   const bool decades = given_chart.scale == Scale::logarithmic;
   const Chart chart = decades ? in_decades(given_chart) : given_chart;
-  const auto given = [](const std::array<double, 2> &range) { return range[0] != 0 || range[1] != 0; };
-  const std::array<double, 2> x = given(chart.x_range) ? chart.x_range : x_range_of(chart),
+  const std::array<double, 2> x = shown_x(chart),
                               y = given(chart.y_range) ? chart.y_range : range_of(chart, 1);
   const auto [legend_width, legend_height] = legend_size(chart);
   const LegendPlace place = place_legend(chart, x, y, legend_width / area.width, legend_height / area.height);
 
   auto item = frame_chart(area);
+  const std::array<double, 2> y_shown{y[0], place.y_top};
   add_band(*item, chart, x, y[0]);
+  for (const Span &span : chart.spans)
+    for (const double end : {span.from, span.to})
+      add_curve(*item, {"", {end, end}, {y_shown[0], y_shown[1]}, {190, 190, 190}, Stroke::solid, 2});
   for (const Curve &curve : chart.curves)
     add_curve(*item, curve);
   for (const Mark &mark : chart.marks)
     add_mark(*item, mark);
-  const std::array<double, 2> y_shown{y[0], place.y_top};
   const auto set = [&](int axis, const std::array<double, 2> &range, int intervals) {
     if (decades)
       set_ticks(item->GetAxis(axis), range, decade_ticks(range[0], range[1]));
@@ -340,6 +362,7 @@ void save_charts(const std::string &title, const std::string &subtitle, const st
     const PlotArea area{left_margin, bottom, plot_width, static_cast<double>(heights[k])};
     items.push_back(chart_item(charts[k], area));
     add_axis_titles(canvas, area, charts[k].x_title, charts[k].y_title);
+    add_span_words(canvas, area, charts[k]);
     bottom -= foot;
   }
   add_chart_scene(canvas, items);

@@ -38,6 +38,11 @@ struct Mark { // a dot
 
 constexpr double no_band = std::numeric_limits<double>::quiet_NaN();
 
+struct Span { // of the x axis: lines at its ends, words over the plot where there is room for them
+  double from = 0, to = 0;
+  std::string words;
+};
+
 enum class Scale { linear, logarithmic };
 
 struct Chart {
@@ -49,6 +54,7 @@ struct Chart {
   Scale scale = Scale::linear; // of both axes; logarithmic: ranges from the curves, points above 0 alone
   double band_top = no_band;   // grey from the x axis up to here
   std::string band_label;      // as above
+  std::vector<Span> spans;     // of a linear scale
 };
 
 // All values times a factor.

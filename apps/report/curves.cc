@@ -13,39 +13,57 @@ namespace {
 
 std::string peak_words(const Run &run) {
   return fmt::format("peak {:.1f} MPa at {:.2f} mm/m", run.moments.peak_stress / pa_per_mpa,
-                     run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m);
+                     run.strain()[run.moments.peak_row] * mm_per_m);
+}
+
+// What the platens of the other axes have closed, where those of the sides load.
+void add_strains_across(Chart &chart, const Run &run, const std::vector<double> &stress) {
+  const std::array<const char *, 3> columns{"strain_x", "strain_y", "axial_strain_platen"};
+  for (const int axis : {0, 1, 2}) {
+    const char *column = columns[static_cast<std::size_t>(axis)];
+    if (axis == run.axis || !run.history.has(column)) continue;
+    chart.curves.push_back({fmt::format("along {}, between platens", "xyz"[axis]),
+                            scaled(run.history.column(column), mm_per_m), stress,
+                            axis == 2 ? colours::green : colours::vermilion, Stroke::solid, 3});
+  }
 }
 
 // With one run the kinds of strain have colours, with several the runs have; the lateral strain is told apart
 // by its side then.
 void add_stress_curves(Chart &chart, const Run &run, std::size_t k, bool several) {
-  const std::vector<double> stress = scaled(axial_stress(run.history), 1 / pa_per_mpa);
+  const std::vector<double> stress = scaled(run.stress(), 1 / pa_per_mpa);
+  const std::string along = run.axis == 2 ? "axial" : fmt::format("along {}", "xyz"[run.axis]);
+  chart.curves.push_back({(several ? run.name : along) + ", between platens: " + peak_words(run),
+                          scaled(run.strain(), mm_per_m), stress, several ? run_colour(k) : colours::blue,
+                          Stroke::solid, 5});
+  chart.marks.push_back({run.strain()[run.moments.peak_row] * mm_per_m, run.moments.peak_stress / pa_per_mpa,
+                         "", several ? run_colour(k) : colours::blue});
+  if (run.axis != 2) { // the gauge measures along z
+    if (!several) add_strains_across(chart, run, stress);
+    return;
+  }
   const auto add = [&](const char *column, const std::string &label, Stroke stroke, Colour colour,
                        double width) {
     if (!run.history.has(column)) return;
     chart.curves.push_back({label, scaled(run.history.column(column), mm_per_m), stress,
                             several ? run_colour(k) : colour, stroke, width});
   };
-  add("axial_strain_platen",
-      (several ? run.name : std::string("axial")) + ", between platens: " + peak_words(run), Stroke::solid,
-      colours::blue, 5);
   add("axial_strain_gauge", several ? run.name + ", gauge" : "axial, gauge (middle half)", Stroke::dashed,
       colours::vermilion, 4);
   add("lateral_strain", several ? "" : "lateral, gauge (middle half)", Stroke::solid, colours::green, 3);
-  chart.marks.push_back({run.history.column("axial_strain_platen")[run.moments.peak_row] * mm_per_m,
-                         run.moments.peak_stress / pa_per_mpa, "", several ? run_colour(k) : colours::blue});
 }
 
-// Once it has failed, the middle may open a hundred times as wide as it was short: such lateral strains are
-// cut off, so that what leads to the peak is seen.
+// Once it has failed, the middle may open a hundred times as wide as it was short, and shorten more than what
+// is between the platens: such strains are cut off, so that what leads to the peak is seen.
 std::array<double, 2> strain_range(const Chart &stress, const std::vector<Run> &runs) {
-  constexpr double most_of_axial = 1.2;
+  constexpr double most_of_axial = 1.2, most_along = 1.5;
   double axial = 0;
   for (const Run &run : runs)
-    for (const double strain : run.history.column("axial_strain_platen"))
+    for (const double strain : run.strain())
       axial = std::fmax(axial, strain * mm_per_m);
   const std::array<double, 2> all = x_range_of(stress);
-  return axial > 0 ? std::array<double, 2>{std::max(all[0], -most_of_axial * axial), all[1]} : all;
+  if (!(axial > 0)) return all;
+  return {std::max(all[0], -most_of_axial * axial), std::min(all[1], most_along * axial)};
 }
 
 void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several) {
@@ -54,8 +72,7 @@ void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several)
     if (!run.history.has(column)) continue;
     const std::string words = in_tension ? "broken in tension" : "broken in shear";
     const Colour colour = in_tension ? colours::vermilion : colours::blue;
-    chart.curves.push_back({several ? run.name + ", " + words : words,
-                            scaled(run.history.column("axial_strain_platen"), mm_per_m),
+    chart.curves.push_back({several ? run.name + ", " + words : words, scaled(run.strain(), mm_per_m),
                             run.history.column(column), several ? run_colour(k) : colour,
                             in_tension ? Stroke::solid : Stroke::dashed, 4});
   }
@@ -63,7 +80,7 @@ void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several)
 
 void add_volume(Chart &chart, const Run &run, std::size_t k, bool several) {
   if (!run.history.has("volumetric_strain")) return;
-  const std::vector<double> axial = scaled(run.history.column("axial_strain_platen"), mm_per_m),
+  const std::vector<double> axial = scaled(run.strain(), mm_per_m),
                             volume = scaled(run.history.column("volumetric_strain"), mm_per_m);
   const Colour colour = several ? run_colour(k) : colours::green;
   chart.curves.push_back(
@@ -102,8 +119,8 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
   }
   stress.x_title = several ? "Lateral (left) and axial strain (mm/m), compression positive"
                            : "Strain (mm/m), compression positive";
-  stress.y_title = "Axial stress (MPa)";
-  broken.x_title = "Axial strain between platens (mm/m)";
+  stress.y_title = runs[0].stress_title();
+  broken.x_title = runs[0].strain_title();
   broken.y_title = "Broken bonds";
   stress.x_range = strain_range(stress, runs);
   broken.x_range = stress.x_range; // one above the other, strain under strain
@@ -118,7 +135,7 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
 
 void draw_energies(const Run &run, const std::filesystem::path &png) {
   Chart chart;
-  const std::vector<double> strain = scaled(run.history.column("axial_strain_platen"), mm_per_m);
+  const std::vector<double> strain = scaled(run.strain(), mm_per_m);
   for (const LedgerLine &line : ledger) {
     if (!run.history.has(line.column)) continue;
     const std::vector<double> &energy = run.history.column(line.column);
@@ -126,7 +143,7 @@ void draw_energies(const Run &run, const std::filesystem::path &png) {
         std::any_of(energy.begin(), energy.end(), [](double e) { return std::abs(e) > 0; });
     if (plays_a_part) chart.curves.push_back({line.words, strain, energy, line.colour, line.stroke, 4});
   }
-  chart.x_title = "Axial strain between platens (mm/m)";
+  chart.x_title = run.strain_title();
   chart.y_title = "Energy (J)";
   save_charts(run.title, "Where the work of the platens went", {chart}, {900}, png);
 }

@@ -9,7 +9,7 @@
 
 namespace platen::apps::report {
 
-// Axial stress against platen, gauge and lateral strain, the peak marked; below,
+// Stress along the loaded axis against platen, gauge and lateral strain, the peak marked; below,
 // broken bonds by mode against platen strain. Several runs share the axes, one colour each.
 void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::path &png);
 

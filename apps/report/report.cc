@@ -9,6 +9,7 @@
 #include "apps/report/fields.h"
 #include "apps/report/platens.h"
 #include "apps/report/specimen_view.h"
+#include "apps/report/stages.h"
 
 namespace platen::apps::report {
 namespace {
@@ -45,9 +46,9 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
 void draw_curves(const Run &run, Album &album) {
   album.begin("Stress and energy");
   album.add("stress_strain.png",
-            "Axial stress against strain between the platens and in the gauge; broken bonds; volume. "
+            "Stress against strain between the platens and in the gauge; broken bonds; volume. "
             "The two axial strains differ by what the ends take up; where the volume begins to grow, cracks "
-            "open. Dots: the peak. The widest lateral strains are cut off.",
+            "open. Dots: the peak. The widest strains are cut off.",
             draw_stress_strain, std::vector<Run>{run});
   album.add("energies.png",
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
@@ -59,6 +60,15 @@ void draw_curves(const Run &run, Album &album) {
         "Mean stress against deviator of the stresses along x, y and z. A bare test follows the dashed line; "
         "what presses the sides bends the path away from it.",
         draw_stress_path, std::vector<Run>{run});
+  if (!stages_of(run).empty()) {
+    album.begin("Stages");
+    album.add_table(table_of_stages(run));
+    album.add("stages.png",
+              "The path of the test, stage by stage. What comes back on a path is drawn narrower on it. "
+              "Strains count "
+              "from the end of a consolidation; the widest lateral strains are cut off.",
+              draw_stages, run);
+  }
   if (!has_further_sides(run)) return;
   album.begin("Sides");
   album.add_table(table_of_sides(run));

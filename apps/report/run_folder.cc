@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -25,6 +26,17 @@ Json read_summary(const fs::path &file) {
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   }
+}
+
+constexpr std::array<std::array<const char *, 2>, 3> stress_columns{
+    {{"stress_left_pa", "stress_right_pa"},
+     {"stress_front_pa", "stress_back_pa"},
+     {"axial_stress_bottom_pa", "axial_stress_top_pa"}}};
+
+int loaded_axis(const Json &summary) {
+  const auto told = summary.find("loaded_axis");
+  if (told == summary.end() || !told->is_string()) return 2;
+  return *told == "x" ? 0 : *told == "y" ? 1 : 2;
 }
 
 // The list of frames, or a remark that there is none.
@@ -57,17 +69,17 @@ std::string scene_entry(const fs::path &scene, const std::string &path) {
   return "";
 }
 
-std::vector<double> axial_stress(const CsvTable &history) {
-  const std::vector<double> &top = history.column("axial_stress_top_pa");
-  const std::vector<double> &bottom = history.column("axial_stress_bottom_pa");
+std::vector<double> platen_stress(const CsvTable &history, int axis) {
+  const auto &[low, high] = stress_columns[static_cast<std::size_t>(axis)];
+  const std::vector<double> &top = history.column(high), &bottom = history.column(low);
   std::vector<double> stress(top.size());
   for (std::size_t k = 0; k < stress.size(); ++k)
     stress[k] = 0.5 * (top[k] + bottom[k]);
   return stress;
 }
 
-Moments moments_of(const CsvTable &history) {
-  const std::vector<double> stress = axial_stress(history);
+Moments moments_of(const CsvTable &history, int axis) {
+  const std::vector<double> stress = platen_stress(history, axis);
   const std::vector<double> &time = history.column("time_s");
   Moments moments;
   bool found = false;
@@ -77,7 +89,7 @@ Moments moments_of(const CsvTable &history) {
       moments.peak_stress = stress[k];
       found = true;
     }
-  if (!found) throw InputError(history.file.string() + ": no sample with an axial stress");
+  if (!found) throw InputError(history.file.string() + ": no sample with a stress along " + "xyz"[axis]);
   moments.peak_time = time[moments.peak_row];
   moments.end_time = time.back();
 
@@ -90,6 +102,19 @@ Moments moments_of(const CsvTable &history) {
     break;
   }
   return moments;
+}
+
+const std::vector<double> &Run::strain() const {
+  return history.column(axis == 0 ? "strain_x" : axis == 1 ? "strain_y" : "axial_strain_platen");
+}
+
+std::string Run::stress_title() const {
+  return axis == 2 ? "Axial stress (MPa)" : fmt::format("Stress along {} (MPa)", "xyz"[axis]);
+}
+
+std::string Run::strain_title() const {
+  return axis == 2 ? "Axial strain between platens (mm/m)"
+                   : fmt::format("Strain along {} between platens (mm/m)", "xyz"[axis]);
 }
 
 std::string Run::pattern_words() const {
@@ -107,13 +132,12 @@ Run read_run(const fs::path &folder) {
   run.title = scene_entry(folder / "scene.prm", "Scene/Title");
   if (run.title.empty()) run.title = run.name;
   run.history = read_csv(folder / "history.csv");
-  run.moments = moments_of(run.history);
+  if (fs::exists(folder / "summary.json")) run.summary = read_summary(folder / "summary.json");
+  run.axis = loaded_axis(run.summary);
+  run.moments = moments_of(run.history, run.axis);
   if (!run.moments.post_peak_time)
     run.remarks.push_back("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end");
-
-  if (fs::exists(folder / "summary.json"))
-    run.summary = read_summary(folder / "summary.json");
-  else
+  if (run.summary.is_null())
     run.remarks.push_back("summary.json is not there (the run has not finished): its figures are left out");
   if (fs::exists(folder / "cracks.csv"))
     run.cracks = read_csv(folder / "cracks.csv", {"mode"});

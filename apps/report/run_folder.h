@@ -15,24 +15,26 @@ namespace platen::apps::report {
 
 struct Moments {
   std::size_t peak_row = 0;             // row of the history
-  double peak_stress = 0;               // Pa, mean of both platens; negative for a tension test
+  double peak_stress = 0;               // Pa, mean of both platens that load; negative for a tension test
   double peak_time = 0;                 // s
   std::optional<double> post_peak_time; // s; nothing where the stress never fell so far
   double end_time = 0;                  // s
 };
 
-// Mean of the stresses at both platens, Pa, one per row of the history; compression positive.
-std::vector<double> axial_stress(const CsvTable &history);
+// Mean of the stresses at both platens of an axis (0 x, 1 y, 2 z), Pa, one per row of the history;
+// compression positive.
+std::vector<double> platen_stress(const CsvTable &history, int axis = 2);
 
 // The peak is the largest stress by size, so that a tension test has one too. Time of the fall is
 // interpolated between samples. Throws InputError where the history has no row or no finite stress.
-Moments moments_of(const CsvTable &history);
+Moments moments_of(const CsvTable &history, int axis = 2);
 
 struct Run {
   std::filesystem::path folder;
   std::string name;  // last part of the path, for legends
   std::string title; // Scene / Title; the name where the scene gives none
   CsvTable history;
+  int axis = 2; // that the test loads: 0 x, 1 y, 2 z
   Moments moments;
   Json summary;                                   // null where the run wrote none
   std::optional<CsvTable> cracks;                 // "mode" as words
@@ -40,6 +42,11 @@ struct Run {
   FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
   std::vector<std::string> remarks;               // what is not there, one sentence each
 
+  // Along the loaded axis, one per row of the history: Pa; of the platens, 1.
+  std::vector<double> stress() const { return platen_stress(history, axis); }
+  const std::vector<double> &strain() const;
+  std::string stress_title() const; // "Axial stress (MPa)", "Stress along x (MPa)"
+  std::string strain_title() const; // "Axial strain between platens (mm/m)"
   // Time at which cracks are counted: the fall to 0.8 of the peak, or the end where it did not come.
   double pattern_time() const { return moments.post_peak_time.value_or(moments.end_time); }
   // The same in words, for captions: "the fall to 0.8 of the peak" or "the end".

@@ -77,7 +77,7 @@ bool has_stress_path(const Run &run) {
 
 void draw_side_stresses(const Run &run, const std::filesystem::path &png) {
   Chart chart;
-  const std::vector<double> strain = scaled(run.history.column("axial_strain_platen"), mm_per_m);
+  const std::vector<double> strain = scaled(run.strain(), mm_per_m);
   for (const Side side : sides_of(run)) {
     const std::vector<double> stress = scaled(stress_on(run, side), 1 / pa_per_mpa);
     chart.curves.push_back({coupling::name_of(side), strain, stress,
@@ -87,10 +87,10 @@ void draw_side_stresses(const Run &run, const std::filesystem::path &png) {
     if (coupling::is_high(side)) continue; // one of each pair
     chart.marks.push_back({strain[peak], stress[peak], "", side_colours[static_cast<std::size_t>(side)]});
   }
-  chart.x_title = "Axial strain between platens (mm/m)";
+  chart.x_title = run.strain_title();
   chart.y_title = "Stress (MPa), compression positive";
-  save_charts(run.title, "Stress on each platen, over the face of the specimen; dots: at the axial peak",
-              {chart}, {900}, png);
+  save_charts(run.title, "Stress on each platen, over the face of the specimen; dots: at the peak", {chart},
+              {900}, png);
 }
 
 void draw_stress_path(const std::vector<Run> &runs, const std::filesystem::path &png) {
@@ -117,13 +117,12 @@ void draw_stress_path(const std::vector<Run> &runs, const std::filesystem::path 
   chart.x_title = "Mean stress p (MPa), compression positive";
   chart.y_title = "Deviator q (MPa)";
   save_charts(drawn > 1 ? "Runs compared" : title,
-              "Stress path: p = (s1 + s2 + s3) / 3, q = sqrt(3 J2); dots: at the axial peak", {chart}, {900},
-              png);
+              "Stress path: p = (s1 + s2 + s3) / 3, q = sqrt(3 J2); dots: at the peak", {chart}, {900}, png);
 }
 
 TableOfFigures table_of_sides(const Run &run) {
   TableOfFigures table;
-  table.header = {"side", "largest stress (MPa)", "stress at the axial peak (MPa)", "work of friction (J)"};
+  table.header = {"side", "largest stress (MPa)", "stress at the peak (MPa)", "work of friction (J)"};
   for (const Side side : sides_of(run)) {
     const std::vector<double> &stress = stress_on(run, side);
     double largest = std::nan("");

@@ -26,6 +26,7 @@ set(PLATEN_REPORT_SOURCES
   report/sides.cc
   report/specimen_pictures.cc
   report/specimen_view.cc
+  report/stages.cc
   report/state_listing.cc
   report/stress_flow.cc
   report/study_curves.cc)

@@ -34,6 +34,8 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     Json stage;
     stage["stage"] = static_cast<int>(s.stage);
     stage["ended_by"] = ended_by(static_cast<std::size_t>(s.stage) - 1, scene, problem, results);
+    stage["consolidation"] =
+        problem.program().stage(static_cast<std::size_t>(s.stage) - 1).is_consolidation();
     stage["end_s"] = s.time;
     stage["axial_strain_platen"] = s.strain_platen;
     stage["axial_strain_gauge"] = s.strain_gauge;

@@ -20,7 +20,7 @@ CsvTable history_of(const std::vector<double> &stress) {
 TEST(ReportMoments, the_stress_is_the_mean_of_both_platens) {
   CsvTable history = history_of({0, 10, 4});
   history.numbers["axial_stress_bottom_pa"] = {0, 6, 12};
-  EXPECT_EQ(axial_stress(history), (std::vector<double>{0, 8, 8}));
+  EXPECT_EQ(platen_stress(history), (std::vector<double>{0, 8, 8}));
 }
 
 TEST(ReportMoments, the_fall_to_eight_tenths_is_found_between_samples) {
@@ -43,6 +43,19 @@ TEST(ReportMoments, a_tension_test_has_its_peak_at_the_most_negative_stress) {
   EXPECT_EQ(moments.peak_stress, -4);
   ASSERT_TRUE(moments.post_peak_time);
   EXPECT_DOUBLE_EQ(*moments.post_peak_time, 2.4); // -3.2 on the way from -4 to -2
+}
+
+TEST(ReportMoments, the_peak_is_of_the_platens_along_the_axis_that_is_loaded) {
+  CsvTable history = history_of({50, 50, 50, 50, 50});
+  history.numbers["stress_left_pa"] = {0, 5, 11, 10, 2},
+  history.numbers["stress_right_pa"] = {0, 5, 9, 12, 2};
+  history.numbers["stress_front_pa"] = {0, 30, 10, 0, 0},
+  history.numbers["stress_back_pa"] = {0, 32, 10, 0, 0};
+  const Moments x = moments_of(history, 0), y = moments_of(history, 1);
+  EXPECT_EQ(x.peak_row, 3u);
+  EXPECT_EQ(x.peak_stress, 11);
+  EXPECT_EQ(y.peak_row, 1u);
+  EXPECT_EQ(y.peak_stress, 31);
 }
 
 TEST(ReportMoments, a_history_without_samples_is_refused) {
