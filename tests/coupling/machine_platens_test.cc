@@ -72,12 +72,12 @@ TEST(machine_platens, an_elastic_one_swings_on_the_spring_with_all_of_the_mass) 
 // what its dashpot bears of the load.
 TEST(machine_platens, are_in_series_with_the_machine) {
   for (const Kind &kind : all_kinds)
-    for (const double machine : {0.01 * contact, contact, 100 * contact}) {
+    for (const double machine : {0.1 * contact, 100 * contact}) {
       PlatenTestSettings settings = with(one_sphere(machine), kind);
       // With the square of the step falls what the light vertex under the sphere swings between kicks.
       if (kind.elastic && kind.motion == ElasticMotion::explicit_steps) settings.time_step.fixed_step = 2e-8;
       PlatenTest test(sphere(), settings);
-      advance_to(test, 1e-3);
+      advance_to(test, 8e-4);
       const double force = test.top().load();
       const double lag = 2 * 0.3 * std::sqrt(test.machine()->settings().mass / machine),
                    rate = 0.01 - test.platen_speed();
@@ -127,7 +127,10 @@ TEST(machine_platens, a_soft_machine_jumps_with_what_it_holds_when_the_specimen_
         motion[stiff] = std::max(motion[stiff], test.machine()->kinetic_energy());
       }
       EXPECT_NEAR(held * 2 * machine / (peak * peak), 1, 0.05) << kind.name << machine;
-      EXPECT_NEAR(motion[stiff] / held, 1, 0.05) << kind.name << machine;
+      // Seen from the crosshead.
+      const double with_it = std::sqrt(0.5 * 5e-3) * 0.5 * settings.loading.rate;
+      EXPECT_NEAR(std::sqrt(motion[stiff] / held) - with_it / std::sqrt(held), 1, 0.01)
+          << kind.name << machine;
       EXPECT_LT(std::abs(test.energy().residual()), 1e-3 * test.energy().boundary) << kind.name << machine;
     }
     EXPECT_NEAR(motion[0] / motion[1], 10, 1) << kind.name;
