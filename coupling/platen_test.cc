@@ -35,22 +35,30 @@ constexpr double servo_reserve = 10;
 // (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
 
+// A servo moves the top platen at some time.
+bool has_servo(const LoadingSettings &loading) {
+  const auto on_top = [](const SideAsk &ask) {
+    const std::vector<Side> sides = sides_of(ask.side);
+    return ask.ask != SideAsk::Ask::rate && ask.ask != SideAsk::Ask::hold &&
+           ask.ask != SideAsk::Ask::circumferential && std::count(sides.begin(), sides.end(), Side::top) > 0;
+  };
+  return loading.servo || loading.cell ||
+         std::any_of(loading.stages.begin(), loading.stages.end(), [&](const StageSettings &stage) {
+           return std::any_of(stage.asks.begin(), stage.asks.end(), on_top);
+         });
+}
+
 // What a machine's spring does not go with.
 void require_machine(const PlatenTestSettings &settings) {
-  const LoadingSettings &loading = settings.loading;
   const MachineSettings &machine = settings.platens.machine;
   if (!machine.yields()) return;
-  const auto refuse = [](const std::string &why) { throw BadSetup("platens.machine.stiffness", why); };
-  if (settings.platens.elastic) refuse("moves a rigid platen. Allowed: no `platens.elastic`.");
-  if (settings.platens.spherical_seat)
-    refuse("moves a platen that does not turn. Allowed: no `platens.spherical_seat`.");
-  if (loading.cell)
-    refuse("would let the platen lag behind the pressure of `loading.cell`. Allowed: no cell.");
-  if (loading.start_strain > 0)
-    refuse("is not carried to a start without inertia. Allowed: `loading.start_strain` = 0.");
-  if (loading.servo && machine.damping == 0)
+  if (settings.loading.start_strain > 0)
+    throw BadSetup("platens.machine.stiffness",
+                   "is not carried to a start without inertia. Allowed: `loading.start_strain` = 0.");
+  if (has_servo(settings.loading) && machine.damping == 0)
     throw BadSetup("platens.machine.damping",
-                   "lets a servo swing on the spring. Allowed: above 0, or no `loading.servo`.");
+                   "lets a servo swing on the spring. Allowed: above 0, or no `loading.servo`, no "
+                   "`loading.cell` and no stage that asks the top platen for a stress.");
 }
 
 } // namespace
@@ -141,13 +149,13 @@ void PlatenTest::choose_rates() {
                            : transits_of_ramp * transit;
   if (loading.rate_multiplier > 1 && (!(transit > 0) || !(ramp_ > 0)))
     throw BadSetup("loading.rate_multiplier", "needs bonds: they tell when the specimen fails. Allowed: 1.");
-  servo_slowness_ = gain_of_cell / gain_of_stages();
+  servo_slowness_ = gain_of_cell / gain_of_servo();
   if (!loading.cell) return;
   for (const StageSettings &stage : loading.stages)
     for (const SideAsk &ask : stage.asks)
       if (ask.ask == SideAsk::Ask::pressure)
         loading.cell->pressure = std::max(loading.cell->pressure, ask.value);
-  cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : servo_slowness_ * transits_of_cell * transit;
+  cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : transit > 0 ? ramp_of_stress() : 0;
   if (!(cell_ramp_ > 0))
     throw BadSetup("loading.cell.ramp", "has to be given: without bonds there is no wave to take it from.");
 }
@@ -216,25 +224,46 @@ PlatensOfAxis PlatenTest::platens_along(int axis) const {
   return both;
 }
 
-double PlatenTest::gain_of_stages() const {
+double PlatenTest::gain_of_servo() const {
   const LoadingSettings &loading = settings_.loading;
   if (loading.servo_gain > 0) return loading.servo_gain;
   return loading.cell || settings_.platens.machine.yields() ? gain_of_cell : gain_of_platens;
 }
 
 double PlatenTest::ramp_of_stress() const {
-  return std::max(1.0, servo_slowness_) * transits_of_cell * facts_.wave_transit;
+  return std::max(1.0, servo_slowness_) * transits_of_cell * facts_.wave_transit +
+         transits_of_cell / transits_ahead * lag_of_machine(platens_of(Side::top));
 }
 
-double PlatenTest::lead_of_servo() const {
-  return servo_slowness_ * transits_ahead * facts_.wave_transit;
+double PlatenTest::lead_of_servo(const PlatensOfAxis &platens) const {
+  return servo_slowness_ * transits_ahead * facts_.wave_transit + lag_of_machine(platens);
+}
+
+double PlatenTest::stiffness_of_specimen() const {
+  return facts_.voigt_modulus > 0 ? facts_.voigt_modulus * nominal_area() / shape().height
+                                  : std::numeric_limits<double>::infinity();
+}
+
+// What a spring of the machine adds to the time constant of a servo, c (1/k_s + 1/k_m), which is c/k_s
+// without one: its compliance, and its impedance in the dashpot c.
+double PlatenTest::lag_of_machine(const PlatensOfAxis &platens) const {
+  if (machine() == nullptr || platens.axis != 2) return 0;
+  const double count = static_cast<double>(platens.places.size()), stiffness = stiffness_of_specimen();
+  const bool moves = platens.places.size() == 2 || boundaries()[platens.places.front()].get() == &top();
+  const double own = moves ? Servo::impedances / gain_of_servo() * machine()->servo_impedance() / count : 0.0,
+               grains = facts_.voigt_modulus > 0
+                            ? servo_slowness_ * transits_ahead * facts_.wave_transit * stiffness
+                            : 0.0;
+  return (own / stiffness + (grains + own) / machine()->settings().stiffness) / count;
 }
 
 Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, double least) const {
   const double stiffness =
       facts_.voigt_modulus > 0 ? facts_.voigt_modulus : std::numeric_limits<double>::infinity();
-  const double fastest = servo_reserve * stress / stiffness * length(shape(), axis) / ramp;
-  return {gain_of_stages(), std::max(fastest, least)};
+  double fastest = servo_reserve * stress / stiffness * length(shape(), axis) / ramp;
+  if (machine() != nullptr && axis == 2)
+    fastest += servo_reserve * stress * nominal_area() / machine()->settings().stiffness / ramp;
+  return {gain_of_servo(), std::max(fastest, least)};
 }
 
 Servo::Parameters PlatenTest::servo_of_top() const {

@@ -49,12 +49,12 @@ public:
   Sides sides() const;                         // their places
   PlatensOfAxis platens_of(Side side) const;   // that one
   PlatensOfAxis platens_along(int axis) const; // 0 x, 1 y, 2 z: those that there are
-  // What stages are made with: of a stress that is asked, its ramp (s) and how far ahead (s) a servo is told
-  // of it; a servo that leads platens along an axis up to `stress` (Pa) within `ramp`, or after platens that
-  // move (`follows`); that of the top platen's own stress; how the axial platens go faster while the specimen
-  // is elastic.
+  // What stages are made with: of a stress that is asked, its ramp (s) and how far ahead (s) the servo of
+  // such platens is told of it; a servo that leads platens along an axis up to `stress` (Pa) within `ramp`,
+  // or after platens that move (`follows`); that of the top platen's own stress; how the axial platens go
+  // faster while the specimen is elastic.
   double ramp_of_stress() const;
-  double lead_of_servo() const;
+  double lead_of_servo(const PlatensOfAxis &platens) const;
   Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
   Servo::Parameters servo_of_top() const;
   std::optional<RateControl::Parameters> rate_control() const;
@@ -119,7 +119,9 @@ private:
   void add_lateral(double bond);
   void add_sleeve(const CellSettings &cell, double bond);
   void choose_rates();
-  double gain_of_stages() const; // of servos that are not the top platen's own
+  double gain_of_servo() const; // of those that are not the top platen's own
+  double stiffness_of_specimen() const;
+  double lag_of_machine(const PlatensOfAxis &platens) const;
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;

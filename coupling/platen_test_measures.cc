@@ -48,7 +48,9 @@ double PlatenTest::closure_strain(int axis) const {
 }
 
 double PlatenTest::machine_closure() const {
-  return machine() == nullptr ? none : bottom().closure() + top().closure() + machine()->compression();
+  if (machine() == nullptr) return none;
+  const auto moved = [](const Platen &p) { return dot(p.body().displacement(), p.inward()); };
+  return moved(bottom()) + moved(top()) + machine()->compression();
 }
 
 double PlatenTest::circumferential_strain() const {

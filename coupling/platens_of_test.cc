@@ -189,6 +189,7 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
     clamp.turns = true;
     clamp.seat = {0, 0, platen_plane(s, side, settings.ends)};
   }
+  if (side == Side::top && p.machine.yields()) clamp.slides = inward(side);
   fem::ElasticOptions options;
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
@@ -197,28 +198,36 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
                                              options);
 }
 
+// The spring that a platen of this mass (kg) stands on; none where it does not.
+std::optional<MachineSpring> spring_behind(const PlatenSettings &p, Side side, double own_mass) {
+  MachineSettings machine = p.machine;
+  if (side != Side::top || !machine.yields()) return std::nullopt;
+  if (std::isnan(machine.mass)) machine.mass = own_mass;
+  if (machine.mass < own_mass)
+    throw BadSetup("platens.machine.mass",
+                   "leaves out the platen. Allowed: at least its own " + text_of(own_mass) + " kg.");
+  return MachineSpring(machine);
+}
+
 PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settings, Side side,
                         const dem::Model &model) {
   const PlatenSettings &p = settings.platens;
+  const auto on_machine = [&](std::unique_ptr<Platen> platen, const ElasticPlaten *elastic = nullptr) {
+    if (const auto spring = spring_behind(p, side, platen->body().mass())) platen->stand_on(*spring);
+    return PlatenOfTest{std::move(platen), elastic};
+  };
   if (!p.elastic && p.spherical_seat && side == Side::top) {
     const Vector3 seat{0, 0, platen_plane(s, side, settings.ends)};
     auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material, seat);
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
-    return {std::make_unique<SeatedPlaten>(name_of(side), inward(side), std::move(body), model.particles,
-                                           contact)};
+    return on_machine(std::make_unique<SeatedPlaten>(name_of(side), inward(side), std::move(body),
+                                                     model.particles, contact));
   }
   if (!p.elastic) {
     auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material);
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
-    MachineSettings machine = p.machine;
-    if (std::isnan(machine.mass)) machine.mass = body->mass();
-    if (machine.mass < body->mass())
-      throw BadSetup("platens.machine.mass",
-                     "leaves out the platen. Allowed: at least its own " + text_of(body->mass()) + " kg.");
-    auto platen =
-        std::make_unique<RigidPlaten>(name_of(side), inward(side), std::move(body), model.particles, contact);
-    if (side == Side::top && machine.yields()) platen->stand_on(MachineSpring(machine));
-    return {std::move(platen)};
+    return on_machine(std::make_unique<RigidPlaten>(name_of(side), inward(side), std::move(body),
+                                                    model.particles, contact));
   }
   auto solid = elastic_solid(s, settings, side);
   const SurfaceContact contact = contact_settings(model, s, settings, side, *solid);
@@ -227,7 +236,7 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
       name_of(side), inward(side), std::move(solid), model.particles, contact, face,
       p.elastic->motion == fem::ElasticMotion::quasi_static, p.elastic->steps_per_solve);
   const ElasticPlaten *elastic = platen.get();
-  return {std::move(platen), elastic};
+  return on_machine(std::move(platen), elastic);
 }
 
 } // namespace

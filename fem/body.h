@@ -26,6 +26,7 @@ struct EnergyBalance {
 struct VertexSprings {
   std::vector<double> stiffness; // N/m
   std::vector<double> dashpot;   // N s/m
+  double clamp = 0;              // N/m, of what pushes a clamp that slides
 };
 
 class Body : public LoadedSurface {

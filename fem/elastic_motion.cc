@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/elastic_solid.h"
 
@@ -101,15 +102,51 @@ void ElasticSolid::place_surface() {
   }
 }
 
-// What the body hands to its clamp over dt: the machine takes it, or the free seat turns.
+// What the body hands to its clamp over dt: the machine takes it, or the clamp slides, or the free seat
+// turns.
 void ElasticSolid::give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment) {
-  clamp_work_ -= dt * dot(force, velocity_);
+  if (slides()) {
+    const double along = dot(force, clamp_.slides);
+    clamp_work_ -= dt * dot(force - along * clamp_.slides, velocity_);
+    slide(dt * along);
+  } else {
+    clamp_work_ -= dt * dot(force, velocity_);
+  }
   if (!turns()) {
     clamp_work_ -= dt * dot(moment, angular_velocity_);
     return;
   }
   spin_ = spin_ + dt * moment;
   find_angular_velocity();
+}
+
+// A seat that slides drags along what turns on it, by its mass. What the turning does to the sliding is of
+// the second order of the tilt: a guide takes it, and its work is the machine's.
+void ElasticSolid::slide(double impulse) {
+  const double gain = impulse / sliding_mass_;
+  if (!turns() || is_static()) {
+    velocity_ = velocity_ + gain * clamp_.slides;
+    return;
+  }
+  const auto energy = [this] {
+    const double speed = sliding_velocity();
+    return held_kinetic_energy() + 0.5 * attached_mass_ * speed * speed;
+  };
+  const double before = energy(), work = impulse * (sliding_velocity() + 0.5 * gain);
+  velocity_ = velocity_ + gain * clamp_.slides;
+  spin_ = spin_ - gain * cross(to_space(rotor_arm_), clamp_.slides);
+  find_angular_velocity();
+  place_held();
+  clamp_work_ += energy() - before - work;
+}
+
+void ElasticSolid::push(double impulse) {
+  const double before = sliding_velocity();
+  slide(impulse);
+  pushed_ = impulse;
+  load_work_ += 0.5 * impulse * (before + sliding_velocity());
+  if (!is_static()) place_held();
+  place_surface();
 }
 
 void ElasticSolid::kick(double dt) {
@@ -132,19 +169,20 @@ void ElasticSolid::kick(double dt) {
     kicked_.push_back({node, gain, {}});
     force = force + kept, moment = moment + cross(r, kept);
   }
-  const Vector3 before = angular_velocity_;
+  const Vector3 before = angular_velocity_, drifted = velocity_;
   give_to_clamp(dt, force, moment);
-  load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
+  load_work_ +=
+      dt * (0.5 * dot(force, drifted + velocity_) + 0.5 * dot(moment, before + angular_velocity_) + relative);
   dissipated_ += dt * relative;
-  if (turns() && !is_static()) place_held();
-  if (turns()) place_surface();
+  if (moves_by_itself() && !is_static()) place_held();
+  if (moves_by_itself()) place_surface();
 }
 
 // Steps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free
 // vertices, and what they do to modes that oscillate half a period between them is left to the damping.
 double ElasticSolid::stable_step(const VertexSprings &springs) const {
   if (is_static()) return stable_step_;
-  double square = 0, damping = 0; // 1/s^2, 1/s
+  double square = slides() ? springs.clamp / sliding_mass_ : 0, damping = 0; // 1/s^2, 1/s
   for (std::size_t v = 0; v < node_of_.size(); ++v) {
     const double mass = model_.mass[static_cast<std::size_t>(node_of_[v])];
     square = std::max(square, springs.stiffness[v] / mass);
@@ -217,7 +255,7 @@ void ElasticSolid::internal_kick(double dt) {
   }
   if (clamped_nodes_.empty()) return;
   give_to_clamp(dt, force, moment);
-  if (turns()) place_held();
+  if (moves_by_itself()) place_held();
 }
 
 // Dashpots to the frame and between the nodes. They act where both halves of the loads' impulse meet: the
@@ -229,6 +267,9 @@ void ElasticSolid::damp(double dt) {
     rate_[k.node] = rate_[k.node] - k.gain;
     k.before = rate_[k.node];
   }
+  const double pushed = std::exchange(pushed_, 0.0);
+  if (pushed != 0) slide(-pushed), place_held();
+  const double slid = sliding_velocity();
   std::vector<Vector3> relative(rate_.size()), impulse(rate_.size(), Vector3{});
   for (std::size_t i = 0; i < rate_.size(); ++i)
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
@@ -251,7 +292,10 @@ void ElasticSolid::damp(double dt) {
   kicked_.clear();
   if (clamped_nodes_.empty()) return;
   give_to_clamp(1, force, moment);
-  if (turns()) place_held();
+  if (slides()) dissipated_ -= 0.5 * dot(force, clamp_.slides) * (sliding_velocity() - slid);
+  load_work_ += pushed * (sliding_velocity() - slid);
+  if (pushed != 0) slide(pushed);
+  if (moves_by_itself()) place_held();
 }
 
 } // namespace platen::fem

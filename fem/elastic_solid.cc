@@ -15,6 +15,7 @@ namespace {
 void check(const Clamp &clamp, const ElasticOptions &options) {
   const bool is_static = options.motion == ElasticMotion::quasi_static;
   require(!(clamp.turns && clamp.tag == no_clamp), "elastic solid: there is no clamp to turn");
+  require(clamp.slides == Vector3{} || clamp.tag != no_clamp, "elastic solid: there is no clamp to slide");
   require(!(is_static && clamp.tag == no_clamp), "elastic solid: a quasi-static body needs a clamp");
   require(options.mass_damping >= 0 && options.stiffness_damping >= 0 && options.fastest_damping >= 0,
           "elastic solid: damping must not be negative");
@@ -49,12 +50,13 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Cla
   else
     strained_.assign(n, Vector3{}), force_.assign(n, Vector3{});
   if (clamp.turns) weigh_rotor();
+  if (slides()) weigh_clamp();
   stable_step_ = std::numeric_limits<double>::infinity();
   if (is_static()) return;
-  // A clamp that turns as one is no faster than its nodes are by themselves.
+  // A clamp that moves as one is no faster than its nodes are by themselves.
   const Fixed none(n, {0, 0, 0});
   const double square =
-      largest_eigenvalue(model_.stiffness, model_.mass, clamp.turns ? none : fixed_, model_.cell_bound);
+      largest_eigenvalue(model_.stiffness, model_.mass, moves_by_itself() ? none : fixed_, model_.cell_bound);
   stable_step_ = 2 / std::sqrt(square);
   options_.stiffness_damping += 2 * options.fastest_damping / std::sqrt(square);
   if (options_.stiffness_damping > 0)
@@ -66,6 +68,12 @@ void ElasticSolid::hold(const Clamp &clamp) {
   require(!clamped_nodes_.empty(), "elastic solid: no face has the clamp's tag " + std::to_string(clamp.tag));
   for (const int i : clamped_nodes_)
     fixed_[static_cast<std::size_t>(i)] = {1, 1, 1};
+}
+
+void ElasticSolid::weigh_clamp() {
+  if (is_static()) sliding_mass_ = mass_;
+  for (const int i : is_static() ? std::vector<int>{} : clamped_nodes_)
+    sliding_mass_ += model_.mass[static_cast<std::size_t>(i)];
 }
 
 void ElasticSolid::weigh_rotor() {

@@ -35,6 +35,9 @@ struct Clamp {
   // on the clamp (explicit) or of all loads (quasi-static).
   bool turns = false;
   Vector3 seat{}; // m, centre of the spherical seat at the start
+  // Unit vector along which it goes by itself, by its mass, what is attached to it, what the body hands to it
+  // and push(); zero: as the machine says. Quasi-static: with the mass of all the body.
+  Vector3 slides{};
 };
 
 enum class ElasticMotion { explicit_steps, quasi_static };
@@ -71,6 +74,13 @@ public:
   Vector3 centre() const { return pivot_ + displacement_; } // m, centre of mass of the frame, or seat
   const Quaternion &rotation() const override { return rotation_; }
   bool turns() const override { return clamp_.turns; }
+
+  // Of a clamp that slides: `mass` (kg) that is fixed to it besides, before the first step; all that goes
+  // with it; how fast it goes. An impulse (N s) along its way, whose work is one of the loads.
+  void attach(double mass) { sliding_mass_ += mass, attached_mass_ = mass; }
+  double sliding_mass() const { return sliding_mass_; }                     // kg
+  double sliding_velocity() const { return dot(velocity_, clamp_.slides); } // m/s
+  void push(double impulse);
 
   void kick(double dt) override; // impulse of the loads over dt (s)
   // Moves everything over dt in steps of at most 0.9 of the stable one. Surface velocities are then those of
@@ -113,6 +123,7 @@ private:
   bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }
   void hold(const Clamp &clamp);
   void weigh_rotor();
+  void weigh_clamp();
   void follow_state();
 
   // Frame.
@@ -123,6 +134,8 @@ private:
   Vector3 carried_velocity(const Vector3 &arm_of_node) const {
     return velocity_ + cross(angular_velocity_, arm_of_node);
   }
+  bool slides() const { return clamp_.slides != Vector3{}; }
+  bool moves_by_itself() const { return turns() || slides(); } // the clamp
   bool is_held(std::size_t node) const { return fixed_[node][0] != 0; }
   Vector3 free_part(std::size_t node, const Vector3 &v) const { return is_held(node) ? Vector3{} : v; }
   void move_frame(double dt);
@@ -137,6 +150,7 @@ private:
   void internal_kick(double dt);
   void damp(double dt);
   void give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment);
+  void slide(double impulse);
 
   // Quasi-static.
   double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the path to the target
@@ -150,8 +164,9 @@ private:
   std::vector<int> node_of_, clamped_nodes_;
   Fixed fixed_; // all components of a node, or none
   double mass_ = 0, stable_step_ = 0;
-  Vector3 pivot_{}; // m, centre of mass or seat at the start
-  Matrix3 rotor_{}; // kg m^2 about the seat, frame's axes, of what turns as one
+  double sliding_mass_ = 0, attached_mass_ = 0; // kg
+  Vector3 pivot_{};                             // m, centre of mass or seat at the start
+  Matrix3 rotor_{};                             // kg m^2 about the seat, frame's axes, of what turns as one
   Matrix3 rotor_inverse_{};
   Vector3 rotor_arm_{}; // kg m, first moment of the same, frame's axes
 
@@ -171,6 +186,7 @@ private:
     Vector3 gain, before; // m/s
   };
   std::vector<Kicked> kicked_;          // by the loads since the last drift
+  double pushed_ = 0;                   // N s, the impulse on a sliding clamp before it
   std::vector<StaticEquations> solver_; // none until the first aim()
   std::vector<double> support_;         // N/m per node; empty without
   NodeMatrix supported_;                // stiffness and support

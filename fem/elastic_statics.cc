@@ -22,14 +22,16 @@ EnergyBalance ElasticSolid::energy_balance() const {
     balance.strain = path_strain();
     return balance;
   }
-  double shift = 0;
+  double shift = 0, along = 0;
   Vector3 moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
     balance.strain -= 0.5 * dot(force_[i], to_space(strained_[i]));
     const Vector3 free = free_part(i, force_[i]);
     shift += dot(free, free) / model_.mass[i];
+    along -= dot(free, clamp_.slides);
     if (turns()) moment = moment - cross(arm(i), free);
   }
+  if (slides()) shift += along * along / sliding_mass_;
   if (turns()) {
     const Vector3 m = to_frame(moment);
     for (std::size_t a = 0; a < 3; ++a)
@@ -41,8 +43,10 @@ EnergyBalance ElasticSolid::energy_balance() const {
 }
 
 double ElasticSolid::kinetic_energy() const {
-  if (is_static()) return turns() ? 0.5 * dot(angular_velocity_, spin_) : 0.0;
-  double twice = 0;
+  const double speed = sliding_velocity();
+  if (is_static())
+    return (turns() ? 0.5 * dot(angular_velocity_, spin_) : 0.0) + 0.5 * sliding_mass_ * speed * speed;
+  double twice = attached_mass_ * speed * speed;
   for (std::size_t i = 0; i < rate_.size(); ++i)
     twice += model_.mass[i] * dot(rate_[i], rate_[i]);
   return 0.5 * twice;

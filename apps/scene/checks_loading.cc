@@ -58,16 +58,12 @@ void SceneCheck::machine() const {
   if (app_ == AppKind::calibrate)
     refuse_spring(
         "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
-  if (scene_.platens.deformable) refuse_spring("moves a rigid platen. Allowed: Platens/Kind = rigid.");
-  if (scene_.platens.spherical_seat)
-    refuse_spring("moves a platen that does not turn. Allowed: Platens/Top/Seat = fixed.");
-  if (scene_.loading.confined())
-    refuse_spring("would let the platen lag behind the pressure. Allowed: Loading/Confinement = none.");
   if (scene_.loading.start_strain > 0)
     refuse_spring("is not carried to a start without inertia. Allowed: Loading/Start strain = 0.");
-  if (scene_.loading.servo && scene_.platens.machine.damping == 0)
-    refuse("Platens/Machine damping",
-           "lets a servo swing on the spring. Allowed: above 0, or Platens/Top/Control = motion.");
+  if (scene_.platens.machine.damping > 0) return;
+  const std::string swings = "lets a servo swing on the spring. Allowed: above 0, or ";
+  if (scene_.loading.servo) refuse("Platens/Machine damping", swings + "Platens/Top/Control = motion.");
+  if (scene_.loading.confined()) refuse("Platens/Machine damping", swings + "Loading/Confinement = none.");
 }
 
 // What a word needs besides the entries that it stands for.

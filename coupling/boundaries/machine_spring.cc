@@ -17,19 +17,40 @@ MachineSpring::MachineSpring(const MachineSettings &settings) : settings_(settin
   dashpot_ = 2 * settings.damping * std::sqrt(settings.stiffness * settings.mass);
 }
 
-double MachineSpring::drift(double speed, double load, double dt) {
+double MachineSpring::push(double speed) {
   speed_ = speed;
   spring_before_ = settings_.stiffness * compression_;
   damped_before_ = dashpot_force(speed, velocity_);
-  drifting_ = velocity_ + 0.5 * dt * (spring_before_ + damped_before_ - load) / settings_.mass;
-  compression_ += dt * (speed - drifting_);
+  return spring_before_ + damped_before_;
+}
+
+void MachineSpring::go(double velocity, double dt) {
+  drifting_ = velocity;
+  compression_ += dt * (speed_ - drifting_);
+}
+
+void MachineSpring::follow(double path, double dt) {
+  go(path / dt, dt);
+}
+
+double MachineSpring::drift(double speed, double load, double dt) {
+  go(velocity_ + 0.5 * dt * (push(speed) - load) / settings_.mass, dt);
   return drifting_;
 }
 
-// The velocity is solved for with the dashpot's force at it.
 void MachineSpring::finish(double load, double dt) {
-  const double kick = 0.5 * dt / settings_.mass, spring = settings_.stiffness * compression_;
-  velocity_ = (drifting_ + kick * (spring + dashpot_ * speed_ - load)) / (1 + kick * dashpot_);
+  end(drifting_, load, settings_.mass, dt);
+}
+
+double MachineSpring::finish_push(double velocity, double mass, double dt) {
+  end(velocity, 0, mass, dt);
+  return mass * (velocity_ - velocity);
+}
+
+// The velocity is solved for with the dashpot's force at it.
+void MachineSpring::end(double velocity, double load, double mass, double dt) {
+  const double kick = 0.5 * dt / mass, spring = settings_.stiffness * compression_;
+  velocity_ = (velocity + kick * (spring + dashpot_ * speed_ - load)) / (1 + kick * dashpot_);
   const double damped = dashpot_force(speed_, velocity_);
   power_ = (spring_before_ + spring + damped_before_ + damped) * speed_;
   damping_work_ += 0.5 * dt * (damped_before_ + damped) * (speed_ - drifting_);

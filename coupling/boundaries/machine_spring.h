@@ -9,6 +9,9 @@
 // by velocity Verlet on the steps of the particles, the dashpot by the mean of its forces at both ends of the
 // drift, so that only k, and not c, bounds the step. The works below are those by which this scheme changes
 // the kinetic energy (docs/theory.md, 8.2). The weight of the platen is the machine's.
+//
+// Where the platen is a body that moves by itself (an elastic one, by what it bears on its clamp), the spring
+// pushes that body at both ends of its drift instead of solving for M.
 #pragma once
 
 #include <cmath>
@@ -20,7 +23,8 @@ namespace platen::coupling {
 
 struct MachineSettings {
   double stiffness = not_given; // N/m, from the crosshead to the platen; not given: rigid
-  double mass = not_given;      // kg, that moves with the platen, itself included; not given: its own
+  double mass = not_given;      // kg, that moves with the platen, itself included; not given: its own. What
+                                // an elastic one has not is fixed to its clamp
   double damping = 0.1;         // fraction of critical
 
   bool yields() const { return !std::isnan(stiffness); }
@@ -32,7 +36,8 @@ struct MachineSettings {
       "Of the whole machine, from its crosshead to the top platen; the bottom one stands on its base. "
       "The crosshead moves as Loading says; strains are those of the faces. Not given: rigid.");
     v("mass", p.mass, "kg", above(0),
-      "That moves with the top platen on that spring, itself included; not given: the platen's own.");
+      "That moves with the top platen on that spring, itself included; not given: the platen's own. What a "
+      "deformable platen does not have of it is fixed to its far end.");
     v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of that mass on that spring.");
   }
 };
@@ -47,6 +52,13 @@ public:
   double drift(double speed, double load, double dt);
   // The end of that step, with the load that it has found.
   void finish(double load, double dt);
+
+  // The same of a platen that moves by itself. The force on it at the start of the drift, N;
+  double push(double speed);
+  // where it has gone over the drift, m;
+  void follow(double path, double dt);
+  // the impulse that the spring gives, at the end, to a `mass` (kg) that goes at `velocity` by then, N s.
+  double finish_push(double velocity, double mass, double dt);
 
   double compression() const { return compression_; } // m, crosshead before platen since the start
   double velocity() const { return velocity_; }       // m/s, of the platen, at the end of the step
@@ -67,6 +79,8 @@ public:
 
 private:
   double dashpot_force(double speed, double velocity) const { return dashpot_ * (speed - velocity); } // N
+  void go(double velocity, double dt);
+  void end(double velocity, double load, double mass, double dt);
 
   MachineSettings settings_;
   double dashpot_ = 0; // N s/m

@@ -102,14 +102,30 @@ Platen::Platen(std::string name, const Vector3 &inward, std::unique_ptr<fem::Bod
       layer_(particles, *body_, contact) {}
 
 void Platen::drift(const Step &step, const Command &command) {
-  body_->set_velocity(command.velocity);
+  if (machine_)
+    drift_on_spring(step, command);
+  else
+    move(step, command.velocity);
+}
+
+void Platen::move(const Step &step, const Vector3 &velocity) {
+  body_->set_velocity(velocity);
   body_->kick(0.5 * step.dt);
   body_->drift(step.dt);
   body_->clear_loads();
 }
 
+void Platen::drift_on_spring(const Step &step, const Command &command) {
+  const double along = dot(command.velocity, inward_);
+  const double speed = machine_->drift(along, load(), step.dt);
+  move(step, command.velocity + (speed - along) * inward_);
+}
+
 void Platen::finish(const Step &step) {
+  const Vector3 before = force_;
   force_ = body_->total_force();
+  forces_ = before + force_;
+  if (machine_) finish_on_spring(step);
   if (step.number % steps_between_edges != 0 || closure() < room_) return;
   throw NumericsStopped("the platen " + name() + " has closed by " + text_of(closure()) + " m at " +
                         text_of(step.time) + " s and meets the edges of its neighbours; try a larger " +
@@ -121,7 +137,21 @@ bool Platen::is_finite() const {
 }
 
 ServoLoad Platen::servo_load(const dem::Particles &particles) const {
-  return layer_.servo_load(particles);
+  ServoLoad load = layer_.servo_load(particles);
+  if (machine_) load.impedance += machine_->servo_impedance();
+  return load;
+}
+
+void Platen::add_energy(dem::EnergyLedger &energy) const {
+  ContactBoundary::add_energy(energy);
+  if (!machine_) return;
+  energy.bodies += machine_->elastic_energy() + kinetic_energy_on_spring();
+  energy.damping += machine_->damping_work();
+}
+
+double Platen::seconds_on_spring(const fem::VertexSprings &shared) const {
+  const auto sum = [](const std::vector<double> &of) { return std::accumulate(of.begin(), of.end(), 0.0); };
+  return machine_->stable_step(sum(shared.stiffness), sum(shared.dashpot));
 }
 
 void Platen::write_vtu(std::ostream &stream) const {
@@ -169,23 +199,7 @@ void Platen::describe(Archive &archive) {
   archive("force", force_, "N");
   archive.part("body", *body_);
   archive.part("contacts", layer_);
-}
-
-void RigidPlaten::drift(const Step &step, const Command &command) {
-  if (!machine_) return Platen::drift(step, command);
-  const double along = dot(command.velocity, inward_);
-  const double speed = machine_->drift(along, load(), step.dt);
-  Platen::drift(step, {command.velocity + (speed - along) * inward_, command.pressure});
-}
-
-void RigidPlaten::finish(const Step &step) {
-  const Vector3 before = force_;
-  Platen::finish(step);
-  power_ = dot(before + force_, body_->velocity());
-  if (!machine_) return;
-  machine_->finish(load(), step.dt);
-  // Along the way that it presses the machine acts on the spring instead.
-  power_ -= dot(before + force_, inward_) * dot(body_->velocity(), inward_) + machine_->power();
+  if (machine_) archive.part("machine", *machine_);
 }
 
 void RigidPlaten::add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) {
@@ -197,28 +211,8 @@ void RigidPlaten::add_springs(const dem::Particles &particles, std::vector<dem::
 
 StepLimit RigidPlaten::limit(const dem::Particles &particles) const {
   if (!machine_) return {};
-  const fem::VertexSprings springs = shared_springs(particles);
-  const auto sum = [](const std::vector<double> &of) { return std::accumulate(of.begin(), of.end(), 0.0); };
-  return {machine_->stable_step(sum(springs.stiffness), sum(springs.dashpot)),
+  return {seconds_on_spring(shared_springs(particles)),
           "a platen on the spring of the machine and those of its contacts"};
-}
-
-void RigidPlaten::add_energy(dem::EnergyLedger &energy) const {
-  Platen::add_energy(energy);
-  if (!machine_) return;
-  energy.bodies += machine_->elastic_energy() + machine_->kinetic_energy();
-  energy.damping += machine_->damping_work();
-}
-
-ServoLoad RigidPlaten::servo_load(const dem::Particles &particles) const {
-  ServoLoad load = Platen::servo_load(particles);
-  if (machine_) load.impedance += machine_->servo_impedance();
-  return load;
-}
-
-void RigidPlaten::describe(Archive &archive) {
-  Platen::describe(archive);
-  if (machine_) archive.part("machine", *machine_);
 }
 
 void DynamicPlaten::finish(const Step &step) {
@@ -231,7 +225,12 @@ void DynamicPlaten::add_springs(const dem::Particles &particles, std::vector<dem
 }
 
 StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
-  return {body_->stable_step(shared_springs(particles)), reason_of_limit()};
+  fem::VertexSprings springs = shared_springs(particles);
+  if (!machine_) return {body_->stable_step(springs), reason_of_limit()};
+  springs.clamp = machine_->settings().stiffness;
+  // Squares of frequencies add at most, of the body's own motion and of that on the spring; dashpots too.
+  const double own = body_->stable_step(springs), whole = seconds_on_spring(springs);
+  return {1 / (1 / own + 1 / whole), reason_of_limit() + ", on the spring of the machine"};
 }
 
 void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {
@@ -260,6 +259,17 @@ void ElasticPlaten::finish(const Step &step) {
   if (loads_.steps() < steps_per_solve_) return;
   solid_.aim(loads_.mean(), steps_per_solve_ * step.dt);
   loads_.reset();
+}
+
+void ElasticPlaten::drift_on_spring(const Step &step, const Command &command) {
+  const double along = dot(command.velocity, inward_), start = dot(body_->displacement(), inward_);
+  solid_.push(0.5 * step.dt * machine_->push(along));
+  move(step, command.velocity - along * inward_ + solid_.sliding_velocity() * inward_);
+  machine_->follow(dot(body_->displacement(), inward_) - start, step.dt);
+}
+
+void ElasticPlaten::finish_on_spring(const Step &step) {
+  solid_.push(machine_->finish_push(solid_.sliding_velocity(), solid_.sliding_mass(), step.dt));
 }
 
 void ElasticPlaten::fit(const dem::Particles &particles, double) {

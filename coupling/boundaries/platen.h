@@ -64,6 +64,10 @@ public:
   Platen(std::string name, const Vector3 &inward, std::unique_ptr<fem::Body> body,
          const dem::Particles &particles, const SurfaceContact &contact);
 
+  // Before the first step: the machine moves a crosshead, and the platen along the way that it presses
+  // through that spring.
+  virtual void stand_on(const MachineSpring &spring) { machine_ = spring; }
+
   void drift(const Step &step, const Command &command) override;
   void finish(const Step &step) override;
   bool is_finite() const override;
@@ -74,6 +78,7 @@ public:
   Vector3 force() const override { return force_; }
   Vector3 inward() const override { return inward_; }
   double speed() const override { return norm(body_->velocity()); }
+  void add_energy(dem::EnergyLedger &energy) const override;
   ServoLoad servo_load(const dem::Particles &particles) const override;
   std::string series() const override { return "platens"; }
   void write_vtu(std::ostream &stream) const override;
@@ -90,7 +95,7 @@ public:
   // N m, what it adds to the bending moment of a bar along x at x = 0, about the height z (m): positive where
   // it pulls the lower side.
   double midspan_moment(double z) const;
-  virtual const MachineSpring *machine() const { return nullptr; } // that it stands on; null: a rigid one
+  const MachineSpring *machine() const { return machine_ ? &*machine_ : nullptr; } // null: a rigid one
   bool glued() const { return layer_.parameters().attachment == Attachment::glued; }
   // Springs of the particles near it, listed anew, in row order, with the indentations of its mesh.
   std::vector<dem::GroundSpring> whole_springs(const dem::Particles &particles);
@@ -100,10 +105,25 @@ protected:
   // Of a body that moves by its loads: what its contacts' springs count for the particles, and for itself.
   void add_shared_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs);
   fem::VertexSprings shared_springs(const dem::Particles &particles) const;
+  void move(const Step &step, const Vector3 &velocity); // m/s, of what the machine moves
+  // On a spring. Of a platen whose load bears on that at once, with the mass that the spring knows: its step,
+  // its limit, and its power on the machine (W) along the way that it presses, with that of the crosshead in
+  // its place.
+  virtual void drift_on_spring(const Step &step, const Command &command);
+  virtual void finish_on_spring(const Step &step) { machine_->finish(load(), step.dt); }
+  virtual double kinetic_energy_on_spring() const { return machine_->kinetic_energy(); } // J
+  virtual double seconds_on_spring(const fem::VertexSprings &shared) const;
+  double power_past_spring() const {
+    if (!machine_) return 0;
+    return dot(forces_, inward_) * dot(body_->velocity(), inward_) + machine_->power();
+  }
+
   Vector3 inward_;
   std::unique_ptr<fem::Body> body_;
   ContactLayer layer_;
-  Vector3 force_{}; // N, of the last step
+  Vector3 force_{};  // N, of the last step
+  Vector3 forces_{}; // N, at the start and at the end of its drift, added up
+  std::optional<MachineSpring> machine_;
   double room_ = std::numeric_limits<double>::infinity();
 };
 
@@ -112,24 +132,11 @@ protected:
 class RigidPlaten : public Platen {
 public:
   using Platen::Platen;
-  // Before the first step.
-  void stand_on(const MachineSpring &spring) { machine_ = spring; }
-
-  void drift(const Step &step, const Command &command) override;
-  void finish(const Step &step) override;
-  double power_on_machine() const override { return power_; }
+  double power_on_machine() const override { return dot(forces_, body_->velocity()) - power_past_spring(); }
   bool can_be_carried() const override { return !machine_; }
   void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
   StepLimit limit(const dem::Particles &particles) const override;
-  void add_energy(dem::EnergyLedger &energy) const override;
-  ServoLoad servo_load(const dem::Particles &particles) const override;
   double closure() const override { return dot(body_->displacement(), inward_); }
-  const MachineSpring *machine() const override { return machine_ ? &*machine_ : nullptr; }
-  void describe(Archive &archive) override;
-
-private:
-  std::optional<MachineSpring> machine_;
-  double power_ = 0; // W
 };
 
 // Two that hold a specimen by its ends, and where their faces were at the start.
@@ -146,6 +153,7 @@ class DynamicPlaten : public Platen {
 public:
   using Platen::Platen;
   void finish(const Step &step) override;
+  double power_on_machine() const override { return -power_past_spring(); }
   bool can_be_carried() const override { return false; }
   void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override;
   StepLimit limit(const dem::Particles &particles) const override;
@@ -176,7 +184,13 @@ public:
       : ElasticPlaten(std::move(name), inward, *solid, std::move(solid), particles, contact, face,
                       quasi_static, steps_per_solve) {}
 
+  // Its clamp slides, with what of the spring's mass the body does not have itself.
+  void stand_on(const MachineSpring &spring) override {
+    Platen::stand_on(spring);
+    solid_.attach(spring.settings().mass - solid_.mass());
+  }
   void finish(const Step &step) override;
+  double power_on_machine() const override { return machine_ ? -machine_->power() : 0; }
   bool drifts_long() const override { return true; }
   void fit(const dem::Particles &particles, double time_step) override;
   double closure() const override { return face_.advance(body_->surface()); } // the mean of the face
@@ -186,6 +200,14 @@ public:
 protected:
   std::string reason_of_limit() const override {
     return "the finite elements of a platen with the springs of its contacts";
+  }
+  // Its clamp slides, and has its energy and its work among those of the body.
+  void drift_on_spring(const Step &step, const Command &command) override;
+  void finish_on_spring(const Step &step) override;
+  double kinetic_energy_on_spring() const override { return 0; }
+  double seconds_on_spring(const fem::VertexSprings &shared) const override {
+    if (quasi_static_) return Platen::seconds_on_spring(shared);
+    return std::numeric_limits<double>::infinity(); // that of the body counts the spring
   }
 
 private:

@@ -8,9 +8,6 @@ namespace platen::coupling {
 
 namespace {
 
-// At gain 1 the dashpot is this many times the impedance of the end particles, which is that of the specimen
-// too: an impact at the speed that it allows adds 1 % to the wanted force, and waves do not ring.
-constexpr double impedances = 100;
 // At gain 1 a step moves the platen by at most this share of the path that closes the error, at gain 10 and
 // above by ten times as much: still below the limit of stability (2) and of overshoot (1/4, with the piston's
 // mass below).

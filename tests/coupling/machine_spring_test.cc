@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/pi.h"
 #include "coupling/platen_test.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/on_machine.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
@@ -141,40 +141,6 @@ TEST(machine_spring, what_is_no_spring_is_refused) {
   EXPECT_THROW(MachineSpring({k, m, 1.1}), BadParameter);
 }
 
-// One sphere between two platens: a spring of half of a contact's stiffness, in series with the machine.
-constexpr double contact = 1e7; // N/m
-
-PlatenTestSettings one_sphere(double machine) {
-  PlatenTestSettings s;
-  s.model.rotation = false;
-  s.model.local_damping = 0.5;
-  s.platens.stiffness.kind = dem::Stiffness::Kind::absolute;
-  s.platens.stiffness.value = contact;
-  s.platens.thickness = 1e-3;
-  s.platens.elements_across = 2;
-  s.platens.machine.stiffness = machine;
-  s.platens.machine.damping = 0.3;
-  s.loading.rate = 0.01;
-  s.loading.ramp = 2e-4;
-  return s;
-}
-const dem::Specimen &sphere() {
-  static const dem::Specimen s = [] {
-    dem::Specimen one;
-    one.shape = dem::box(2e-3, 2e-3, 2e-3);
-    one.centre = {{0, 0, 1e-3}}, one.radius = {1e-3};
-    return one;
-  }();
-  return s;
-}
-
-void advance_to(PlatenTest &test, double seconds) {
-  while (test.time() < seconds) {
-    test.advance(100);
-    test.model.take_cracks();
-  }
-}
-
 TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff) {
   PlatenTest rigid(sphere(), one_sphere(not_given));
   EXPECT_EQ(rigid.machine(), nullptr);
@@ -232,32 +198,11 @@ TEST(machine_spring, a_servo_holds_its_stress_through_it) {
   }
 }
 
-// Brittle, under a machine that is as stiff as the specimen or much softer.
-PlatenTestSettings crushing(double machine) {
-  PlatenTestSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap.value = 0.05;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
-  s.model.contact = dem::ContactSettings{};
-  s.model.contact->damping = 0;
-  s.model.local_damping = 0.3;
-  s.ends = Ends::ground;
-  s.end_layer = 0.5;
-  s.platens.top = s.platens.bottom = {0.3, 0.2};
-  s.platens.thickness = 2e-3;
-  s.platens.machine.stiffness = machine;
-  s.loading.rate = 1;
-  s.loading.ramp = 1e-6;
-  return s;
-}
-
 TEST(machine_spring, the_energy_balance_closes_through_a_crush) {
   for (const double machine : {1e7, 1e9}) {
-    PlatenTest test(small_cylinder(), crushing(machine));
-    while (test.model.broken_tension < 100 && test.steps() < 20000) {
-      test.advance(100);
-      test.model.take_cracks();
-    }
+    PlatenTest test(cylinder(), crushing(machine));
+    while (test.model.broken_tension < 100 && test.steps() < 20000)
+      steps_to(test, test.steps() + 100);
     EXPECT_GE(test.model.broken_tension, 100) << machine;
     const dem::EnergyLedger energy = test.energy();
     EXPECT_GT(energy.bodies, 0) << machine;
@@ -267,25 +212,18 @@ TEST(machine_spring, the_energy_balance_closes_through_a_crush) {
 
 TEST(machine_spring, a_stop_and_any_number_of_threads_change_nothing) {
   const ThreadLimit one(1);
-  const dem::Specimen specimen = small_cylinder();
-  PlatenTest whole(specimen, crushing(1e8)), first(specimen, crushing(1e8));
-  const auto steps_to = [](PlatenTest &test, long steps) {
-    while (test.steps() < steps) {
-      test.advance(steps - test.steps());
-      test.model.take_cracks();
-    }
-  };
+  PlatenTest whole(cylinder(), crushing(1e8)), first(cylinder(), crushing(1e8));
   steps_to(whole, 1300);
   steps_to(first, 800);
   EXPECT_NE(first.machine()->compression(), 0);
   for (const int threads : {1, 2, 4}) {
     const ThreadLimit limit(threads);
-    PlatenTest second(specimen, crushing(1e8));
+    PlatenTest second(cylinder(), crushing(1e8));
     set_state(second, state_of(first));
     steps_to(second, 1300);
     EXPECT_TRUE(same_state(whole, second)) << threads;
   }
-  PlatenTest other(specimen, crushing(1e8));
+  PlatenTest other(cylinder(), crushing(1e8));
   EXPECT_THROW(set_state(other, without(state_of(first), "machine/compression")), StateError);
 }
 
@@ -301,21 +239,28 @@ void refuses(const PlatenTestSettings &settings, const std::string &member, cons
 
 TEST(machine_spring, what_does_not_go_with_it_is_refused) {
   PlatenTestSettings settings = one_sphere(1e7);
-  settings.platens.elastic.emplace();
-  refuses(settings, "platens.machine.stiffness", "rigid");
-  settings.platens.elastic.reset();
-  settings.loading.cell.emplace().pressure = 1e6;
-  refuses(settings, "platens.machine.stiffness", "loading.cell");
-  settings.loading.cell.reset();
   settings.loading.start_strain = 1e-5;
   refuses(settings, "platens.machine.stiffness", "loading.start_strain");
   settings.loading.start_strain = 0;
   settings.platens.machine.mass = 1e-6;
-  refuses(settings, "platens.machine.mass", "at least");
+  for (const bool yields : {false, true}) {
+    if (yields) settings.platens.elastic.emplace();
+    refuses(settings, "platens.machine.mass", "at least");
+  }
+  settings.platens.elastic.reset();
   settings.platens.machine.mass = not_given;
   settings.platens.machine.damping = 0;
   settings.loading.servo = true;
   refuses(settings, "platens.machine.damping", "servo");
+  settings.loading.servo = false;
+  settings.loading.cell.emplace().pressure = 1e6;
+  refuses(settings, "platens.machine.damping", "servo");
+  settings.loading.cell.reset();
+  SideAsk stress;
+  stress.side = SideGroup::axial, stress.ask = SideAsk::Ask::stress, stress.value = 1e6;
+  settings.loading.stages.emplace_back().asks = {stress};
+  refuses(settings, "platens.machine.damping", "servo");
+  settings.loading.stages.clear();
   settings.platens.machine.stiffness = -1;
   EXPECT_THROW(PlatenTest(sphere(), settings), BadParameter);
 }
