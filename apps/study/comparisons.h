@@ -24,7 +24,7 @@ struct LaboratoryFigure {
   bool free_ends;         // of ends that are free to spread, else of steel platens
   double slenderness;     // height over width; of the cube where cube over prism
   double mean, low, high; // 1; equal where one number is given
-  std::string source;     // author, year; "from memory" where nobody has looked it up since
+  std::string source;     // author, year; of figures that were read, no others
 };
 
 const std::vector<LaboratoryFigure> &laboratory_figures();
