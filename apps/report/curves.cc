@@ -7,13 +7,16 @@
 #include <cmath>
 
 #include "apps/report/chart.h"
+#include "apps/report/stages.h"
 
 namespace platen::apps::report {
 namespace {
 
 std::string peak_words(const Run &run) {
-  return fmt::format("peak {:.1f} MPa at {:.2f} mm/m", run.moments.peak_stress / pa_per_mpa,
-                     run.strain()[run.moments.peak_row] * mm_per_m);
+  const std::size_t zero = zero_row(run);
+  return fmt::format("peak {:.1f} MPa at {:.2f} mm/m{}", run.moments.peak_stress / pa_per_mpa,
+                     (run.strain()[run.moments.peak_row] - run.strain()[zero]) * mm_per_m,
+                     zero > 0 ? " since consolidation" : "");
 }
 
 // What the platens of the other axes have closed, where those of the sides load.

@@ -400,6 +400,9 @@ TEST(stress, the_platen_that_is_farthest_from_it_is_told) {
   EXPECT_TRUE(task.has_settled(seen));
   task.end(seen);
   EXPECT_EQ(task.stress_at_end()->borne, 5.04e6);
+  seen.low = 5.01e6; // the other one
+  task.end(seen);
+  EXPECT_EQ(task.stress_at_end()->borne, 4.98e6);
 }
 
 // One per cent of nothing would never be reached.
