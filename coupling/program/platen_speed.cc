@@ -33,10 +33,13 @@ Servo::Servo(const Parameters &parameters) : parameters_(parameters) {
     throw std::invalid_argument("servo: the velocity limit must be positive");
 }
 
+double Servo::dashpot(const ServoLoad &load, double dt) const {
+  return std::max(impedances * load.impedance, load.stiffness * dt / share_per_step) / parameters_.gain;
+}
+
 double Servo::velocity(double wanted, double reaction, const ServoLoad &load, double dt) {
-  const double error = wanted - reaction, limit = parameters_.velocity_limit;
-  const double dashpot =
-      std::max(impedances * load.impedance, load.stiffness * dt / share_per_step) / parameters_.gain;
+  const double error = wanted - reaction, limit = parameters_.velocity_limit,
+               dashpot = this->dashpot(load, dt);
   double aim = dashpot > 0 ? error / dashpot : (error > 0 ? limit : (error < 0 ? -limit : 0.0));
   aim = std::clamp(aim, -limit, limit);
   velocity_ += smoothing * (aim - velocity_);
