@@ -231,12 +231,9 @@ double PlatenTest::gain_of_servo() const {
 }
 
 double PlatenTest::ramp_of_stress() const {
+  const double rigid = servo_slowness_ * transits_ahead * facts_.wave_transit;
   return std::max(1.0, servo_slowness_) * transits_of_cell * facts_.wave_transit +
-         transits_of_cell / transits_ahead * lag_of_machine(platens_of(Side::top));
-}
-
-double PlatenTest::lead_of_servo(const PlatensOfAxis &platens) const {
-  return servo_slowness_ * transits_ahead * facts_.wave_transit + lag_of_machine(platens);
+         transits_of_cell / transits_ahead * (time_of_servo(platens_of(Side::top)) - rigid);
 }
 
 double PlatenTest::stiffness_of_specimen() const {
@@ -244,17 +241,32 @@ double PlatenTest::stiffness_of_specimen() const {
                                   : std::numeric_limits<double>::infinity();
 }
 
-// What a spring of the machine adds to the time constant of a servo, c (1/k_s + 1/k_m), which is c/k_s
-// without one: its compliance, and its impedance in the dashpot c.
-double PlatenTest::lag_of_machine(const PlatensOfAxis &platens) const {
+// N s/m, what the machine's impedance adds to the dashpot of a servo that moves its crosshead.
+double PlatenTest::dashpot_of_machine(const PlatensOfAxis &platens) const {
   if (machine() == nullptr || platens.axis != 2) return 0;
-  const double count = static_cast<double>(platens.places.size()), stiffness = stiffness_of_specimen();
-  const bool moves = platens.places.size() == 2 || boundaries()[platens.places.front()].get() == &top();
-  const double own = moves ? Servo::impedances / gain_of_servo() * machine()->servo_impedance() / count : 0.0,
-               grains = facts_.voigt_modulus > 0
-                            ? servo_slowness_ * transits_ahead * facts_.wave_transit * stiffness
-                            : 0.0;
-  return (own / stiffness + (grains + own) / machine()->settings().stiffness) / count;
+  const std::size_t count = platens.places.size();
+  if (count == 1 && boundaries()[platens.places.front()].get() != &top()) return 0;
+  return Servo::impedances / gain_of_servo() * machine()->servo_impedance() / static_cast<double>(count);
+}
+
+// A servo with the dashpot c has the time constant c (1/k_s + 1/k_m), c/k_s on a rigid machine; two platens
+// close twice as fast.
+double PlatenTest::machine_compliance(const PlatensOfAxis &platens) const {
+  if (machine() == nullptr || platens.axis != 2) return 0;
+  return 1 / (machine()->settings().stiffness * static_cast<double>(platens.places.size()));
+}
+
+double PlatenTest::lead_of_servo(const PlatensOfAxis &platens) const {
+  const double count = static_cast<double>(platens.places.size());
+  return servo_slowness_ * transits_ahead * facts_.wave_transit +
+         dashpot_of_machine(platens) / (stiffness_of_specimen() * count);
+}
+
+// The grains' dashpot by the time constant that it has on a rigid machine.
+double PlatenTest::time_of_servo(const PlatensOfAxis &platens) const {
+  const double lead = servo_slowness_ * transits_ahead * facts_.wave_transit,
+               grains = lead > 0 ? lead * stiffness_of_specimen() : 0.0;
+  return lead_of_servo(platens) + (grains + dashpot_of_machine(platens)) * machine_compliance(platens);
 }
 
 Servo::Parameters PlatenTest::servo_for(double stress, int axis, double ramp, double least) const {

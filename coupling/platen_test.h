@@ -55,6 +55,8 @@ public:
   // faster while the specimen is elastic.
   double ramp_of_stress() const;
   double lead_of_servo(const PlatensOfAxis &platens) const;
+  double machine_compliance(const PlatensOfAxis &platens) const; // m/N, times its dashpot: ahead of that
+  double time_of_servo(const PlatensOfAxis &platens) const;      // s, both, estimated
   Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
   Servo::Parameters servo_of_top() const;
   std::optional<RateControl::Parameters> rate_control() const;
@@ -121,7 +123,7 @@ private:
   void choose_rates();
   double gain_of_servo() const; // of those that are not the top platen's own
   double stiffness_of_specimen() const;
-  double lag_of_machine(const PlatensOfAxis &platens) const;
+  double dashpot_of_machine(const PlatensOfAxis &platens) const;
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;

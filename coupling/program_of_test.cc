@@ -123,9 +123,10 @@ private:
     p.ramp = ramp;
     p.ramp_to_rest = test_.ramp();
     p.lead = std::isnan(ask.lead) ? test_.lead_of_servo(p.platens) : ask.lead;
+    if (std::isnan(ask.lead)) p.compliance = test_.machine_compliance(p.platens);
     p.servo = servo(ask, p.platens, ramp);
     if (!consolidates && !ask.servo && ask.ask != Ask::share)
-      p.integral_time = times_of_servo * test_.lead_of_servo(p.platens);
+      p.integral_time = times_of_servo * test_.time_of_servo(p.platens);
     if (ask.ask == Ask::share) p.followed = platens(ask.of), p.lag = lag();
     if (p.platens.places.size() == 1) {
       p.settled_by = {test_.platens_along(p.platens.axis)};

@@ -34,11 +34,15 @@ Servo::Servo(const Parameters &parameters) : parameters_(parameters) {
     throw std::invalid_argument("servo: the velocity limit must be positive");
 }
 
-double Servo::velocity(double wanted, double reaction, const ServoLoad &load, double dt) {
-  const double error = wanted - reaction, limit = parameters_.velocity_limit;
+double Servo::dashpot(const ServoLoad &load, double dt) const {
   const double gain = parameters_.gain;
   const double least = load.stiffness * dt / std::min(share_per_step, largest_share / gain);
-  const double dashpot = std::max(impedances * load.impedance, least) / gain;
+  return std::max(impedances * load.impedance, least) / gain;
+}
+
+double Servo::velocity(double wanted, double reaction, const ServoLoad &load, double dt) {
+  const double error = wanted - reaction, limit = parameters_.velocity_limit,
+               dashpot = this->dashpot(load, dt);
   double aim = dashpot > 0 ? error / dashpot : (error > 0 ? limit : (error < 0 ? -limit : 0.0));
   aim = std::clamp(aim, -limit, limit);
   velocity_ += smoothing * (aim - velocity_);

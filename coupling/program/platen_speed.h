@@ -37,6 +37,8 @@ public:
   // velocity limit.
   double velocity(double wanted, double reaction, const ServoLoad &load, double dt);
 
+  double dashpot(const ServoLoad &load, double dt) const; // N s/m, error over velocity
+
   void describe(Archive &archive);
 
 private:

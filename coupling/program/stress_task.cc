@@ -46,12 +46,12 @@ double StressTask::wanted(const Measures &m) const {
   double aim = parameters_.value;
   if (parameters_.followed) {
     const double rate = (parameters_.followed->stress(m) - followed_) / parameters_.lag; // Pa/s
-    aim *= followed_ + (parameters_.lag + parameters_.lead) * rate;
+    aim *= followed_ + (parameters_.lag + lead_) * rate;
   }
   const double x = ramp > 0 ? passed / ramp : 1, change = aim - stress_found_;
   const double rate = x < 1 ? 6 * x * (1 - x) / ramp * change : 0.0; // Pa/s
   const double now = x < 1 ? stress_found_ + smooth_start(x) * change : aim;
-  return now + parameters_.lead * rate;
+  return now + lead_ * rate;
 }
 
 double StressTask::asked(const Measures &m) const {
@@ -77,6 +77,8 @@ void StressTask::command(const Measures &m, Commands &asked) {
     mean.stiffness += load.stiffness / count, mean.impedance += load.impedance / count;
     reaction += m.load(place) / count;
   }
+  lead_ = parameters_.lead;
+  if (parameters_.compliance > 0) lead_ += parameters_.compliance * servo_.dashpot(mean, m.time_step());
   const double stress = wanted(m) + missing_;
   double speed = servo_.velocity(stress * parameters_.platens.area, reaction, mean, m.time_step());
   const double middle = m.time() - 0.5 * m.time_step() - begun_;

@@ -22,6 +22,8 @@ public:
     double value = 0;                      // Pa; 1 of `followed`
     std::optional<PlatensOfAxis> followed; // none: a stress
     double ramp = 0, lead = 0, lag = 0;    // s; lag > 0 where there is a followed one
+    // m/N, of what stands in series with the specimen: the lead grows by the servo's dashpot times this.
+    double compliance = 0;
     // s, in which what is missing of the stress is asked again: a specimen that widens at a steady speed
     // pushes a servo off by that speed times its dashpot; 0: never.
     double integral_time = 0;
@@ -52,6 +54,7 @@ private:
 
   Parameters parameters_;
   Servo servo_;
+  double lead_ = 0;                                        // s, in this step
   double begun_ = 0, stress_found_ = 0, speed_found_ = 0;  // s, Pa, m/s
   double followed_ = 0, missing_ = 0;                      // Pa: smoothed; over time, what was missing
   double asked_at_end_ = not_yet, borne_at_end_ = not_yet; // Pa
