@@ -26,6 +26,9 @@ GROUPS = [
         Scene("concrete_dry", COMPRESS, "outward_displacement",
               "The hourglass, with twice as many spheres as in the demo: two cones stand still, the skin of the middle "
               "is pushed out."),
+        Scene("yielding_concrete", COMPRESS, "outward_displacement",
+              "The same spheres with bonds that yield in compression: the same strength and hourglass, and one set of bonds for "
+              "short, slender, flat and pressed specimens alike (bench/results/one_concrete.md)."),
         Scene("concrete_lubricated", COMPRESS, "outward_displacement",
               "The same spheres without friction at the platens: a little weaker, one end opens, and there are no "
               "cones."),
@@ -82,6 +85,9 @@ GROUPS = [
               "A square in plane stress: the platens at the sides bear half of what those above and below do, all along. "
               "Dry steel holds the thin edges, so it bears twice the uniaxial strength; between brushes laboratories find "
               "1.27 times."),
+        Scene("biaxial_brush", COMPRESS, "side_stresses",
+              "The same square between brushes: steel pins that bend with the concrete. It fails at a little less than between dry "
+              "steel, and at equal stresses (`Lateral x = share of Axial 1`) at two thirds of that."),
         Scene("true_triaxial", COMPRESS, "side_stresses",
               "Six greased platens: 5 MPa on all sides, then the axial ones close while the others hold their stress by "
               "their servos against a cube that widens ever faster."),
@@ -173,6 +179,9 @@ GROUPS = [
               "solution. It falls as bonds become stiffer in shear, where the published one rises."),
         Scene("softening_bond", BONDS, "",
               "One elasto-damage-plastic bond led through its softening: load and energy beside the closed form."),
+        Scene("yielding_bond", BONDS, "",
+              "One parallel bond that yields in compression, loaded, unloaded and loaded again: load and energy beside the "
+              "closed form."),
         Scene("bar_silica", BAR, "",
               "A bar of bonded spheres pulled, bent, twisted and struck: errors against strength of materials with the "
               "effective section of that bar. The energy residual is that of the blow; of the other tests it is below "
