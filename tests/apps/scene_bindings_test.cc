@@ -57,7 +57,12 @@ TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
   EXPECT_EQ(note({"Bond/Poisson ratio = 0.1"}),
             "has no effect: Effects/Bond is not cohesive beam or elasto damage plastic.");
   EXPECT_EQ(note({beam, "Bond/Poisson ratio = 0.1"}), "0");
-  EXPECT_EQ(note({beam, "Bond/Stiffness ratio = 0.1"}), "has no effect: Effects/Bond is not parallel bond.");
+  EXPECT_EQ(note({beam, "Bond/Stiffness ratio = 0.1"}),
+            "has no effect: Effects/Bond is not parallel bond or yielding parallel bond.");
+  EXPECT_EQ(note({"Bond/Compression limits = 1 MPa", "Bond/Compression slopes = 2"}), "2");
+  EXPECT_EQ(note({"Effects/Bond = yielding parallel bond", "Bond/Compression limits = 1 MPa",
+                  "Bond/Compression slopes = 2"}),
+            "0");
   EXPECT_EQ(note({interface, "Bond/Gap = 0.1 R_min"}),
             "has no effect: Effects/Bond = elasto damage plastic.");
   EXPECT_EQ(note({interface, "Bond/Fracture energy shear = 2", "Bond/Softening shear = 2"}),
