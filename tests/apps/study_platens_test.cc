@@ -194,8 +194,11 @@ TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none)
   EXPECT_DOUBLE_EQ(relative.ratio.mean(), 1.5); // 45/30, 66/44
   found(PlatenEffect::cube_over_prism, 0, 8);   // 2.4 is nearer to the laboratory's 2.39 than 2
   found(PlatenEffect::gain, 3, 1);              // glued, which has no coefficient
-  EXPECT_EQ(found(PlatenEffect::gain, 2, 1).laboratory, nullptr); // Teflon: nobody says
-  EXPECT_EQ(found(PlatenEffect::relative_strength, 1, 5).laboratory->free_ends, true);
+  EXPECT_EQ(found(PlatenEffect::gain, 2, 1).laboratory, nullptr);              // Teflon: nobody says
+  EXPECT_EQ(found(PlatenEffect::relative_strength, 1, 5).laboratory, nullptr); // nor of short greased ones
+  const LaboratoryFigure *free_ends = found(PlatenEffect::cube_over_prism, 1, 9).laboratory;
+  ASSERT_NE(free_ends, nullptr);
+  EXPECT_TRUE(free_ends->free_ends);
   const bool grease_gains = std::any_of(all.begin(), all.end(), [](const Comparison &c) {
     return c.effect == PlatenEffect::gain && c.of == 1;
   });
