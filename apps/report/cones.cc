@@ -36,12 +36,19 @@ bool is_within(const FittedCone &cone, const Position &place) {
 
 } // namespace
 
-FittedCone cone_of(const Run &run, Side end, ConeTime time) {
+FittedCone cone_of(const Run &run, ConeKind kind, Side end, ConeTime time) {
   FittedCone cone;
-  const std::string start = time == ConeTime::end ? "final_" : "";
-  const auto found = run.summary.find(start + (end == Side::top ? "cone_top" : "cone_bottom"));
+  const std::string start = time == ConeTime::end ? "final_" : "",
+                    key = end == Side::top ? "cone_top" : "cone_bottom";
+  const bool both_kinds = run.summary.contains("sound_cone_top");
+  if (kind == ConeKind::by_displacement && !both_kinds) return cone;
+  const auto found =
+      run.summary.find(start + (kind == ConeKind::by_damage && both_kinds ? "sound_" : "") + key);
   const auto pattern = run.summary.find(start + "pattern"); // null where nobody looked
   if (found == run.summary.end() || pattern == run.summary.end() || pattern->is_null()) return cone;
+  if (const auto zone = run.summary.find(start + "dead_zone" + key.substr(4));
+      kind == ConeKind::by_displacement && (zone == run.summary.end() || zone->is_null()))
+    return cone; // the stress did not fall
   if (found->is_null()) {
     cone.verdict = FittedCone::Verdict::none;
     return cone;
@@ -50,6 +57,29 @@ FittedCone cone_of(const Run &run, Side end, ConeTime time) {
   cone.half_angle = found->value("half_angle_deg", 0.0) * degree;
   cone.confidence = found->value("confidence", 0.0);
   cone.verdict = FittedCone::Verdict::found;
+  return cone;
+}
+
+double angle_of_axes(const std::vector<FittedCone> &cones) {
+  double xx = 0, yy = 0, xy = 0;
+  for (const FittedCone &cone : cones) {
+    if (cone.verdict != FittedCone::Verdict::found) continue;
+    for (const auto &[x, y] :
+         {std::pair{cone.apex[0], cone.apex[1]},
+          std::pair{0.02 * cone.axis[0], 0.02 * cone.axis[1]}}) // m: a third of its height
+      xx += x * x, yy += y * y, xy += x * y;
+  }
+  return 0.5 * std::atan2(2 * xy, xx - yy);
+}
+
+Position turned(const Position &place, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * place[0] + s * place[1], c * place[1] - s * place[0], place[2]};
+}
+
+FittedCone turned(FittedCone cone, double angle) {
+  cone.apex = turned(cone.apex, angle);
+  cone.axis = turned(cone.axis, angle);
   return cone;
 }
 

@@ -1,4 +1,4 @@
-// The cones that a run fitted to the sound pieces on its platens, as outlines for pictures.
+// The cones that a run found on its platens, by displacement and by damage, as outlines for pictures.
 #pragma once
 
 #include <array>
@@ -23,9 +23,19 @@ struct FittedCone {
 };
 
 enum class ConeTime { fall, end }; // at 0.8 of the peak; at the end of the run
+// Of what moves with the platen after the peak; of the sound piece on it.
+enum class ConeKind { by_displacement, by_damage };
 
-// Summaries of builds that did not look for cones, or did not say where they stand, give `not_measured`.
-FittedCone cone_of(const Run &run, Side end, ConeTime time);
+// Summaries of builds that did not look for cones of a kind, or did not say where they stand, give
+// `not_measured`. Those that have no `sound_cone_top` told cones by damage as `cone_top`.
+FittedCone cone_of(const Run &run, ConeKind kind, Side end, ConeTime time);
+
+// Angle (rad) about the specimen's axis of the plane through it that the apexes and axes of the cones lie
+// nearest to; 0 without cones.
+double angle_of_axes(const std::vector<FittedCone> &cones);
+// The same cone in a frame that is turned by the angle.
+FittedCone turned(FittedCone cone, double angle);
+Position turned(const Position &place, double angle);
 
 // Where the cone's flank meets the plane y = 0, from its end plane up one side over the tip and down the
 // other, at most `extent.half_width` from the axis; as the specimen was before the test. Points are (x, z),

@@ -135,9 +135,11 @@ Spheres read_spheres(const Frame &frame) {
   spheres.broken_bonds = point_field(*grid, "broken_bonds", 0, 1, where);
   for (const double id : point_field(*grid, "id", 0, 1, where))
     spheres.id.push_back(std::llround(id));
-  if (grid->GetPointData()->HasArray("fragment"))
-    for (const double fragment : point_field(*grid, "fragment", 0, 1, where))
-      spheres.fragment.push_back(static_cast<int>(fragment));
+  for (const auto &[name, column] :
+       {std::pair{"fragment", &spheres.fragment}, std::pair{"moves_with", &spheres.moves_with}})
+    if (grid->GetPointData()->HasArray(name))
+      for (const double value : point_field(*grid, name, 0, 1, where))
+        column->push_back(static_cast<int>(value));
   spheres.position.resize(spheres.radius.size());
   for (std::size_t k = 0; k < spheres.size(); ++k)
     grid->GetPoint(static_cast<vtkIdType>(k), spheres.position[k].data());

@@ -44,7 +44,9 @@ struct Spheres {
   std::vector<double> radius;                     // m
   std::vector<double> intact_bonds, broken_bonds; // each counts for both its ends
   std::vector<long long> id;
-  std::vector<int> fragment; // 0: the largest; empty where the frame does not tell
+  // Empty where the frame does not tell.
+  std::vector<int> fragment;   // 0: the largest
+  std::vector<int> moves_with; // since the peak, with the platen 1 bottom, 2 top; 0 neither
 
   std::size_t size() const { return position.size(); }
   double displacement(std::size_t k) const;         // m, size

@@ -19,10 +19,11 @@ namespace {
 
 struct Figure {
   const char *title;
-  std::vector<const char *> keys; // the largest of them; a member of an object after "/"
+  std::vector<const char *> keys; // the largest of them, or the least; a member of an object after "/"
   double factor;                  // from SI to the unit in the title
   int digits;
   bool only_if_measured; // no row where no run has it
+  bool least = false;
 };
 
 const std::vector<Figure> figures = {
@@ -39,20 +40,30 @@ const std::vector<Figure> figures = {
     {"damage of the middle", {"middle_damage"}, 1, 3, false},
     {"spread of the ends", {"end_spread"}, 1, 3, false},
     {"barrel at peak", {"barrel_at_peak"}, 1, 3, false},
+    {"base of the worse end's cone, r0",
+     {"dead_zone_top/base_ratio", "dead_zone_bottom/base_ratio"},
+     1,
+     2,
+     true,
+     true},
     {"half-angle of the top cone (degrees)", {"cone_top/half_angle_deg"}, 1, 1, true},
     {"half-angle of the bottom cone", {"cone_bottom/half_angle_deg"}, 1, 1, true},
     {"top cone at the end", {"final_cone_top/half_angle_deg"}, 1, 1, true},
     {"bottom cone at the end", {"final_cone_bottom/half_angle_deg"}, 1, 1, true},
+    {"half-angle of the top cone by damage", {"sound_cone_top/half_angle_deg"}, 1, 1, true},
+    {"half-angle of the bottom cone by damage", {"sound_cone_bottom/half_angle_deg"}, 1, 1, true},
     {"b-value before the peak", {"acoustic/b_before"}, 1, 2, true},
     {"b-value after the peak", {"acoustic/b_after"}, 1, 2, true},
 };
 
 // NaN where the run did not measure it.
 double value_of(const Run &run, const Figure &figure) {
-  double largest = std::nan("");
-  for (const char *key : figure.keys)
-    largest = std::fmax(largest, number_in(run.summary, key) * figure.factor);
-  return largest;
+  double value = std::nan("");
+  for (const char *key : figure.keys) {
+    const double one = number_in(run.summary, key) * figure.factor;
+    value = figure.least ? std::fmin(value, one) : std::fmax(value, one);
+  }
+  return value;
 }
 
 std::string fixed(double value, int digits) {

@@ -37,10 +37,16 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
   album.add("comparison_damage.png",
             "Half specimens coloured by the share of each sphere's bonds that is broken: grey is sound.",
             draw_side_by_side, runs, Quantity::damage);
+  if (std::any_of(runs.begin(), runs.end(), tells_dead_zones))
+    album.add(
+        "comparison_cones.png",
+        "What has moved with each platen from the peak to 0.8 of it, and the cones fitted to that: cones by "
+        "displacement.",
+        draw_side_by_side, runs, Quantity::dead_zones);
   if (std::any_of(runs.begin(), runs.end(), tells_fragments))
     album.add("comparison_fragments.png",
-              "Pieces at the end, and the cones fitted to what is sound at each platen.", draw_side_by_side,
-              runs, Quantity::pieces);
+              "Pieces at the end, and the cones fitted to what is sound at each platen: cones by damage.",
+              draw_side_by_side, runs, Quantity::pieces);
 }
 
 void draw_curves(const Run &run, Album &album) {
@@ -93,6 +99,8 @@ void draw_specimen(const Run &run, const Extent &extent, Album &album) {
   album.add("damage.png",
             "Half specimen coloured by the share of each sphere's bonds that is broken: grey is sound.",
             draw_pattern_and_end, run, extent, Quantity::damage);
+  if (tells_dead_zones(run))
+    album.add("cones.png", dead_zones_caption(run), draw_pattern_and_end, run, extent, Quantity::dead_zones);
   if (tells_fragments(run))
     album.add("fragments.png", fragments_caption(run), draw_pattern_and_end, run, extent, Quantity::pieces);
 }

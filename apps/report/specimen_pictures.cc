@@ -24,8 +24,11 @@ Words words_of(Quantity quantity) {
        "Outward\ndisplacement\n(mm)"},
       {"The specimen cut in half", "", "", "Displacement\n(mm)"},
       {"Damage, half of the specimen", "Damage compared", "Half of each specimen", "Share of\nbonds broken"},
-      {"Pieces that bonds hold together (grey: below 30 spheres) and fitted cones",
-       "Pieces and cones compared", "Grey: pieces of fewer than 30 spheres", ""}};
+      {"Pieces that bonds hold together (grey: below 30 spheres) and cones by damage",
+       "Pieces and cones by damage compared", "Grey: pieces of fewer than 30 spheres", ""},
+      {"What moves with the bottom platen (blue) and with the top one (orange), and cones by displacement",
+       "What moves with the platens, and cones by displacement",
+       "Blue: with the bottom one; orange: with the top one", ""}};
   return all[static_cast<std::size_t>(quantity)];
 }
 
@@ -45,6 +48,7 @@ std::vector<double> colours_of_pieces(const Spheres &spheres) {
 
 std::vector<double> values_of(const Spheres &spheres, Quantity quantity) {
   if (quantity == Quantity::pieces) return colours_of_pieces(spheres);
+  if (quantity == Quantity::dead_zones) return {spheres.moves_with.begin(), spheres.moves_with.end()};
   std::vector<double> values(spheres.size());
   for (std::size_t k = 0; k < values.size(); ++k)
     values[k] = quantity == Quantity::damage         ? spheres.damage(k)
@@ -68,8 +72,34 @@ void mark_cone(CutView &view, const FittedCone &cone, Side end, const Extent &ex
   for (const auto &[x, z] : section_of(cone, end, extent))
     outline.push_back({x + moved[0], moved[1], z + moved[2]});
   if (!outline.empty()) view.outlines.push_back(std::move(outline));
-  view.notes.push_back(
-      {{beside, 0, height}, fmt::format("half-angle\n{}\xC2\xB0", std::lround(cone.half_angle / degree))});
+  view.notes.push_back({{beside, 0, height},
+                        fmt::format("half-angle\n{}\xC2\xB0\nconfidence\n{:.2f}",
+                                    std::lround(cone.half_angle / degree), cone.confidence)});
+}
+
+// The specimen turned about its axis, so that the cut lies at the angle.
+void turn(CutView &view, double angle) {
+  for (std::vector<Position> *column : {&view.spheres.position, &view.spheres.initial})
+    for (Position &place : *column)
+      place = turned(place, angle);
+  if (!view.platens) return;
+  for (vtkIdType k = 0; k < view.platens->GetNumberOfPoints(); ++k) {
+    Position place;
+    view.platens->GetPoint(k, place.data());
+    view.platens->GetPoints()->SetPoint(k, turned(place, angle).data());
+  }
+}
+
+// Those of a kind, on top and at the bottom, where a box stays as it is and a cylinder is turned to their
+// axes.
+void mark_cones(CutView &view, const Run &run, ConeKind kind, ConeTime moment, const Extent &extent) {
+  const FittedCone top = cone_of(run, kind, Side::top, moment),
+                   bottom = cone_of(run, kind, Side::bottom, moment);
+  const bool turns = kind == ConeKind::by_displacement && extent.form == Extent::Form::cylinder;
+  const double angle = turns ? angle_of_axes({top, bottom}) : 0;
+  if (turns) turn(view, angle);
+  mark_cone(view, turned(top, angle), Side::top, extent);
+  mark_cone(view, turned(bottom, angle), Side::bottom, extent);
 }
 
 CutView view_at(const Run &run, double time, Quantity quantity, const std::string &caption) {
@@ -86,15 +116,20 @@ CutView view_of(const Run &run, ConeTime moment, Quantity quantity, const Extent
   CutView view = moment == ConeTime::fall
                      ? view_at(run, run.pattern_time(), quantity, "at " + run.pattern_words())
                      : view_at(run, run.moments.end_time, quantity, "at the end");
-  if (quantity == Quantity::pieces)
-    for (const Side end : {Side::top, Side::bottom})
-      mark_cone(view, cone_of(run, end, moment), end, extent);
+  if (quantity == Quantity::pieces) mark_cones(view, run, ConeKind::by_damage, moment, extent);
+  if (quantity == Quantity::dead_zones) mark_cones(view, run, ConeKind::by_displacement, moment, extent);
   return view;
+}
+
+// What is compared when the stress has fallen, not at the end.
+bool is_of_fall(Quantity quantity) {
+  return quantity == Quantity::damage || quantity == Quantity::dead_zones;
 }
 
 Colouring colouring_of(Quantity quantity, const std::vector<CutView> &views) {
   const char *bar = words_of(quantity).bar;
-  if (quantity == Quantity::pieces) return {Ramp::pieces, {0, coloured}, bar};
+  if (quantity == Quantity::pieces || quantity == Quantity::dead_zones)
+    return {Ramp::pieces, {0, coloured}, bar};
   if (quantity == Quantity::damage) return {Ramp::damage, round_ticks(0, 1, 5), bar};
   return {Ramp::displacement, ticks_for(views), bar};
 }
@@ -103,6 +138,11 @@ Colouring colouring_of(Quantity quantity, const std::vector<CutView> &views) {
 
 bool tells_fragments(const Run &run) {
   return !run.specimen.empty() && !read_spheres(run.specimen.front()).fragment.empty();
+}
+
+bool tells_dead_zones(const Run &run) {
+  return run.moments.post_peak_time && !run.specimen.empty() &&
+         !read_spheres(run.specimen.back()).moves_with.empty();
 }
 
 void draw_three_moments(const Run &run, const Extent &extent, bool whole, const std::filesystem::path &png) {
@@ -132,10 +172,11 @@ void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const st
   std::vector<CutView> views;
   Extent largest;
   for (const Run &run : runs) {
-    if (run.specimen.empty() || (quantity == Quantity::pieces && !tells_fragments(run))) continue;
+    if (run.specimen.empty() || (quantity == Quantity::pieces && !tells_fragments(run)) ||
+        (quantity == Quantity::dead_zones && !tells_dead_zones(run)))
+      continue;
     const Extent extent = extent_of(read_spheres(run.specimen.front()));
-    views.push_back(
-        view_of(run, quantity == Quantity::damage ? ConeTime::fall : ConeTime::end, quantity, extent));
+    views.push_back(view_of(run, is_of_fall(quantity) ? ConeTime::fall : ConeTime::end, quantity, extent));
     views.back().caption = run.name + ", " + views.back().caption;
     if (extent.height() > largest.height()) largest = extent;
   }
@@ -144,10 +185,14 @@ void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const st
                  png);
 }
 
-std::string fragments_caption(const Run &run) {
-  std::string text = "Half specimen, the pieces that bonds still hold together in colours.";
+namespace {
+
+// " Cone at the end: on top ..., at the bottom ... ." of each time that is known.
+std::string cones_in_words(const Run &run, ConeKind kind) {
+  std::string text;
   const auto say = [&](const std::string &when, ConeTime time) {
-    const FittedCone top = cone_of(run, Side::top, time), bottom = cone_of(run, Side::bottom, time);
+    const FittedCone top = cone_of(run, kind, Side::top, time),
+                     bottom = cone_of(run, kind, Side::bottom, time);
     if (top.verdict == FittedCone::Verdict::not_measured &&
         bottom.verdict == FittedCone::Verdict::not_measured)
       return;
@@ -155,7 +200,24 @@ std::string fragments_caption(const Run &run) {
   };
   if (run.moments.post_peak_time) say("at " + run.pattern_words(), ConeTime::fall);
   say("at the end", ConeTime::end);
-  return text + " Outlines: where the cone, fitted to spheres that kept most of their bonds, meets the cut.";
+  return text;
+}
+
+} // namespace
+
+std::string fragments_caption(const Run &run) {
+  return "Half specimen, the pieces that bonds still hold together in colours." +
+         cones_in_words(run, ConeKind::by_damage) +
+         " Outlines: where the cone by damage, fitted to spheres that kept most of their bonds, meets the "
+         "cut.";
+}
+
+std::string dead_zones_caption(const Run &run) {
+  return "Half specimen, cut where the axes of the cones lie. Blue has moved with the bottom platen since "
+         "the peak, "
+         "orange with the top one." +
+         cones_in_words(run, ConeKind::by_displacement) +
+         " Outlines: the cone by displacement, fitted to what is coloured.";
 }
 
 } // namespace platen::apps::report

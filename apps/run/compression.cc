@@ -41,7 +41,7 @@ void CompressionRun::loop() {
     // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
     if (fields_ && (finished() || due(scene_.output.fields_every, automatic_frames))) {
       dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
-      fields_->write(*test_);
+      fields_->write(*test_, results_.moves_with(*test_));
     }
     signal_ = stop_requested();
     if (signal_ != 0 || checkpoint_due() || take_checkpoint_request()) {
@@ -75,7 +75,7 @@ int CompressionRun::run() {
   results_.finish(*test_, event_window());
   if (test_->model.bonds) write_bond_stress();
   if (scene_.model.crack_log) write_events();
-  if (fields_) fields_->write(*test_);
+  if (fields_) fields_->write(*test_, results_.moves_with(*test_));
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
   tell_unsettled(0);

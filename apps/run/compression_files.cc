@@ -84,7 +84,7 @@ void CompressionRun::open_files() {
     if (scene_.output.fields) fields_.emplace(paths_.folder);
     if (as_packed_) keep(*as_packed_);
     sample();
-    if (fields_) fields_->write(*test_);
+    if (fields_) fields_->write(*test_, results_.moves_with(*test_));
     return;
   }
   const FoundCheckpoint found = newest_whole_checkpoint(paths_.checkpoints());
@@ -120,7 +120,8 @@ void CompressionRun::sample() {
 void CompressionRun::keep(const Sample &s) {
   history_->row(history_row(s, test_.get()));
   const bool fallen = results_.add(s, *test_);
-  if (fallen && fields_) fields_->write(*test_); // the state that damage and opening are measured in
+  if (fallen && fields_)
+    fields_->write(*test_, results_.moves_with(*test_)); // the state that damage and opening are measured in
 }
 
 void CompressionRun::write_cracks() {

@@ -5,6 +5,7 @@
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
+#include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
@@ -48,7 +49,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
-                     coupling::loaded_axis(*test_));
+                     coupling::loaded_axis(*test_), tells_pattern(scene, *test_));
   sampler_ = std::make_unique<Sampler>(*test_);
   if (scene.loading.start_strain > 0 && !resumes) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());

@@ -19,6 +19,29 @@ Json json_of(const Vector3 &v) {
   return Json::array({v.x, v.y, v.z});
 }
 
+Json json_of(const dem::DeadZone &zone) {
+  if (!zone.is_cone()) return nullptr;
+  return {{"base_ratio", zone.base_ratio},
+          {"height_m", zone.height},
+          {"half_angle_deg", zone.half_angle / degree},
+          {"volume_fraction", zone.volume_fraction},
+          {"apex_depth_m", zone.apex_depth},
+          {"tilt_deg", zone.tilt / degree},
+          {"apex_m", json_of(zone.apex)},
+          {"axis", json_of(zone.axis)},
+          {"roundness", zone.roundness},
+          {"straightness", zone.straightness},
+          {"confidence", zone.confidence}};
+}
+
+// Of what moves with a platen, cone or not.
+Json json_of_zone(const dem::DeadZone &zone) {
+  if (zone.verdict == dem::DeadZoneVerdict::not_measured) return nullptr;
+  return {{"verdict", dem::words_of(zone.verdict)},
+          {"base_ratio", zone.base_ratio},
+          {"volume_fraction", zone.volume_fraction}};
+}
+
 Json json_of(const dem::ConePiece &piece) {
   if (!piece.is_cone()) return nullptr;
   return {{"height_m", piece.height},
@@ -69,13 +92,19 @@ Json json_of(const Emission &e) {
 // Of a state that was measured.
 void add_state(Json &to, const std::string &start, const Pattern &p, bool pattern) {
   const bool measured = !std::isnan(p.failure.broken_share), told = pattern && measured;
-  const dem::ConePiece &top = p.failure.cones[dem::top_end], &bottom = p.failure.cones[dem::bottom_end];
-  to[start + "cone_top"] = told ? json_of(top) : Json();
-  to[start + "cone_bottom"] = told ? json_of(bottom) : Json();
-  to[start + "pattern"] = told ? Json(dem::word_of(dem::judge_failure(p.failure).pattern)) : Json();
-  to[start + "pattern_reasons"] =
-      told ? Json{reason_words(p.failure), "top: " + cone_words(top), "bottom: " + cone_words(bottom)}
-           : Json();
+  const auto &[dead_bottom, dead_top] = p.failure.dead;
+  const auto &[sound_bottom, sound_top] = p.failure.sound;
+  const auto add = [&](const char *key, const Json &value) { to[start + key] = told ? value : Json(); };
+  add("cone_top", json_of(dead_top));
+  add("cone_bottom", json_of(dead_bottom));
+  add("dead_zone_top", json_of_zone(dead_top));
+  add("dead_zone_bottom", json_of_zone(dead_bottom));
+  add("sound_cone_top", json_of(sound_top));
+  add("sound_cone_bottom", json_of(sound_bottom));
+  add("pattern", dem::word_of(dem::judge_failure(p.failure).pattern));
+  add("pattern_reasons",
+      Json{reason_words(p.failure), "top: " + cone_words(dead_top), "bottom: " + cone_words(dead_bottom),
+           "sound piece on top: " + cone_words(sound_top), "on the bottom: " + cone_words(sound_bottom)});
   to[start + "crack_planes"] = measured ? json_of(p.failure.planes) : Json();
 }
 
@@ -96,6 +125,16 @@ void add_failure(Json &to, const Scene &scene, const coupling::PlatenTest &probl
   to["acoustic"] = heard ? json_of(e) : Json();
 }
 
+std::string cone_words(const dem::DeadZone &d) {
+  if (d.is_cone())
+    return fmt::format(
+        "r0 {:.2f}, {:.1f} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
+        d.base_ratio, 1e3 * d.height, d.half_angle / degree, d.volume_fraction, d.confidence);
+  if (std::isnan(d.base_ratio)) return fmt::format("none: {}", dem::words_of(d.verdict));
+  return fmt::format("none: {} (r0 {:.2f}, {:.2f} of the volume)", dem::words_of(d.verdict), d.base_ratio,
+                     d.volume_fraction);
+}
+
 std::string cone_words(const dem::ConePiece &c) {
   if (!c.is_cone()) return fmt::format("none: {}", dem::words_of(c.verdict));
   return fmt::format("{:.1f} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
@@ -106,12 +145,7 @@ std::string reason_words(const dem::FailureMeasures &m) {
   const dem::CrackPlane &plane = m.planes.largest;
   switch (dem::judge_failure(m).by) {
     case dem::DecidedBy::two_cones:
-      return "a cone stands on each platen";
-    case dem::DecidedBy::hourglass:
-      return fmt::format(
-          "the ends are sound (damage {:.2f} at most), the middle is not ({:.2f}), and a sound "
-          "piece narrows away from each platen",
-          m.damage.worse_end(), m.damage.middle);
+      return "what moves with the platens is a cone on each";
     case dem::DecidedBy::one_plane:
       return fmt::format("{:.0f} % of the broken bonds lie in one plane, {:.0f} degrees from the axis",
                          100 * plane.bonds / m.planes.broken, plane.inclination / degree);

@@ -33,9 +33,9 @@ FieldSeries::FieldSeries(const std::filesystem::path &folder)
   write_text_aside(OutputPaths(folder).view(), view_script);
 }
 
-void FieldSeries::write(const coupling::PlatenTest &problem) {
+void FieldSeries::write(const coupling::PlatenTest &problem, const std::vector<int> &moves_with) {
   if (problem.time() <= last_time_) return;
-  write_specimen(problem);
+  write_specimen(problem, moves_with);
   if (problem.model.bonds) write_bonds(problem);
   write_boundaries(problem);
   write_contacts(problem);
@@ -50,7 +50,7 @@ void FieldSeries::resume(double last_time, int count) {
     series->resume(last_time);
 }
 
-void FieldSeries::write_specimen(const coupling::PlatenTest &problem) {
+void FieldSeries::write_specimen(const coupling::PlatenTest &problem, const std::vector<int> &moves_with) {
   const dem::Model &model = problem.model;
   const dem::Particles &p = model.particles;
   const std::size_t n = p.size();
@@ -90,6 +90,7 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem) {
     fields.emplace_back("damage", std::move(damage));
     fields.emplace_back("fragment", dem::find_fragments(p, model.bonds.get()).of_particle);
   }
+  if (!moves_with.empty()) fields.emplace_back("moves_with", moves_with);
   write_points(folder_ / OutputPaths::frame_name("specimen", count_), problem.time(), vectors(p.position),
                fields);
   specimen_.append(problem.time(), OutputPaths::frame_name("specimen", count_));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "apps/io/pvd.h"
 #include "coupling/platen_test.h"
@@ -13,15 +14,16 @@ public:
   // Frames land in `folder`/frames, the .pvd files and the script that shows them in `folder`.
   explicit FieldSeries(const std::filesystem::path &folder);
 
-  // Writes one frame of everything; a second call at the same time does nothing. Throws OutputError.
-  void write(const coupling::PlatenTest &problem);
+  // Writes one frame of everything; a second call at the same time does nothing. `moves_with`
+  // (Results::moves_with) is left out where it is empty. Throws OutputError.
+  void write(const coupling::PlatenTest &problem, const std::vector<int> &moves_with);
   // Goes on after the frame of `last_time` (s), the number of frames written so far being `count`.
   void resume(double last_time, int count);
   double last_time() const { return last_time_; } // s, of the last frame; -1 before the first
   int count() const { return count_; }
 
 private:
-  void write_specimen(const coupling::PlatenTest &problem);
+  void write_specimen(const coupling::PlatenTest &problem, const std::vector<int> &moves_with);
   void write_bonds(const coupling::PlatenTest &problem);
   void write_boundaries(const coupling::PlatenTest &problem);
   void write_contacts(const coupling::PlatenTest &problem);

@@ -107,8 +107,10 @@ void report_damage(Report &report, const Scene &scene, const coupling::PlatenTes
               p.failure.damage.end_top, p.failure.damage.end_bottom, p.failure.damage.middle);
   report.line("end spread, barrel at peak", "{:.2f}, {:.2f}", p.failure.end_spread, results.barrel_at_peak());
   if (!tells_pattern(scene, problem)) return;
-  report.words("cone on top", cone_words(p.failure.cones[dem::top_end]));
-  report.words("cone on the bottom", cone_words(p.failure.cones[dem::bottom_end]));
+  report.words("cone on top", cone_words(p.failure.dead[dem::top_end]));
+  report.words("cone on the bottom", cone_words(p.failure.dead[dem::bottom_end]));
+  report.words("cones by damage, top", cone_words(p.failure.sound[dem::top_end]));
+  report.words("bottom", cone_words(p.failure.sound[dem::bottom_end]));
   const dem::FailureVerdict verdict = dem::judge_failure(p.failure);
   report.words("pattern", fmt::format("{}: {}", dem::word_of(verdict.pattern), reason_words(p.failure)));
 }

@@ -13,19 +13,34 @@ constexpr double pattern_share = 0.8;
 // Moduli are secants at this share of the strength (Bamforth; Tannu 2017).
 constexpr double modulus_share = 0.4;
 
-Pattern measure_pattern(const coupling::PlatenTest &problem, const dem::Soundness &soundness, int axis) {
+} // namespace
+
+Pattern Results::measure_pattern(const coupling::PlatenTest &problem) const {
   Pattern p;
   p.time = problem.time();
-  p.strain = problem.closure_strain(axis);
+  p.strain = problem.closure_strain(axis_);
   if (!problem.model.bonds) return p;
   const dem::Bonds &bonds = *problem.model.bonds;
-  if (axis == 2) p.failure = dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness);
+  if (axis_ == 2)
+    p.failure =
+        dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness_,
+                             has_fallen() ? state_at_peak_.motion_since(problem) : dem::MotionAfterPeak{});
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
   return p;
 }
 
-} // namespace
+std::vector<int> Results::moves_with(const coupling::PlatenTest &problem) const {
+  if (!follows_motion_ || !problem.model.bonds) return {};
+  std::vector<int> with(problem.model.particles.size(), 0);
+  if (!has_fallen()) return with;
+  const dem::DeadZones zones = dem::find_dead_zones(
+      dem::specimen_before(problem.model.particles, problem.shape()), state_at_peak_.motion_since(problem));
+  for (const dem::End end : {dem::bottom_end, dem::top_end})
+    for (std::size_t i = 0; i < with.size(); ++i)
+      if (zones.members[end][i]) with[i] = 1 + end;
+  return with;
+}
 
 bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   samples_.push_back(sample);
@@ -34,14 +49,15 @@ bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   if (now > peak_) {
     peak_ = now;
     at_eighty_ = Pattern{};
+    if (problem.model.bonds && follows_motion_) state_at_peak_.keep(problem);
     if (problem.model.bonds && axis_ == 2)
       barrel_ =
           dem::barrel(dem::skin_opening(problem.model.particles, *problem.model.bonds, problem.shape()));
     return false;
   }
   if (peak_ > 0 && now < pattern_share * peak_ && measured_for_ != peak_) {
-    at_eighty_ = measure_pattern(problem, soundness_, axis_);
     measured_for_ = peak_;
+    at_eighty_ = measure_pattern(problem);
     return true;
   }
   return false;
@@ -53,7 +69,7 @@ void Results::listen(const dem::Crack &c) {
 }
 
 void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow &window) {
-  last_ = measure_pattern(problem, soundness_, axis_);
+  last_ = measure_pattern(problem);
   emission_.events = dem::gather_events(emission_.pulses, window);
   std::vector<double> before, after;
   for (const dem::AcousticEvent &event : emission_.events)
@@ -201,11 +217,12 @@ void Pattern::describe(Archive &archive) {
 }
 
 void Results::describe(Archive &archive) {
-  archive.version(1);
+  const bool before_motion = archive.version(2) < 2; // such a state tells no cones by displacement
   archive("barrel", barrel_);
   archive("peak", peak_, "Pa");
   archive("measured_for", measured_for_, "Pa");
   archive.part("at_eighty", at_eighty_);
+  if (!before_motion) archive.part("state_at_peak", state_at_peak_);
   archive("crack_rose", emission_.rose.area, "m2");
   dem::describe(archive, "crack_pulses", emission_.pulses);
   apps::describe(archive, "samples", samples_);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/run/history.h"
+#include "apps/run/state_at_peak.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/acoustic_emission.h"
 #include "dem/measure/cracks.h"
@@ -36,8 +37,13 @@ public:
   // of the deviator (stress minus confining pressure) along the axis that the test loads (0 x, 1 y, 2 z),
   // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends, cones and what
   // the gauge measures are of a specimen that is loaded along z; along another axis they are not measured.
-  explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2)
-      : sign_(tension ? -1.0 : 1.0), soundness_(soundness), axis_(axis) {}
+  // What moves with the platens after the peak is followed where the test tells a pattern.
+  explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
+                   bool tells_pattern = true)
+      : sign_(tension ? -1.0 : 1.0),
+        soundness_(soundness),
+        axis_(axis),
+        follows_motion_(tells_pattern && axis == 2) {}
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
@@ -82,6 +88,9 @@ public:
 
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
   const Pattern &last_pattern() const { return last_; }
+  // Of each sphere the platen that it has moved with since the peak: 1 bottom, 2 top, 0 neither; all 0 until
+  // the stress has fallen to 0.8 of the peak. Empty where the test tells no pattern.
+  std::vector<int> moves_with(const coupling::PlatenTest &problem) const;
   double barrel_at_peak() const { return barrel_; }
   const Emission &emission() const { return emission_; }
   const std::vector<Sample> &samples() const { return samples_; }
@@ -109,10 +118,14 @@ private:
   double secant(double Sample::*value) const;
   double bulging(double Sample::*across, double Sample::*along) const; // of a test along z
   std::size_t whole_balance_from() const; // first sample where the balance says more than noise
+  bool has_fallen() const { return peak_ > 0 && measured_for_ == peak_; }
+  Pattern measure_pattern(const coupling::PlatenTest &problem) const;
 
   double sign_;
   dem::Soundness soundness_;
   int axis_;
+  bool follows_motion_;
+  StateAtPeak state_at_peak_;
   std::vector<Sample> samples_;
   Pattern at_eighty_, last_;
   Emission emission_;

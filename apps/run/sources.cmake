@@ -18,4 +18,5 @@ set(PLATEN_RUN_SOURCES
   run/run_state.cc
   run/specimen_setup.cc
   run/stages_of_run.cc
+  run/state_at_peak.cc
   run/summary_of_run.cc)

@@ -60,20 +60,32 @@ DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape 
   return {top.share(), bottom.share(), middle.share()};
 }
 
-std::vector<double> skin_opening(const Particles &p, const Bonds &b, const Shape &shape) {
-  const BondCounts counts = bond_counts(p, b);
+std::vector<double> skin_opening(const std::vector<Vector3> &centre, const std::vector<Vector3> &displacement,
+                                 const Shape &shape, const std::vector<char> &counted) {
   std::vector<double> sum(10, 0.0), n(10, 0.0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector3 &x = p.reference_position[i];
-    if (counts.intact[i] == 0 || from_axis(x, shape) <= 0.8 * half_width(shape)) continue;
+  for (std::size_t i = 0; i < centre.size(); ++i) {
+    const Vector3 &x = centre[i];
+    if ((!counted.empty() && !counted[i]) || from_axis(x, shape) <= 0.8 * half_width(shape)) continue;
     const std::size_t slice =
         static_cast<std::size_t>(std::clamp(static_cast<int>(10 * x.z / shape.height), 0, 9));
-    sum[slice] += dot(p.position[i] - x, outward(x, shape));
+    sum[slice] += dot(displacement[i], outward(x, shape));
     n[slice] += 1;
   }
   for (std::size_t s = 0; s < 10; ++s)
     sum[s] = n[s] > 0 ? sum[s] / n[s] : not_a_number;
   return sum;
+}
+
+std::vector<double> skin_opening(const Particles &p, const Bonds &b, const Shape &shape) {
+  const BondCounts counts = bond_counts(p, b);
+  const std::vector<Vector3> centre(p.reference_position.begin(), p.reference_position.end());
+  std::vector<Vector3> displacement(p.size());
+  std::vector<char> bonded(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    displacement[i] = p.position[i] - centre[i];
+    bonded[i] = counts.intact[i] > 0;
+  }
+  return skin_opening(centre, displacement, shape, bonded);
 }
 
 double end_spread(const std::vector<double> &opening) {

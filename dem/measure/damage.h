@@ -26,6 +26,9 @@ DamageByRegion damage_by_region(const Particles &particles, const Bonds &bonds, 
 // Mean outward displacement of the skin (reference r > 0.8 R_c, at least one intact bond) in ten slices of
 // equal height from bottom to top, m; NaN for a slice without skin.
 std::vector<double> skin_opening(const Particles &particles, const Bonds &bonds, const Shape &shape);
+// The same of any displacements (m), of the spheres that are counted; empty: of all.
+std::vector<double> skin_opening(const std::vector<Vector3> &centre, const std::vector<Vector3> &displacement,
+                                 const Shape &shape, const std::vector<char> &counted = {});
 // Larger of the two end slices over the largest slice.
 double end_spread(const std::vector<double> &opening);
 // Mean of the two end slices over the mean of the two middle ones.

@@ -7,18 +7,13 @@
 namespace platen::dem {
 namespace {
 
-constexpr double least_column = 0.05;                 // of the volume
-constexpr double sound_end = 0.3, gone_middle = 0.45; // damage
-constexpr double crushed_end = 0.4;                   // damage
-constexpr double held_end = 0.25;                     // spread
-constexpr double most_of_it = 0.5;                    // of all broken bonds
-constexpr double largest_of_shear = 1.13;             // rad: 65 degrees
-constexpr double as_good_as_whole = 0.02;             // broken share
-
-bool narrows(const ConePiece &piece) {
-  return piece.is_cone() || piece.verdict == NoCone::leans || piece.verdict == NoCone::one_sided ||
-         piece.verdict == NoCone::ragged;
-}
+constexpr double least_column = 0.05;       // of the volume
+constexpr double crushed_end = 0.4;         // damage
+constexpr double held_end = 0.25;           // spread
+constexpr double most_of_it = 0.5;          // of all broken bonds
+constexpr double largest_of_shear = 1.13;   // rad: 65 degrees
+constexpr double least_broken_around = 0.1; // of the bonds that are not within dead zones
+constexpr double as_good_as_whole = 0.02;   // broken share
 
 // Comparisons are false where a measure is not known (NaN), and quiet about it.
 // A plane through the whole specimen and nearly nothing beside it.
@@ -28,14 +23,46 @@ bool one_plane(const FailureMeasures &m) {
          std::islessequal(m.planes.largest.inclination, largest_of_shear);
 }
 
+// A smooth barrel has a still zone on each platen too, as round and straight as a cone; but a cone comes off
+// by breaking what lies around it.
+void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const Bonds &b) {
+  double all = 0, broken = 0;
+  for (std::size_t k = 0; k < b.initial_count(); ++k) {
+    const auto within = [&](End end) {
+      return zones.members[end][b.record_first[k]] && zones.members[end][b.record_second[k]];
+    };
+    if (within(bottom_end) || within(top_end)) continue;
+    all += 1, broken += is_broken(b.state[k]);
+  }
+  if (broken >= least_broken_around * all) return;
+  for (DeadZone &zone : dead)
+    if (zone.is_cone() || zone.verdict == DeadZoneVerdict::dome || zone.verdict == DeadZoneVerdict::doubtful)
+      zone.verdict = DeadZoneVerdict::unbroken;
+}
+
+// One of them may have lost its tip and be a dome.
+bool two_cones(const DeadZone &one, const DeadZone &other) {
+  const auto dome = [](const DeadZone &d) { return d.verdict == DeadZoneVerdict::dome; };
+  return (one.is_cone() && (other.is_cone() || dome(other))) || (dome(one) && other.is_cone());
+}
+
 } // namespace
 
+Specimen specimen_before(const Particles &p, const Shape &shape) {
+  return {
+      shape, {p.reference_position.begin(), p.reference_position.end()}, {p.radius.begin(), p.radius.end()}};
+}
+
 FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,
-                                const Soundness &soundness) {
+                                const Soundness &soundness, const MotionAfterPeak &motion) {
   FailureMeasures m;
+  const DeadZones zones = find_dead_zones(specimen_before(p, shape), motion);
+  m.dead = zones.at_end;
+  require_broken(m.dead, zones, b);
+  m.opening = zones.opening;
   const SoundPieces pieces = find_sound_pieces(p, b, shape, soundness);
   m.damage = damage_by_region(p, b, shape);
-  m.cones = measure_cones(p, b, pieces, shape);
+  m.sound = measure_cones(p, b, pieces, shape);
   m.end_spread = end_spread(skin_opening(p, b, shape));
   m.planes = sum_up(find_crack_planes(p, b), b);
   for (std::size_t k = 0; k < pieces.volume.size(); ++k)
@@ -47,33 +74,34 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
 }
 
 FailureVerdict judge_failure(const FailureMeasures &m) {
-  const ConePiece &bottom = m.cones[bottom_end], &top = m.cones[top_end];
-  if (bottom.is_cone() && top.is_cone()) return {FailurePattern::cones, DecidedBy::two_cones};
-  const double worse_end = m.damage.worse_end();
-  if (std::isless(worse_end, sound_end) && std::isgreater(m.damage.middle, gone_middle) && narrows(bottom) &&
-      narrows(top))
-    return {FailurePattern::cones, DecidedBy::hourglass};
   if (one_plane(m))
     return {m.planes.largest.inclination < CrackPlanes::steep ? FailurePattern::splitting
                                                               : FailurePattern::shear_plane,
             DecidedBy::one_plane};
+  if (two_cones(m.dead[bottom_end], m.dead[top_end])) return {FailurePattern::cones, DecidedBy::two_cones};
   if (m.columns >= 2) return {FailurePattern::splitting, DecidedBy::columns};
   if (std::isgreater(m.planes.steep_share, most_of_it))
     return {FailurePattern::splitting, DecidedBy::steep_planes};
   if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
   const bool held = std::isless(m.end_spread, held_end); // not where no skin is left to tell
+  const double worse_end = m.damage.worse_end();
   if (std::isgreater(worse_end, crushed_end) && !held)
     return {FailurePattern::crushing, DecidedBy::crushed_end};
   return {};
 }
 
 void FailureMeasures::describe(Archive &archive) {
-  archive.version(1);
+  const bool before_motion = archive.version(2) < 2;
   archive("damage_top", damage.end_top);
   archive("damage_bottom", damage.end_bottom);
   archive("damage_middle", damage.middle);
-  archive.part("cone_bottom", cones[bottom_end]);
-  archive.part("cone_top", cones[top_end]);
+  archive.part("cone_bottom", sound[bottom_end]);
+  archive.part("cone_top", sound[top_end]);
+  if (!before_motion) {
+    archive.part("dead_zone_bottom", dead[bottom_end]);
+    archive.part("dead_zone_top", dead[top_end]);
+    archive("opening", opening, "m");
+  }
   archive.part("crack_planes", planes);
   archive("end_spread", end_spread);
   archive("columns", columns);

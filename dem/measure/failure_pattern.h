@@ -8,6 +8,7 @@
 #include "dem/measure/cone.h"
 #include "dem/measure/cracks.h"
 #include "dem/measure/damage.h"
+#include "dem/measure/dead_zone.h"
 
 namespace platen::dem {
 
@@ -15,7 +16,9 @@ namespace platen::dem {
 struct FailureMeasures {
   DamageByRegion damage{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::quiet_NaN()};
-  std::array<ConePiece, 2> cones; // [bottom_end], [top_end]
+  std::array<DeadZone, 2> dead;                              // [bottom_end], [top_end]: cones by displacement
+  double opening = std::numeric_limits<double>::quiet_NaN(); // m, of the skin since the peak, U (dead_zone.h)
+  std::array<ConePiece, 2> sound;                            // the same by damage
   CrackPlanes planes;
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
@@ -23,8 +26,11 @@ struct FailureMeasures {
   double width = 0, height = 0; // m, of the specimen; width of a circle as large as its section
   void describe(Archive &archive);
 };
+// The specimen where it was before the test.
+Specimen specimen_before(const Particles &particles, const Shape &shape);
+// Without a motion there are no cones by displacement.
 FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
-                                const Soundness &soundness = {});
+                                const Soundness &soundness = {}, const MotionAfterPeak &motion = {});
 
 enum class FailurePattern : std::int64_t { none, cones, shear_plane, splitting, crushing, undecided };
 inline constexpr std::array<const char *, 6> pattern_words{"none",      "cones",    "shear plane",
@@ -34,9 +40,8 @@ inline const char *word_of(FailurePattern pattern) {
 }
 enum class DecidedBy : std::int64_t {
   nothing,      // no rule below holds
-  two_cones,    // a cone on each platen
-  hourglass,    // both ends sound, the middle gone, a narrowing piece on each platen
   one_plane,    // half of all broken bonds lie in one plane that crosses the specimen
+  two_cones,    // what moves with the platens is a cone on each, one of them perhaps without its tip
   columns,      // two pieces or more from platen to platen
   steep_planes, // half of all broken bonds lie in planes along the axis
   few_broken,   // 2 % of the bonds at most
@@ -47,12 +52,12 @@ struct FailureVerdict {
   DecidedBy by = DecidedBy::nothing;
 };
 
-// The first rule that holds, in the order of DecidedBy from `two_cones` on. The plane of `one_plane` splits
-// where it lies within 15 degrees of the axis and shears up to 65 degrees. The bounds of damage (0.3 of an
-// end and 0.45 of the middle of an hourglass, 0.4 of a crushed end) stand between what dry and lubricated
-// platens leave of cylinders twice as high as wide. Cubes' ends are damaged under any platen: where they
-// spread by less than a quarter of what the middle does, friction has held them and they are not called
-// crushed.
+// The first rule that holds, in the order of DecidedBy from `one_plane` on: planes come first, for an
+// inclined one leaves a part on each platen that moves with it. The plane of `one_plane` splits where it lies
+// within 15 degrees of the axis and shears up to 65 degrees. Cones are those by displacement; those by damage
+// decide nothing. The bound of damage of a crushed end (0.4) stands between what dry and lubricated platens
+// leave of cylinders twice as high as wide. Cubes' ends are damaged under any platen: where they spread by
+// less than a quarter of what the middle does, friction has held them and they are not called crushed.
 FailureVerdict judge_failure(const FailureMeasures &measures);
 
 } // namespace platen::dem

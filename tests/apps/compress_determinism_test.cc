@@ -68,6 +68,9 @@ TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   crush("whole", "2");
   EXPECT_EQ(stop_at("stopped", 30, SIGHUP, {"-t", "1"}), 129);
   EXPECT_EQ(summary_in(folder_ / "stopped")["status"], "stopped");
+  // What it found after the peak counts from where spheres lay there, which the checkpoint has to know.
+  EXPECT_FALSE(summary_in(folder_ / "whole")["dead_zone_top"].is_null());
+  EXPECT_FALSE(summary_in(folder_ / "whole")["final_dead_zone_top"].is_null());
   EXPECT_EQ(stop_at("stopped", 110, SIGTERM, {"-t", "2", "--resume"}), 143);
   const Outcome last = resume("stopped", "4");
   EXPECT_EQ(last.status, 0) << last.error;

@@ -86,7 +86,7 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   ASSERT_EQ(outcome.status, status_done) << outcome.error;
   for (const char *name :
        {"stress_strain", "energies", "outward_displacement", "damage", "cracks", "crack_density", "fragments",
-        "crack_times", "specimen_outside", "specimen_inside"}) {
+        "cones", "crack_times", "specimen_outside", "specimen_inside"}) {
     const auto file = folder / "dry" / "pictures" / (std::string(name) + ".png");
     ASSERT_TRUE(std::filesystem::exists(file)) << name;
     const Image image = read_png(file);

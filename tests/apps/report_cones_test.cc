@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace platen::apps::report {
 namespace {
@@ -63,22 +64,65 @@ TEST(ReportCones, it_is_carried_by_the_most_of_its_spheres) {
   EXPECT_NEAR(moved[2], 0.002, 1e-12);
 }
 
+nlohmann::json told(double half_angle) {
+  return {{"half_angle_deg", half_angle},
+          {"confidence", 0.5},
+          {"apex_m", {0.001, 0.0, 0.07}},
+          {"axis", {0.0, 0.0, 1.0}}};
+}
+
 TEST(ReportCones, what_was_not_looked_for_is_not_told_as_absent) {
+  using V = FittedCone::Verdict;
   report::Run run;
+  const auto verdict = [&](ConeKind kind, ConeTime time) {
+    return cone_of(run, kind, Side::top, time).verdict;
+  };
   run.summary = {{"cone_top", nullptr}, {"cone_bottom", nullptr}}; // of a build that did not look
-  EXPECT_EQ(cone_of(run, Side::top, ConeTime::fall).verdict, FittedCone::Verdict::not_measured);
-  run.summary["pattern"] = "crushing";
-  EXPECT_EQ(cone_of(run, Side::top, ConeTime::fall).verdict, FittedCone::Verdict::none);
-  EXPECT_EQ(cone_of(run, Side::top, ConeTime::end).verdict, FittedCone::Verdict::not_measured);
+  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::fall), V::not_measured);
+  run.summary["pattern"] = "crushing"; // of one that looked by damage alone
+  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::fall), V::none);
+  EXPECT_EQ(verdict(ConeKind::by_displacement, ConeTime::fall), V::not_measured);
+  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::end), V::not_measured);
   run.summary["final_pattern"] = "cones";
-  run.summary["final_cone_top"] = {{"half_angle_deg", 45.0},
-                                   {"confidence", 0.5},
-                                   {"apex_m", {0.001, 0.0, 0.07}},
-                                   {"axis", {0.0, 0.0, 1.0}}};
-  const FittedCone cone = cone_of(run, Side::top, ConeTime::end);
-  EXPECT_EQ(cone.verdict, FittedCone::Verdict::found);
+  run.summary["final_cone_top"] = told(45);
+  const FittedCone cone = cone_of(run, ConeKind::by_damage, Side::top, ConeTime::end);
+  EXPECT_EQ(cone.verdict, V::found);
   EXPECT_NEAR(cone.half_angle, 0.785398, 1e-6);
   EXPECT_EQ(words_of(cone), "45 degrees (confidence 0.50)");
+}
+
+TEST(ReportCones, both_kinds_are_kept_apart) {
+  using V = FittedCone::Verdict;
+  report::Run run;
+  run.summary = {{"pattern", "undecided"},
+                 {"cone_top", nullptr},
+                 {"cone_bottom", told(30)},
+                 {"sound_cone_top", told(50)},
+                 {"sound_cone_bottom", nullptr},
+                 {"dead_zone_top", nullptr},
+                 {"dead_zone_bottom", {{"base_ratio", 0.9}}}};
+  const auto at = [&](ConeKind kind, Side end) { return cone_of(run, kind, end, ConeTime::fall); };
+  EXPECT_EQ(at(ConeKind::by_displacement, Side::top).verdict, V::not_measured); // the stress did not fall
+  EXPECT_NEAR(at(ConeKind::by_displacement, Side::bottom).half_angle, 30 * degree, 1e-9);
+  EXPECT_NEAR(at(ConeKind::by_damage, Side::top).half_angle, 50 * degree, 1e-9);
+  EXPECT_EQ(at(ConeKind::by_damage, Side::bottom).verdict, V::none);
+  run.summary["dead_zone_top"] = {{"base_ratio", 0.2}};
+  EXPECT_EQ(at(ConeKind::by_displacement, Side::top).verdict, V::none);
+}
+
+// Both apexes lie in it, and the axes: after the turn they are at y = 0.
+TEST(ReportCones, the_cut_is_turned_to_the_axes) {
+  FittedCone one = upright(0.5, {0.003, 0.004, 0.05}, -1), other = upright(0.5, {-0.006, -0.008, 0.05}, 1);
+  one.axis = {0.06, 0.08, -std::sqrt(0.99)};
+  const double angle = angle_of_axes({one, other, FittedCone{}});
+  for (const FittedCone &cone : {one, other}) {
+    const FittedCone seen = turned(cone, angle);
+    EXPECT_NEAR(seen.apex[1], 0, 1e-12);
+    EXPECT_NEAR(seen.axis[1], 0, 1e-12);
+    EXPECT_NEAR(std::abs(seen.apex[0]), std::hypot(cone.apex[0], cone.apex[1]), 1e-12);
+    EXPECT_EQ(seen.apex[2], cone.apex[2]);
+  }
+  EXPECT_EQ(angle_of_axes({FittedCone{}}), 0);
 }
 
 } // namespace

@@ -97,12 +97,18 @@ void write_vtu(const fs::path &file, vtkUnstructuredGrid *grid) {
   writer->Write();
 }
 
+// Of an hourglass: 1 in the lowest, 2 in the highest third.
+int end_that_holds(const ExampleRun &run, const Point &p) {
+  const double share = (p[2] - run.first_height) / run.height;
+  return !run.hourglass ? 0 : share < 1. / 3 ? 1 : share > 2. / 3 ? 2 : 0;
+}
+
 void write_spheres(const fs::path &file, const Example &example, double time) {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   const auto radius = column("radius", 1), moved = column("displacement", 3),
              intact = column("intact_bonds", 1), broken = column("broken_bonds", 1), id = column("id", 1),
-             fragment = column("fragment", 1);
+             fragment = column("fragment", 1), moves_with = column("moves_with", 1);
   std::vector<std::array<int, 2>> counts(example.centres.size(), {0, 0});
   for (const Bond &bond : example.bonds)
     for (const std::size_t end : {bond.a, bond.b})
@@ -115,10 +121,11 @@ void write_spheres(const fs::path &file, const Example &example, double time) {
     intact->InsertNextValue(counts[k][0]);
     broken->InsertNextValue(counts[k][1]);
     id->InsertNextValue(static_cast<double>(100 + k));
+    moves_with->InsertNextValue(time < example_fall_time ? 0 : end_that_holds(example.run, p));
     fragment->InsertNextValue(p[2] > example.run.first_height + 0.5 * example.run.height ? 0 : 1);
   }
   grid->SetPoints(points);
-  for (const auto &array : {radius, moved, intact, broken, id, fragment})
+  for (const auto &array : {radius, moved, intact, broken, id, fragment, moves_with})
     grid->GetPointData()->AddArray(array);
   for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
     grid->InsertNextCell(VTK_VERTEX, 1, &k);
@@ -283,8 +290,13 @@ void write_summary(const fs::path &folder, const Example &example) {
                             {"barrel_at_peak", 0.6}};
   if (run.hourglass) {
     summary["pattern"] = summary["final_pattern"] = "cones";
-    for (const char *key : {"cone_top", "cone_bottom", "final_cone_top", "final_cone_bottom"}) {
-      const bool top = std::string(key).find("top") != std::string::npos;
+    for (const std::string key :
+         {"cone_top", "cone_bottom", "final_cone_top", "final_cone_bottom", "sound_cone_top",
+          "sound_cone_bottom", "final_sound_cone_top", "final_sound_cone_bottom"}) {
+      const bool top = key.find("top") != std::string::npos;
+      if (const auto cone = key.find("cone"); key.find("sound") == std::string::npos)
+        summary[key.substr(0, cone) + "dead_zone" + key.substr(cone + 4)] = {
+            {"base_ratio", top ? 0.9 : 0.95}};
       summary[key] = {{"half_angle_deg", top ? 45 : 30},
                       {"confidence", 0.8},
                       {"apex_m", {0, 0, run.first_height + (top ? 0.7 : 0.3) * run.height}},

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/failure_pattern.h"
-#include "tests/dem/broken_specimens.h"
-#include "tests/dem/examples.h"
+#include "tests/dem/motions.h"
 
 namespace platen::dem {
 namespace {
@@ -21,6 +21,7 @@ struct Case {
   std::function<int(const Vector3 &)> label;
   FailurePattern pattern;
   DecidedBy by;
+  Field motion = {}; // none: nothing is known of it
 };
 
 TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
@@ -30,6 +31,10 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
       return (x.z - h / 2) * std::sin(angle * degree) > x.x * std::cos(angle * degree) ? 1 : 2;
     };
   };
+  const Field two_cones = [&](const Vector3 &x) {
+    if (cone.distance(x) < 0) return of_bottom;
+    return cone.distance({x.x, x.y, h - x.z}) < 0 ? of_top : outwards(x) + half_way;
+  };
   const std::vector<Case> cases{
       {"intact", [](const Vector3 &) { return 1; }, FailurePattern::none, DecidedBy::few_broken},
       {"cones",
@@ -37,7 +42,16 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
          const Vector3 mirrored{x.x, x.y, h - x.z};
          return cone.distance(x) < 0 || cone.distance(mirrored) < 0 ? 1 : Cylinder::crumbs;
        },
-       FailurePattern::cones, DecidedBy::two_cones},
+       FailurePattern::cones, DecidedBy::two_cones, two_cones},
+      {"cones that nobody saw move",
+       [&](const Vector3 &x) {
+         const Vector3 mirrored{x.x, x.y, h - x.z};
+         return cone.distance(x) < 0 || cone.distance(mirrored) < 0 ? 1 : Cylinder::crumbs;
+       },
+       FailurePattern::undecided, DecidedBy::nothing},
+      // Parts of it move with the platens, and the plane is looked at first.
+      {"shear plane that moves as cones do", plane(30), FailurePattern::shear_plane, DecidedBy::one_plane,
+       two_cones},
       {"shear plane", plane(30), FailurePattern::shear_plane, DecidedBy::one_plane},
       {"split in two", plane(0), FailurePattern::splitting, DecidedBy::one_plane},
       {"split in four", [](const Vector3 &x) { return 2 * (x.x > 0) + (x.y > 0); }, FailurePattern::splitting,
@@ -55,27 +69,45 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
   for (const Case &one : cases) {
     Cylinder c;
     c.cut([&](const Vector3 &x) { return one.label(x / radius); });
-    const FailureVerdict verdict = judge_failure(measure_failure(c.particles, c.bonds, c.shape));
+    const MotionAfterPeak motion =
+        one.motion ? motion_of(specimen_before(c.particles, c.shape), one.motion) : MotionAfterPeak{};
+    const FailureVerdict verdict = judge_failure(measure_failure(c.particles, c.bonds, c.shape, {}, motion));
     EXPECT_STREQ(word_of(verdict.pattern), word_of(one.pattern)) << one.what;
     EXPECT_EQ(static_cast<int>(verdict.by), static_cast<int>(one.by)) << one.what;
   }
 }
 
-// Ragged pieces that no cone fits: damage of ends and middle decides.
-TEST(failure_pattern, an_hourglass_is_cones_without_cones) {
-  FailureMeasures m;
-  m.damage = {.1, .2, .6};
-  m.broken_share = .4;
-  for (ConePiece &piece : m.cones)
-    piece.verdict = NoCone::ragged;
-  EXPECT_EQ(judge_failure(m).by, DecidedBy::hourglass);
-  m.damage.end_top = .35;
-  EXPECT_EQ(judge_failure(m).pattern, FailurePattern::undecided);
-  m.damage.end_top = .5;
-  EXPECT_EQ(judge_failure(m).by, DecidedBy::crushed_end);
-  m.damage.end_top = .1;
-  m.cones[top_end].verdict = NoCone::blunt;
-  EXPECT_EQ(judge_failure(m).pattern, FailurePattern::undecided);
+// Ends sound, the middle gone: by damage these were cones.
+TEST(failure_pattern, two_planes_that_cross_are_no_cones) {
+  for (const double angle : {25 * degree, 35 * degree})
+    for (const double thick : {4., 8.}) {
+      Cylinder c;
+      c.cut([&](const Vector3 &x) { return part_of_cross(x / radius, angle, thick); });
+      const FailureMeasures m =
+          measure_failure(c.particles, c.bonds, c.shape, {},
+                          motion_of(specimen_before(c.particles, c.shape), crossing_planes(angle, thick)));
+      EXPECT_STRNE(word_of(judge_failure(m).pattern), "cones") << angle / degree << " " << thick;
+      for (const DeadZone &zone : m.dead)
+        EXPECT_STREQ(words_of(zone.verdict), words_of(DeadZoneVerdict::wedge));
+    }
+}
+
+// One end's cone may have lost its tip, not both.
+TEST(failure_pattern, both_ends_decide) {
+  using V = DeadZoneVerdict;
+  for (const auto &[bottom, top, pattern] :
+       std::vector<std::tuple<V, V, const char *>>{{V::cone, V::cone, "cones"},
+                                                   {V::cone, V::dome, "cones"},
+                                                   {V::dome, V::cone, "cones"},
+                                                   {V::dome, V::dome, "undecided"},
+                                                   {V::cone, V::large, "undecided"},
+                                                   {V::doubtful, V::cone, "undecided"},
+                                                   {V::cone, V::small_base, "undecided"}}) {
+    FailureMeasures m;
+    m.broken_share = .4;
+    m.dead[bottom_end].verdict = bottom, m.dead[top_end].verdict = top;
+    EXPECT_STREQ(word_of(judge_failure(m).pattern), pattern) << words_of(bottom) << ", " << words_of(top);
+  }
 }
 
 // A cube between dry platens: its ends are damaged and stay where they are.
