@@ -17,9 +17,9 @@ COMPRESS, BRAZILIAN, BONDS, BAR = "platen-compress", "platen-brazilian", "platen
 CALIBRATE, STUDY = "platen-calibrate", "platen-study"
 GROUPS = [
     ("Concrete between platens", [
-        Scene("demo_dry", COMPRESS, "fragments",
-              "Friction holds the ends: a cone stands on each platen, and what lies around and between them has gone "
-              "to crumbs (grey). The lines are the fitted cones."),
+        Scene("demo_dry", COMPRESS, "cones",
+              "Friction holds the ends: what stands still with each platen while the stress falls is a cone, and what lies "
+              "around and between them moves away. The lines are the fitted cones."),
         Scene("demo_lubricated", COMPRESS, "outward_displacement",
               "Nothing holds the ends: one of them opens and moves outwards most at the platen, where the dry specimen "
               "stands still."),

@@ -292,6 +292,19 @@ TEST(YieldingParallelBond, moments_balance_whole_and_broken) {
   EXPECT_GT(pair.state.broken, 0);
 }
 
+// What has broken acts at the point that divides the distance as the radii do.
+TEST(YieldingParallelBond, friction_of_unequal_spheres_acts_at_their_point_of_contact) {
+  Bond pair(concrete());
+  pair.geometry.lever = 0.3;
+  pair.move({0, 0, -pair.closing(30e6)});
+  pair.move({}, {0, 0.01, 0}, {0, 0.01, 0});
+  ASSERT_EQ(pair.state.broken, 2);
+  const Triple<double> moment = cross(pair.pose.distance, pair.now.force);
+  ASSERT_GT(std::abs(moment.y), 0);
+  EXPECT_NEAR(pair.now.torque_i.y, 0.3 * moment.y, 1e-12 * std::abs(moment.y));
+  EXPECT_NEAR(pair.now.torque_j.y, 0.7 * moment.y, 1e-12 * std::abs(moment.y));
+}
+
 // A factor scales both strengths and leaves friction alone.
 TEST(YieldingParallelBond, a_strength_factor_scales_both_strengths) {
   Bond pair(concrete());

@@ -13,13 +13,21 @@ namespace {
 using coupling::PlatenTest;
 using coupling::PlatenTestSettings;
 
-enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic };
+enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond };
 enum Fixed { rigid, elastic, quasi_static, sleeve };
 enum Moment { before_cracks, cracking, after_peak };
-constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic};
+constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
 constexpr std::array moments{before_cracks, cracking, after_peak};
 constexpr std::array thread_counts{1, 2, 4};
+
+void choose_yielding(PlatenTestSettings &s) {
+  dem::YieldingParallelBond::Parameters p;
+  p.stiffness_ratio = 0.25, p.friction_angle = 0.46, p.moment_contribution = 0.22;
+  p.tensile_strength = 9e6, p.shear_strength = 36e6;
+  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+  s.model.bond = p;
+}
 
 void choose(PlatenTestSettings &s, Law law) {
   s.model.contact = dem::ContactSettings{};
@@ -33,6 +41,7 @@ void choose(PlatenTestSettings &s, Law law) {
     s.model.bond_layout.radius_multiplier = 0.6;
     s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 0.7853981633974483, 0.5};
   }
+  if (law == yielding_parallel_bond) choose_yielding(s);
   if (law == elasto_damage_plastic) {
     dem::ElastoDamagePlastic::Parameters p;
     p.tensile_strength = 5e6, p.shear_strength = 16e6;

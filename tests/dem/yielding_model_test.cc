@@ -1,0 +1,179 @@
+// Specimens of yielding parallel bonds: the kernels against the law, energy, momentum, threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+using State = YieldingParallelBond::State<double>;
+
+Triple<double> triple(const Vector3 &a) {
+  return {a.x, a.y, a.z};
+}
+Rotation<double> rotation(const Quaternion &q) {
+  return {q.w, q.x, q.y, q.z};
+}
+
+ModelSettings yielding() {
+  ModelSettings s = bonded();
+  YieldingParallelBond::Parameters law;
+  law.stiffness_ratio = 0.25;
+  law.tensile_strength = 9e6, law.shear_strength = 9e6; // so that some slide apart
+  law.friction_angle = std::atan(0.5);
+  law.moment_contribution = 0.22;
+  law.compression_limits = {60e6, 110e6, 160e6}, law.compression_slopes = {3, 12, 22};
+  s.bond = law;
+  s.bond_layout.modulus = 48e9;
+  s.contact = ContactSettings{};
+  s.contact->friction = 0.35;
+  s.contact->damping = 0;
+  return s;
+}
+
+// At random and inwards: some bonds are drawn apart, some slide, some are pressed beyond yield. `rate` in
+// 1/s.
+void set_moving(Particles &p, double speed, double rate = 0) {
+  Random random(5);
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = speed * random.direction() - rate * (p.position[i] - centre);
+    if (p.has_rotation()) (*p.angular_velocity)[i] = (speed / radius) * random.direction();
+  }
+}
+
+InterfaceGeometry<double> geometry(const Bonds &b, std::size_t k) {
+  return {b.rest_length[k],
+          b.lever[k],
+          b.normal_stiffness[k],
+          pi * b.bond_radius[k] * b.bond_radius[k],
+          1.0,
+          triple(b.reference[k]),
+          b.bond_radius[k]};
+}
+
+InterfaceMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k, double dt) {
+  const auto i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+  const Vector3 d = p.position[j] - p.position[i], v = p.velocity[j] - p.velocity[i];
+  InterfaceMotion<double> m{triple(d), triple(dt * v), triple(dt * v), 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
+  if (!p.has_rotation()) return m;
+  const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
+  m.moved = triple(dt * (v + cross(wj, (b.lever[k] - 1) * d) - cross(wi, b.lever[k] * d)));
+  m.spun = 0.5 * dt * dot(wi + wj, d) / norm(d);
+  m.turn_i = rotation((*p.orientation)[i]), m.turn_j = rotation((*p.orientation)[j]);
+  m.turned_i = triple(dt * wi), m.turned_j = triple(dt * wj);
+  return m;
+}
+
+class YieldingKernels : public testing::TestWithParam<bool> {};
+
+TEST_P(YieldingKernels, follow_the_law_on_every_instruction_set) {
+  std::vector<InstructionSet> sets{InstructionSet::baseline};
+  if (best_instruction_set() != InstructionSet::baseline) sets.push_back(InstructionSet::avx2);
+  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
+  for (const InstructionSet set : sets) {
+    ModelSettings settings = yielding();
+    settings.rotation = GetParam();
+    settings.instruction_set = set;
+    Model model(packed_box(15, 15, 15), settings);
+    const Bonds &b = *model.bonds;
+    const auto &law = std::get<YieldingParallelBond>(b.law);
+    ASSERT_EQ(law.grain_friction, 0.35);
+    set_moving(model.particles, 2.0, 900);
+    std::vector<State> states(b.size());
+    const double dt = .3 * model.stable_step({}, 0).limit;
+    for (int s = 0; s < 60; ++s) {
+      model.begin_step(dt);
+      for (std::size_t k = 0; k < b.size(); ++k)
+        law(states[k], geometry(b, k), motion(model.particles, b, k, dt));
+      model.compute_forces(dt);
+      model.end_step(dt);
+    }
+    std::size_t yielded = 0, in_tension = 0, in_shear = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const State &s = states[k], own = b.memory<State>(k);
+      ASSERT_EQ(own.broken, s.broken) << name(set) << " row " << k;
+      ASSERT_NEAR(own.plastic, s.plastic, 1e-8 * 60e6) << name(set) << " row " << k;
+      const Triple<double> off = own.slider - s.slider;
+      ASSERT_LE(root(dot(off, off)), 1e-9 * radius) << name(set) << " row " << k;
+      yielded += s.plastic > 0, in_tension += s.broken == 1, in_shear += s.broken == 2;
+    }
+    EXPECT_EQ(b.failed_rows, in_tension + in_shear);
+    EXPECT_GT(yielded, 20u);
+    EXPECT_GT(in_tension, 50u);
+    EXPECT_GT(in_shear, 5u);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(rotation, YieldingKernels, testing::Bool());
+
+// A free block that shakes itself to pieces: what it had at first is stored, or counted as breaks, yield and
+// friction.
+TEST(YieldingModel, the_energy_balance_of_a_breaking_block_closes) {
+  double residual[2];
+  for (int fine = 0; fine < 2; ++fine) {
+    Model model(packed_box(16, 16, 16), yielding());
+    set_moving(model.particles, 2, 900);
+    const double start = model.energy().stored(), dt = (fine ? .0625 : .25) * model.stable_step({}, 0).limit;
+    for (int s = 0; s < (fine ? 1600 : 400); ++s)
+      step(model, dt);
+    const EnergyLedger e = model.energy();
+    EXPECT_GT(model.bonds->failed_rows, 20u);
+    EXPECT_GT(e.fracture, .01 * start);
+    EXPECT_GT(e.plastic, .001 * start);
+    EXPECT_GT(e.friction, 0);
+    residual[fine] = std::abs(e.residual() - start) / start;
+    EXPECT_EQ(model.broken_tension + model.broken_shear, static_cast<long>(model.bonds->failed_rows));
+  }
+  // Of random motion, whose kinetic energy at whole steps is off by the square of the step.
+  EXPECT_LT(residual[0], 2e-2);
+  EXPECT_LT(residual[1], 1.5e-3);
+}
+
+TEST(YieldingModel, momentum_is_kept_through_failure) {
+  Model model(packed_box(14, 14, 14), yielding());
+  set_moving(model.particles, 1.5);
+  const Momentum before = momentum(model.particles);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 300; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
+  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+std::vector<unsigned char> state_after(int threads) {
+  const ThreadLimit limit(threads);
+  ModelSettings settings = yielding();
+  settings.bond_dashpot = .1;
+  Model model(packed_box(26, 26, 26), settings);
+  set_moving(model.particles, 1.5);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 120; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  std::vector<unsigned char> bytes;
+  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
+    for (const auto &column : table->columns()) {
+      const auto *from = static_cast<const unsigned char *>(column->bytes());
+      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
+    }
+  return bytes;
+}
+
+TEST(YieldingModel, threads_do_not_change_a_bit) {
+  const std::vector<unsigned char> one = state_after(1);
+  EXPECT_EQ(one, state_after(2));
+  EXPECT_EQ(one, state_after(4));
+}
+
+} // namespace
+} // namespace platen::dem
