@@ -20,7 +20,7 @@ ADDITIONS = {
     "bond law": ("spring_bond.h", "dem/laws/spring_bond.h", [
         ("dem/laws/bond_law.h", '#include "dem/laws/parallel_bond.h"\n',
          '#include "dem/laws/parallel_bond.h"\n#include "dem/laws/spring_bond.h"\n'),
-        ("dem/laws/bond_law.h", "ElastoDamagePlastic>;", "ElastoDamagePlastic, SpringBond>;"),
+        ("dem/laws/bond_law.h", "YieldingParallelBond>;", "YieldingParallelBond, SpringBond>;"),
     ]),
     "bond law that remembers": ("yielding_bond.h", "dem/laws/yielding_bond.h", [
         ("dem/laws/bond_law.h", '#include "dem/laws/spring_bond.h"\n',
