@@ -34,7 +34,7 @@ GROUPS = [
               "cones."),
         Scene("cube_dry", COMPRESS, "outward_displacement",
               "A cube is so short that its held ends reach through its middle: it bears a third more than the prism. "
-              "Its core stands still, its sides come off; no cones are found."),
+              "Two blunt cones meet in its core, its sides come off."),
         Scene("cube_lubricated", COMPRESS, "outward_displacement",
               "Without friction the cube has the strength of the prism, and its sides open from platen to platen."),
         Scene("prism_dry", COMPRESS, "fragments",
