@@ -58,6 +58,17 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
+// Without rotation orientations are those of the reference.
+template <bool rotation>
+PLATEN_INLINE BondMotion<Pack> pose_of(const Ends &ends) {
+  const Pack none(0.0);
+  const Rotation<Pack> unturned{Pack(1.0), none, none, none};
+  if constexpr (rotation)
+    return {distances(ends), orientations(ends.first), orientations(ends.second)};
+  else
+    return {distances(ends), unturned, unturned};
+}
+
 // What the pair has done since its last state, at the velocities of the drift that led here. Without
 // rotation the orientations that a law needs are those of the reference.
 template <bool rotation, bool needs_orientations>
@@ -99,16 +110,25 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
   if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const InterfaceMotion<Pack> m = motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt);
-  const InterfaceResponse<Pack> response = law(s, g, m);
-  for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
+  const auto motion = [&] { return motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt); };
+  const auto keep = [&] {
+    for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
+  };
   if constexpr (Law::needs_orientations) {
+    bool changed = false;
+    const InterfaceResponse<Pack> response = law.advance(s, g, pose_of<rotation>(ends), motion, changed);
+    if (changed) keep();
     scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
-  } else { // only what is across the distance has a moment: d x F = d x F_s
+    return response.failed_now;
+  } else {
+    const InterfaceMotion<Pack> m = motion();
+    const InterfaceResponse<Pack> response = law(s, g, m);
+    keep();
+    // Only what is across the distance has a moment: d x F = d x F_s.
     const Triple<Pack> moment = cross(m.distance, response.force);
     scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+    return response.failed_now;
   }
-  return response.failed_now;
 }
 
 template <bool rotation, bool factors, class Law>

@@ -23,6 +23,7 @@ struct Pack {
   Pack(double a) : v(a - Native{}) {}
 };
 // Beside those of double, which the ones below would hide.
+using dem::any_positive;
 using dem::larger;
 using dem::magnitude;
 using dem::positive_part;
@@ -58,6 +59,12 @@ inline Pack positive_part(const Pack &a) {
 }
 inline Pack larger(const Pack &a, const Pack &b) {
   return a.v > b.v ? a.v : b.v;
+}
+inline bool any_positive(const Pack &a) {
+  bool any = false;
+  for (int l = 0; l < lanes; ++l)
+    any |= a.v[l] > 0.0;
+  return any;
 }
 inline Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
   return x.v > 0.0 ? a.v : b.v;

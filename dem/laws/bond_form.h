@@ -42,6 +42,10 @@ inline double larger(double a, double b) {
 inline double where_positive(double x, double a, double b) {
   return x > 0.0 ? a : b;
 }
+// Of a pack: of any of its lanes.
+inline bool any_positive(double a) {
+  return a > 0.0;
+}
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
 template <class Real>
 struct Triple {

@@ -74,7 +74,16 @@ struct YieldingParallelBond {
   // Brings the state up to date and tells what acts.
   template <class Real>
   InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const;
+                                     const InterfaceMotion<Real> &m) const {
+    bool changed = false;
+    return advance(
+        s, g, {m.distance, m.turn_i, m.turn_j}, [&] { return m; }, changed);
+  }
+  // The same where motion() is asked only of bonds that are broken, or break: most are whole, and need no
+  // more than their pose. `changed`: the state has to be kept.
+  template <class Real, class Motion>
+  InterfaceResponse<Real> advance(State<Real> &s, const InterfaceGeometry<Real> &g,
+                                  const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
   // What acts in a state as it is.
   BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
                                      const InterfaceMotion<double> &m) const;
@@ -86,7 +95,7 @@ struct YieldingParallelBond {
 private:
   template <class Real>
   BondResponse<Real> whole(const Real &plastic, const InterfaceGeometry<Real> &g,
-                           const InterfaceMotion<Real> &m, Triple<Real> &slip) const;
+                           const BondMotion<Real> &pose, Triple<Real> &slip) const;
   template <class Real>
   BondResponse<Real> broken(const State<Real> &s, const InterfaceGeometry<Real> &g,
                             const InterfaceMotion<Real> &m) const;
@@ -96,20 +105,19 @@ private:
 template <class Real>
 PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic,
                                                              const InterfaceGeometry<Real> &g,
-                                                             const InterfaceMotion<Real> &m,
+                                                             const BondMotion<Real> &pose,
                                                              Triple<Real> &slip) const {
   const Parameters &p = parameters;
   const Real area_stiffness = g.area * g.normal_stiffness, kn = g.normal_stiffness;
   const BondGeometry<Real> bond{g.reference, g.rest_length, g.lever, kn, g.radius, g.strength_factor};
-  const BondMotion<Real> motion{m.distance, m.turn_i, m.turn_j};
   BondStrain<Real> e;
   BondResponse<Real> r =
-      stretch_and_shear(bond, motion, area_stiffness, Real(p.stiffness_ratio * area_stiffness), e);
+      stretch_and_shear(bond, pose, area_stiffness, Real(p.stiffness_ratio * area_stiffness), e);
   if (p.moments)
     bend_and_twist(r, e, Real(0.25 * g.radius * g.radius * area_stiffness), 2.0 * p.stiffness_ratio - 1.0,
-                   motion);
+                   pose);
   const Real yielded = g.area * plastic; // N, on top of what the stretch would do
-  r.force = r.force + scale(Real(yielded * e.length * e.per_square), m.distance);
+  r.force = r.force + scale(Real(yielded * e.length * e.per_square), pose.distance);
   r.energy = r.energy + yielded * (e.stretch + 0.5 * plastic / kn);
   r.normal_force = r.normal_force + yielded;
   slip = e.slip;
@@ -142,24 +150,35 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> 
   return r;
 }
 
-template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Real> &s,
-                                                                       const InterfaceGeometry<Real> &g,
-                                                                       const InterfaceMotion<Real> &m) const {
+template <class Real, class Motion>
+PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> &s,
+                                                                    const InterfaceGeometry<Real> &g,
+                                                                    const BondMotion<Real> &pose,
+                                                                    const Motion &motion,
+                                                                    bool &changed) const {
   const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
-  const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
+  const Real length = root(dot(pose.distance, pose.distance)), elastic = kn * (g.rest_length - length);
   const Real zero = elastic * 0.0, one = zero + 1.0;
-  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
+  const Real yield = positive_part(Real(elastic - compression.envelope(elastic) - s.plastic));
+  s.plastic = s.plastic + yield;
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(s.plastic, g, m, slip);
+  const BondResponse<Real> bond = whole(s.plastic, g, pose, slip);
+  InterfaceResponse<Real> r;
+  r.force = bond.force, r.torque_i = bond.torque_i, r.torque_j = bond.torque_j, r.shear = bond.shear;
+  r.normal = bond.normal_force, r.energy = bond.energy, r.tension = s.plastic - elastic, r.failed_now = zero;
+  const Real was_broken = s.broken;
+  const Real reached = where_positive(was_broken, zero, where_positive(Real(-bond.excess), zero, one));
+  const bool whole_all = !any_positive(Real(was_broken + reached));
+  changed = !whole_all || any_positive(yield);
+  if (whole_all) return r;
 
   // Which has broken in this step, and how.
   const Real mode = where_positive(Real(bond.shear_ratio - bond.tension_ratio), Real(one + 1.0), one);
-  const Real breaks = where_positive(s.broken, zero, where_positive(Real(-bond.excess), zero, mode));
-  const Real was_broken = s.broken;
+  const Real breaks = reached * mode;
   s.broken = s.broken + breaks;
 
   // A broken one slides from where it was, or from the slip that it broke with.
+  const InterfaceMotion<Real> m = motion();
   const PlaneMotion<Real> plane(m, length);
   const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {
     return Triple<Real>{where_positive(x, a.x, b.x), where_positive(x, a.y, b.y),
@@ -177,20 +196,18 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Rea
   // force that is gone would have taken in the step, by the trapezoid over the drift.
   const Triple<Real> before = carried - plane.moved;
   const Real rubbed = 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, spring));
-  const auto taken = [&](const BondResponse<Real> &r) { // J
-    return dot(r.force, m.travelled) - dot(r.torque_i, m.turned_i) - dot(r.torque_j, m.turned_j);
+  const auto taken = [&](const BondResponse<Real> &by) { // J
+    return dot(by.force, m.travelled) - dot(by.torque_i, m.turned_i) - dot(by.torque_j, m.turned_j);
   };
   const Real released = bond.energy - contact.energy - 0.5 * (taken(bond) - taken(contact));
   s.dissipated = s.dissipated + where_positive(was_broken, rubbed, where_positive(breaks, released, zero));
 
-  InterfaceResponse<Real> r;
   r.force = choose(s.broken, contact.force, bond.force);
   r.torque_i = choose(s.broken, contact.torque_i, bond.torque_i);
   r.torque_j = choose(s.broken, contact.torque_j, bond.torque_j);
   r.shear = choose(s.broken, contact.shear, bond.shear);
   r.normal = where_positive(s.broken, contact.normal_force, bond.normal_force);
   r.energy = where_positive(s.broken, contact.energy, bond.energy);
-  r.tension = s.plastic - elastic;
   r.failed_now = breaks;
   return r;
 }
@@ -199,7 +216,7 @@ inline BondResponse<double> YieldingParallelBond::bond_response(const State<doub
                                                                 const InterfaceGeometry<double> &g,
                                                                 const InterfaceMotion<double> &m) const {
   Triple<double> slip;
-  BondResponse<double> r = whole(s.plastic, g, m, slip);
+  BondResponse<double> r = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
   if (s.broken > 0) {
     const BondResponse<double> contact = broken(s, g, m);
     r.force = contact.force, r.torque_i = contact.torque_i, r.torque_j = contact.torque_j;
