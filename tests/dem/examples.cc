@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/parallel.h"
+#include "base/random.h"
 #include "dem/packing/advancing_front.h"
 
 namespace platen::dem::examples {
@@ -135,6 +137,37 @@ Momentum momentum(const Particles &p) {
     sum.angular_scale += norm(orbital) + norm(spin);
   }
   return sum;
+}
+
+void shake(Particles &p, double speed, double rate) {
+  Random random(5);
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = speed * random.direction() - rate * (p.position[i] - centre);
+    if (p.has_rotation()) (*p.angular_velocity)[i] = (speed / radius) * random.direction();
+  }
+}
+
+std::vector<unsigned char> shaken_to_pieces(const ModelSettings &of, int threads) {
+  const ThreadLimit limit(threads);
+  ModelSettings settings = of;
+  settings.bond_dashpot = .1;
+  Model model(packed_box(26, 26, 26), settings);
+  shake(model.particles, 1.5);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 120; ++s)
+    step(model, dt);
+  if (model.bonds->failed_rows <= 50 || model.bonds->blocks.blocks() <= 3)
+    throw std::logic_error("a shaken block with too few failed bonds, or too few blocks, to tell");
+  std::vector<unsigned char> bytes;
+  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
+    for (const auto &column : table->columns()) {
+      const auto *from = static_cast<const unsigned char *>(column->bytes());
+      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
+    }
+  return bytes;
 }
 
 } // namespace platen::dem::examples

@@ -76,4 +76,10 @@ struct Momentum {
 };
 Momentum momentum(const Particles &particles);
 
+// Spheres in motion, at random and inwards: some bonds are drawn apart, some slide, some are pressed beyond
+// yield. `rate` in 1/s.
+void shake(Particles &particles, double speed, double rate = 0);
+// All columns of particles and bonds of a shaken block, some of whose bonds have failed.
+std::vector<unsigned char> shaken_to_pieces(const ModelSettings &settings, int threads);
+
 } // namespace platen::dem::examples

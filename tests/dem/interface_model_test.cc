@@ -21,19 +21,6 @@ double difference(const Triple<double> &a, const Vector3 &b) {
   return norm(Vector3{a.x, a.y, a.z} - b);
 }
 
-// Spheres in motion, at random and inwards: some interfaces are drawn apart, some slide, some are pressed
-// beyond yield. `rate` in 1/s.
-void set_moving(Particles &p, double speed, double rate = 0) {
-  Random random(5);
-  Vector3 centre;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    centre += p.position[i] / static_cast<double>(p.size());
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.velocity[i] = speed * random.direction() - rate * (p.position[i] - centre);
-    if (p.has_rotation()) (*p.angular_velocity)[i] = (speed / radius) * random.direction();
-  }
-}
-
 // Moves every interface by the law alone, in doubles, beside a model that steps.
 struct ByHand {
   std::vector<InterfaceState<double>> states;
@@ -71,7 +58,7 @@ TEST_P(InterfaceKernels, follow_the_law_on_every_instruction_set) {
     Model model(packed_box(15, 15, 15), settings);
     const Bonds &b = *model.bonds;
     ASSERT_GT(b.size(), 1000u);
-    set_moving(model.particles, 2.0, 600);
+    shake(model.particles, 2.0, 600);
     ByHand hand(b);
     const double dt = .3 * model.stable_step({}, 0).limit;
     for (int s = 0; s < 60; ++s) {
@@ -105,7 +92,7 @@ TEST(InterfaceModel, the_energy_balance_of_a_breaking_block_closes) {
   double residual[2];
   for (int fine = 0; fine < 2; ++fine) {
     Model model(packed_box(16, 16, 16), interfaces());
-    set_moving(model.particles, 2, 600);
+    shake(model.particles, 2, 600);
     const double start = model.energy().stored(), dt = (fine ? .0625 : .25) * model.stable_step({}, 0).limit;
     const int steps = fine ? 1600 : 400;
     for (int s = 0; s < steps; ++s)
@@ -126,7 +113,7 @@ TEST(InterfaceModel, the_energy_balance_of_a_breaking_block_closes) {
 
 TEST(InterfaceModel, momentum_is_kept_through_failure) {
   Model model(packed_box(14, 14, 14), interfaces());
-  set_moving(model.particles, 1.0);
+  shake(model.particles, 1.0);
   const Momentum before = momentum(model.particles);
   const double dt = .5 * model.stable_step({}, 0).limit;
   for (int s = 0; s < 300; ++s)
@@ -137,30 +124,10 @@ TEST(InterfaceModel, momentum_is_kept_through_failure) {
   EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
 }
 
-std::vector<unsigned char> state_after(int threads) {
-  const ThreadLimit limit(threads);
-  ModelSettings settings = interfaces();
-  settings.bond_dashpot = .1;
-  Model model(packed_box(26, 26, 26), settings);
-  set_moving(model.particles, 1.5);
-  const double dt = .5 * model.stable_step({}, 0).limit;
-  for (int s = 0; s < 120; ++s)
-    step(model, dt);
-  EXPECT_GT(model.bonds->failed_rows, 50u);
-  EXPECT_GT(model.bonds->blocks.blocks(), 3u);
-  std::vector<unsigned char> bytes;
-  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
-    for (const auto &column : table->columns()) {
-      const auto *from = static_cast<const unsigned char *>(column->bytes());
-      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
-    }
-  return bytes;
-}
-
 TEST(InterfaceModel, threads_do_not_change_a_bit) {
-  const std::vector<unsigned char> one = state_after(1);
-  EXPECT_EQ(one, state_after(2));
-  EXPECT_EQ(one, state_after(4));
+  const std::vector<unsigned char> one = shaken_to_pieces(interfaces(), 1);
+  EXPECT_EQ(one, shaken_to_pieces(interfaces(), 2));
+  EXPECT_EQ(one, shaken_to_pieces(interfaces(), 4));
 }
 
 TEST(InterfaceModel, the_interaction_range_bonds_across_gaps) {
