@@ -128,6 +128,20 @@ TEST(six_sides, equal_stresses_on_all_sides) {
     EXPECT_GT(test.closure_strain(axis), 0) << axis;
 }
 
+// Between platens alone servos are four times as quick as in a cell, which has to keep up with a pressure; on
+// the machine's spring they would swing. What is given holds.
+TEST(six_sides, servos_are_quick_between_platens_alone) {
+  const auto gain = [](const PlatenTestSettings &settings) {
+    return PlatenTest(cube(), settings).servo_for(asked, 0, 1e-3, 0.1).gain;
+  };
+  PlatenTestSettings settings = six_platens();
+  EXPECT_EQ(gain(settings), 40);
+  settings.platens.machine.stiffness = 1e8;
+  EXPECT_EQ(gain(settings), 10);
+  settings.loading.servo_gain = 3;
+  EXPECT_EQ(gain(settings), 3);
+}
+
 // Along x twice what z bears, which rises by itself; y is free of platens.
 TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   PlatenTestSettings settings = six_platens();
