@@ -37,7 +37,7 @@ struct DeadZoneRules {
   double least_angle = 0.17, largest_angle = 0.87; // rad: 10 and 50; a Mohr-Coulomb solid has 45 at most
   double largest_tilt = 0.44;                      // rad: 25 degrees
   double largest_offset = 0.7;                     // of the apex from the axis, of the specimen's radius
-  double least_roundness = 0.65, least_straightness = 0.45, least_overlap = 0.7; // 1
+  double least_roundness = 0.65, least_straightness = 0.52, least_overlap = 0.7; // 1
 };
 
 // Why a dead zone is no cone; the first that holds.
@@ -68,9 +68,10 @@ const char *words_of(DeadZoneVerdict why);
 // alone counts. The axis is a line through the centres of the sections.
 //
 // `roundness`: shorter over longer axis of the sections that the rim does not cut, by their second moments,
-// the mean weighed by their volumes: 1 of a circle. `straightness`: slope of the flank in the lower half of
-// the bins over that in the upper half, 1 at most: a dome is flat on top. `overlap`: volume in dead zone and
-// cone over that in either. `confidence` is the product of all three.
+// the mean weighed by their volumes: 1 of a circle. `straightness`: slope of the flank in its lower half over
+// that in its upper, 1 at most, in bins half as high where there are fewer than eight: a dome is flat on top.
+// Half ellipsoids of any height have .25 to .5, paraboloids .54 to .68, cones that were cut .9 and more.
+// `overlap`: volume in dead zone and cone over that in either. `confidence` is the product of all three.
 struct DeadZone {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   DeadZoneVerdict verdict = DeadZoneVerdict::not_measured;

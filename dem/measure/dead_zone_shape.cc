@@ -11,6 +11,7 @@ namespace {
 
 constexpr double full = 0.95; // r over Rc from which the rim cuts a section
 constexpr std::size_t least_bins = 3;
+constexpr std::size_t few_bins = 8; // fewer do not tell a dome from a cone: they are halved for that
 
 // What of a bin of height is dead. Spheres count where their centres are.
 struct Section {
@@ -80,8 +81,23 @@ Line flank(const std::vector<Section> &bins, std::size_t from, std::size_t to) {
   return line_through(bins, from, to, equivalent_radius, [](const Section &) { return 1.0; });
 }
 
-// The two halves share a bin, or two where their number is even.
-double straightness(const std::vector<Section> &bins, std::size_t from, std::size_t to) {
+// Bins [from, to) of a flank: up to the last before the tip, and of those that the rim cuts the last alone.
+struct Span {
+  std::size_t from = 0, to = 0, whole = 0; // `whole`: how many the rim cuts
+};
+Span span_of_flank(const std::vector<Section> &bins, double tip) {
+  Span s;
+  while (s.to < bins.size() && equivalent_radius(bins[s.to]) >= tip)
+    ++s.to;
+  while (s.whole < s.to && equivalent_radius(bins[s.whole]) > full)
+    ++s.whole;
+  s.from = s.whole > 0 ? std::min(s.whole - 1, s.to - std::min(s.to, least_bins)) : 0;
+  return s;
+}
+
+// Slope of the lower half over that of the upper; the two share a bin, or two where their number is even.
+double straightness(const std::vector<Section> &bins, const Span &span) {
+  const auto [from, to, whole] = span;
   const std::size_t n = to - from;
   const double lower = -flank(bins, from, from + n / 2 + 1).slope,
                upper = -flank(bins, from + (n - 1) / 2, to).slope;
@@ -152,9 +168,7 @@ DeadZone measure_dead_zone(const Specimen &before, const std::vector<char> &memb
   d.verdict = DeadZoneVerdict::nothing;
   if (d.spheres == 0) return d;
 
-  std::size_t to = 0, from = 0;
-  while (to < bins.size() && equivalent_radius(bins[to]) >= rules.tip)
-    ++to;
+  const auto [from, to, whole] = span_of_flank(bins, rules.tip);
   const double highest = static_cast<double>(to) * thickness;
   d.height = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -164,16 +178,14 @@ DeadZone measure_dead_zone(const Specimen &before, const std::vector<char> &memb
   if (d.base_ratio < rules.least_base) return d;
   d.verdict = DeadZoneVerdict::low;
   if (to < least_bins) return d;
-  std::size_t whole = 0;
-  while (whole < to && equivalent_radius(bins[whole]) > full)
-    ++whole;
-  from = whole > 0 ? std::min(whole - 1, to - least_bins) : 0;
+  const std::vector<Section> fine = sections(points, before.shape.height, 0.5 * thickness);
   const Cone cone = cone_through(bins, from, to, width);
   d.half_angle = cone.half_angle;
   d.apex = cone.apex, d.axis = cone.axis, d.apex_depth = cone.apex.z;
   d.tilt = std::acos(std::clamp(-cone.axis.z, -1.0, 1.0));
   d.roundness = roundness(bins, from, to);
-  d.straightness = straightness(bins, from, to);
+  d.straightness = to - from < few_bins ? straightness(fine, span_of_flank(fine, rules.tip))
+                                        : straightness(bins, {from, to, whole});
   d.overlap = overlap(points, cone, highest);
   d.confidence = d.roundness * d.straightness * d.overlap;
   d.verdict = judge(d, width, rules);

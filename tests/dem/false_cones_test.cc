@@ -1,0 +1,130 @@
+// Motions that are no cones, each of which somebody might take for them: not one is told as a cone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base/pi.h"
+#include "tests/dem/motions.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double degree = pi / 180;
+constexpr double h = Cylinder::length, rc = Cylinder::width; // in `radius`
+
+struct False {
+  std::string what;
+  Field field;
+  bool broken = true; // much of the specimen, so that broken bonds alone do not decide
+  Vector3 platen = of_top;
+};
+
+void add_bands(std::vector<False> &all) {
+  for (const double angle : {18., 22., 27., 31., 35.})
+    for (const double thick : {1., 4., 8.})
+      all.push_back({"bands that cross " + std::to_string(angle) + " " + std::to_string(thick),
+                     crossing_planes(angle * degree, thick)});
+  for (const double angle : {10., 20., 30., 40., 50.})
+    for (const double thick : {2., 6.})
+      all.push_back(
+          {"one band " + std::to_string(angle) + " " + std::to_string(thick), [=](const Vector3 &x) {
+             const double off = (x.z - h / 2) * std::sin(angle * degree) - x.x * std::cos(angle * degree);
+             return std::abs(off) < thick / 2 ? Vector3{1, 0, 0} + outwards(x) : off > 0 ? of_top : of_bottom;
+           }});
+}
+
+// Half ellipsoids and what is blunter still, on both platens.
+void add_domes(std::vector<False> &all) {
+  for (const double high : {13., 15., 17., 20., 22., 25., 28., 31., 33., 35., 40.})
+    for (const double power : {2., 3.})
+      all.push_back({"domes " + std::to_string(high) + " " + std::to_string(power), [=](const Vector3 &x) {
+                       const auto in = [&](double z) {
+                         return z < high &&
+                                std::hypot(x.x, x.y) < .97 * rc * std::sqrt(1 - std::pow(z / high, power));
+                       };
+                       return in(x.z) ? of_bottom : in(h - x.z) ? of_top : outwards(x) + half_way;
+                     }});
+}
+
+// Smoothly, and nothing has broken.
+void add_barrels(std::vector<False> &all) {
+  for (const double closes : {.1, .3, .5, 1., 2.})
+    for (const double smooth : {1., 2.})
+      all.push_back({"a barrel " + std::to_string(closes) + " " + std::to_string(smooth),
+                     [=](const Vector3 &x) {
+                       const double s = x.z / h;
+                       return std::pow(4 * s * (1 - s), smooth) * std::hypot(x.x, x.y) / rc * outwards(x) +
+                              Vector3{0, 0, -closes * s};
+                     },
+                     false,
+                     {0, 0, -closes}});
+}
+
+// All of it crumbles, without a place that holds.
+void add_diffuse(std::vector<False> &all) {
+  for (const unsigned seed : {1u, 2u, 3u})
+    for (const double noise : {.1, .3, 1.})
+      all.push_back({"crumbles " + std::to_string(noise),
+                     [noise, random = std::mt19937(seed)](const Vector3 &x) mutable {
+                       std::normal_distribution<double> by_chance;
+                       const Vector3 crumb{by_chance(random), by_chance(random), by_chance(random)};
+                       return std::hypot(x.x, x.y) / rc * outwards(x) + x.z / h * of_top + noise * crumb;
+                     }});
+}
+
+// Pieces from platen to platen that part from each other: halves to eighths, bent, leaning, and shells.
+void add_columns(std::vector<False> &all) {
+  for (const int pieces : {2, 3, 4, 6, 8})
+    for (const bool bent : {false, true})
+      all.push_back({std::to_string(pieces) + (bent ? " columns that bend" : " columns that lean"),
+                     [=](const Vector3 &x) {
+                       const double turn = 2 * pi / pieces,
+                                    way = (std::floor(std::atan2(x.y, x.x) / turn) + .5) * turn;
+                       const double far = bent ? 4 * x.z / h * (1 - x.z / h) : 1 - x.z / h;
+                       return far * Vector3{std::cos(way), std::sin(way), 0} + x.z / h * of_top;
+                     }});
+  for (const double inner : {.4, .6, .8})
+    all.push_back({"a core of " + std::to_string(inner) + " between shells", [=](const Vector3 &x) {
+                     return (std::hypot(x.x, x.y) > inner * rc ? outwards(x) : Vector3{}) + x.z / h * of_top;
+                   }});
+}
+
+void add_layers(std::vector<False> &all) {
+  for (const double high : {5., 12., 19., 30.})
+    all.push_back({"layers " + std::to_string(high), [=](const Vector3 &x) {
+                     return x.z < high ? of_bottom : h - x.z < high ? of_top : outwards(x) + half_way;
+                   }});
+}
+
+TEST(false_cones, not_one_of_them_is_told_as_a_cone) {
+  std::vector<False> all;
+  add_bands(all), add_domes(all), add_barrels(all), add_diffuse(all), add_columns(all), add_layers(all);
+  EXPECT_GE(all.size(), 60u);
+  const Cylinder whole;
+  Cylinder broken;
+  std::mt19937 random(7);
+  std::vector<char> gone(broken.particles.size());
+  for (char &g : gone)
+    g = random() % 4 == 0;
+  broken.cut_rows([&](std::size_t row) { return gone[row] ? Cylinder::crumbs : 1; });
+  const Specimen specimen = specimen_before(whole.particles, whole.shape);
+  for (const False &one : all) {
+    const Cylinder &c = one.broken ? broken : whole;
+    const FailureMeasures m =
+        measure_failure(c.particles, c.bonds, c.shape, {}, motion_of(specimen, one.field, one.platen));
+    EXPECT_STRNE(word_of(judge_failure(m).pattern), "cones") << one.what;
+    for (const End end : {bottom_end, top_end})
+      EXPECT_FALSE(m.dead[end].is_cone())
+          << one.what << ", end " << end << ": r0 " << m.dead[end].base_ratio << ", half-angle "
+          << m.dead[end].half_angle / degree << ", roundness " << m.dead[end].roundness << ", straightness "
+          << m.dead[end].straightness << ", overlap " << m.dead[end].overlap;
+  }
+}
+
+} // namespace
+} // namespace platen::dem
