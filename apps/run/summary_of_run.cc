@@ -27,6 +27,7 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   const std::string start = prefix;
   to[start + "end_damage_top"] = p.failure.damage.end_top;
   to[start + "end_damage_bottom"] = p.failure.damage.end_bottom;
+  to[start + "worse_end_damage"] = p.failure.damage.worse_end();
   to[start + "middle_damage"] = p.failure.damage.middle;
   to[start + "end_spread"] = p.failure.end_spread;
 }

@@ -45,6 +45,7 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"kinetic_to_internal_max", "1"},
     {"end_damage_top", "1"},
     {"end_damage_bottom", "1"},
+    {"worse_end_damage", "1"},
     {"middle_damage", "1"},
     {"end_spread", "1"},
     {"barrel_at_peak", "1"},

@@ -1,27 +1,40 @@
-"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER"""
+"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER [SEED...] [unseen SEED...]
+
+A row is a figure: mean +- standard deviation over packings (how many), of those it was calibrated for and of unseen ones.
+Where the mean lies outside of its band the row says so, in red on a terminal.
+"""
 import csv
 import json
+import math
 import pathlib
 import statistics
 import sys
 
 folder = pathlib.Path(sys.argv[1])
-seeds = sorted({int(path.name.rsplit("_", 1)[1]) for path in folder.glob("dry_*") if path.is_dir()})
+words = sys.argv[2:] or ["1", "2", "3", "4", "5", "unseen", "6", "7"]
+cut = words.index("unseen") if "unseen" in words else len(words)
+known, unseen = [int(w) for w in words[:cut]], [int(w) for w in words[cut + 1:]]
+seeds = known + unseen
+MPA, GPA = 1e-6, 1e-9
+STRENGTH = "strength_pa"
+PRESSURES = ("1.5", "3", "4.5", "9", "30", "60")
 
 
 def summary(name):
+    """Of a finished run, else None."""
     path = folder / name / "summary.json"
     found = json.loads(path.read_text()) if path.exists() else {}
     return found if found.get("status") == "done" else None
 
 
-def of_seeds(name, key, scale=1.0):
-    """Of each seed whose run has it."""
+def of_seeds(name, what, scale=1.0):
+    """{seed: figure} of each seed whose run has it; `what` is a key or takes the summary."""
     found = {}
     for seed in seeds:
         s = summary(f"{name}_{seed}")
-        if s and s.get(key) is not None:
-            found[seed] = scale * s[key]
+        value = s and (what(s) if callable(what) else s.get(what))
+        if value is not None:
+            found[seed] = scale * value
     return found
 
 
@@ -30,23 +43,44 @@ def ratio(one, other):
     return {seed: one[seed] / other[seed] for seed in one if seed in other}
 
 
-def last_over_peak(name, factor):
-    """Stress less pressure at so many times the strain at peak, over the largest; None where the run ends before."""
+def history(name):
+    with open(folder / name / "history.csv") as file:
+        return [{k: float(v) if v else 0.0 for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+def sheared(name):
+    """Rows of a test under pressure from the deviator's peak on, the peak's deviator, and the platens' strain where it began."""
+    rows = history(name)
+    peak = max(range(len(rows)), key=lambda i: rows[i]["deviator_pa"])
+    start = rows[peak]["axial_strain_platen"] - summary(name)["strain_at_peak_platen"]
+    return rows, peak, start
+
+
+def last_over_peak(name, factor=None, strain=None):
+    """Deviator at so many times the strain at peak, or at a strain, over the largest; none where the run ends before."""
     found = {}
     for seed in seeds:
-        s, path = summary(f"{name}_{seed}"), folder / f"{name}_{seed}" / "history.csv"
-        if not s:
+        run = f"{name}_{seed}"
+        if not summary(run):
             continue
-        with open(path) as file:
-            rows = [{k: float(v) if v else 0.0 for k, v in row.items()} for row in csv.DictReader(file)]
-        # Strains count from the end of consolidation: the first row whose deviator rises for good.
-        deviator = [row["deviator_pa"] for row in rows]
-        peak = max(range(len(rows)), key=deviator.__getitem__)
-        start = rows[peak]["axial_strain_platen"] - s["strain_at_peak_platen"]
-        wanted = start + (s["strain_at_peak_platen"] * factor if factor else 0.0345)
-        later = [d for row, d in zip(rows[peak:], deviator[peak:]) if row["axial_strain_platen"] >= wanted]
+        rows, peak, start = sheared(run)
+        wanted = start + (strain if factor is None else factor * summary(run)["strain_at_peak_platen"])
+        later = [row["deviator_pa"] for row in rows[peak:] if row["axial_strain_platen"] >= wanted]
         if later:
-            found[seed] = later[0] / deviator[peak]
+            found[seed] = later[0] / rows[peak]["deviator_pa"]
+    return found
+
+
+def volume(name, least):
+    """Volumetric strain in percent, larger positive, of the sleeve's inside from the bare specimen on: at the peak, or its least."""
+    found = {}
+    for seed in seeds:
+        run = f"{name}_{seed}"
+        if not summary(run):
+            continue
+        rows, peak, _ = sheared(run)
+        values = [-100 * row["volumetric_strain_sleeve"] for row in rows]
+        found[seed] = min(values[:peak + 1]) if least else values[peak]
     return found
 
 
@@ -60,54 +94,151 @@ def newman(fc, p):
     return fc * (1 + 3.7 * (p / fc) ** 0.86)
 
 
-def row(what, values, low=None, high=None, laboratory=""):
-    values = list(values.values())
+def said(values):
     if not values:
-        print(f"| {what} | - | {band(low, high)} | {laboratory} | not run |")
-        return
-    mean = statistics.mean(values)
-    scatter = f" +- {statistics.stdev(values):.3g}" if len(values) > 1 else ""
-    inside = "stated" if low is None and high is None else \
-        "within" if (low is None or mean >= low) and (high is None or mean <= high) else "**outside**"
-    print(f"| {what} | {mean:.3g}{scatter} ({len(values)}) | {band(low, high)} | {laboratory} | {inside} |")
-
-
-def band(low, high):
-    if low is None and high is None:
         return "-"
-    return f"{'' if low is None else f'{low:.3g}'} ... {'' if high is None else f'{high:.3g}'}"
+    scatter = f" +- {statistics.stdev(values):.2g}" if len(values) > 1 else ""
+    return f"{statistics.mean(values):.3g}{scatter} ({len(values)})"
 
 
-mpa, gpa = 1e-6, 1e-9
-dry, lub = of_seeds("dry", "strength_pa", mpa), of_seeds("lub", "strength_pa", mpa)
-cube, cube_lub = of_seeds("cube_dry", "strength_pa", mpa), of_seeds("cube_lub", "strength_pa", mpa)
-prism, prism_lub = of_seeds("prism_dry", "strength_pa", mpa), of_seeds("prism_lub", "strength_pa", mpa)
-print("| | mean +- scatter (packings) | band | laboratory | |\n| --- | --- | --- | --- | --- |")
-row("E, GPa", of_seeds("dry", "youngs_modulus_gauge_pa", gpa), 20, 30)
-row("Poisson's ratio", of_seeds("dry", "poisson_ratio"), 0.15, 0.22)
-row("strength, dry, MPa", dry, 35, 50)
-row("strain at peak, 1e-3", of_seeds("dry", "strain_at_peak_platen", 1e3), 2, 4)
-row("strength, greased, MPa", lub)
-row("compressive over direct tensile strength", ratio(dry, of_seeds("tension", "strength_pa", mpa)), 8, 12)
-row("cube, dry over greased", ratio(cube, cube_lub), 1.21, 1.59, "1.42, Hughes and Bahramian 1967")
-row("prism, dry over greased", ratio(prism, prism_lub), 1.03, 1.11, "1.08, the same")
-row("cube over prism, dry", ratio(cube, prism), 1.21, 1.47, "1.37, the same")
-row("cube over prism, greased", ratio(cube_lub, prism_lub), 1.00, 1.10, "1.04, the same")
-row("height over width .5 over 2, dry", ratio(of_seeds("flat", "strength_pa", mpa), dry), 1.5, 2.2)
-coarse = of_seeds("coarse", "strength_pa", mpa)
-for pressure in ("1.5", "3", "4.5", "9", "30"):
-    p = float(pressure)
-    strength = of_seeds(f"tri_{pressure}", "strength_pa", mpa)
-    k = {seed: (strength[seed] - coarse[seed]) / p for seed in strength if seed in coarse}
-    fc = statistics.mean(coarse.values()) if coarse else 43
-    lines = sorted((f(fc, p) - fc) / p for f in (mander, newman))
-    row(f"(strength - fc)/p at {pressure} MPa", k, 0.85 * lines[0], 1.15 * lines[1],
-        f"{lines[0]:.1f} ... {lines[1]:.1f}, Mander 1988, EN 1998-3")
-row("strain at peak at 9 MPa, 1e-3", of_seeds("tri_9", "strain_at_peak_platen", 1e3), laboratory="authors differ: 2.6 to 6.3 times the unconfined one")
-row("last over peak at 9 MPa, at 1.45 times the strain at peak", last_over_peak("tri_9", 1.45))
-row("last over peak at 30 MPa, at 3.45e-2", last_over_peak("tri_30", None), 0.9)
-row("worse end damage, dry", {s: max(summary(f"dry_{s}")["end_damage_top"], summary(f"dry_{s}")["end_damage_bottom"]) for s in dry}, None, 0.3)
-row("middle damage, dry", of_seeds("dry", "middle_damage"), 0.5)
-row("worse end damage, greased", {s: max(summary(f"lub_{s}")["end_damage_top"], summary(f"lub_{s}")["end_damage_bottom"]) for s in lub}, 0.4)
-names = ("dry", "lub", "tension", "cube_dry", "cube_lub", "prism_dry", "prism_lub", "flat", "coarse", "tri_1.5", "tri_3", "tri_4.5", "tri_9", "tri_30")
-row("largest energy residual of all runs", {0: max((v for n in names for v in of_seeds(n, "energy_residual_relative").values()), default=float("nan"))}, None, 0.01)
+def verdict(values, low, high):
+    if not values:
+        return "not run"
+    if low is None and high is None:
+        return "stated"
+    mean = statistics.mean(values)
+    if (low is None or mean >= low) and (high is None or mean <= high):
+        return "within"
+    return "\033[31m**outside**\033[0m" if sys.stdout.isatty() else "**outside**"
+
+
+def row(what, figures, low=None, high=None, laboratory=""):
+    one, other = ([figures[s] for s in some if s in figures] for some in (known, unseen))
+    band = "-" if low is None and high is None else \
+        f"{'' if low is None else f'{low:.3g}'} ... {'' if high is None else f'{high:.3g}'}"
+    words = verdict(one, low, high)
+    if other and verdict(other, low, high) != words:
+        words += f", unseen {verdict(other, low, high)}"
+    print(f"| {what} | {said(one)} | {said(other)} | {band} | {laboratory} | {words} |")
+
+
+def heading(what):
+    print(f"\n**{what}**\n\n| | packings | unseen packings | band | laboratory | |\n| --- | --- | --- | --- | --- | --- |")
+
+
+def worse(s):
+    return max(s["end_damage_top"], s["end_damage_bottom"])
+
+
+def plain():
+    heading("Strength, moduli, short and slender")
+    dry, lub = (of_seeds(f"concrete_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
+    cube, cube_lub = (of_seeds(f"cube_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
+    prism, prism_lub = (of_seeds(f"prism_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
+    tension = of_seeds("concrete_tension", STRENGTH, MPA)
+    row("E, GPa", of_seeds("concrete_dry", "youngs_modulus_gauge_pa", GPA), 20, 30)
+    row("Poisson's ratio", of_seeds("concrete_dry", "poisson_ratio"), 0.15, 0.22)
+    row("strength, dry, MPa", dry, 35, 50)
+    row("strain at peak, 1e-3", of_seeds("concrete_dry", "strain_at_peak_platen", 1e3), 2, 4)
+    row("strength, greased, MPa", lub)
+    row("compressive over direct tensile strength", ratio(dry, tension), 8, 12)
+    hughes = "Hughes and Bahramian 1967"
+    row("cube, dry over greased", ratio(cube, cube_lub), 1.21, 1.59, f"1.42, {hughes}")
+    row("prism, dry over greased", ratio(prism, prism_lub), 1.03, 1.11, "1.08, the same")
+    row("cube over prism, dry", ratio(cube, prism), 1.21, 1.47, "1.37, the same")
+    row("cube over prism, greased", ratio(cube_lub, prism_lub), 1.00, 1.10, "1.04, the same")
+    row("height over diameter .5 over 2, dry", ratio(of_seeds("flat_dry", STRENGTH, MPA), dry), 1.5, 2.2)
+    row("1 over 2", ratio(of_seeds("core_50", STRENGTH, MPA), dry), laboratory="1.15 to 1.18, ASTM C42")
+    for height, factor in (("62.5", 1 / 0.93), ("75", 1 / 0.96), ("87.5", 1 / 0.98)):
+        row(f"{float(height) / 50:g} over 2", ratio(of_seeds(f"core_{height}", STRENGTH, MPA), dry), 0.95 * factor,
+            1.05 * factor, f"{factor:.2f}, ASTM C42")
+    row("splitting strength over direct tension", ratio(of_seeds("brazilian_concrete", STRENGTH, MPA), tension))
+    row("bending strength over direct tension", ratio(of_seeds("bending_concrete", STRENGTH, MPA), tension),
+        laboratory="1.3 to 2 in small beams")
+    row("bulk modulus, GPa", of_seeds("hydrostatic_concrete", "bulk_modulus_pa", GPA))
+    row("uniaxial strain: lateral over axial stress", of_seeds("uniaxial_strain_concrete", "lateral_over_axial_stress"))
+    row("constrained modulus, GPa", of_seeds("uniaxial_strain_concrete", "constrained_modulus_pa", GPA))
+
+
+def secant(pressure):
+    """(strength - fc)/p of each seed."""
+    bare, strength = of_seeds("triaxial_0", STRENGTH, MPA), of_seeds(f"triaxial_{pressure}", STRENGTH, MPA)
+    return {seed: (strength[seed] - bare[seed]) / float(pressure) for seed in strength if seed in bare}
+
+
+def triaxial():
+    heading("In the sleeve, fc of the same packing")
+    bare = of_seeds("triaxial_0", STRENGTH, MPA)
+    fc = statistics.mean(bare.values()) if bare else 43
+    row("fc, MPa", bare)
+    for pressure in PRESSURES:
+        p = float(pressure)
+        lines = sorted((f(fc, p) - fc) / p for f in (mander, newman))
+        wanted = (0.85 * lines[0], 1.15 * lines[1]) if p < 60 else (None, None)
+        row(f"(strength - fc)/p at {pressure} MPa", secant(pressure), *wanted,
+            f"{lines[0]:.1f} ... {lines[1]:.1f}, Mander 1988, EN 1998-3")
+    row("strain at peak at 9 MPa, 1e-3", of_seeds("triaxial_9", "strain_at_peak_platen", 1e3),
+        laboratory="authors differ: 2.6 to 6.3 times the bare one")
+    row("last over peak at 9 MPa, at 1.45 times the strain at peak", last_over_peak("triaxial_9", factor=1.45),
+        laboratory=".99 at .36 fc, Imran and Pantazopoulou 1996")
+    for pressure in ("30", "60"):
+        row(f"last over peak at {pressure} MPa, at 3.45e-2", last_over_peak(f"triaxial_{pressure}", strain=0.0345), 0.9)
+    for pressure, least, peak in (("9", "-.8", ".1"), ("30", "-1.6", "-.4"), ("60", "-2.0", "-1.3")):
+        at = {"9": ".36", "30": ".63", "60": ".91"}[pressure]
+        row(f"least volume at {pressure} MPa ({float(pressure) / fc:.2f} fc), %", volume(f"triaxial_{pressure}", True),
+            laboratory=f"{least} at {at} fc, Imran and Pantazopoulou 1996")
+        row(f"volume at its peak, %", volume(f"triaxial_{pressure}", False), laboratory=f"{peak}, the same")
+
+
+def biaxial():
+    heading("Biaxial strength over uniaxial")
+    for platens, name in (("brush", "brush platens"), ("steel", "dry steel")):
+        alone = of_seeds(f"biaxial_{platens}_0", STRENGTH, MPA)
+        for share in ("0.25", "0.5", "1"):
+            row(f"{name}, stresses 1 : {share}", ratio(of_seeds(f"biaxial_{platens}_{share}", STRENGTH, MPA), alone),
+                laboratory="1.16 (brushes), Kupfer et al. 1969" if share == "1" else "")
+
+
+def has_cones(s):
+    return 1.0 if s["pattern"] == "cones" else 0.0
+
+
+def friction():
+    heading("Friction of platens, cylinders of height over diameter 2, at .8 of the peak")
+    runs = (("concrete_dry", "0.57"), ("friction_0.3", "0.3"), ("friction_0.1", "0.1"), ("concrete_lubricated", "0"))
+    for name, mu in runs:
+        greased, held = mu == "0", mu in ("0.57", "0.3")
+        row(f"strength, friction {mu}, MPa", of_seeds(name, STRENGTH, MPA))
+        row("damage of the worse end", of_seeds(name, worse), 0.4 if greased else None, 0.3 if held else None)
+        row("damage of the middle", of_seeds(name, "middle_damage"), 0.5 if held else None)
+        row("r0 of the worse end's dead zone", of_seeds(name, lambda s: min((s[f"dead_zone_{e}"] or {}).get("base_ratio") or 0.0
+                                                                         for e in ("top", "bottom"))))
+        row("share of packings with cones", of_seeds(name, has_cones), 1 if held else None, 0 if greased else None)
+    angles = {}
+    for seed in seeds:
+        found = [s[f"cone_{e}"]["half_angle_deg"] for n in ("concrete_dry", "friction_0.3")
+                 if (s := summary(f"{n}_{seed}")) for e in ("top", "bottom") if s[f"cone_{e}"]]
+        if found:
+            angles[seed] = statistics.mean(found)
+    k = secant("9")
+    mohr = math.degrees(math.atan(statistics.mean(k.values()) ** -0.5)) if k else None
+    row("half-angle of cones by displacement, .3 and .57, degrees", angles, mohr and mohr - 6, mohr and mohr + 6,
+        f"{mohr:.0f}, Mohr-Coulomb with k at 9 MPa" if mohr else "")
+
+
+def recipe():
+    heading("What should not matter, over the cylinder as it is")
+    dry, lub = (of_seeds(f"concrete_{ends}", STRENGTH) for ends in ("dry", "lubricated"))
+    row("platen friction 1 over .57", ratio(of_seeds("friction_1", STRENGTH), dry))
+    row("end layer of .6 over .3 mean radii, dry", ratio(of_seeds("layer_dry", STRENGTH), dry))
+    row("the same, greased", ratio(of_seeds("layer_lubricated", STRENGTH), lub))
+    row("half the speed over the speed", ratio(of_seeds("half_rate", STRENGTH), dry))
+
+
+plain()
+triaxial()
+friction()
+biaxial()
+recipe()
+print(f"\nLargest energy residual of all runs (1 %): "
+      f"{max(json.loads(p.read_text()).get('energy_residual_relative') or 0.0 for p in folder.glob('*/summary.json')):.2g}")

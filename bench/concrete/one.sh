@@ -1,25 +1,31 @@
 #!/usr/bin/env bash
-# One concrete in every test: cylinders, cubes and prisms between dry and greased platens, flat specimens, tension, and
-# triaxial tests in a rubber sleeve, on as many packings as seeds are named. Ends with the table of one.py, beside what
-# laboratories find. Finished runs are skipped. About 25 minutes a seed on one core.
-# Usage: bench/concrete/one.sh BUILD FOLDER [SEED...], seeds by default 1 2 3 4 5
+# One concrete in every test, on as many packings as seeds are named: cylinders, cubes and prisms between dry and greased
+# platens, cores, flat specimens, tension, splitting, bending, triaxial tests in a rubber sleeve, squares under biaxial stress.
+# Ends with the table of one.py, beside what laboratories find; seeds named after `unseen` stand in a column of their own.
+# Finished runs are skipped. About 45 minutes a seed on one core.
+# Usage: bench/concrete/one.sh BUILD FOLDER [SEED...] [unseen SEED...], by default 1 2 3 4 5 unseen 6 7.
+# GROUPS_RUN="uniaxial friction cores plain triaxial biaxial recipe" names what is run.
 set -euo pipefail
-[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED...]" >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED...] [unseen SEED...]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
-scene=$here/../../scenes/yielding_concrete.prm
-program=$1/apps/platen-compress
+scenes=$here/../../scenes
+apps=$1/apps
 folder=$2
 shift 2
-seeds=${*:-1 2 3 4 5}
+[ $# -gt 0 ] || set -- 1 2 3 4 5 unseen 6 7
+seeds=${*//unseen/}
+groups=${GROUPS_RUN:-uniaxial friction cores plain triaxial biaxial recipe}
 jobs=${JOBS:-$(nproc)}
 mkdir -p "$folder"
 
-run() { # NAME OPTIONS...
-  local name=$1
-  shift
+run() { # NAME SCENE SEED OPTIONS...
+  local scene=$2 seed=$3 name=$1_$3 program=platen-compress
+  shift 3
   if grep -qs '"status": "done"' "$folder/$name/summary.json"; then return; fi
-  "$program" "$scene" -o "$folder/$name" --overwrite -t 1 --quiet -s "Output/Fields = off" "$@" 2> "$folder/$name.log" ||
-    [ $? -eq 1 ] || { echo "$name: $(tail -n 1 "$folder/$name.log")" >&2; } # 1: not what the cylinder expects
+  [ "$scene" = brazilian_concrete ] && program=platen-brazilian
+  "$apps/$program" "$scenes/$scene.prm" -o "$folder/$name" --overwrite -t 1 --quiet -s "Output/Fields = off" \
+    -s "Scene/Seed = $seed" "$@" 2> "$folder/$name.log" ||
+    [ $? -eq 1 ] || { echo "$name: $(tail -n 1 "$folder/$name.log")" >&2; } # 1: not what the scene expects
 }
 
 queue() { # waits for a free core
@@ -27,33 +33,56 @@ queue() { # waits for a free core
   run "$@" &
 }
 
-box() { # NAME HEIGHT_IN_MM SPHERE_IN_MM OPTIONS...
-  local name=$1 height=$2 sphere=$3
-  shift 3
-  queue "$name" -s "Specimen/Shape = box" -s "Specimen/Radius =" -s "Specimen/Width x = 50 mm" -s "Specimen/Width y = 50 mm" \
-    -s "Specimen/Height = $height mm" -s "Specimen/Sphere radius = $sphere mm" -s "Loading/Target strain = 0.012" "$@"
+uniaxial() {
+  for scene in concrete_dry concrete_lubricated concrete_tension cube_dry cube_lubricated prism_dry prism_lubricated flat_dry; do
+    queue $scene $scene "$1"
+  done
 }
 
-grease="Platens/Friction static = 0"
-for seed in $seeds; do
-  s=(-s "Scene/Seed = $seed")
-  queue "dry_$seed" "${s[@]}"
-  queue "lub_$seed" "${s[@]}" -s "$grease"
-  queue "tension_$seed" "${s[@]}" -s "Platens/Attachment = glued" -s "Loading/Test = tension" -s "Loading/Axial rate = 0.012 m/s" \
-    -s "Loading/Target strain = 0.001"
-  box "cube_dry_$seed" 50 1.53 "${s[@]}"
-  box "cube_lub_$seed" 50 1.53 "${s[@]}" -s "$grease"
-  box "prism_dry_$seed" 120 1.6 "${s[@]}"
-  box "prism_lub_$seed" 120 1.6 "${s[@]}" -s "$grease"
-  queue "flat_$seed" "${s[@]}" -s "Specimen/Height = 25 mm" -s "Loading/Target strain = 0.05"
-  # Half as many spheres, the unconfined strength of the same packing beside them.
-  coarse=("${s[@]}" -s "Specimen/Sphere radius = 1.78 mm")
-  queue "coarse_$seed" "${coarse[@]}"
-  for pressure in 1.5 3 4.5 9 30; do
-    queue "tri_${pressure}_$seed" "${coarse[@]}" -s "Loading/Confinement = sleeve" -s "Loading/Confining pressure = $pressure MPa" \
-      -s "Sleeve/Thickness = 3 mm" -s "Sleeve/Modulus = 1.5 MPa" -s "Sleeve/Poisson ratio = 0.4995" \
-      -s "Loading/Target strain = 0.035" -s "Loading/Stop at residual = 0.5"
+cores() {
+  for height in 50 62.5 75 87.5; do
+    queue core_$height concrete_dry "$1" -s "Specimen/Height = $height mm" -s "Loading/Target strain = 0.012" \
+      -s "Loading/Stop at residual = 0.7"
   done
+}
+
+plain() {
+  for scene in brazilian_concrete bending_concrete hydrostatic_concrete uniaxial_strain_concrete; do
+    queue $scene $scene "$1"
+  done
+}
+
+triaxial() { # beside them the same packing bare, at the same speed of platens
+  queue triaxial_0 concrete_dry "$1" -s "Specimen/Sphere radius = 1.78 mm"
+  for pressure in 1.5 3 4.5 9 30 60; do
+    queue triaxial_$pressure triaxial_concrete "$1" -s "Loading/Confining pressure = $pressure MPa"
+  done
+}
+
+biaxial() {
+  for platens in steel brush; do
+    queue biaxial_${platens}_0 biaxial_$platens "$1" -s "Loading/Stage 1/Lateral x = free"
+    for share in 0.25 0.5 1; do
+      queue biaxial_${platens}_$share biaxial_$platens "$1" -s "Loading/Stage 1/Lateral x = share of Axial $share"
+    done
+  done
+}
+
+friction() { # between dry steel (0.57) and grease (0): 0.1 and 0.3
+  for friction in 0.1 0.3; do
+    queue friction_$friction concrete_dry "$1" -s "Platens/Friction static = $friction"
+  done
+}
+
+recipe() { # what should not matter: rougher steel, a thicker end layer, half the speed
+  queue friction_1 concrete_dry "$1" -s "Platens/Friction static = 1"
+  queue layer_dry concrete_dry "$1" -s "Specimen/End layer = 0.6"
+  queue layer_lubricated concrete_lubricated "$1" -s "Specimen/End layer = 0.6"
+  queue half_rate concrete_dry "$1" -s "Loading/Axial rate = 0.0375 m/s"
+}
+
+for group in $groups; do
+  for seed in $seeds; do $group "$seed"; done
 done
 wait
-python3 "$here/one.py" "$folder"
+python3 "$here/one.py" "$folder" "$@"

@@ -5,7 +5,7 @@
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [TURNS [THREADS]]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
-scene=$here/../../scenes/triaxial_concrete.prm
+scene=$here/../../scenes/brittle_concrete_triaxial.prm
 app=$1/apps/platen-compress
 folder=$2
 turns=${3:-3}

@@ -27,12 +27,12 @@ run() {
 
 # A specimen without pressure has fallen before the others have come to their peak; those take the time for more haste.
 for kind in $kinds; do
-  run parallel_bond triaxial_concrete none 0 0.01 0.08
-  run parallel_bond triaxial_concrete $kind 4.5 0.015 0.1
-  run parallel_bond triaxial_concrete $kind 60 0.04 0.2
-  run parallel_bond triaxial_concrete $kind 9 0.02 0.1
-  run parallel_bond triaxial_concrete $kind 30 0.03 0.2
-  run parallel_bond triaxial_concrete $kind 1.5 0.01 0.1
+  run parallel_bond brittle_concrete_triaxial none 0 0.01 0.08
+  run parallel_bond brittle_concrete_triaxial $kind 4.5 0.015 0.1
+  run parallel_bond brittle_concrete_triaxial $kind 60 0.04 0.2
+  run parallel_bond brittle_concrete_triaxial $kind 9 0.02 0.1
+  run parallel_bond brittle_concrete_triaxial $kind 30 0.03 0.2
+  run parallel_bond brittle_concrete_triaxial $kind 1.5 0.01 0.1
   run elasto_damage_plastic onate_concrete_triaxial none 0 0.01 0.3
   run elasto_damage_plastic onate_concrete_triaxial $kind 60 0.05 0.6
   run elasto_damage_plastic onate_concrete_triaxial $kind 4.5 0.02 0.3

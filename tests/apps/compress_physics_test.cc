@@ -72,6 +72,9 @@ TEST_F(Physics, rough_platens_keep_the_ends_whole_and_smooth_ones_do_not) {
   const auto ends = [](const nlohmann::json &s) {
     return 0.5 * (s["end_damage_top"].get<double>() + s["end_damage_bottom"].get<double>());
   };
+  for (const nlohmann::json &s : {dry, lubricated})
+    EXPECT_EQ(s["worse_end_damage"].get<double>(),
+              std::max(s["end_damage_top"].get<double>(), s["end_damage_bottom"].get<double>()));
   EXPECT_LT(ends(dry), 0.7 * dry["middle_damage"].get<double>());
   EXPECT_GT(ends(lubricated), lubricated["middle_damage"].get<double>());
   EXPECT_LT(dry["end_spread"], 0.4);
