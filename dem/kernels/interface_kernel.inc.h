@@ -99,15 +99,21 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
   return m;
 }
 
+template <class Law>
+PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t k, bool factors) {
+  const Pack radius = load(b.bond_radius + k);
+  InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
+                            Pack(pi * radius * radius)};
+  if (factors) g.strength_factor = load(b.strength_factor + k);
+  if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
+  return g;
+}
+
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
                             double dt) {
   const BondColumns &b = c.bonds;
-  const Pack radius = load(b.bond_radius + k);
-  InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
-                            Pack(pi * radius * radius)};
-  if constexpr (factors) g.strength_factor = load(b.strength_factor + k);
-  if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
+  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, factors);
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   const auto motion = [&] { return motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt); };
@@ -169,8 +175,58 @@ bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, con
   });
 }
 
+// From the particles' columns.
+template <bool rotation, class Law>
+PLATEN_INLINE void measure_pack(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to,
+                                std::size_t k, std::size_t at, std::size_t count) {
+  const BondColumns &b = c.bonds;
+  const int *i = b.first + k, *j = b.second + k;
+  const Pack none(0.0);
+  BondMotion<Pack> pose{gather_difference(b.position, j, i), {Pack(1.0), none, none, none}, {}};
+  pose.turn_j = pose.turn_i;
+  if constexpr (rotation && Law::needs_orientations)
+    pose.turn_i = gather(b.orientation, i), pose.turn_j = gather(b.orientation, j);
+  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, b.strength_factor != nullptr);
+  typename Law::template State<Pack> s;
+  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+  const HeldByBond<Pack> held = law.held(s, g, pose);
+  const auto put = [&](double *column, const Pack &value) {
+    for (std::size_t l = 0; l < count; ++l)
+      column[at + l] = value.v[l];
+  };
+  put(to.energy, held.energy);
+  put(to.force, root(dot(held.force, held.force)));
+  put(to.dissipated, s.dissipated);
+  put(to.damage, law.damage_of(s));
+  put(to.plastic, law.plastic_work(s, g));
+}
+
+template <bool rotation, class Law>
+void measure(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to, std::size_t first,
+             std::size_t last) {
+  std::size_t k = first;
+  for (; k + lanes <= last; k += lanes)
+    measure_pack<rotation>(c, law, to, k, k - first, lanes);
+  if (k == last) return;
+  Tail tail(c.bonds, k, last);
+  MemoryTail memory(c.memory, k, last);
+  BondColumns rest = tail.columns(c.bonds);
+  if (c.bonds.strength_factor == nullptr) rest.strength_factor = nullptr;
+  measure_pack<rotation>({rest, memory.columns()}, law, to, 0, k - first, last - k);
+}
+
+void measure_of(const InterfaceColumns &c, const BondLaw &law, const InterfaceRowValues &to,
+                std::size_t first, std::size_t last) {
+  of_remembering(law, [&](const auto &one) {
+    if (c.bonds.orientation != nullptr)
+      measure<true>(c, one, to, first, last);
+    else
+      measure<false>(c, one, to, first, last);
+  });
+}
+
 } // namespace
 
-const InterfaceKernel PLATEN_KERNELS{compute_forces_of};
+const InterfaceKernel PLATEN_KERNELS{compute_forces_of, measure_of};
 
 } // namespace platen::dem::kernels

@@ -77,7 +77,10 @@ struct ElastoDamagePlastic {
   template <class Real>
   using State = InterfaceState<Real>;
   // 1: it has failed, in tension or in shear.
-  static double damage_of(const State<double> &s) { return larger(s.tension_damage, s.shear_damage); }
+  template <class Real>
+  static Real damage_of(const State<Real> &s) {
+    return larger(s.tension_damage, s.shear_damage);
+  }
   static bool failed_in_tension(const State<double> &s) { return s.tension_damage >= 1.0; }
 
   bool bends() const { return false; }
@@ -96,8 +99,15 @@ struct ElastoDamagePlastic {
   // begins, 1 + delta where it ends.
   BondResponse<double> bond_response(const InterfaceState<double> &s, const InterfaceGeometry<double> &g,
                                      const InterfaceMotion<double> &m) const;
+  template <class Real>
+  HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                        const BondMotion<Real> &pose) const {
+    const InterfaceResponse<Real> r = response(s, g, pose.distance);
+    return {r.force, r.energy};
+  }
   // J, taken by the plastic closing of a state.
-  double plastic_work(const InterfaceState<double> &s, const InterfaceGeometry<double> &g) const {
+  template <class Real>
+  Real plastic_work(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 

@@ -39,6 +39,13 @@ struct InterfaceResponse {
   Triple<Real> torque_i = {}, torque_j = {};
 };
 
+// What acts in a state as it is: for sums over all bonds.
+template <class Real>
+struct HeldByBond {
+  Triple<Real> force; // N, on the first
+  Real energy;        // J, stored
+};
+
 // The plane between the two, from the last step to this one. What lies in it turns with it by the least
 // rotation but for third powers of its angle and without change of length, and spins with the pair (Cayley's
 // form).
