@@ -83,7 +83,8 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
   if constexpr (rotation) {
     const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
     // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
-    v = v + cross(m.distance, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
+    const Triple<Pack> arm = needs_orientations ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
+    v = v + cross(arm, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
     const Pack length = root(dot(m.distance, m.distance));
     m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
     if constexpr (needs_orientations) {

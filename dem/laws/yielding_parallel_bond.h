@@ -188,7 +188,8 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> 
 
   // A broken one slides from where it was, or from the slip that it broke with.
   const InterfaceMotion<Real> m = motion();
-  const PlaneMotion<Real> plane(m, length);
+  PlaneMotion<Real> plane(m, length);
+  plane.take_from_the_middle(m.moved);
   const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {
     return Triple<Real>{where_positive(x, a.x, b.x), where_positive(x, a.y, b.y),
                         where_positive(x, a.z, b.z)};
