@@ -36,6 +36,8 @@ struct CompressionBranches {
   // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
   template <class Real>
   Real envelope(const Real &elastic) const;
+  // Slope of the envelope there, of 1 without yield; at a kink that of closing further.
+  double slope(double elastic) const;
   // J/m^2 Pa/m: taken by plastic closing up to q (Pa), times the stiffness k_n.
   template <class Real>
   Real work(const Real &q) const;
@@ -84,6 +86,13 @@ inline double CompressionBranches::begin_of(std::size_t branch) const {
   for (std::size_t k = 1; k <= branch; ++k)
     begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
   return begin;
+}
+
+inline double CompressionBranches::slope(double elastic) const {
+  double slope = 1;
+  for (std::size_t b = 0; b < most; ++b)
+    if (elastic >= begin_of(b) && branches[b].slope > slope) slope = branches[b].slope;
+  return 1 / slope;
 }
 
 // Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a

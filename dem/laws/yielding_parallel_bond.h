@@ -88,6 +88,11 @@ struct YieldingParallelBond {
   template <class Real, class Motion>
   InterfaceResponse<Real> advance(State<Real> &s, const InterfaceGeometry<Real> &g,
                                   const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
+  // How much more the motion from a state to the present is resisted when it goes on: that of the branch
+  // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
+  // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
+  BondStiffness tangent(State<double> from, const InterfaceGeometry<double> &g,
+                        const InterfaceMotion<double> &m) const;
   // What acts in a state as it is.
   BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
                                      const InterfaceMotion<double> &m) const;
@@ -248,6 +253,20 @@ inline BondResponse<double> YieldingParallelBond::bond_response(const State<doub
   }
   r.shear_force = root(dot(r.shear, r.shear));
   return r;
+}
+
+inline BondStiffness YieldingParallelBond::tangent(State<double> s, const InterfaceGeometry<double> &g,
+                                                   const InterfaceMotion<double> &m) const {
+  const State<double> from = s;
+  const InterfaceResponse<double> now = (*this)(s, g, m);
+  BondStiffness k = stiffness({g.reference, g.rest_length, g.lever, g.normal_stiffness, g.radius});
+  const double closing = g.normal_stiffness * (g.rest_length - root(dot(m.distance, m.distance)));
+  if (s.plastic > from.plastic) k.axial *= compression.slope(closing);
+  if (s.broken == 0) return k;
+  k.bending = k.twisting = 0;
+  if (!(now.normal < 0)) k.axial = k.shear = 0;
+  if (s.dissipated > from.dissipated) k.shear = 0;
+  return k;
 }
 
 } // namespace platen::dem
