@@ -168,11 +168,22 @@ bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const La
                                             : compute_forces<rotation, false>(c, block, law, dt, first, last);
 }
 
+// f(law), or f of what stands for it where spheres turn and its bonds bend.
+template <class Law, class F>
+auto as_it_bends(const Law &law, bool turning, const F &f) {
+  if constexpr (std::is_same_v<Law, ElastoDamagePlastic>)
+    if (turning && law.bends()) return f(BendingInterface{law});
+  return f(law);
+}
+
 bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law, double dt,
                        std::size_t first, std::size_t last) {
-  return of_remembering(law, [&](const auto &one) {
-    return c.bonds.orientation != nullptr ? compute_with<true>(c, block, one, dt, first, last)
-                                          : compute_with<false>(c, block, one, dt, first, last);
+  const bool turning = c.bonds.orientation != nullptr;
+  return of_remembering(law, [&](const auto &remembering) {
+    return as_it_bends(remembering, turning, [&](const auto &one) {
+      return turning ? compute_with<true>(c, block, one, dt, first, last)
+                     : compute_with<false>(c, block, one, dt, first, last);
+    });
   });
 }
 
@@ -218,11 +229,11 @@ void measure(const InterfaceColumns &c, const Law &law, const InterfaceRowValues
 
 void measure_of(const InterfaceColumns &c, const BondLaw &law, const InterfaceRowValues &to,
                 std::size_t first, std::size_t last) {
-  of_remembering(law, [&](const auto &one) {
-    if (c.bonds.orientation != nullptr)
-      measure<true>(c, one, to, first, last);
-    else
-      measure<false>(c, one, to, first, last);
+  const bool turning = c.bonds.orientation != nullptr;
+  of_remembering(law, [&](const auto &remembering) {
+    as_it_bends(remembering, turning, [&](const auto &one) {
+      turning ? measure<true>(c, one, to, first, last) : measure<false>(c, one, to, first, last);
+    });
   });
 }
 
