@@ -37,7 +37,7 @@ void compare_with_ml(coupling::PlatenTest &problem) {
   dem::StaticState ours;
   const double seconds = seconds_of([&] { ours = dem::solve_static(p, bonds, load); });
 
-  auto a = dem::statics::assemble<6>(p, bonds);
+  auto a = dem::statics::assemble<6>(p, bonds, dem::statics::at_rest(bonds));
   std::vector<double> right(6 * p.size(), 0.0);
   for (const dem::Support &s : load.supports) {
     const std::size_t i = static_cast<std::size_t>(s.spring.particle);

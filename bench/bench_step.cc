@@ -93,6 +93,20 @@ void print_stages(const Series &s) {
   std::printf("%-12s %8.4f\n", "all", s.seconds * per_step);
 }
 
+// What one sample of the energy ledger costs.
+void print_ledger(const coupling::PlatenTest &problem) {
+  constexpr int samples = 100;
+  std::vector<double> seconds;
+  for (int k = 0; k < samples; ++k) {
+    const auto start = Clock::now();
+    problem.energy();
+    seconds.push_back(seconds_since(start));
+  }
+  const bench::Spread s = bench::spread(seconds);
+  std::printf("one sample of the energy ledger: %.4f ms (%.4f ... %.4f)\n", 1e3 * s.median, 1e3 * s.smallest,
+              1e3 * s.largest);
+}
+
 void print_idealised(const Series &s) {
   const bench::Spread i = bench::spread(s.idealised), part = bench::spread(s.share);
   std::printf("idealised loop in turn: %.2f M (%.2f ... %.2f); the step runs at %.3f of it (%.3f ... %.3f)\n",
@@ -133,6 +147,7 @@ void measure(const Options &o, coupling::PlatenTest &problem, double memory_befo
   std::printf("energy: work %.4g J, residual %.2g of it; broken bonds %ld\n", energy.boundary,
               energy.residual() / energy.boundary, problem.model.broken_tension + problem.model.broken_shear);
   print_memory(problem, memory_before);
+  print_ledger(problem);
   if (several.loop) print_idealised(several);
   if (o.gain) print_gain(one, several);
   const bench::Spread s = bench::spread(several.rates);

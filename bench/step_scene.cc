@@ -49,7 +49,8 @@ dem::Specimen close_packed(int particles) {
 
 const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
                                       {"cohesive-beam", Law::cohesive_beam},
-                                      {"elasto-damage-plastic", Law::elasto_damage_plastic}};
+                                      {"elasto-damage-plastic", Law::elasto_damage_plastic},
+                                      {"yielding-parallel-bond", Law::yielding_parallel_bond}};
 
 coupling::PlatenTestSettings elastic_press(Law law) {
   coupling::PlatenTestSettings s;
@@ -69,6 +70,12 @@ coupling::PlatenTestSettings elastic_press(Law law) {
     p.friction_dynamic = 0.25;
     p.poisson_ratio = 0.2;
     p.compression_limits = {1e9}, p.compression_slopes = {3};
+    s.model.bond = p;
+  }
+  if (law == Law::yielding_parallel_bond) {
+    dem::YieldingParallelBond::Parameters p;
+    static_cast<dem::ParallelBond::Parameters &>(p) = std::get<dem::ParallelBond::Parameters>(*s.model.bond);
+    p.compression_limits = {1e9, 2e9, 3e9}, p.compression_slopes = {3, 12, 22};
     s.model.bond = p;
   }
   s.model.contact = dem::ContactSettings{};

@@ -36,6 +36,31 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   return c;
 }
 
+kernels::InterfaceColumns interface_columns_of(const Particles &p, const Bonds &b) {
+  kernels::InterfaceColumns columns{columns_of(p, b), {}};
+  for (std::size_t k = 0; k < b.memory_scalars.size(); ++k)
+    columns.memory.scalar[k] = b.memory_scalars[k]->data();
+  for (std::size_t k = 0; k < b.memory_vectors.size(); ++k)
+    columns.memory.vector[k] = b.memory_vectors[k]->data();
+  return columns;
+}
+
+BondTotals interface_totals(const Particles &p, const Bonds &b, InstructionSet set) {
+  const kernels::InterfaceColumns columns = interface_columns_of(p, b);
+  return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
+    double energy[block_rows], force[block_rows], dissipated[block_rows], damage[block_rows],
+        plastic[block_rows];
+    interface_kernel_of(set).measure(columns, b.law, {energy, force, dissipated, damage, plastic}, first,
+                                     last);
+    BondTotals sum;
+    for (std::size_t k = 0; k < last - first; ++k) {
+      const bool failed = damage[k] >= 1;
+      sum += {energy[k], force[k], failed ? 0 : dissipated[k], failed ? dissipated[k] : 0, plastic[k]};
+    }
+    return sum;
+  });
+}
+
 // One block of particles, with memory of this thread for its rows.
 kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t block) {
   kernels::BlockColumns c{};
@@ -120,11 +145,7 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
 void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
                               std::vector<BondBreak> &breaks, const Loop &beside) {
   const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
-  kernels::InterfaceColumns columns{columns_of(p, b), {}};
-  for (std::size_t k = 0; k < b.memory_scalars.size(); ++k)
-    columns.memory.scalar[k] = b.memory_scalars[k]->data();
-  for (std::size_t k = 0; k < b.memory_vectors.size(); ++k)
-    columns.memory.vector[k] = b.memory_vectors[k]->data();
+  kernels::InterfaceColumns columns = interface_columns_of(p, b);
   columns.bonds.velocity = p.velocity.data();
   if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
   std::vector<unsigned char> failed(b.blocks.blocks(), 0);
@@ -168,7 +189,7 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
 }
 
 BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
-  if (has_history(b.law)) return b.interface_totals(p);
+  if (has_history(b.law)) return interface_totals(p, b, set);
   const kernels::BondColumns columns = columns_of(p, b);
   return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];

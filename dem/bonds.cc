@@ -276,18 +276,4 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   });
 }
 
-BondTotals Bonds::interface_totals(const Particles &p) const {
-  return ordered_sum<BondTotals>(size(), [&](std::size_t from, std::size_t to) {
-    BondTotals sum;
-    for (std::size_t k = from; k < to; ++k)
-      sum += with_memory(k, [&](const auto &of, const auto &remembered) -> BondTotals {
-        const BondResponse<double> r = response(k, p);
-        const bool failed = has_failed(k);
-        return {r.energy, root(dot(r.force, r.force)), failed ? 0.0 : remembered.dissipated,
-                failed ? remembered.dissipated : 0.0, of.plastic_work(remembered, interface_geometry(k))};
-      });
-    return sum;
-  });
-}
-
 } // namespace platen::dem

@@ -146,9 +146,8 @@ struct Bonds {
                                     double time);
   bool has_failed(std::size_t row) const; // broken, or of those that remember
   BondResponse<double> response(std::size_t row, const Particles &particles) const;
-  BondTotals interface_totals(const Particles &particles) const; // of bonds that remember
-  double damage(std::size_t row) const;                          // 0 ... 1; of laws without history 0
-  bool failed_in_tension(std::size_t row) const;                 // of bonds that remember
+  double damage(std::size_t row) const;          // 0 ... 1; of laws without history 0
+  bool failed_in_tension(std::size_t row) const; // of bonds that remember
   // What a row remembers; State is that of its law.
   template <class State>
   State memory(std::size_t row) const;

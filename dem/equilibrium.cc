@@ -10,9 +10,7 @@
 #include "dem/statics/network.h"
 
 namespace platen::dem {
-namespace {
-
-void check(const Particles &p, const StaticCase &load) {
+void require_fitting(const Particles &p, const StaticCase &load) {
   if ((!load.force.empty() && load.force.size() != p.size()) ||
       (!load.torque.empty() && load.torque.size() != p.size()))
     throw std::invalid_argument("static loads need one row per particle");
@@ -31,6 +29,8 @@ void check(const Particles &p, const StaticCase &load) {
                                   " is prescribed twice. Allowed: one motion for each particle");
   }
 }
+
+namespace {
 
 // Pieces of the network that nothing prescribes or supports rest only under loads that balance; found out
 // here, because conjugate gradients would look for a balance until they are stopped.
@@ -88,8 +88,8 @@ namespace {
 template <int n>
 class Network final : public EquilibriumSolver::Implementation {
 public:
-  Network(const Particles &p, const Bonds &b)
-      : p_(p), network_(b), bonds_(statics::assemble<n>(p, b)), matrix_(bonds_) {
+  Network(const Particles &p, const Bonds &b, const std::vector<BondStiffness> &of_rows)
+      : p_(p), network_(b), bonds_(statics::assemble<n>(p, b, of_rows)), matrix_(bonds_) {
     diagonal_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i)
       for (std::size_t k = bonds_.begin[i]; k < bonds_.begin[i + 1]; ++k)
@@ -98,7 +98,7 @@ public:
 
   StaticState solve(const StaticCase &load, const StaticSettings &settings,
                     const StaticState *start) override {
-    check(p_, load);
+    require_fitting(p_, load);
     refuse_unbalanced(p_, network_, load, settings.tolerance);
     hold(load);
     support(load);
@@ -197,11 +197,16 @@ private:
 
 } // namespace
 
-EquilibriumSolver::EquilibriumSolver(const Particles &particles, const Bonds &bonds) {
+EquilibriumSolver::EquilibriumSolver(const Particles &particles, const Bonds &bonds)
+    : EquilibriumSolver(particles, bonds, statics::at_rest(bonds)) {}
+EquilibriumSolver::EquilibriumSolver(const Particles &particles, const Bonds &bonds,
+                                     const std::vector<BondStiffness> &of_rows) {
+  if (of_rows.size() != bonds.size())
+    throw std::invalid_argument("a static solve needs one stiffness for each row of bonds");
   if (particles.has_rotation())
-    implementation_ = std::make_unique<Network<6>>(particles, bonds);
+    implementation_ = std::make_unique<Network<6>>(particles, bonds, of_rows);
   else
-    implementation_ = std::make_unique<Network<3>>(particles, bonds);
+    implementation_ = std::make_unique<Network<3>>(particles, bonds, of_rows);
 }
 EquilibriumSolver::~EquilibriumSolver() = default;
 

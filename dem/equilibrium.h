@@ -1,6 +1,6 @@
 // Static equilibrium of a bonded network under loads and moving supports, by the tangent stiffness of its
-// bonds and conjugate gradients with a multigrid: for what needs no inertia. Linear: bonds do not break, and
-// rotations are small.
+// bonds and conjugate gradients with a multigrid: for what needs no inertia. Linear: bonds neither yield nor
+// break, and rotations are small; dem/yielding_equilibrium.h is for bonds that yield.
 #pragma once
 
 #include <memory>
@@ -43,12 +43,15 @@ struct NoEquilibrium : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Throws std::invalid_argument where columns of loads do not fit the particles, a row is none of theirs or a
+// particle is prescribed twice.
+void require_fitting(const Particles &particles, const StaticCase &load);
+
 // What bonds in their present directions, with no forces in them, answer to the case. Spheres and pieces that
 // nothing holds or loads stay where they are. A network that its supports leave free to move as a whole comes
 // to rest at one of its equilibria, if the loads have any. Throws NoEquilibrium where a piece that nothing
 // holds has loads that do not balance or the residual does not fall to the tolerance, and
-// std::invalid_argument where columns of loads do not fit the particles, a row is none of theirs or a
-// particle is prescribed twice. The same on any number of threads, to the last bit.
+// std::invalid_argument as require_fitting. The same on any number of threads, to the last bit.
 StaticState solve_static(const Particles &particles, const Bonds &bonds, const StaticCase &load,
                          const StaticSettings &settings = {});
 
@@ -57,6 +60,10 @@ StaticState solve_static(const Particles &particles, const Bonds &bonds, const S
 class EquilibriumSolver {
 public:
   EquilibriumSolver(const Particles &particles, const Bonds &bonds);
+  // With these stiffnesses of the bonds' rows (N/m, N m) instead of those at rest. Throws
+  // std::invalid_argument where there are not as many.
+  EquilibriumSolver(const Particles &particles, const Bonds &bonds,
+                    const std::vector<BondStiffness> &of_rows);
   ~EquilibriumSolver();
 
   // From `start` on, if it is given: of another case that is near.

@@ -36,8 +36,7 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
       [&](const auto &law) {
         b.tensile_strength = dem::never_if_zero(law.tensile_strength);
         b.shear_strength = dem::never_if_zero(law.shear_strength);
-        if constexpr (!std::is_same_v<decltype(law), const dem::ElastoDamagePlastic::Parameters &>)
-          b.moment_contribution = law.moment_contribution;
+        b.moment_contribution = law.moment_contribution;
       },
       *settings.bond);
   return b;

@@ -112,7 +112,7 @@ void InterfaceTest::move(const InterfacePlace &to) {
 
 InterfaceReading InterfaceTest::read() const {
   const dem::Bonds &b = *model_.bonds;
-  const dem::BondTotals totals = b.interface_totals(model_.particles);
+  const dem::BondTotals totals = dem::bond_totals(model_.particles, b);
   const Remembered state = dem::of_remembering(b.law, [&](const auto &of) {
     return remembered(b.memory<typename std::decay_t<decltype(of)>::template State<double>>(0));
   });

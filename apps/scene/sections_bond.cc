@@ -20,6 +20,13 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   section.at("Friction angle")
       .only_if([](const Scene &s) { return s.bond.number("shear_strength") > 0; },
                "Bond/Shear strength is infinite");
+  section.at("Moment contribution")
+      .only_if(
+          [](const Scene &s) {
+            return !s.bond.is<dem::ElastoDamagePlastic>() ||
+                   std::get<dem::ElastoDamagePlastic::Parameters>(s.bond.laws).moments;
+          },
+          "Effects/Interface moments is off");
   layout("radius_multiplier");
   layout("radius_rule");
   layout("radius").only_if("Bond/Radius rule", {"given"}).needed_if("Bond/Radius rule", {"given"});

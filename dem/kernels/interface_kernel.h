@@ -20,11 +20,23 @@ struct InterfaceColumns {
   MemoryColumns memory;
 };
 
+// What interfaces hold and have taken, row by row, from index 0.
+struct InterfaceRowValues {
+  double *energy;     // J
+  double *force;      // N, size of the force between the two
+  double *dissipated; // J, by damage, or by friction of what has failed
+  double *damage;     // 0 ... 1
+  double *plastic;    // J
+};
+
 struct InterfaceKernel {
   // Brings interfaces [first, last), those of one block, to the present, `dt` after their last state, and
   // adds up their forces; true where one has failed in this step.
   bool (*compute_forces)(const InterfaceColumns &, const BlockColumns &, const BondLaw &, double dt,
                          std::size_t first, std::size_t last);
+  // Of interfaces [first, last) of any block.
+  void (*measure)(const InterfaceColumns &, const BondLaw &, const InterfaceRowValues &, std::size_t first,
+                  std::size_t last);
 };
 
 extern const InterfaceKernel interface_kernel_baseline, interface_kernel_avx2, interface_kernel_avx512;

@@ -83,7 +83,8 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
   if constexpr (rotation) {
     const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
     // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
-    v = v + cross(m.distance, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
+    const Triple<Pack> arm = needs_orientations ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
+    v = v + cross(arm, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
     const Pack length = root(dot(m.distance, m.distance));
     m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
     if constexpr (needs_orientations) {
@@ -99,15 +100,21 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
   return m;
 }
 
+template <class Law>
+PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t k, bool factors) {
+  const Pack radius = load(b.bond_radius + k);
+  InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
+                            Pack(pi * radius * radius)};
+  if (factors) g.strength_factor = load(b.strength_factor + k);
+  if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
+  return g;
+}
+
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
                             double dt) {
   const BondColumns &b = c.bonds;
-  const Pack radius = load(b.bond_radius + k);
-  InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
-                            Pack(pi * radius * radius)};
-  if constexpr (factors) g.strength_factor = load(b.strength_factor + k);
-  if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
+  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, factors);
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   const auto motion = [&] { return motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt); };
@@ -161,16 +168,77 @@ bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const La
                                             : compute_forces<rotation, false>(c, block, law, dt, first, last);
 }
 
+// f(law), or f of what stands for it where spheres turn and its bonds bend.
+template <class Law, class F>
+auto as_it_bends(const Law &law, bool turning, const F &f) {
+  if constexpr (std::is_same_v<Law, ElastoDamagePlastic>)
+    if (turning && law.bends()) return f(BendingInterface{law});
+  return f(law);
+}
+
 bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law, double dt,
                        std::size_t first, std::size_t last) {
-  return of_remembering(law, [&](const auto &one) {
-    return c.bonds.orientation != nullptr ? compute_with<true>(c, block, one, dt, first, last)
-                                          : compute_with<false>(c, block, one, dt, first, last);
+  const bool turning = c.bonds.orientation != nullptr;
+  return of_remembering(law, [&](const auto &remembering) {
+    return as_it_bends(remembering, turning, [&](const auto &one) {
+      return turning ? compute_with<true>(c, block, one, dt, first, last)
+                     : compute_with<false>(c, block, one, dt, first, last);
+    });
+  });
+}
+
+// From the particles' columns.
+template <bool rotation, class Law>
+PLATEN_INLINE void measure_pack(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to,
+                                std::size_t k, std::size_t at, std::size_t count) {
+  const BondColumns &b = c.bonds;
+  const int *i = b.first + k, *j = b.second + k;
+  const Pack none(0.0);
+  BondMotion<Pack> pose{gather_difference(b.position, j, i), {Pack(1.0), none, none, none}, {}};
+  pose.turn_j = pose.turn_i;
+  if constexpr (rotation && Law::needs_orientations)
+    pose.turn_i = gather(b.orientation, i), pose.turn_j = gather(b.orientation, j);
+  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, b.strength_factor != nullptr);
+  typename Law::template State<Pack> s;
+  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+  const HeldByBond<Pack> held = law.held(s, g, pose);
+  const auto put = [&](double *column, const Pack &value) {
+    for (std::size_t l = 0; l < count; ++l)
+      column[at + l] = value.v[l];
+  };
+  put(to.energy, held.energy);
+  put(to.force, root(dot(held.force, held.force)));
+  put(to.dissipated, s.dissipated);
+  put(to.damage, law.damage_of(s));
+  put(to.plastic, law.plastic_work(s, g));
+}
+
+template <bool rotation, class Law>
+void measure(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to, std::size_t first,
+             std::size_t last) {
+  std::size_t k = first;
+  for (; k + lanes <= last; k += lanes)
+    measure_pack<rotation>(c, law, to, k, k - first, lanes);
+  if (k == last) return;
+  Tail tail(c.bonds, k, last);
+  MemoryTail memory(c.memory, k, last);
+  BondColumns rest = tail.columns(c.bonds);
+  if (c.bonds.strength_factor == nullptr) rest.strength_factor = nullptr;
+  measure_pack<rotation>({rest, memory.columns()}, law, to, 0, k - first, last - k);
+}
+
+void measure_of(const InterfaceColumns &c, const BondLaw &law, const InterfaceRowValues &to,
+                std::size_t first, std::size_t last) {
+  const bool turning = c.bonds.orientation != nullptr;
+  of_remembering(law, [&](const auto &remembering) {
+    as_it_bends(remembering, turning, [&](const auto &one) {
+      turning ? measure<true>(c, one, to, first, last) : measure<false>(c, one, to, first, last);
+    });
   });
 }
 
 } // namespace
 
-const InterfaceKernel PLATEN_KERNELS{compute_forces_of};
+const InterfaceKernel PLATEN_KERNELS{compute_forces_of, measure_of};
 
 } // namespace platen::dem::kernels

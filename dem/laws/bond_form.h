@@ -219,12 +219,16 @@ void describe_poisson_ratio(Visitor &&v, Parameters &p) {
     "Of the bond: its shear modulus is E / (2 (1 + nu)).");
 }
 template <class Visitor, class Parameters>
+void describe_moment_contribution(Visitor &&v, Parameters &p) {
+  v("moment_contribution", p.moment_contribution, "1", between(0, 1),
+    "Share of bending and twisting moment that counts towards failure.");
+}
+template <class Visitor, class Parameters>
 void describe_failure(Visitor &&v, Parameters &p) {
   describe_strengths(v, p);
   v("friction_angle", p.friction_angle, "rad", from_to_below(0, right_angle),
     "Shear strength grows by its tangent times the compression of the bond.");
-  v("moment_contribution", p.moment_contribution, "1", between(0, 1),
-    "Share of bending and twisting moment that counts towards failure.");
+  describe_moment_contribution(v, p);
 }
 
 // Stresses at the skin, Pa, before the strengths p look at them: sigma = axial + bending, tau = shear +

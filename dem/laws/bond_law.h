@@ -3,6 +3,7 @@
 
 #include "dem/laws/cohesive_beam.h"
 #include "dem/laws/elasto_damage_plastic.h"
+#include "dem/laws/interface_moments.h"
 #include "dem/laws/law_list.h"
 #include "dem/laws/parallel_bond.h"
 #include "dem/laws/yielding_parallel_bond.h"

@@ -36,11 +36,14 @@ struct CompressionBranches {
   // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
   template <class Real>
   Real envelope(const Real &elastic) const;
+  // Slope of the envelope there, of 1 without yield; at a kink that of closing further.
+  double slope(double elastic) const;
   // J/m^2 Pa/m: taken by plastic closing up to q (Pa), times the stiffness k_n.
-  double work(double q) const;
+  template <class Real>
+  Real work(const Real &q) const;
 
 private:
-  double begin_of(int branch) const; // Pa, elastic stress at which a branch begins
+  double begin_of(std::size_t branch) const; // Pa, elastic stress at which a branch begins
 };
 
 inline CompressionBranches::CompressionBranches(const char *law, const std::vector<double> &limits,
@@ -77,27 +80,41 @@ PLATEN_INLINE Real CompressionBranches::envelope(const Real &elastic) const {
   return lowest;
 }
 
-inline double CompressionBranches::begin_of(int branch) const {
+inline double CompressionBranches::begin_of(std::size_t branch) const {
   const Branch *b = branches;
   double begin = b[0].limit;
-  for (int k = 1; k <= branch; ++k)
+  for (std::size_t k = 1; k <= branch; ++k)
     begin += (b[k].limit - b[k - 1].limit) * b[k - 1].slope;
   return begin;
 }
 
+inline double CompressionBranches::slope(double elastic) const {
+  double slope = 1;
+  for (std::size_t b = 0; b < most; ++b)
+    if (elastic >= begin_of(b) && branches[b].slope > slope) slope = branches[b].slope;
+  return 1 / slope;
+}
+
 // Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a
-// branch of slope 1 adds no closing.
-inline double CompressionBranches::work(double q) const {
-  double work = 0, from = 0;
-  for (int b = 0; b < 3 && from < q; ++b) {
+// branch of slope 1 adds no closing. Each branch is passed from where the last one ended to q, or to its end.
+template <class Real>
+PLATEN_INLINE Real CompressionBranches::work(const Real &q) const {
+  Real work = q * 0.0;
+  double from = 0;
+  for (std::size_t b = 0; b < most; ++b) {
     const Branch &branch = branches[b];
     if (!(branch.slope > 1)) continue;
-    const double to = b == 2 ? q : std::fmin(q, begin_of(b + 1) - branches[b + 1].limit);
-    const auto yield = [&](double at) {
-      return (branch.limit * branch.slope + at - begin_of(b)) / (branch.slope - 1);
-    };
-    work += 0.5 * (yield(from) + yield(to)) * (to - from);
-    from = to;
+    Real to = q;
+    double end = from;
+    if (b + 1 < most) {
+      end = begin_of(b + 1) - branches[b + 1].limit;
+      to = end - positive_part(Real(end - q));
+    }
+    const Real passed = positive_part(Real(to - from));
+    const double hardening = 1 / (branch.slope - 1);
+    const double begin = (branch.limit * branch.slope + from - begin_of(b)) * hardening; // Pa
+    work = work + (begin + (0.5 * hardening) * passed) * passed;
+    from = end;
   }
   return work;
 }

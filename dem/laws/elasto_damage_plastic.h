@@ -1,7 +1,8 @@
 // Local elasto-damage-plastic law (Onate et al. 2015 with its gaps filled, docs/theory.md): an interface of
 // area A between two spheres that may be some way apart. Elastic; tension and shear soften by damage; closing
 // yields along straight branches and unloads elastically; what is left after failure is Coulomb friction. It
-// neither bends nor twists: moments come from the shear force's arms alone.
+// neither bends nor twists, where it is not asked to (interface_moments.h): moments come from the shear
+// force's arms alone.
 //
 // Everything in stresses: k_n = E/|D| per area, u_n = |d| - |D|, and the plastic closing p held as q = k_n p:
 //   T = k_n u_n + q             > 0: tension, < 0: compression
@@ -44,6 +45,11 @@ struct InterfaceState {
     v("friction_spring", "m", s.slider...);
   }
 };
+// By moments at the skin of an interface, as they would be without damage.
+template <class Real>
+struct SkinStress {
+  Real bending, twisting; // Pa
+};
 struct ElastoDamagePlastic {
   static constexpr const char *word = "elasto damage plastic";
   struct Parameters {
@@ -59,6 +65,8 @@ struct ElastoDamagePlastic {
     // Pa, LCS; and YRC = E_0 / E of the branch that begins there. Up to three; none: no yield.
     std::vector<double> compression_limits, compression_slopes;
     FailureLine failure_line = FailureLine::uncoupled;
+    double moment_contribution = 1; // beta, of moments to damage
+    bool moments = false;           // bending and twisting
 
     static constexpr const char *name = "ElastoDamagePlastic";
     template <class Visitor, class Self>
@@ -77,10 +85,13 @@ struct ElastoDamagePlastic {
   template <class Real>
   using State = InterfaceState<Real>;
   // 1: it has failed, in tension or in shear.
-  static double damage_of(const State<double> &s) { return larger(s.tension_damage, s.shear_damage); }
+  template <class Real>
+  static Real damage_of(const State<Real> &s) {
+    return larger(s.tension_damage, s.shear_damage);
+  }
   static bool failed_in_tension(const State<double> &s) { return s.tension_damage >= 1.0; }
 
-  bool bends() const { return false; }
+  bool bends() const { return parameters.moments; }
   BondStiffness stiffness(const BondGeometry<double> &g) const;
   double shear_ratio() const { return 0.5 / (1 + parameters.poisson_ratio); } // k_s / k_n
 
@@ -88,6 +99,17 @@ struct ElastoDamagePlastic {
   template <class Real>
   InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
                                      const InterfaceMotion<Real> &m) const;
+  // The same where moments press, pull and shear the skin too; `skin` is used with moments alone.
+  template <bool moments, class Real>
+  InterfaceResponse<Real> advance_under(const SkinStress<Real> &skin, InterfaceState<Real> &s,
+                                        const InterfaceGeometry<Real> &g,
+                                        const InterfaceMotion<Real> &m) const;
+  // Of moments what is left of them: they lose what the stress of the section loses that has lost more.
+  template <class Real>
+  Real share_of_moments(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
+    const Shares<Real> of = shares(s, softening(g));
+    return of.tension - positive_part(Real(of.tension - of.shear));
+  }
   // What acts in a state as it is, at the distance d that it was last brought up to.
   template <class Real>
   InterfaceResponse<Real> response(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
@@ -96,8 +118,19 @@ struct ElastoDamagePlastic {
   // begins, 1 + delta where it ends.
   BondResponse<double> bond_response(const InterfaceState<double> &s, const InterfaceGeometry<double> &g,
                                      const InterfaceMotion<double> &m) const;
+  template <class Real>
+  HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                        const BondMotion<Real> &pose) const {
+    const InterfaceResponse<Real> r = response(s, g, pose.distance);
+    return {r.force, r.energy};
+  }
+  // Of forces alone, with ratios at a skin that moments strain.
+  BondResponse<double> response_under(const SkinStress<double> &skin, const InterfaceState<double> &s,
+                                      const InterfaceGeometry<double> &g,
+                                      const InterfaceMotion<double> &m) const;
   // J, taken by the plastic closing of a state.
-  double plastic_work(const InterfaceState<double> &s, const InterfaceGeometry<double> &g) const {
+  template <class Real>
+  Real plastic_work(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 
@@ -127,7 +160,7 @@ private:
   }
   template <class Real>
   void damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Softening<Real> &delta,
-              const Real &tension) const;
+              const Real &opening, const Real &closing, const Real &sliding) const;
 };
 
 template <class Visitor, class Self>
@@ -148,6 +181,9 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
   v("failure_line", p.failure_line,
     Words<FailureLine>{{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
     "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
+  describe_moment_contribution(v, p);
+  v("interface_moments", p.moments,
+    "Interfaces resist bending and twisting until they have failed (needs rotation).");
 }
 
 inline ElastoDamagePlastic::ElastoDamagePlastic(const Parameters &p)
@@ -167,15 +203,13 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> 
           of(p.softening_shear, p.fracture_energy_shear, shear_strength_, Real(shear_ratio() * kn))};
 }
 
-// Damage by the stresses that would act without it.
+// Damage by the stresses that would act without it, Pa.
 template <class Real>
 PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                               const Softening<Real> &delta, const Real &tension) const {
+                                               const Softening<Real> &delta, const Real &opening,
+                                               const Real &closing, const Real &sliding) const {
   const Parameters &p = parameters;
-  const Real zero = tension * 0.0, one = zero + 1.0;
-  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
-  const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
-  const Real sliding = ks * root(dot(s.shear, s.shear));
+  const Real zero = opening * 0.0, one = zero + 1.0;
   const Real cohesion = g.strength_factor * shear_strength_;
   const Real tensile = g.strength_factor * tensile_strength_;
   const Real strength = cohesion + p.friction_static * closing;
@@ -229,10 +263,11 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
   return r;
 }
 
-template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceState<Real> &s,
-                                                                      const InterfaceGeometry<Real> &g,
-                                                                      const InterfaceMotion<Real> &m) const {
+template <bool moments, class Real>
+PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
+    const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+    const InterfaceMotion<Real> &m) const {
+  (void)skin;
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Real length = root(dot(m.distance, m.distance));
   const PlaneMotion<Real> plane(m, length);
@@ -250,7 +285,12 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   const Triple<Real> slip = scale(let_slip, s.slider);
   s.slider = scale(Real(1.0 - let_slip), s.slider);
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
-  damage(s, g, delta, tension);
+  Real opening = positive_part(tension), sliding = ks * root(dot(s.shear, s.shear));
+  if constexpr (moments) {
+    opening = positive_part(Real(tension + skin.bending));
+    sliding = sliding + skin.twisting;
+  }
+  damage(s, g, delta, opening, Real(positive_part(Real(-tension))), sliding);
 
   // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
   // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
@@ -269,23 +309,33 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
   return r;
 }
 
-inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &g) const {
-  const double axial = pi * g.radius * g.radius * g.normal_stiffness;
-  return {axial, shear_ratio() * axial, 0, 0};
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceState<Real> &s,
+                                                                      const InterfaceGeometry<Real> &g,
+                                                                      const InterfaceMotion<Real> &m) const {
+  return advance_under<false>(SkinStress<Real>{}, s, g, m);
 }
 
-inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,
-                                                               const InterfaceGeometry<double> &g,
-                                                               const InterfaceMotion<double> &m) const {
+inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &g) const {
+  const double square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
+  const double shear = shear_ratio() * axial;
+  if (!parameters.moments) return {axial, shear, 0, 0};
+  return {axial, shear, 0.25 * square * axial, 0.5 * square * shear};
+}
+
+inline BondResponse<double> ElastoDamagePlastic::response_under(const SkinStress<double> &skin,
+                                                                const InterfaceState<double> &s,
+                                                                const InterfaceGeometry<double> &g,
+                                                                const InterfaceMotion<double> &m) const {
   const InterfaceResponse<double> from = response(s, g, m.distance);
   const Triple<double> moment = cross(m.distance, from.force);
   BondResponse<double> r;
   r.force = from.force;
   r.torque_i = scale(g.lever, moment);
   r.torque_j = scale(1 - g.lever, moment);
-  const double sliding = shear_ratio() * g.normal_stiffness * root(dot(s.shear, s.shear));
-  r.tension_ratio =
-      positive_part(from.tension) / (g.strength_factor * never_if_zero(parameters.tensile_strength));
+  const double sliding = shear_ratio() * g.normal_stiffness * root(dot(s.shear, s.shear)) + skin.twisting;
+  r.tension_ratio = positive_part(from.tension + skin.bending) /
+                    (g.strength_factor * never_if_zero(parameters.tensile_strength));
   r.shear_ratio = sliding / (g.strength_factor * never_if_zero(parameters.shear_strength) +
                              parameters.friction_static * positive_part(-from.tension));
   r.excess = larger(r.tension_ratio, r.shear_ratio) - 1;

@@ -22,8 +22,10 @@ template <class Real>
 struct InterfaceMotion {
   Triple<Real> distance;  // d, m, now
   Triple<Real> travelled; // of the second centre against the first, m
-  Triple<Real> moved;     // the same at their point of contact, where rotations count too, m
-  Real spun;              // both about d, rad
+  // The same at their point of contact, where rotations count too, m; where the law needs orientations with
+  // the arms in the middle of the step.
+  Triple<Real> moved;
+  Real spun; // both about d, rad
   // Where the law needs orientations: from the reference to now; and what each has turned by, rad.
   Rotation<Real> turn_i = {}, turn_j = {};
   Triple<Real> turned_i = {}, turned_j = {};
@@ -37,6 +39,13 @@ struct InterfaceResponse {
   Real failed_now;      // positive where it has failed in this step
   // Where the law needs orientations, N m; else what the force does at its arms.
   Triple<Real> torque_i = {}, torque_j = {};
+};
+
+// What acts in a state as it is: for sums over all bonds.
+template <class Real>
+struct HeldByBond {
+  Triple<Real> force; // N, on the first
+  Real energy;        // J, stored
 };
 
 // The plane between the two, from the last step to this one. What lies in it turns with it by the least
@@ -61,6 +70,15 @@ struct PlaneMotion {
         half(0.5 * m.spun),
         whole(1.0 / (1.0 + half * half)) {}
 
+  // The same motion in the plane as it was in the middle of the step, turned and spun by the other half of
+  // it: what opens while the plane turns is no slip, and the mean of the forces at both ends does the work of
+  // the path but for third powers of the step.
+  PLATEN_INLINE void take_from_the_middle(const Triple<Real> &by) {
+    const Real along = dot(by, between_normals) / dot(between_normals, between_normals);
+    const Triple<Real> leant = by - scale(along, between_normals);
+    const Triple<Real> flat = leant - scale(dot(leant, n), n);
+    moved = flat + scale(half, cross(n, flat));
+  }
   // A displacement at the point of contact: turned, and what the step has added to it.
   PLATEN_INLINE Triple<Real> carried(const Triple<Real> &v) const {
     const Real nothing = drawn * 0.0 + 1e-300; // m^2: no length of anything, and no division by zero

@@ -63,7 +63,11 @@ struct YieldingParallelBond {
       v("friction_spring", "m", s.slider...);
     }
   };
-  static double damage_of(const State<double> &s) { return s.broken > 0 ? 1 : 0; }
+  template <class Real>
+  static Real damage_of(const State<Real> &s) {
+    const Real zero = s.broken * 0.0;
+    return where_positive(s.broken, Real(zero + 1.0), zero);
+  }
   static bool failed_in_tension(const State<double> &s) { return s.broken == 1; }
 
   bool bends() const { return parameters.moments; }
@@ -84,11 +88,21 @@ struct YieldingParallelBond {
   template <class Real, class Motion>
   InterfaceResponse<Real> advance(State<Real> &s, const InterfaceGeometry<Real> &g,
                                   const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
+  // How much more the motion from a state to the present is resisted when it goes on: that of the branch
+  // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
+  // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
+  BondStiffness tangent(State<double> from, const InterfaceGeometry<double> &g,
+                        const InterfaceMotion<double> &m) const;
   // What acts in a state as it is.
   BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
                                      const InterfaceMotion<double> &m) const;
+  // The same in short: force and stored energy alone.
+  template <class Real>
+  HeldByBond<Real> held(const State<Real> &s, const InterfaceGeometry<Real> &g,
+                        const BondMotion<Real> &pose) const;
   // J, taken by the plastic closing of a state.
-  double plastic_work(const State<double> &s, const InterfaceGeometry<double> &g) const {
+  template <class Real>
+  Real plastic_work(const State<Real> &s, const InterfaceGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 
@@ -98,7 +112,7 @@ private:
                            const BondMotion<Real> &pose, Triple<Real> &slip) const;
   template <class Real>
   BondResponse<Real> broken(const State<Real> &s, const InterfaceGeometry<Real> &g,
-                            const InterfaceMotion<Real> &m) const;
+                            const Triple<Real> &distance) const;
 };
 
 // As ParallelBond::turning, but for what has yielded.
@@ -135,15 +149,15 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic
 template <class Real>
 PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> &s,
                                                               const InterfaceGeometry<Real> &g,
-                                                              const InterfaceMotion<Real> &m) const {
+                                                              const Triple<Real> &distance) const {
   const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
-  const Real length = root(dot(m.distance, m.distance));
+  const Real length = root(dot(distance, distance));
   const Real closing = positive_part(Real(kn * (g.rest_length - length) - s.plastic));
   BondResponse<Real> r;
   r.normal_force = -g.area * closing;
   r.shear = scale(Real(g.area * ks), s.slider);
-  r.force = scale(Real(r.normal_force / length), m.distance) + r.shear;
-  const Triple<Real> moment = cross(m.distance, r.shear);
+  r.force = scale(Real(r.normal_force / length), distance) + r.shear;
+  const Triple<Real> moment = cross(distance, r.shear);
   r.torque_i = scale(g.lever, moment);
   r.torque_j = scale(Real(1.0 - g.lever), moment);
   r.energy = 0.5 * g.area * (closing * closing / kn + ks * dot(s.slider, s.slider));
@@ -179,7 +193,8 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> 
 
   // A broken one slides from where it was, or from the slip that it broke with.
   const InterfaceMotion<Real> m = motion();
-  const PlaneMotion<Real> plane(m, length);
+  PlaneMotion<Real> plane(m, length);
+  plane.take_from_the_middle(m.moved);
   const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {
     return Triple<Real>{where_positive(x, a.x, b.x), where_positive(x, a.y, b.y),
                         where_positive(x, a.z, b.z)};
@@ -190,7 +205,7 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> 
   const Real cap = grain_friction * positive_part(Real(elastic - s.plastic)); // Pa
   const Real let_slip = slipping_share(spring, ks, cap);
   s.slider = scale(Real(1.0 - let_slip), spring);
-  const BondResponse<Real> contact = broken(s, g, m);
+  const BondResponse<Real> contact = broken(s, g, m.distance);
 
   // Friction: (F before + F now)/2 times the slip. A break: what is no longer stored, less half of what the
   // force that is gone would have taken in the step, by the trapezoid over the drift.
@@ -212,18 +227,46 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> 
   return r;
 }
 
+template <class Real>
+PLATEN_INLINE HeldByBond<Real> YieldingParallelBond::held(const State<Real> &s,
+                                                          const InterfaceGeometry<Real> &g,
+                                                          const BondMotion<Real> &pose) const {
+  Triple<Real> slip;
+  const BondResponse<Real> bond = whole(s.plastic, g, pose, slip);
+  if (!any_positive(s.broken)) return {bond.force, bond.energy};
+  const BondResponse<Real> contact = broken(s, g, pose.distance);
+  return {{where_positive(s.broken, contact.force.x, bond.force.x),
+           where_positive(s.broken, contact.force.y, bond.force.y),
+           where_positive(s.broken, contact.force.z, bond.force.z)},
+          where_positive(s.broken, contact.energy, bond.energy)};
+}
+
 inline BondResponse<double> YieldingParallelBond::bond_response(const State<double> &s,
                                                                 const InterfaceGeometry<double> &g,
                                                                 const InterfaceMotion<double> &m) const {
   Triple<double> slip;
   BondResponse<double> r = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
   if (s.broken > 0) {
-    const BondResponse<double> contact = broken(s, g, m);
+    const BondResponse<double> contact = broken(s, g, m.distance);
     r.force = contact.force, r.torque_i = contact.torque_i, r.torque_j = contact.torque_j;
     r.energy = contact.energy, r.normal_force = contact.normal_force, r.shear = contact.shear;
   }
   r.shear_force = root(dot(r.shear, r.shear));
   return r;
+}
+
+inline BondStiffness YieldingParallelBond::tangent(State<double> s, const InterfaceGeometry<double> &g,
+                                                   const InterfaceMotion<double> &m) const {
+  const State<double> from = s;
+  const InterfaceResponse<double> now = (*this)(s, g, m);
+  BondStiffness k = stiffness({g.reference, g.rest_length, g.lever, g.normal_stiffness, g.radius});
+  const double closing = g.normal_stiffness * (g.rest_length - root(dot(m.distance, m.distance)));
+  if (s.plastic > from.plastic) k.axial *= compression.slope(closing);
+  if (s.broken == 0) return k;
+  k.bending = k.twisting = 0;
+  if (!(now.normal < 0)) k.axial = k.shear = 0;
+  if (s.dissipated > from.dissipated) k.shear = 0;
+  return k;
 }
 
 } // namespace platen::dem

@@ -37,9 +37,8 @@ struct BondBlocks {
 };
 
 template <int n>
-BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row) {
+BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row, const BondStiffness &s) {
   BondBlocks<n> blocks{};
-  const BondStiffness s = b.stiffness(row);
   if (s.axial == 0) return blocks;
   const int i = b.first[row], j = b.second[row];
   const Vector3 d = p.position[j] - p.position[i], along = d / norm(d);
@@ -64,8 +63,16 @@ BondBlocks<n> blocks_of(const Particles &p, const Bonds &b, std::size_t row) {
 
 } // namespace
 
+std::vector<BondStiffness> at_rest(const Bonds &bonds) {
+  std::vector<BondStiffness> rows(bonds.size());
+  for (std::size_t k = 0; k < bonds.size(); ++k)
+    rows[k] = bonds.stiffness(k);
+  return rows;
+}
+
 template <int n>
-BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
+BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds,
+                                const std::vector<BondStiffness> &of_rows) {
   const std::size_t particles = p.size();
   // Of each particle: its bonds as second particle, itself, its bonds as first; in the order of bonds.
   BlockMatrix<n, double> a;
@@ -99,7 +106,7 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds) {
         double *diagonal = a.at(a.begin[row] + as_second[row]);
         for (std::size_t k = a.begin[row]; k < a.begin[row + 1]; ++k) {
           if (bond[k] < 0) continue;
-          const BondBlocks<n> b = blocks_of<n>(p, bonds, bond[k]);
+          const BondBlocks<n> b = blocks_of<n>(p, bonds, bond[k], of_rows[bond[k]]);
           const bool first = static_cast<std::size_t>(bonds.first[bond[k]]) == row;
           double *to = a.at(k);
           for (int c = 0; c < n; ++c)
@@ -135,8 +142,10 @@ void add_support_load(const Particles &p, const GroundSpring &s, const Vector3 &
       (moves(radius, s.arm).transpose() * force * eigen(moved)).template head<n>();
 }
 
-template BlockMatrix<3, double> assemble<3>(const Particles &, const Bonds &);
-template BlockMatrix<6, double> assemble<6>(const Particles &, const Bonds &);
+template BlockMatrix<3, double> assemble<3>(const Particles &, const Bonds &,
+                                            const std::vector<BondStiffness> &);
+template BlockMatrix<6, double> assemble<6>(const Particles &, const Bonds &,
+                                            const std::vector<BondStiffness> &);
 template void add_support<3>(const Particles &, const GroundSpring &, double *);
 template void add_support<6>(const Particles &, const GroundSpring &, double *);
 template void add_support_load<3>(const Particles &, const GroundSpring &, const Vector3 &, double *);

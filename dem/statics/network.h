@@ -9,10 +9,13 @@
 
 namespace platen::dem::statics {
 
-// Of all bonds in their present directions, without the forces that are in them. Every row has its diagonal
-// block.
+// Of all bonds in their present directions, with these stiffnesses of their rows and without the forces that
+// are in them. Every particle has its diagonal block.
 template <int n>
-BlockMatrix<n, double> assemble(const Particles &particles, const Bonds &bonds);
+BlockMatrix<n, double> assemble(const Particles &particles, const Bonds &bonds,
+                                const std::vector<BondStiffness> &of_rows);
+// N/m, N m, of each row at rest.
+std::vector<BondStiffness> at_rest(const Bonds &bonds);
 
 // Of a spring to a body; n x n by columns.
 template <int n>

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "apps/crushed.h"
 
 namespace platen::apps::testing {
@@ -23,9 +26,10 @@ protected:
     entries.insert(entries.end(), more.begin(), more.end());
     return entries;
   }
-  static std::vector<std::string> command(const std::string &output, const std::string &threads) {
+  static std::vector<std::string> command(const std::string &output, const std::string &threads,
+                                          const std::vector<std::string> &more = {}) {
     std::vector<std::string> arguments{test_scene("crushed.prm"), "-o", output, "-t", threads, "--quiet"};
-    for (const std::string &entry : concrete())
+    for (const std::string &entry : concrete(more))
       arguments.insert(arguments.end(), {"-s", entry});
     return arguments;
   }
@@ -46,6 +50,30 @@ TEST_F(Interfaces, a_crushed_cylinder_yields_softens_and_balances_its_energy) {
   EXPECT_EQ(column_of(history, "intact_bonds").back() + column_of(history, "broken_tension").back() +
                 column_of(history, "broken_shear").back(),
             s["bonds"]);
+}
+
+// With moments: weaker by the stress of the skin, the same ledger, columns and bytes for any number of
+// threads.
+TEST_F(Interfaces, that_bend_and_twist_have_the_same_columns_and_a_closed_ledger) {
+  const std::vector<std::string> bending{"Effects/Interface moments = on", "Bond/Moment contribution = 1"};
+  const nlohmann::json without = crush("without", concrete()), with = crush("with", concrete(bending));
+  const auto has = [](const nlohmann::json &list) {
+    return std::find(list.begin(), list.end(), "bond moments") != list.end();
+  };
+  EXPECT_TRUE(has(with["effects"]));
+  EXPECT_TRUE(has(without["effects_off"]));
+  EXPECT_LT(with["strength_pa"], without["strength_pa"]);
+  EXPECT_LT(with["energy_residual_relative"], 5e-3);
+  const auto header = [&](const char *run) {
+    std::string line;
+    std::ifstream history(folder_ / run / "history.csv");
+    std::getline(history, line);
+    return line;
+  };
+  EXPECT_EQ(header("with"), header("without"));
+  ASSERT_EQ(run_compress(command("one", "1", bending), folder_).status, 0);
+  ASSERT_EQ(run_compress(command("four", "4", bending), folder_).status, 0);
+  EXPECT_EQ(difference(results_in(folder_ / "one"), results_in(folder_ / "four")), "");
 }
 
 TEST_F(Interfaces, threads_and_stops_change_no_byte) {

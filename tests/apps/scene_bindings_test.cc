@@ -67,6 +67,15 @@ TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
             "has no effect: Effects/Bond = elasto damage plastic.");
   EXPECT_EQ(note({interface, "Bond/Fracture energy shear = 2", "Bond/Softening shear = 2"}),
             "has no effect: Bond/Fracture energy shear takes its place.");
+  EXPECT_EQ(note({"Effects/Interface moments = on"}),
+            "has no effect: Effects/Bond is not elasto damage plastic.");
+  EXPECT_EQ(note({interface, "Effects/Interface moments = on"}), "0");
+  EXPECT_EQ(note({interface, "Effects/Interface moments = on", "Effects/Rotation = off"}),
+            "has no effect: Effects/Rotation is off.");
+  EXPECT_EQ(note({interface, "Bond/Moment contribution = 0.5"}),
+            "has no effect: Effects/Interface moments is off.");
+  EXPECT_EQ(note({interface, "Effects/Interface moments = on", "Bond/Moment contribution = 0.5"}), "0");
+  EXPECT_EQ(note({"Bond/Moment contribution = 0.5"}), "0");
   EXPECT_EQ(note({"Bond/Radius = 1 mm"}), "has no effect: Bond/Radius rule is not given.");
   EXPECT_EQ(note({"Contact/Restitution = 0.5"}), "has no effect: Effects/Contact is not hertz.");
   EXPECT_EQ(note({"Effects/Contact = hertz", "Contact/Restitution = 0.5"}), "0");
@@ -83,18 +92,34 @@ TEST(SceneBindings, a_scene_is_the_settings_of_the_library) {
   EXPECT_EQ(plain.contact->friction, dem::ContactSettings().friction);
   EXPECT_EQ(plain.contact->damping, dem::ContactSettings().damping);
   EXPECT_EQ(plain.bond_layout.gap.value, own.bond_layout.gap.value);
-  const dem::ModelSettings all = model_settings(scene_with(
-      {"Effects/Bond = elasto damage plastic", "Bond/Compression limits = 1 MPa, 2 MPa",
-       "Bond/Compression slopes = 3, 4", "Bond/Failure line = coupled", "Effects/Contact = hertz",
-       "Effects/Tangential = none", "Material/Density of = solid", "Integration/Damping form = vector",
-       "Integration/Scheme = tchamwa wielgosz", "Integration/Dissipation = 1.2",
-       "Integration/Instruction set = baseline", "Bond/Strength scatter = weibull",
-       "Bond/Weibull modulus = 9", "Scene/Seed = 5", "Phases/By = radius", "Phases/Radius above = 1 mm",
-       "Phases/Interface strength factor = 0.5", "Bond/Radius rule = harmonic", "Effects/Gravity = on"}));
+  const dem::ModelSettings all = model_settings(scene_with({"Effects/Bond = elasto damage plastic",
+                                                            "Bond/Compression limits = 1 MPa, 2 MPa",
+                                                            "Bond/Compression slopes = 3, 4",
+                                                            "Bond/Failure line = coupled",
+                                                            "Effects/Contact = hertz",
+                                                            "Effects/Interface moments = on",
+                                                            "Bond/Moment contribution = 0.4",
+                                                            "Effects/Tangential = none",
+                                                            "Material/Density of = solid",
+                                                            "Integration/Damping form = vector",
+                                                            "Integration/Scheme = tchamwa wielgosz",
+                                                            "Integration/Dissipation = 1.2",
+                                                            "Integration/Instruction set = baseline",
+                                                            "Bond/Strength scatter = weibull",
+                                                            "Bond/Weibull modulus = 9",
+                                                            "Scene/Seed = 5",
+                                                            "Phases/By = radius",
+                                                            "Phases/Radius above = 1 mm",
+                                                            "Phases/Interface strength factor = 0.5",
+                                                            "Bond/Radius rule = harmonic",
+                                                            "Effects/Gravity = on"}));
   const auto &law = std::get<dem::ElastoDamagePlastic::Parameters>(*all.bond);
   EXPECT_EQ(law.compression_limits, (std::vector<double>{1e6, 2e6}));
   EXPECT_EQ(law.compression_slopes, (std::vector<double>{3, 4}));
   EXPECT_EQ(law.failure_line, dem::FailureLine::coupled);
+  EXPECT_TRUE(law.moments);
+  EXPECT_FALSE(dem::ElastoDamagePlastic::Parameters().moments);
+  EXPECT_EQ(law.moment_contribution, 0.4);
   EXPECT_EQ(all.contact->normal, dem::NormalContact::hertz);
   EXPECT_EQ(all.contact->tangential, dem::TangentialContact::none);
   EXPECT_EQ(all.density_of, dem::DensityOf::solid);

@@ -53,7 +53,8 @@ InterfaceMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k
   InterfaceMotion<double> m{triple(d), triple(dt * v), triple(dt * v), 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
   if (!p.has_rotation()) return m;
   const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
-  m.moved = triple(dt * (v + cross(wj, (b.lever[k] - 1) * d) - cross(wi, b.lever[k] * d)));
+  const Vector3 arm = d - 0.5 * dt * v; // in the middle of the step
+  m.moved = triple(dt * (v + cross(wj, (b.lever[k] - 1) * arm) - cross(wi, b.lever[k] * arm)));
   m.spun = 0.5 * dt * dot(wi + wj, d) / norm(d);
   m.turn_i = rotation((*p.orientation)[i]), m.turn_j = rotation((*p.orientation)[j]);
   m.turned_i = triple(dt * wi), m.turned_j = triple(dt * wj);

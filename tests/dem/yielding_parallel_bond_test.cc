@@ -3,73 +3,12 @@
 
 #include <cmath>
 
-#include "base/pi.h"
-#include "base/vector3.h"
-#include "dem/laws/yielding_parallel_bond.h"
+#include "tests/dem/one_yielding_bond.h"
 
 namespace platen::dem {
 namespace {
 
-constexpr double modulus = 48e9, length = 3e-3, radius = 1.4e-3; // Pa, m, m
-
-YieldingParallelBond::Parameters concrete() {
-  YieldingParallelBond::Parameters p;
-  p.stiffness_ratio = 0.25;
-  p.tensile_strength = 9e6;
-  p.shear_strength = 36e6;
-  p.friction_angle = std::atan(0.5);
-  p.moment_contribution = 0.22;
-  p.compression_limits = {60e6, 110e6, 160e6};
-  p.compression_slopes = {3, 12, 22};
-  return p;
-}
-
-// Two spheres along z that are placed and turned by hand; the first stays where it is.
-struct Bond {
-  YieldingParallelBond law;
-  InterfaceGeometry<double> geometry{length,         0.5,   modulus / length, pi *radius *radius, 1.0,
-                                     {0, 0, length}, radius};
-  YieldingParallelBond::State<double> state{};
-  InterfaceMotion<double> pose{{0, 0, length}, {}, {}, 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
-  InterfaceResponse<double> now{};
-  double work = 0; // J, by the trapezoid over each step
-  bool begun = false;
-
-  explicit Bond(const YieldingParallelBond::Parameters &p, double friction = 0.35) : law(p) {
-    law.grain_friction = friction;
-    now = law(state, geometry, pose);
-  }
-  // The second sphere moves by this and both turn by these (rad, small), in so many steps.
-  void move(const Triple<double> &by, const Triple<double> &turn_i = {}, const Triple<double> &turn_j = {},
-            int steps = 1) {
-    const auto share = [&](const Triple<double> &v) { return scale(1.0 / steps, v); };
-    for (int k = 0; k < steps; ++k) {
-      const InterfaceResponse<double> before = now;
-      pose.travelled = share(by), pose.turned_i = share(turn_i), pose.turned_j = share(turn_j);
-      pose.distance = pose.distance + pose.travelled;
-      pose.turn_i = turned_by(pose.turn_i, pose.turned_i);
-      pose.turn_j = turned_by(pose.turn_j, pose.turned_j);
-      const Triple<double> arms =
-          scale(geometry.lever, pose.turned_i) + scale(1 - geometry.lever, pose.turned_j);
-      pose.moved = pose.travelled + cross(pose.distance, arms);
-      pose.spun =
-          0.5 * dot(pose.turned_i + pose.turned_j, pose.distance) / root(dot(pose.distance, pose.distance));
-      now = law(state, geometry, pose);
-      work += 0.5 * (dot(before.force + now.force, pose.travelled) -
-                     dot(before.torque_i + now.torque_i, pose.turned_i) -
-                     dot(before.torque_j + now.torque_j, pose.turned_j));
-    }
-  }
-  static Rotation<double> turned_by(const Rotation<double> &q, const Triple<double> &angle) {
-    const Quaternion to = rotation_quaternion({angle.x, angle.y, angle.z}) * Quaternion{q.w, q.x, q.y, q.z};
-    return {to.w, to.x, to.y, to.z};
-  }
-  double stress() const { return now.normal / geometry.area; } // Pa
-  double shear() const { return root(dot(now.shear, now.shear)) / geometry.area; }
-  double plastic() const { return law.plastic_work(state, geometry); }
-  double balance() const { return now.energy + plastic() + state.dissipated; }
-  double closing(double elastic) const { return elastic / geometry.normal_stiffness; } // m, for a stress
-};
+using namespace one_yielding_bond;
 
 // What the parallel bond does where nothing yields or breaks: same force, torques, energy and ratios.
 TEST(YieldingParallelBond, is_the_parallel_bond_until_it_yields) {
@@ -213,39 +152,6 @@ TEST(YieldingParallelBond, what_has_broken_goes_on_yielding_from_the_same_zero) 
   EXPECT_EQ(dot(pair.now.force, pair.now.force), 0);
   pair.move({}, {}, {0.1, 0.1, 0.1});
   EXPECT_EQ(dot(pair.now.torque_i, pair.now.torque_i) + dot(pair.now.torque_j, pair.now.torque_j), 0);
-}
-
-// Random motion of any size through yield, break and friction: the trapezoid of the forces is what is stored,
-// what yield took, what the break took and what friction took. Steps across a kink (of a branch, of touch)
-// miss it by the square of the step.
-TEST(YieldingParallelBond, the_energy_balance_closes_through_yield_break_and_friction) {
-  double worst[2] = {0, 0};
-  for (const int fine : {0, 1}) {
-    unsigned random = 7;
-    const auto next = [&] { return (random = random * 1664525u + 1013904223u) / 4294967296.0 - 0.5; };
-    int in_tension = 0, in_shear = 0;
-    for (int run = 0; run < 40; ++run) {
-      Bond pair(concrete());
-      pair.move({0, 0, -60e-8});
-      const double along = run % 2 ? 12e-7 : 2e-7, across = run % 2 ? 4e-7 : 3e-6;
-      double largest = 0;
-      for (int k = 0; k < 120; ++k) {
-        const Triple<double> by{across * next(), across * next(), along * next()},
-            a{4e-4 * next(), 4e-4 * next(), 4e-4 * next()}, b{4e-4 * next(), 4e-4 * next(), 4e-4 * next()};
-        const double kept = pair.state.dissipated, yielded = pair.plastic();
-        pair.move(by, a, b, fine ? 100 : 10);
-        EXPECT_GE(pair.state.dissipated, kept - 1e-4 * largest) << run << ", " << k;
-        EXPECT_GE(pair.plastic(), yielded) << run << ", " << k;
-        largest = std::fmax(largest, std::fmax(pair.now.energy, std::abs(pair.work)));
-      }
-      worst[fine] = std::fmax(worst[fine], std::abs(pair.work - pair.balance()) / largest);
-      in_tension += pair.state.broken == 1, in_shear += pair.state.broken == 2;
-    }
-    EXPECT_GT(in_tension, 3);
-    EXPECT_GT(in_shear, 3);
-  }
-  EXPECT_LT(worst[0], 1e-3);
-  EXPECT_LT(worst[1], 2e-5);
 }
 
 // Turned as a whole by any angle, whole or broken: nothing is stored, force turns along.

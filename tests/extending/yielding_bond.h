@@ -74,8 +74,20 @@ struct YieldingBond {
     r.normal_force = from.normal;
     return r;
   }
-  double plastic_work(const State<double> &s, const InterfaceGeometry<double> &) const { return s.work; }
-  static double damage_of(const State<double> &) { return 0; }
+  template <class Real>
+  HeldByBond<Real> held(const State<Real> &s, const InterfaceGeometry<Real> &g,
+                        const BondMotion<Real> &pose) const {
+    const InterfaceResponse<Real> r = response(s, g, pose.distance);
+    return {r.force, r.energy};
+  }
+  template <class Real>
+  Real plastic_work(const State<Real> &s, const InterfaceGeometry<Real> &) const {
+    return s.work;
+  }
+  template <class Real>
+  static Real damage_of(const State<Real> &s) {
+    return s.stretch * 0.0;
+  }
   static bool failed_in_tension(const State<double> &) { return false; }
   BondStiffness stiffness(const BondGeometry<double> &g) const {
     return {pi * g.radius * g.radius * g.normal_stiffness, 0, 0, 0};

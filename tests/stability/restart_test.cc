@@ -13,10 +13,11 @@ namespace {
 using coupling::PlatenTest;
 using coupling::PlatenTestSettings;
 
-enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond };
+enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond, bending_interface };
 enum Fixed { rigid, elastic, quasi_static, sleeve };
 enum Moment { before_cracks, cracking, after_peak };
-constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond};
+constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond,
+                          bending_interface};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
 constexpr std::array moments{before_cracks, cracking, after_peak};
 constexpr std::array thread_counts{1, 2, 4};
@@ -42,12 +43,13 @@ void choose(PlatenTestSettings &s, Law law) {
     s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 0.7853981633974483, 0.5};
   }
   if (law == yielding_parallel_bond) choose_yielding(s);
-  if (law == elasto_damage_plastic) {
+  if (law == elasto_damage_plastic || law == bending_interface) {
     dem::ElastoDamagePlastic::Parameters p;
     p.tensile_strength = 5e6, p.shear_strength = 16e6;
     p.friction_static = 0.9, p.friction_dynamic = 0.25;
     p.poisson_ratio = 0.2;
     p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+    p.moments = law == bending_interface, p.moment_contribution = 0.3;
     s.model.bond = p;
     s.model.bond_layout.modulus = 28e9;
     s.model.bond_layout.by_range = true;

@@ -1,0 +1,109 @@
+// Elasto-damage-plastic interfaces that bend and twist, as an option: the moments of the parallel bond
+// (bond_form.h), k_n I and k_s J times the relative rotation, in total form, so that nothing more is
+// remembered. They strain the skin, T + beta |M_b| R_b/I and k_s |u_s| + beta |M_t| R_b/J by what they would
+// be without damage, and lose what the worse of tension and shear has lost: M = min(g(D_n), g(D_s)) M_whole.
+// What has failed has none. Yield leaves them alone.
+#pragma once
+
+#include "dem/laws/elasto_damage_plastic.h"
+
+namespace platen::dem {
+
+// The law where it bends: for loops, which ask once a block which of the two it is.
+struct BendingInterface {
+  static constexpr bool needs_orientations = true;
+  template <class Real>
+  using State = InterfaceState<Real>;
+
+  const ElastoDamagePlastic &law;
+
+  // Moments without damage, of a bond in this pose, and how the skin is strained by them.
+  template <class Real>
+  struct Whole {
+    BondResponse<Real> moments; // N, N m, J: of moments alone
+    SkinStress<Real> skin;
+  };
+  template <class Real>
+  Whole<Real> whole(const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose) const;
+
+  template <class Real, class Motion>
+  InterfaceResponse<Real> advance(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                  const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
+  template <class Real>
+  HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                        const BondMotion<Real> &pose) const {
+    const HeldByBond<Real> forces = law.held(s, g, pose);
+    const BondResponse<Real> moments = whole(g, pose).moments;
+    const Real left = law.share_of_moments(s, g);
+    return {forces.force + scale(left, moments.force), forces.energy + left * moments.energy};
+  }
+  template <class Real>
+  Real plastic_work(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
+    return law.plastic_work(s, g);
+  }
+  template <class Real>
+  static Real damage_of(const InterfaceState<Real> &s) {
+    return ElastoDamagePlastic::damage_of(s);
+  }
+};
+
+template <class Real>
+PLATEN_INLINE auto BendingInterface::whole(const InterfaceGeometry<Real> &g,
+                                           const BondMotion<Real> &pose) const -> Whole<Real> {
+  const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn;
+  const Real square = dot(pose.distance, pose.distance), zero = square * 0.0;
+  const Triple<Real> none{zero, zero, zero};
+  BondStrain<Real> e;
+  e.length = root(square), e.per_square = 1.0 / square;
+  Whole<Real> w{};
+  w.moments.force = w.moments.torque_i = w.moments.torque_j = none;
+  w.moments.energy = zero;
+  bend_and_twist(w.moments, e, Real(0.25 * g.radius * g.radius * g.area * kn), 2.0 * law.shear_ratio() - 1.0,
+                 pose);
+  const Real turning = (2.0 * law.parameters.moment_contribution) * magnitude(e.half_cosine) * g.radius;
+  w.skin.bending = turning * kn * root(e.bend_square);
+  w.skin.twisting = turning * ks * magnitude(e.twist);
+  return w;
+}
+
+template <class Real, class Motion>
+PLATEN_INLINE InterfaceResponse<Real> BendingInterface::advance(InterfaceState<Real> &s,
+                                                                const InterfaceGeometry<Real> &g,
+                                                                const BondMotion<Real> &pose,
+                                                                const Motion &motion, bool &changed) const {
+  changed = true; // its history is the path
+  const InterfaceMotion<Real> m = motion();
+  const Real was = law.share_of_moments(s, g);
+  const Whole<Real> w = whole(g, pose);
+  InterfaceResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
+  const Real is = law.share_of_moments(s, g);
+  // As of every spring that loses a share: the product of both ends, of which the first is the second less
+  // the step.
+  const BondResponse<Real> &moments = w.moments;
+  const Real step = dot(moments.force, m.travelled) - dot(moments.torque_i, m.turned_i) -
+                    dot(moments.torque_j, m.turned_j); // J
+  s.dissipated = s.dissipated + 0.5 * (was - is) * (2.0 * moments.energy - step);
+  const Triple<Real> moment = cross(m.distance, r.force); // of the shear force at its arms
+  r.torque_i = scale(g.lever, moment) + scale(is, moments.torque_i);
+  r.torque_j = scale(Real(1.0 - g.lever), moment) + scale(is, moments.torque_j);
+  r.force = r.force + scale(is, moments.force);
+  r.energy = r.energy + is * moments.energy;
+  return r;
+}
+
+inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,
+                                                               const InterfaceGeometry<double> &g,
+                                                               const InterfaceMotion<double> &m) const {
+  if (!parameters.moments) return response_under({0, 0}, s, g, m);
+  const BendingInterface::Whole<double> whole =
+      BendingInterface{*this}.whole(g, BondMotion<double>{m.distance, m.turn_i, m.turn_j});
+  BondResponse<double> r = response_under(whole.skin, s, g, m);
+  const double left = share_of_moments(s, g);
+  r.force = r.force + scale(left, whole.moments.force);
+  r.torque_i = r.torque_i + scale(left, whole.moments.torque_i);
+  r.torque_j = r.torque_j + scale(left, whole.moments.torque_j);
+  r.energy += left * whole.moments.energy;
+  return r;
+}
+
+} // namespace platen::dem

@@ -1,0 +1,285 @@
+// Interfaces that bend and twist: the law against closed forms, specimens against the law and the parallel
+// bond.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double young = 28e9, length = 0.01, bond_radius = 0.004; // Pa, m, m
+
+ElastoDamagePlastic::Parameters concrete() {
+  ElastoDamagePlastic::Parameters p;
+  p.poisson_ratio = 0.2;
+  p.tensile_strength = 5e6, p.shear_strength = 16e6;
+  p.friction_static = 0.9, p.friction_dynamic = 0.25;
+  p.softening_tension = 0.2, p.softening_shear = 1.0;
+  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+  p.moments = true;
+  p.moment_contribution = 0.5;
+  return p;
+}
+
+// Two spheres along z; the first stays, both turn.
+struct Interface {
+  ElastoDamagePlastic law;
+  InterfaceGeometry<double> geometry{
+      length, 0.5, young / length, pi *bond_radius *bond_radius, 1.0, {0, 0, length}, bond_radius};
+  InterfaceState<double> state{0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0};
+  InterfaceMotion<double> pose{{0, 0, length}, {}, {}, 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
+  InterfaceResponse<double> now{};
+  double work = 0; // J, by the trapezoid
+
+  explicit Interface(const ElastoDamagePlastic::Parameters &p) : law(p) { advance(); }
+  void advance() {
+    bool changed = false;
+    now = BendingInterface{law}.advance(
+        state, geometry, BondMotion<double>{pose.distance, pose.turn_i, pose.turn_j}, [&] { return pose; },
+        changed);
+  }
+  void move(const Triple<double> &by, const Triple<double> &turn_i, const Triple<double> &turn_j,
+            int steps = 1) {
+    const auto share = [&](const Triple<double> &v) { return scale(1.0 / steps, v); };
+    const auto turn = [](const Rotation<double> &q, const Triple<double> &angle) {
+      const Quaternion to = rotation_quaternion({angle.x, angle.y, angle.z}) * Quaternion{q.w, q.x, q.y, q.z};
+      return Rotation<double>{to.w, to.x, to.y, to.z};
+    };
+    for (int k = 0; k < steps; ++k) {
+      const InterfaceResponse<double> before = now;
+      pose.travelled = share(by), pose.turned_i = share(turn_i), pose.turned_j = share(turn_j);
+      const Triple<double> middle = pose.distance + scale(0.5, pose.travelled);
+      pose.distance = pose.distance + pose.travelled;
+      pose.turn_i = turn(pose.turn_i, pose.turned_i), pose.turn_j = turn(pose.turn_j, pose.turned_j);
+      pose.moved = pose.travelled + cross(middle, scale(0.5, pose.turned_i + pose.turned_j));
+      pose.spun =
+          0.5 * dot(pose.turned_i + pose.turned_j, pose.distance) / root(dot(pose.distance, pose.distance));
+      advance();
+      work += 0.5 * (dot(before.force + now.force, pose.travelled) -
+                     dot(before.torque_i + now.torque_i, pose.turned_i) -
+                     dot(before.torque_j + now.torque_j, pose.turned_j));
+    }
+  }
+  void bend(double angle, int steps = 1) { move({}, {-0.5 * angle, 0, 0}, {0.5 * angle, 0, 0}, steps); }
+  void twist(double angle, int steps = 1) { move({}, {0, 0, -0.5 * angle}, {0, 0, 0.5 * angle}, steps); }
+  // N m over rad, whole.
+  double bending() const { return geometry.normal_stiffness * geometry.area * bond_radius * bond_radius / 4; }
+  double twisting() const { return 2 * law.shear_ratio() * bending(); }
+  double balance() const { return now.energy + law.plastic_work(state, geometry) + state.dissipated; }
+};
+
+TEST(InterfaceMoments, are_those_of_the_parallel_bond_while_whole) {
+  ElastoDamagePlastic::Parameters p = concrete();
+  p.tensile_strength = p.shear_strength = 0;
+  Interface pair(p);
+  pair.bend(1e-5);
+  EXPECT_NEAR(pair.now.torque_i.x, pair.bending() * 1e-5, 1e-9 * pair.bending() * 1e-5);
+  EXPECT_NEAR(pair.now.torque_j.x, -pair.bending() * 1e-5, 1e-9 * pair.bending() * 1e-5);
+  pair.bend(-1e-5);
+  pair.twist(1e-5);
+  EXPECT_NEAR(pair.now.torque_i.z, pair.twisting() * 1e-5, 1e-9 * pair.twisting() * 1e-5);
+  EXPECT_NEAR(pair.now.energy, 0.5 * pair.twisting() * 1e-10, 1e-9 * pair.now.energy);
+  EXPECT_NEAR(pair.work, pair.balance(), 1e-9 * pair.work);
+  const BondStiffness s =
+      pair.law.stiffness({pair.geometry.reference, length, 0.5, pair.geometry.normal_stiffness, bond_radius});
+  EXPECT_NEAR(s.bending, pair.bending(), 1e-12 * s.bending);
+  EXPECT_NEAR(s.twisting, pair.twisting(), 1e-12 * s.twisting);
+}
+
+// beta M R/I is a stress of tension at the skin, beta M R/J one of shear: damage begins at the strength,
+// falls along a line, and ends at 1 + delta times its angle with nothing left. What it took is the area under
+// the curve.
+TEST(InterfaceMoments, soften_by_the_stress_of_the_skin_and_take_the_area_under_their_curve) {
+  for (const bool bends : {true, false}) {
+    Interface pair(concrete());
+    const double kn = pair.geometry.normal_stiffness, k = bends ? kn : pair.law.shear_ratio() * kn;
+    const double strength = bends ? 5e6 : 16e6, delta = bends ? 0.2 : 1.0;
+    const double limit = strength / (0.5 * k * bond_radius); // rad
+    const double stiffness = bends ? pair.bending() : pair.twisting();
+    const auto turn = [&](double angle, int steps) {
+      bends ? pair.bend(angle, steps) : pair.twist(angle, steps);
+    };
+    const auto moment = [&] { return bends ? pair.now.torque_i.x : pair.now.torque_i.z; };
+    turn(limit, 1000);
+    EXPECT_NEAR(moment(), stiffness * limit, 1e-5 * stiffness * limit) << bends;
+    EXPECT_LT(pair.law.damage_of(pair.state), 1e-5) << bends;
+    turn(0.5 * delta * limit, 1000); // half of the softening: half of the strength
+    EXPECT_NEAR(moment(), 0.5 * stiffness * limit, 1e-4 * stiffness * limit) << bends;
+    const BondResponse<double> told = pair.law.bond_response(pair.state, pair.geometry, pair.pose);
+    EXPECT_NEAR(bends ? told.torque_i.x : told.torque_i.z, moment(), 1e-12 * stiffness * limit) << bends;
+    EXPECT_NEAR(bends ? told.tension_ratio : told.shear_ratio, 1 + 0.5 * delta, 1e-4) << bends;
+    turn(0.501 * delta * limit, 1000);
+    EXPECT_EQ(pair.law.damage_of(pair.state), 1) << bends;
+    EXPECT_EQ(bends ? pair.state.tension_damage : pair.state.shear_damage, 1) << bends;
+    EXPECT_EQ(moment(), 0) << bends;
+    const double area = 0.5 * stiffness * limit * limit * (1 + delta);
+    EXPECT_NEAR(pair.work, area, 1e-4 * area) << bends;
+    EXPECT_NEAR(pair.state.dissipated, pair.work, 1e-4 * area) << bends;
+    EXPECT_EQ(pair.now.energy, 0) << bends;
+  }
+}
+
+// A pressed interface does not part by a bending that leaves its skin pressed.
+TEST(InterfaceMoments, of_a_pressed_interface_damage_once_its_skin_is_pulled) {
+  Interface pair(concrete());
+  const double kn = pair.geometry.normal_stiffness, pressed = 10e6;
+  pair.move({0, 0, -pressed / kn}, {}, {});
+  pair.bend((pressed + 4.9e6) / (0.5 * kn * bond_radius), 10);
+  EXPECT_EQ(pair.state.tension_damage, 0);
+  pair.bend(0.3e6 / (0.5 * kn * bond_radius));
+  EXPECT_GT(pair.state.tension_damage, 0);
+}
+
+TEST(InterfaceMoments, close_the_energy_balance_through_damage_failure_and_friction) {
+  double worst[2] = {0, 0};
+  for (const int fine : {0, 1}) {
+    unsigned random = 11;
+    const auto next = [&] { return (random = random * 1664525u + 1013904223u) / 4294967296.0 - 0.5; };
+    int failed = 0, damaged = 0;
+    for (int run = 0; run < 20; ++run) {
+      Interface pair(concrete());
+      double largest = 0;
+      for (int k = 0; k < 40; ++k) {
+        const auto turn = [&] { return Triple<double>{1e-3 * next(), 1e-3 * next(), 1e-3 * next()}; };
+        const Triple<double> by{2e-6 * next(), 2e-6 * next(), 1e-6 * next() - 2e-7}, a = turn(), b = turn();
+        pair.move(by, a, b, fine ? 1000 : 100);
+        largest = std::fmax(largest, std::fmax(pair.now.energy, std::abs(pair.work)));
+      }
+      worst[fine] = std::fmax(worst[fine], std::abs(pair.work - pair.balance()) / largest);
+      failed += pair.law.damage_of(pair.state) == 1, damaged += pair.law.damage_of(pair.state) > 0;
+    }
+    EXPECT_GT(failed, 3);
+    EXPECT_GT(damaged, 5);
+  }
+  EXPECT_LT(worst[1], 1e-4);
+  EXPECT_LT(worst[1], 0.3 * worst[0]);
+}
+
+TEST(InterfaceMoments, a_rigid_turn_stores_nothing) {
+  Interface pair(concrete());
+  pair.bend(1e-4), pair.twist(2e-4);
+  const double energy = pair.now.energy;
+  const int steps = 20000;
+  for (int k = 0; k < steps; ++k) {
+    const Triple<double> turn{1.5 * pi / steps, 0, 0};
+    const Quaternion q = rotation_quaternion({turn.x, turn.y, turn.z});
+    const Triple<double> to = turned(Rotation<double>{q.w, q.x, q.y, q.z}, pair.pose.distance);
+    pair.move(to - pair.pose.distance, turn, turn);
+  }
+  EXPECT_NEAR(pair.now.energy, energy, 1e-6 * energy);
+  EXPECT_EQ(pair.state.dissipated, 0);
+}
+
+ModelSettings bending(bool moments = true) {
+  ModelSettings s = interfaces();
+  auto &law = std::get<ElastoDamagePlastic::Parameters>(*s.bond);
+  law.moments = moments, law.moment_contribution = 0.3;
+  return s;
+}
+
+// The kernels against the law, sphere by sphere, and the ledger.
+TEST(InterfaceMoments, kernels_follow_the_law_on_every_instruction_set) {
+  std::vector<InstructionSet> sets{InstructionSet::baseline};
+  if (best_instruction_set() != InstructionSet::baseline) sets.push_back(InstructionSet::avx2);
+  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
+  for (const InstructionSet set : sets) {
+    ModelSettings settings = bending();
+    settings.instruction_set = set;
+    Model model(packed_box(15, 15, 15), settings);
+    Particles &p = model.particles;
+    const Bonds &b = *model.bonds;
+    shake(p, 1.5, 600);
+    Random random(3);
+    for (std::size_t i = 0; i < p.size(); ++i)
+      (*p.angular_velocity)[i] += (1 / radius) * random.direction();
+    const double dt = .3 * model.stable_step({}, 0).limit;
+    for (int s = 0; s < 40; ++s)
+      step(model, dt);
+    EXPECT_GT(b.failed_rows, 20u);
+    EXPECT_GT(b.size() - b.failed_rows, 20u);
+    model.begin_step(dt);
+    std::vector<BondBreak> breaks;
+    compute_interface_forces(p, *model.bonds, set, {}, dt, breaks);
+    for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
+      return_ghosts(p, b.blocks, block);
+    const Loads by_law = bond_loads(p, b);
+    double force = 0, torque = 0, energy = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      force = std::fmax(force, norm(by_law.force[i])), torque = std::fmax(torque, norm(by_law.torque[i]));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      ASSERT_LT(norm(p.force[i] - by_law.force[i]), 1e-10 * force) << name(set) << i;
+      ASSERT_LT(norm((*p.torque)[i] - by_law.torque[i]), 1e-10 * torque) << name(set) << i;
+    }
+    for (std::size_t k = 0; k < b.size(); ++k)
+      energy += b.response(k, p).energy;
+    EXPECT_NEAR(bond_totals(p, b, set).energy, energy, 1e-11 * energy);
+  }
+}
+
+TEST(InterfaceMoments, the_energy_balance_of_a_breaking_block_closes) {
+  double residual[2];
+  for (int fine = 0; fine < 2; ++fine) {
+    Model model(packed_box(16, 16, 16), bending());
+    shake(model.particles, 1.5, 600);
+    const double start = model.energy().stored(), dt = (fine ? .0625 : .25) * model.stable_step({}, 0).limit;
+    for (int s = 0; s < (fine ? 1600 : 400); ++s)
+      step(model, dt);
+    EXPECT_GT(model.bonds->failed_rows, 50u);
+    residual[fine] = std::abs(model.energy().residual() - start) / start;
+  }
+  EXPECT_LT(residual[0], 2e-2);
+  EXPECT_LT(residual[1], 2e-3);
+}
+
+TEST(InterfaceMoments, momentum_is_kept_through_failure) {
+  Model model(packed_box(14, 14, 14), bending());
+  shake(model.particles, 1.5);
+  const Momentum before = momentum(model.particles);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 300; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
+  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+TEST(InterfaceMoments, threads_do_not_change_a_bit) {
+  const std::vector<unsigned char> one = shaken_to_pieces(bending(), 1);
+  EXPECT_EQ(one, shaken_to_pieces(bending(), 2));
+  EXPECT_EQ(one, shaken_to_pieces(bending(), 4));
+  EXPECT_NE(one, shaken_to_pieces(bending(false), 1));
+}
+
+// Of touching spheres with the same k_n and k_s, the largest step is that of parallel bonds: moments are in
+// it.
+TEST(InterfaceMoments, are_in_the_largest_step_and_off_are_in_nothing) {
+  ModelSettings parallel = bonded();
+  parallel.bond_layout.modulus = 28e9;
+  parallel_bond(parallel).stiffness_ratio = 0.5 / 1.2;
+  ModelSettings with = bending(), without = bending(false);
+  for (ModelSettings *s : {&with, &without}) {
+    s->contact.reset();
+    s->bond_layout.by_range = false, s->bond_layout.gap.value = 1e-6;
+  }
+  const Specimen line = row(6, {1, 0, 0});
+  const double of_parallel = Model(line, parallel).stable_step({}, 0).limit,
+               limit = Model(line, with).stable_step({}, 0).limit,
+               free = Model(line, without).stable_step({}, 0).limit;
+  EXPECT_NEAR(limit, of_parallel, 1e-6 * of_parallel);
+  EXPECT_GT(free, 1.01 * limit);
+  Model a(line, with), b(line, without);
+  EXPECT_EQ(a.bonds->table.bytes_per_row(), b.bonds->table.bytes_per_row()); // nothing more is remembered
+  EXPECT_FALSE(bends(b.bonds->law));
+  EXPECT_EQ(b.bonds->stiffness(0).bending, 0);
+}
+
+} // namespace
+} // namespace platen::dem

@@ -1,0 +1,162 @@
+// Where the energy of a yielding parallel bond goes, to round-off or as exact as steps can be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/dem/one_yielding_bond.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace one_yielding_bond;
+
+class Dice {
+public:
+  explicit Dice(unsigned seed) : random_(seed) {}
+  double next() { // -.5 ... .5
+    return (random_ = random_ * 1664525u + 1013904223u) / 4294967296.0 - 0.5;
+  }
+
+private:
+  unsigned random_;
+};
+
+// Closes and opens by steps of any size, over all kinks, whole and broken, and slides between them by steps
+// of any size too: what goes in is stored, taken by yield, by the break or by friction, to round-off.
+TEST(YieldingEnergy, is_exact_over_steps_of_any_size) {
+  int in_tension = 0, in_shear = 0, apart = 0, slid = 0;
+  for (int run = 0; run < 60; ++run) {
+    Dice dice(static_cast<unsigned>(run + 1));
+    Bond pair(concrete());
+    double largest = 0;
+    for (int k = 0; k < 400; ++k) {
+      const double size = std::pow(10, -4 + 4 * (dice.next() + 0.5)); // of what ends the last branch
+      const double before = pair.state.dissipated;
+      const bool broken = pair.state.broken > 0;
+      if (k % 2 == 0) {
+        const double deep = 0.03 * length * size * dice.next();
+        const double back = k % 4 == 0 ? 0.05 * (length * (1 - 0.006) - pair.pose.distance.z) : 0;
+        pair.move({0, 0, deep + back});
+      } else { // at the same distance; while whole the potential is that of finite turns
+        const double turn = (broken ? 0.02 * size : 5e-3) * dice.next();
+        pair.move({}, {0, turn, 0}, {0, turn, 0}, broken ? 1 : 200);
+        if (broken) slid += pair.state.dissipated > before;
+      }
+      apart += pair.state.broken > 0 && pair.stress() == 0;
+      // Friction only ever takes. A step through all of the tension has no such sign for its break.
+      if (broken) {
+        EXPECT_GE(pair.state.dissipated, before - 1e-8 * largest) << run << ", " << k;
+      }
+      largest = std::fmax(largest, std::abs(pair.work + pair.kinks_work));
+      ASSERT_NEAR(pair.work + pair.kinks_work, pair.balance(), 1e-9 * largest) << run << ", " << k;
+    }
+    in_tension += pair.state.broken == 1, in_shear += pair.state.broken == 2;
+  }
+  EXPECT_GT(in_tension, 5);
+  EXPECT_GT(in_shear, 5);
+  EXPECT_GT(apart, 100);
+  EXPECT_GT(slid, 100);
+}
+
+// Random motion of both spheres through yield, break, sliding and separation, turns of some 1e-6 rad a step:
+// the same but for third powers of a step, so that ten times finer steps are a hundred times nearer.
+TEST(YieldingEnergy, closes_over_random_paths_as_the_square_of_the_step) {
+  double worst[2] = {0, 0};
+  for (const int fine : {0, 1}) {
+    Dice dice(7);
+    int in_tension = 0, in_shear = 0;
+    for (int run = 0; run < 40; ++run) {
+      Bond pair(concrete());
+      pair.move({0, 0, -60e-8});
+      const double along = run % 2 ? 12e-7 : 2e-7, across = run % 2 ? 4e-7 : 3e-6;
+      double largest = 0;
+      for (int k = 0; k < 120; ++k) {
+        const auto turn = [&] {
+          return Triple<double>{4e-4 * dice.next(), 4e-4 * dice.next(), 4e-4 * dice.next()};
+        };
+        const Triple<double> by{across * dice.next(), across * dice.next(), along * dice.next()}, a = turn(),
+                                                                                                  b = turn();
+        const double kept = pair.state.dissipated, yielded = pair.plastic();
+        pair.move(by, a, b, fine ? 100 : 10);
+        EXPECT_GE(pair.state.dissipated, kept - 1e-4 * largest) << run << ", " << k;
+        EXPECT_GE(pair.plastic(), yielded) << run << ", " << k;
+        largest = std::fmax(largest, std::fmax(pair.now.energy, std::abs(pair.work)));
+      }
+      worst[fine] = std::fmax(worst[fine], std::abs(pair.work + pair.kinks_work - pair.balance()) / largest);
+      in_tension += pair.state.broken == 1, in_shear += pair.state.broken == 2;
+    }
+    EXPECT_GT(in_tension, 3);
+    EXPECT_GT(in_shear, 3);
+  }
+  EXPECT_LT(worst[0], 4e-7);
+  EXPECT_LT(worst[1], 4e-9);
+}
+
+// Pressed past the second limit, broken in shear, slid on, unloaded, loaded again and yielded further: every
+// stress, and what each part took, by hand.
+TEST(YieldingEnergy, of_a_contact_that_takes_over_and_goes_on_yielding_is_that_by_hand) {
+  Bond pair(concrete());
+  const double kn = pair.geometry.normal_stiffness, ks = 0.25 * kn, area = pair.geometry.area,
+               friction = 0.35;
+  const auto close = [&](double elastic) { pair.move({0, 0, -elastic / kn}); }; // Pa of an elastic bond
+  const auto slide = [&](double turn) { pair.move({}, {0, turn, 0}, {0, turn, 0}, 200); };
+  // Elastic closing from 60 MPa on: three times the stress to 110, then twelve times, then 22 times.
+  const auto elastic_at = [](double stress) {
+    if (stress <= 110e6) return 60e6 + 3 * (stress - 60e6);
+    return stress <= 160e6 ? 210e6 + 12 * (stress - 110e6) : 810e6 + 22 * (stress - 160e6);
+  };
+  close(elastic_at(135e6));
+  ASSERT_NEAR(pair.stress(), -135e6, 1);
+  const double plastic_135 =
+      area / kn * (85e6 * 100e6 + 122.5e6 * 275e6); // mean stress times closing that stays
+  EXPECT_NEAR(pair.plastic(), plastic_135, 1e-12 * plastic_135);
+
+  // Breaks at tau_c + mu_1 135 MPa, just past it; friction of .35 of 135 MPa is what is left.
+  const double now = pair.pose.distance.z, strength = 36e6 + 0.5 * 135e6, cap = friction * 135e6;
+  slide(std::asin(strength / ks / length) * (1 - 1e-9));
+  ASSERT_EQ(pair.state.broken, 0);
+  slide(2e-9 * strength / ks / length);
+  ASSERT_EQ(pair.state.broken, 2);
+  EXPECT_NEAR(pair.shear(), cap, 1e-9 * cap);
+  EXPECT_NEAR(pair.stress(), -135e6, 1);
+  const double released = 0.5 * area / ks * (strength * strength - cap * cap);
+  EXPECT_NEAR(pair.state.dissipated, released, 1e-8 * released);
+
+  // Slides on by 20 micrometres, against a constant force.
+  const double slip = 20e-6;
+  slide(slip / now);
+  const double friction_work = area * cap * slip;
+  EXPECT_NEAR(pair.state.dissipated, released + friction_work, 1e-8 * released);
+
+  // Unloads with the modulus, and the friction spring with it; loads again, elastic, at what shear is left.
+  close(-75e6);
+  EXPECT_NEAR(pair.stress(), -60e6, 1);
+  EXPECT_NEAR(pair.shear(), friction * 60e6, 1);
+  const double eased = 0.5 * area / ks * friction * friction * (135e6 * 135e6 - 60e6 * 60e6);
+  EXPECT_NEAR(pair.state.dissipated, released + friction_work + eased, 1e-8 * released);
+  close(75e6);
+  EXPECT_NEAR(pair.stress(), -135e6, 1);
+  EXPECT_NEAR(pair.shear(), friction * 60e6, 1);
+  EXPECT_NEAR(pair.plastic(), plastic_135, 1e-10 * plastic_135);
+
+  // Yields on along the second branch, and beyond the third limit in one step.
+  close(elastic_at(170e6) - elastic_at(135e6));
+  EXPECT_NEAR(pair.stress(), -170e6, 10);
+  const double plastic_170 = area / kn * (85e6 * 100e6 + 135e6 * 550e6 + 165e6 * 210e6);
+  EXPECT_NEAR(pair.plastic(), plastic_170, 1e-10 * plastic_170);
+  EXPECT_NEAR(pair.state.dissipated, released + friction_work + eased, 1e-8 * released);
+
+  // Opens: parts where yield has put its zero, with nothing left, and does not pull.
+  close(-170e6 * (1 + 1e-9));
+  EXPECT_EQ(pair.stress(), 0);
+  EXPECT_EQ(pair.shear(), 0);
+  EXPECT_NEAR(length - pair.pose.distance.z, (100e6 + 550e6 + 210e6) / kn, 1e-8 * length);
+  const double last = 0.5 * area / ks * friction * friction * 60e6 * 60e6;
+  EXPECT_NEAR(pair.state.dissipated, released + friction_work + eased + last, 1e-8 * released);
+  EXPECT_EQ(pair.now.energy, 0);
+  const double work = pair.work + pair.kinks_work;
+  EXPECT_NEAR(work, plastic_170 + released + friction_work + eased + last, 1e-8 * work);
+}
+
+} // namespace
+} // namespace platen::dem
