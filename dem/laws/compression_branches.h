@@ -108,7 +108,7 @@ PLATEN_INLINE Real CompressionBranches::work(const Real &q) const {
     double end = from;
     if (b + 1 < most) {
       end = begin_of(b + 1) - branches[b + 1].limit;
-      to = end - positive_part(Real(end - q));
+      to = where_positive(Real(end - q), q, Real(end + work * 0.0));
     }
     const Real passed = positive_part(Real(to - from));
     const double hardening = 1 / (branch.slope - 1);

@@ -158,9 +158,9 @@ private:
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
   }
-  template <class Real>
+  template <bool moments, class Real>
   void damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Softening<Real> &delta,
-              const Real &opening, const Real &closing, const Real &sliding) const;
+              const Real &tension, const SkinStress<Real> &skin) const;
 };
 
 template <class Visitor, class Self>
@@ -203,13 +203,21 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> 
           of(p.softening_shear, p.fracture_energy_shear, shear_strength_, Real(shear_ratio() * kn))};
 }
 
-// Damage by the stresses that would act without it, Pa.
-template <class Real>
+// Damage by the stresses that would act without it.
+template <bool moments, class Real>
 PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                               const Softening<Real> &delta, const Real &opening,
-                                               const Real &closing, const Real &sliding) const {
+                                               const Softening<Real> &delta, const Real &tension,
+                                               const SkinStress<Real> &skin) const {
   const Parameters &p = parameters;
-  const Real zero = opening * 0.0, one = zero + 1.0;
+  const Real zero = tension * 0.0, one = zero + 1.0;
+  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
+  Real opening = positive_part(tension);
+  const Real closing = positive_part(Real(-tension));
+  Real sliding = ks * root(dot(s.shear, s.shear));
+  if constexpr (moments) {
+    opening = positive_part(Real(tension + skin.bending));
+    sliding = sliding + skin.twisting;
+  }
   const Real cohesion = g.strength_factor * shear_strength_;
   const Real tensile = g.strength_factor * tensile_strength_;
   const Real strength = cohesion + p.friction_static * closing;
@@ -267,7 +275,6 @@ template <bool moments, class Real>
 PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
     const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
     const InterfaceMotion<Real> &m) const {
-  (void)skin;
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Real length = root(dot(m.distance, m.distance));
   const PlaneMotion<Real> plane(m, length);
@@ -285,12 +292,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
   const Triple<Real> slip = scale(let_slip, s.slider);
   s.slider = scale(Real(1.0 - let_slip), s.slider);
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
-  Real opening = positive_part(tension), sliding = ks * root(dot(s.shear, s.shear));
-  if constexpr (moments) {
-    opening = positive_part(Real(tension + skin.bending));
-    sliding = sliding + skin.twisting;
-  }
-  damage(s, g, delta, opening, Real(positive_part(Real(-tension))), sliding);
+  damage<moments>(s, g, delta, tension, skin);
 
   // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
   // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
@@ -317,9 +319,9 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceS
 }
 
 inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &g) const {
-  const double square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
-  const double shear = shear_ratio() * axial;
+  const double axial = pi * g.radius * g.radius * g.normal_stiffness, shear = shear_ratio() * axial;
   if (!parameters.moments) return {axial, shear, 0, 0};
+  const double square = g.radius * g.radius;
   return {axial, shear, 0.25 * square * axial, 0.5 * square * shear};
 }
 
