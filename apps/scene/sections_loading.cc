@@ -1,6 +1,8 @@
 // What the specimen meets: platens, sleeve and loading. Keys stand in the order of scenes as they are
 // written.
+#include <algorithm>
 #include "apps/scene/layers.h"
+
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 #include "apps/scene/surfaces.h"
@@ -193,7 +195,13 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         of("bonded_rims", "Rims"), of("elements_around"), of("elements_through"), of("friction"),
         in("sleeve_stiffness", "Stiffness"), in("sleeve_seat_depth", "Seat depth"), of("contact_damping"),
         of("mass_damping", "Damping"), of("mass_scaling")})
-    declared.only_if("Loading/Confinement", {"sleeve"});
+    declared.only_if(
+        [](const Scene &s) {
+          const auto &targets = s.calibrate.targets;
+          return s.loading.sleeved() || std::any_of(targets.begin(), targets.end(),
+                                                    [](const Target &target) { return target.sleeve; });
+        },
+        "Loading/Confinement is not sleeve");
   of.rest();
 }
 
