@@ -10,6 +10,13 @@
 namespace platen::apps {
 namespace {
 
+// Of those that a calibration wants.
+template <class Holds>
+bool any_target(const Scene &scene, const Holds &holds) {
+  const std::vector<Target> &targets = scene.calibrate.targets;
+  return std::any_of(targets.begin(), targets.end(), holds);
+}
+
 using By = dem::Weakening::By;
 
 bool any_weakens(const Scene &scene, By by) {
@@ -157,8 +164,12 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   of("overhang").unless("Platens/Sides", {"six"});
   of("edge_gap").unless("Platens/Sides", {"two"});
   of("strip_width")
-      .only_if([](const Situation &s) { return s.app == AppKind::brazilian || s.scene.loading.bending(); },
-               "only platen-brazilian and three point bending have strips");
+      .only_if(
+          [](const Situation &s) {
+            return s.app == AppKind::brazilian || s.scene.loading.bending() ||
+                   any_target(s.scene, [](const Target &of) { return of.kind == TargetKind::splitting; });
+          },
+          "only platen-brazilian and three point bending have strips");
   of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
   for (const char *member : {"thickness", "elements_across", "density"})
     of(member);
@@ -197,9 +208,7 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         of("mass_damping", "Damping"), of("mass_scaling")})
     declared.only_if(
         [](const Scene &s) {
-          const auto &targets = s.calibrate.targets;
-          return s.loading.sleeved() || std::any_of(targets.begin(), targets.end(),
-                                                    [](const Target &target) { return target.sleeve; });
+          return s.loading.sleeved() || any_target(s, [](const Target &of) { return of.sleeve; });
         },
         "Loading/Confinement is not sleeve");
   of.rest();
