@@ -167,7 +167,8 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
       .only_if(
           [](const Situation &s) {
             return s.app == AppKind::brazilian || s.scene.loading.bending() ||
-                   any_target(s.scene, [](const Target &of) { return of.kind == TargetKind::splitting; });
+                   any_target(s.scene,
+                              [](const Target &target) { return target.kind == TargetKind::splitting; });
           },
           "only platen-brazilian and three point bending have strips");
   of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
@@ -208,7 +209,7 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         of("mass_damping", "Damping"), of("mass_scaling")})
     declared.only_if(
         [](const Scene &s) {
-          return s.loading.sleeved() || any_target(s, [](const Target &of) { return of.sleeve; });
+          return s.loading.sleeved() || any_target(s, [](const Target &target) { return target.sleeve; });
         },
         "Loading/Confinement is not sleeve");
   of.rest();
