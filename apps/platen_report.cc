@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "apps/report/accuracy_study.h"
+#include "apps/report/calibration.h"
 #include "apps/report/display.h"
 #include "apps/report/fields.h"
 #include "apps/report/platen_study.h"
@@ -49,6 +50,13 @@ void report_on(const Wishes &wishes, char **argv) {
     report::ensure_display(argv);
     return report::write_study_report(study, pictures, out);
   }
+  if (report::holds_calibration(wishes.folder)) {
+    if (!wishes.others.empty() || wishes.fields)
+      throw InputError("--compare and --fields are for runs; " + wishes.folder + " is a calibration");
+    report::check_calibration(wishes.folder);
+    report::ensure_display(argv);
+    return report::write_calibration_report(wishes.folder, pictures, out);
+  }
   std::vector<report::Run> runs{report::read_run(wishes.folder)};
   for (const std::string &other : wishes.others)
     runs.push_back(report::read_run(other));
@@ -71,7 +79,8 @@ int fail(const std::exception &error, int status) {
 
 int main(int argc, char **argv) {
   CLI::App app{
-      "Turns an output folder of a run, or of a study of platens or accuracy, into pictures (PNG) and one "
+      "Turns an output folder of a run, of a study of platens or accuracy, or of a calibration by a curve, "
+      "into pictures (PNG) and one "
       "HTML page, and "
       "compares several runs."};
   Wishes wishes;

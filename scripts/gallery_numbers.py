@@ -77,6 +77,8 @@ OF_A_CALIBRATION = [
     Column("shear strength", "found/bond_shear_strength_pa", 1e6, " MPa"),
     Column("moment contribution", "found/moment_contribution"),
     Column("friction angle", "found/friction_angle_rad", math.pi / 180, " degrees"),
+    Column("factor of compression limits", "found/compression_limits_factor"),
+    Column("contact friction", "found/contact_friction"),
 ]
 OF_UNSEEN_PACKINGS = [
     Column("E of unseen packings", "youngs_modulus_gauge_pa", 1e9, " GPa"),
@@ -84,6 +86,9 @@ OF_UNSEEN_PACKINGS = [
     Column("compressive strength", "compressive_strength_pa", 1e6, " MPa"),
     Column("tensile strength", "tensile_strength_pa", 1e6, " MPa"),
     Column("triaxial strength", "triaxial_strength_pa", 1e6, " MPa"),
+    Column("a second one", "triaxial_strength_pa_2", 1e6, " MPa"),
+    Column("strain at peak", "strain_at_peak_platen", 1e-3, " mm/m"),
+    Column("gain by friction", "gain_by_friction"),
 ]
 OF_AN_ABACUS = [
     Column("modulus of beams", "bond_modulus_pa", 1e9, " GPa"),

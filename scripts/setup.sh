@@ -10,7 +10,7 @@ packages=(
   libvtk9-dev                          # VTU files, pictures
   libeigen3-dev voro++-dev             # particle library
   libcli11-dev nlohmann-json3-dev libfmt-dev libudunits2-dev libxxhash-dev # apps
-  libnlopt-dev libnlopt-cxx-dev libboost-dev # the search of platen-calibrate
+  libnlopt-dev libnlopt-cxx-dev # the search of platen-calibrate
   libgtest-dev                         # tests; holds GTest's CMake configuration too
   xvfb xauth                           # pictures where there is no display
   "$@"

@@ -1,5 +1,6 @@
-#include "apps/calibrate/search.h"
+#include "apps/calibrate/abacus.h"
 #include "apps/io/numbers.h"
+#include "apps/io/seed_statistics.h"
 
 namespace platen::apps {
 namespace {
@@ -8,18 +9,18 @@ constexpr const char *columns =
     "seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,youngs_modulus_gauge_pa,"
     "youngs_modulus_platen_pa,poisson_ratio,voigt_modulus_pa,voigt_poisson,reuss_modulus_pa,reuss_poisson";
 
-std::vector<BondChoice> combinations(const Scene &scene) {
+std::vector<Choice> combinations(const Scene &scene) {
   const Calibrate &c = scene.calibrate;
-  std::vector<BondChoice> all;
+  std::vector<Choice> all;
   for (const double multiplier : or_own(c.radius_multipliers, scene.model.bond_layout.radius_multiplier))
     for (const double ratio : or_own(c.stiffness_ratios, scene.bond.number("stiffness_ratio")))
       for (const double poisson : or_own(c.poisson_ratios, scene.bond.number("poisson_ratio")))
         for (const double modulus : or_own(c.moduli, scene.model.bond_layout.modulus)) {
-          BondChoice choice = choice_of(scene);
-          choice.radius_multiplier = multiplier;
-          choice.stiffness_ratio = ratio;
-          choice.poisson_ratio = poisson;
-          choice.modulus = modulus;
+          Choice choice = choice_of(scene);
+          choice[Knob::radius_multiplier] = multiplier;
+          choice[Knob::stiffness_ratio] = ratio;
+          choice[Knob::poisson_ratio] = poisson;
+          choice[Knob::modulus] = modulus;
           all.push_back(choice);
         }
   return all;
@@ -28,15 +29,15 @@ std::vector<BondChoice> combinations(const Scene &scene) {
 } // namespace
 
 Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, RunLog &log) {
-  const std::vector<BondChoice> choices = combinations(scene);
+  const std::vector<Choice> choices = combinations(scene);
   const bool beams = scene.bond.is<dem::CohesiveBeam>();
   const bool linear = scene.platens.stiffness.kind != Stiffness::Kind::absolute;
   const std::vector<unsigned long> seeds = training_seeds(scene);
   std::vector<Trial> asked;
-  for (const BondChoice &choice : choices)
+  for (const Choice &choice : choices)
     for (const unsigned long seed : seeds) {
-      asked.push_back({TrialKind::elastic, seed, choice});
-      if (linear) asked.back().choice.modulus = scene.model.bond_layout.modulus;
+      asked.push_back({SpecimenTest{}, seed, choice});
+      if (linear) asked.back().choice[Knob::modulus] = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
 
@@ -45,27 +46,27 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
   log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");
   for (std::size_t k = 0; k < choices.size(); ++k) {
-    const BondChoice &c = choices[k];
-    const double ratio = beams ? not_given : c.stiffness_ratio,
-                 bond_poisson = beams ? c.poisson_ratio : not_given;
+    const Choice &c = choices[k];
+    const double ratio = beams ? not_given : c[Knob::stiffness_ratio],
+                 bond_poisson = beams ? c[Knob::poisson_ratio] : not_given;
     SeedStatistics young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
-      const double scale = linear ? c.modulus / scene.model.bond_layout.modulus : 1.0;
+      const double scale = linear ? c[Knob::modulus] / scene.model.bond_layout.modulus : 1.0;
       const dem::NetworkModuli b = bounds_of(scene, trials.packing(seeds[s]), c);
-      table.row({seeds[s], c.modulus, ratio, c.radius_multiplier, bond_poisson, scale * r.young_modulus,
-                 scale * r.platen_modulus, r.poisson_ratio, b.young_voigt, b.poisson_voigt, b.young_reuss,
-                 b.poisson_reuss});
+      table.row({seeds[s], c[Knob::modulus], ratio, c[Knob::radius_multiplier], bond_poisson,
+                 scale * r.young_modulus, scale * r.platen_modulus, r.poisson_ratio, b.young_voigt,
+                 b.poisson_voigt, b.young_reuss, b.poisson_reuss});
       if (r.good()) young.add(scale * r.young_modulus), poisson.add(r.poisson_ratio);
       voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
     }
     log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",
-             1e-9 * c.modulus, ratio, c.radius_multiplier, bond_poisson, 1e-9 * young.mean(),
+             1e-9 * c[Knob::modulus], ratio, c[Knob::radius_multiplier], bond_poisson, 1e-9 * young.mean(),
              1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(), voigt_poisson.mean());
     Json row;
-    row["bond_modulus_pa"] = c.modulus;
+    row["bond_modulus_pa"] = c[Knob::modulus];
     row["stiffness_ratio"] = ratio;
-    row["radius_multiplier"] = c.radius_multiplier;
+    row["radius_multiplier"] = c[Knob::radius_multiplier];
     row["bond_poisson_ratio"] = bond_poisson;
     row["youngs_modulus_gauge_pa"] = young.mean();
     row["poisson_ratio"] = poisson.mean();

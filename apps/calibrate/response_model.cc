@@ -17,8 +17,8 @@ constexpr double known_weight = 1e6;
 constexpr double reach = 0.2;
 // Of the square of the step, beside the responses': of steps that do the same, the shortest.
 constexpr double shortness = 1e-4;
-// Parameters nearer than that are the same; NLopt is asked for more.
-constexpr double same = 1e-3, precision = 1e-7;
+// Of parameters, that NLopt is asked for, over that within which they are the same.
+constexpr double precision = 1e-4;
 
 struct Fit {
   Eigen::MatrixXd slopes;
@@ -39,8 +39,8 @@ double sum_of_squares(const std::vector<double> &x, std::vector<double> &gradien
 
 } // namespace
 
-ResponseModel::ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess)
-    : parameters_(std::move(parameters)), guess_(std::move(guess)) {}
+ResponseModel::ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess, double same)
+    : parameters_(std::move(parameters)), guess_(std::move(guess)), same_(same) {}
 
 void ResponseModel::add(const Eigen::VectorXd &parameters, const Eigen::VectorXd &responses) {
   tried_.push_back({parameters, responses});
@@ -63,6 +63,7 @@ std::size_t ResponseModel::best() const {
 
 // Least squares over the differences to the best trial, with the guess as one more observation (ridge).
 Eigen::MatrixXd ResponseModel::slopes() const {
+  if (parameters_.empty()) return guess_;
   const Tried &from = tried_.at(best());
   const auto size = static_cast<Eigen::Index>(parameters_.size());
   Eigen::VectorXd weights(size);
@@ -83,6 +84,7 @@ Eigen::MatrixXd ResponseModel::slopes() const {
 }
 
 std::optional<Eigen::VectorXd> ResponseModel::next() const {
+  if (parameters_.empty()) return std::nullopt;
   const Tried &from = tried_.at(best());
   Fit fit{slopes(), from.parameters, from.responses};
   std::vector<double> low, high, x(from.parameters.data(), from.parameters.data() + from.parameters.size());
@@ -94,7 +96,7 @@ std::optional<Eigen::VectorXd> ResponseModel::next() const {
   search.set_lower_bounds(low);
   search.set_upper_bounds(high);
   search.set_min_objective(sum_of_squares, &fit);
-  search.set_xtol_abs(precision);
+  search.set_xtol_abs(precision * same_);
   search.set_maxeval(1000);
   double least = 0;
   try {
@@ -103,7 +105,7 @@ std::optional<Eigen::VectorXd> ResponseModel::next() const {
   }
   Eigen::VectorXd to = Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   for (const Tried &t : tried_)
-    if ((t.parameters - to).lpNorm<Eigen::Infinity>() < same) return std::nullopt;
+    if ((t.parameters - to).lpNorm<Eigen::Infinity>() < same_) return std::nullopt;
   return to;
 }
 

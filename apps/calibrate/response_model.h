@@ -21,8 +21,8 @@ struct SearchParameter {
 class ResponseModel {
 public:
   // `guess`: change of each response (row) with each parameter (column). Starts beyond the bounds are moved
-  // to them.
-  ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess);
+  // to them. Parameters nearer to each other than `same` are the same.
+  ResponseModel(std::vector<SearchParameter> parameters, Eigen::MatrixXd guess, double same = 1e-3);
 
   // A trial and its responses: zero is what is wanted.
   void add(const Eigen::VectorXd &parameters, const Eigen::VectorXd &responses);
@@ -40,6 +40,7 @@ private:
   };
   std::vector<SearchParameter> parameters_;
   Eigen::MatrixXd guess_;
+  double same_;
   std::vector<Tried> tried_;
 };
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <optional>
 #include <sstream>
 
-#include "apps/calibrate/search.h"
+#include "apps/calibrate/abacus.h"
+#include "apps/calibrate/found_report.h"
+#include "apps/calibrate/trials.h"
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
 #include "apps/io/stop_signal.h"
@@ -13,28 +15,16 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
-#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
 
-std::string description(const Scene &scene) {
+std::string description(const Scene &scene, const Goals *goals) {
   const Calibrate &c = scene.calibrate;
-  std::string text = title_of(scene);
-  text += fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
-                      c.seeds, c.mode == CalibrateMode::search ? c.verification_seeds : 0);
-  const auto say = [&](const char *what, double value, const char *unit, double factor) {
-    if (!std::isnan(value)) text += fmt::format("  wanted: {} {:.5g}{}\n", what, factor * value, unit);
-  };
-  if (c.mode != CalibrateMode::search) return text;
-  say("Young's modulus", c.young_modulus, " GPa", 1e-9);
-  say("Poisson's ratio", c.poisson_ratio, "", 1);
-  say("compressive strength", c.compressive_strength, " MPa", 1e-6);
-  say("tensile strength", c.tensile_strength, " MPa", 1e-6);
-  if (!std::isnan(c.triaxial_strength))
-    text += fmt::format("  wanted: triaxial strength {:.5g} MPa at a pressure of {:.5g} MPa\n",
-                        1e-6 * c.triaxial_strength, 1e-6 * c.confining_pressure);
-  return text;
+  return title_of(scene) +
+         fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
+                     c.seeds, goals != nullptr ? c.verification_seeds : 0) +
+         (goals != nullptr ? wishes(*goals) : "");
 }
 
 void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
@@ -52,93 +42,68 @@ void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
                  {"poisson_reuss", b.poisson_reuss}};
 }
 
-Json json_of(const SeedStatistics &scatter) {
-  return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
-}
-Json json_of(const Measured &m) {
-  return {{"youngs_modulus_gauge_pa", json_of(m.young)},
-          {"youngs_modulus_platen_pa", json_of(m.platen)},
-          {"poisson_ratio", json_of(m.poisson)},
-          {"compressive_strength_pa", json_of(m.compressive)},
-          {"tensile_strength_pa", json_of(m.tensile)},
-          {"triaxial_strength_pa", json_of(m.triaxial)},
-          {"failed", m.failed}};
-}
-
-std::string row_of(const char *what, double unit, double wanted, const SeedStatistics &training,
-                   const SeedStatistics &unseen) {
-  const std::string goal = std::isnan(wanted) ? "-" : fmt::format("{:.4g}", wanted / unit);
-  const double off = 100 * (unseen.mean() / wanted - 1);
-  return fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", what, goal, text_of(training, unit),
-                     text_of(unseen, unit), std::isnan(off) ? "" : fmt::format("{:+.1f} %", off));
-}
-
-std::string table_of(const Scene &scene, const Found &f) {
-  const Calibrate &c = scene.calibrate;
-  std::string text = fmt::format("  {:<26} {:>8} {:>20} {:>20} {:>9}\n", "", "wanted", "calibrated on",
-                                 "unseen seeds", "off");
-  text += row_of("Young's modulus, GPa", 1e9, c.young_modulus, f.training.young, f.unseen.young);
-  text += row_of("Poisson's ratio", 1, c.poisson_ratio, f.training.poisson, f.unseen.poisson);
-  text += row_of("compressive strength, MPa", 1e6, c.compressive_strength, f.training.compressive,
-                 f.unseen.compressive);
-  text += row_of("tensile strength, MPa", 1e6, c.tensile_strength, f.training.tensile, f.unseen.tensile);
-  if (!std::isnan(c.triaxial_strength))
-    text +=
-        row_of("triaxial strength, MPa", 1e6, c.triaxial_strength, f.training.triaxial, f.unseen.triaxial);
-  return text;
+// All tests of the goals on all packings, choice after choice.
+std::vector<Measured> measure(const Goals &goals, const std::vector<unsigned long> &seeds,
+                              const std::vector<Choice> &choices, bool elastic_alone, Trials &trials,
+                              RunLog &log) {
+  std::vector<Trial> asked;
+  for (const Choice &choice : choices)
+    for (const unsigned long seed : seeds)
+      for (std::size_t k = elastic_alone ? goals.elastic_test() : 0; k < goals.tests().size(); ++k)
+        asked.push_back({goals.tests()[k], seed, choice});
+  const std::vector<TrialResult> results = trials(asked);
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    if (!results[k].good())
+      log.warning("seed {}, {}: {}", asked[k].seed, asked[k].test.name(), results[k].status);
+  std::vector<Measured> all;
+  const auto stride = static_cast<std::ptrdiff_t>(choices.empty() ? 0 : results.size() / choices.size());
+  for (auto from = results.begin(); from != results.end(); from += stride)
+    all.push_back(goals.measured({from, from + stride}, elastic_alone));
+  return all;
 }
 
-// Where what is found stands: in summary.json and in a scene.
-struct FoundNumber {
-  const char *key, *entry, *unit;
-  double BondChoice::*number;
-};
-constexpr FoundNumber found_numbers[] = {
-    {"bond_modulus_pa", "Modulus", " Pa", &BondChoice::modulus},
-    {"stiffness_ratio", "Stiffness ratio", "", &BondChoice::stiffness_ratio},
-    {"radius_multiplier", "Radius multiplier", "", &BondChoice::radius_multiplier},
-    {"bond_tensile_strength_pa", "Tensile strength", " Pa", &BondChoice::tensile_strength},
-    {"bond_shear_strength_pa", "Shear strength", " Pa", &BondChoice::shear_strength},
-    {"moment_contribution", "Moment contribution", "", &BondChoice::moment_contribution},
-    {"friction_angle_rad", "Friction angle", " rad", &BondChoice::friction_angle}};
+// One trial a line: what was changed, what came of it.
+void tell_trial(const Goals &goals, const std::vector<Knob> &knobs, const Choice &choice, const Measured &m,
+                bool elastic, int trial, RunLog &log) {
+  std::string text = elastic ? "  static solve:" : fmt::format("  trial {}:", trial);
+  for (const Knob knob : knobs)
+    if (!elastic || facts_of(knob).elastic) text += " " + text_of(knob, choice[knob]) + ",";
+  text.back() = ':';
+  for (const std::size_t k : elastic ? goals.wanted_elastic() : goals.wanted())
+    text += fmt::format(" {} {};", goals.all()[k].words, text_of(m.numbers[k], goals.all()[k].unit));
+  text.back() = '.';
+  log.info("{}", text);
+}
 
-void tell_found(const Scene &scene, const Found &f, RunLog &log, Json &s) {
-  const BondChoice &c = f.choice;
-  for (const FoundNumber &one : found_numbers)
-    s["found"][one.key] = c.*one.number;
-  s["training"] = json_of(f.training);
-  s["verification"] = json_of(f.unseen);
-  const Measured &judged = f.unseen.young.count() > 0 ? f.unseen : f.training;
-  s["youngs_modulus_gauge_pa"] = judged.young.mean();
-  s["youngs_modulus_platen_pa"] = judged.platen.mean();
-  s["poisson_ratio"] = judged.poisson.mean();
-  s["strength_pa"] = judged.compressive.mean();
-  s["tensile_strength_pa"] = judged.tensile.mean();
-  s["triaxial_strength_pa"] = judged.triaxial.mean();
-  s["strength_trials"] = f.strength_trials;
-  s["missed"] = f.missed;
-  log.info(
-      "found: bond modulus {:.5g} GPa, stiffness ratio {:.5g}, radius multiplier {:.5g}, tensile strength "
-      "{:.5g} "
-      "MPa, shear strength {:.5g} MPa, moment contribution {:.4g}, friction angle {:.4g} degree\n{}",
-      1e-9 * c.modulus, c.stiffness_ratio, c.radius_multiplier, 1e-6 * c.tensile_strength,
-      1e-6 * c.shear_strength, c.moment_contribution, c.friction_angle * 180 / pi, table_of(scene, f));
-  for (const std::string &line : f.missed)
-    log.warning("{}", line);
+Judged find(const Scene &scene, const Goals &goals, Trials &trials, RunLog &log) {
+  const std::vector<unsigned long> seeds = training_seeds(scene), others = unseen_seeds(scene);
+  const std::vector<Knob> knobs = knobs_of(scene);
+  int trial = 0;
+  const Measurement test = [&](const std::vector<Choice> &choices, bool elastic) {
+    std::vector<Measured> all = measure(goals, seeds, choices, elastic, trials, log);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      tell_trial(goals, knobs, choices[k], all[k], elastic, elastic ? 0 : ++trial, log);
+    return all;
+  };
+  Judged judged;
+  judged.found = search(scene, goals, test);
+  const bool elastic = goals.wanted_elastic().size() == goals.wanted().size();
+  judged.training = measure(goals, seeds, {judged.found.choice}, elastic, trials, log).front();
+  if (!others.empty())
+    judged.unseen = measure(goals, others, {judged.found.choice}, elastic, trials, log).front();
+  return judged;
 }
 
 // found.prm: the scene itself with what was found in it.
-void write_found(const CommandLine &command, const Scene &scene, const Found &f, const AppOutput &output) {
+void write_found(const CommandLine &command, const Scene &scene, const Goals &goals, const Judged &judged,
+                 const AppOutput &output) {
   std::vector<std::string> overrides = command.overrides;
-  for (const auto &[key, entry, unit, number] : found_numbers)
-    if (number != &BondChoice::friction_angle ||
-        f.choice.friction_angle != scene.bond.number("friction_angle"))
-      overrides.push_back(fmt::format("Bond/{} = {}{}", entry, shortest_text(f.choice.*number), unit));
+  for (const std::string &one : overrides_of(scene, judged.found.choice))
+    overrides.push_back(one);
   const Scene found = read_scene(command.scene, overrides, AppKind::calibrate);
-  std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}", found.name, version_line(),
-                                    table_of(scene, f));
-  for (const std::string &line : f.missed)
-    comment += line + "\n";
+  const std::string comment =
+      fmt::format("Found by platen-calibrate from {} ({}).\n{}{}", found.name, version_line(),
+                  table_of(goals, judged), findings(goals, scene, judged));
   std::string text;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);)
@@ -149,14 +114,17 @@ void write_found(const CommandLine &command, const Scene &scene, const Found &f,
 } // namespace
 
 int run_calibrate(const CommandLine &command, const Scene &scene) {
+  std::optional<Goals> goals; // a curve that is none is found before anything is written
+  if (scene.calibrate.mode == CalibrateMode::search) goals.emplace(scene);
+  const std::string said = description(scene, goals ? &*goals : nullptr);
   if (command.dry_run) {
-    fmt::print("{}", description(scene));
+    fmt::print("{}", said);
     return status_done;
   }
   AppOutput output(command, scene);
   catch_stop_signals();
   output.open();
-  output.log.info("{}", description(scene));
+  output.log.info("{}", said);
   const CalibrateMode mode = scene.calibrate.mode;
   Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
   s["mode"] = word_of(calibrate_modes, mode);
@@ -165,10 +133,16 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     Trials trials(scene, output.paths, command.resume, output.log);
     tell_bounds(scene, trials, output.log, s);
     if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene, output.paths, trials, output.log);
-    if (mode == CalibrateMode::search) {
-      const Found found = search(scene, trials, output.log);
-      tell_found(scene, found, output.log, s);
-      write_found(command, scene, found, output);
+    if (goals) {
+      const Judged judged = find(scene, *goals, trials, output.log);
+      tell_found(*goals, scene, judged, s);
+      write_curves(*goals, judged, output.paths);
+      write_found(command, scene, *goals, judged, output);
+      std::string found = "found:";
+      for (const Knob knob : knobs_of(scene))
+        found += " " + text_of(knob, judged.found.choice[knob]) + ",";
+      found.back() = '\n';
+      output.log.info("{}{}{}", found, table_of(*goals, judged), findings(*goals, scene, judged));
     }
     s["trials"] = trials.made();
     s["failed_trials"] = trials.failed();

@@ -1,164 +1,159 @@
 #include "apps/calibrate/search.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 
-#include "apps/calibrate/strengths.h"
+#include "apps/scene/errors.h"
 
 namespace platen::apps {
 namespace {
 
-// Of Poisson's ratio; static solves have no scatter but that of the packings.
-constexpr double poisson_tolerance = 1e-4;
+// Where no run comes to a peak the bonds are too strong for the largest strain.
+constexpr double weaker = 0.5;
+constexpr int most_weaker = 4;
+// Static solves are cheap and have no scatter but that of the packings.
+constexpr double elastic_precision = 1e-4, elastic_same = 1e-6;
 constexpr int most_elastic = 30;
+// Trials nearer to each other than that, in large changes, tell the same.
+constexpr double same = 1e-3;
+// Differences, in large changes: well above the scatter of the trials; those about a best trial that is near.
+constexpr double difference = 0.2, near_difference = 0.1;
 
-class Search {
+// One search, over some of the goals by some of the parameters.
+class Pass {
 public:
-  Search(const Scene &scene, Trials &trials, RunLog &log)
-      : scene_(scene), c_(scene.calibrate), trials_(trials), log_(log), seeds_(training_seeds(scene)) {
-    found_.choice = choice_of(scene);
-  }
+  Pass(const Scene &scene, const Goals &goals, const Measurement &test, Space space,
+       std::vector<std::size_t> of, bool elastic, bool exact)
+      : scene_(scene),
+        goals_(goals),
+        test_(test),
+        space_(std::move(space)),
+        of_(std::move(of)),
+        elastic_(elastic),
+        exact_(exact),
+        model_(space_.parameters(exact), space_.guess(goals, of_), elastic ? elastic_same : same) {}
 
-  Found operator()() {
-    if (wanted(c_.poisson_ratio)) find_poisson_ratio();
-    if (wanted(c_.young_modulus)) find_modulus();
-    const bool strengths = wanted(c_.compressive_strength) || wanted(c_.tensile_strength);
-    if (strengths) {
-      const auto test = [&](const BondChoice &choice, int trial) { return strengths_of(choice, trial); };
-      const FoundStrengths found = search_strengths(scene_, found_.choice, test);
-      found_.choice = found.choice;
-      found_.strength_trials = found.trials;
-      found_.missed.insert(found_.missed.end(), found.missed.begin(), found.missed.end());
-    }
-    found_.training = measure(found_.choice, seeds_, strengths);
-    found_.unseen = measure(found_.choice, unseen_seeds(scene_), strengths);
-    return found_;
-  }
+  Found operator()();
 
 private:
-  bool beam() const { return scene_.bond.is<dem::CohesiveBeam>(); }
-  Measured measure(const BondChoice &choice, const std::vector<unsigned long> &seeds, bool strengths);
-  double &poisson_parameter(BondChoice &choice) const {
-    return beam() ? choice.radius_multiplier : choice.stiffness_ratio;
-  }
-  double poisson_at(double parameter);
-  void find_poisson_ratio();
-  void find_modulus();
-  Strengths strengths_of(const BondChoice &choice, int trial);
+  bool done() const { return met_.has_value(); }
+  bool ends(const Measured &measured) const;
+  bool try_all(const std::vector<Eigen::VectorXd> &x);
+  void take_differences(const Eigen::VectorXd &x, double size);
+  Found found() const;
 
   const Scene &scene_;
-  const Calibrate &c_;
-  Trials &trials_;
-  RunLog &log_;
-  std::vector<unsigned long> seeds_;
-  Found found_;
+  const Goals &goals_;
+  const Measurement &test_;
+  Space space_;
+  std::vector<std::size_t> of_;
+  bool elastic_, exact_;
+  std::optional<std::size_t> met_; // the trial that ended it
+  int differences_ = 0;            // how often they were taken
+  ResponseModel model_;
+  std::vector<Eigen::VectorXd> at_;
+  std::vector<Choice> tried_;
+  std::vector<Measured> measured_;
+  int trials_ = 0;
 };
 
-Measured Search::measure(const BondChoice &choice, const std::vector<unsigned long> &seeds, bool strengths) {
-  std::vector<Trial> asked;
-  for (const unsigned long seed : seeds) {
-    // The longest first, so that no thread ends alone with one.
-    if (strengths && wanted(c_.triaxial_strength)) asked.push_back({TrialKind::triaxial, seed, choice});
-    if (strengths && wanted(c_.compressive_strength)) asked.push_back({TrialKind::compression, seed, choice});
-    if (strengths && wanted(c_.tensile_strength)) asked.push_back({TrialKind::tension, seed, choice});
-    asked.push_back({TrialKind::elastic, seed, choice});
+bool Pass::ends(const Measured &measured) const {
+  return std::all_of(of_.begin(), of_.end(), [&](std::size_t k) {
+    return elastic_ ? std::abs(goals_.miss(k, measured)) <= elastic_precision : goals_.met(k, measured);
+  });
+}
+
+// Whether any of them tells something.
+bool Pass::try_all(const std::vector<Eigen::VectorXd> &x) {
+  std::vector<Choice> choices;
+  for (const Eigen::VectorXd &one : x)
+    choices.push_back(space_.choice(one));
+  const std::vector<Measured> measured = test_(choices, elastic_);
+  trials_ += static_cast<int>(x.size());
+  bool told = false;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Eigen::VectorXd responses = goals_.responses(of_, measured[k]);
+    if (responses.size() == 0) continue;
+    told = true;
+    at_.push_back(x[k]), tried_.push_back(choices[k]), measured_.push_back(measured[k]);
+    model_.add(x[k], responses);
+    if (!done() && ends(measured[k])) met_ = tried_.size() - 1;
   }
-  const std::vector<TrialResult> results = trials_(asked);
-  Measured m;
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    const TrialResult &r = results[k];
-    if (!r.good()) {
-      ++m.failed;
-      log_.warning("seed {}, {}: {}", asked[k].seed, word(asked[k].kind), r.status);
-    } else if (asked[k].kind == TrialKind::elastic) {
-      m.young.add(r.young_modulus), m.platen.add(r.platen_modulus), m.poisson.add(r.poisson_ratio);
-    } else {
-      const TrialKind kind = asked[k].kind;
-      (kind == TrialKind::tension ? m.tensile : (kind == TrialKind::triaxial ? m.triaxial : m.compressive))
-          .add(r.strength);
+  return told;
+}
+
+// One parameter after the other, away from the nearer bound; all at once, so that threads share them.
+void Pass::take_differences(const Eigen::VectorXd &x, double size) {
+  const std::vector<SearchParameter> parameters = space_.parameters(exact_);
+  std::vector<Eigen::VectorXd> all;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto place = static_cast<Eigen::Index>(k);
+    Eigen::VectorXd to = x;
+    const double up = parameters[k].high - x[place], down = x[place] - parameters[k].low;
+    to[place] += up >= down ? std::min(size, up) : -std::min(size, down);
+    all.push_back(to);
+  }
+  try_all(all);
+  ++differences_;
+}
+
+Found Pass::operator()() {
+  std::optional<Eigen::VectorXd> x = model_.start();
+  const int most = elastic_ ? most_elastic : scene_.calibrate.most_trials;
+  for (int in_vain = 0; x && !done() && trials_ < most;) {
+    if (!try_all({*x})) {
+      if (++in_vain > most_weaker || !space_.free(Knob::tensile_strength)) break;
+      x = space_.scaled(*x, Knob::tensile_strength, weaker);
+      continue;
     }
+    const bool differences = scene_.calibrate.differences && !elastic_;
+    if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
+    x = model_.next();
+    if (x || done() || !differences || differences_ > 1 || trials_ >= most) continue;
+    take_differences(at_.at(model_.best()), near_difference); // the slopes there may be others
+    x = model_.next();
   }
-  return m;
+  if (tried_.empty())
+    throw NumericsError(
+        elastic_ ? "no static solve came to an end; trials.csv says why"
+                 : "no run came to a peak; a larger Loading/Target strain, or weaker bonds to begin with, "
+                   "help");
+  return found();
 }
 
-double Search::poisson_at(double parameter) {
-  BondChoice choice = found_.choice;
-  poisson_parameter(choice) = parameter;
-  const Measured m = measure(choice, seeds_, false);
-  if (m.poisson.count() == 0) throw NumericsError("no static solve came to an end; trials.csv says why");
-  log_.info("  {} {:.5g}: nu {:.5f}", beam() ? "radius multiplier" : "stiffness ratio", parameter,
-            m.poisson.mean());
-  return m.poisson.mean();
+Found Pass::found() const {
+  const std::size_t best = met_.value_or(model_.best());
+  Found to;
+  to.choice = tried_[best], to.measured = measured_[best];
+  to.trials = elastic_ ? 0 : trials_;
+  to.at_bounds = space_.at_bounds(to.choice);
+  to.sensitivities = {of_, space_.knobs(), space_.by_logarithms(model_.slopes(), to.choice),
+                      goals_.responses(of_, to.measured), differences_ > 0};
+  return to;
 }
 
-// Poisson's ratio falls with either parameter.
-void Search::find_poisson_ratio() {
-  const double a = beam() ? c_.multiplier_low : c_.ratio_low, b = beam() ? c_.multiplier_high : c_.ratio_high;
-  const double fa = poisson_at(a) - c_.poisson_ratio, fb = poisson_at(b) - c_.poisson_ratio;
-  double x = std::abs(fa) < std::abs(fb) ? a : b, off = std::min(std::abs(fa), std::abs(fb));
-  if (fa * fb > 0) {
-    poisson_parameter(found_.choice) = x;
-    found_.missed.push_back(
-        fmt::format("Poisson's ratio {:.4g} is out of reach: {} from {:.4g} to {:.4g} gives {:.4f} to "
-                    "{:.4f}; the nearest is {:.4g}",
-                    c_.poisson_ratio, beam() ? "a radius multiplier" : "a stiffness ratio", a, b,
-                    fa + c_.poisson_ratio, fb + c_.poisson_ratio, x));
-    return;
-  }
-  // Ends by the nearest ratio so far, not by the bracket.
-  const auto difference = [&](double parameter) {
-    const double f = poisson_at(parameter) - c_.poisson_ratio;
-    if (std::abs(f) < off) x = parameter, off = std::abs(f);
-    return f;
-  };
-  if (off > poisson_tolerance) {
-    std::uintmax_t most = most_elastic;
-    boost::math::tools::toms748_solve(
-        difference, a, b, fa, fb, [&](double, double) { return off <= poisson_tolerance; }, most);
-  }
-  poisson_parameter(found_.choice) = x;
-}
-
-// One step is exact where the platens' stiffness is a multiple of the bonds'.
-void Search::find_modulus() {
-  for (int k = 0; k < most_elastic; ++k) {
-    const Measured m = measure(found_.choice, seeds_, false);
-    if (m.young.count() == 0) throw NumericsError("no static solve came to an end; trials.csv says why");
-    const double factor = c_.young_modulus / m.young.mean();
-    log_.info("  bond modulus {:.5g} GPa: E {:.5g} GPa", 1e-9 * found_.choice.modulus, 1e-9 * m.young.mean());
-    if (std::abs(factor - 1) < 1e-6) return;
-    found_.choice.modulus *= factor;
-  }
-}
-
-// One trial: all tests on all seeds.
-Strengths Search::strengths_of(const BondChoice &choice, int trial) {
-  const Measured m = measure(choice, seeds_, true);
-  std::string text = fmt::format(
-      "  trial {}: bond strengths {:.5g} MPa in tension, {:.5g} MPa in shear, moment contribution {:.4g}, "
-      "friction "
-      "angle {:.4g} degree:",
-      trial, 1e-6 * choice.tensile_strength, 1e-6 * choice.shear_strength, choice.moment_contribution,
-      choice.friction_angle / degree);
-  const auto add = [&](double goal, const SeedStatistics &s, const char *where) {
-    if (wanted(goal)) text += fmt::format(" {} MPa {},", text_of(s, 1e6), where);
-  };
-  add(c_.compressive_strength, m.compressive, "in compression");
-  add(c_.tensile_strength, m.tensile, "in tension");
-  add(c_.triaxial_strength, m.triaxial, "under pressure");
-  text.pop_back();
-  log_.info("{}", text);
-  return {m.compressive.mean(), m.tensile.mean(), m.triaxial.mean()};
+// Strengths of brittle bonds are proportional to theirs.
+bool proportional(const Scene &scene) {
+  const Calibrate &c = scene.calibrate;
+  const bool strengths = std::none_of(c.targets.begin(), c.targets.end(), [](const Target &target) {
+    return target.kind == TargetKind::strain_at_peak || target.kind == TargetKind::curve;
+  });
+  return strengths && c.free.empty() && scene.bond.list("compression_limits").empty();
 }
 
 } // namespace
 
-Found search(const Scene &scene, Trials &trials, RunLog &log) {
-  return Search(scene, trials, log)();
+Found search(const Scene &scene, const Goals &goals, const Measurement &test) {
+  std::vector<Knob> knobs = knobs_of(scene), elastic;
+  std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(elastic),
+               [](Knob knob) { return facts_of(knob).elastic; });
+  const std::vector<std::size_t> wanted = goals.wanted(), by_solves = goals.wanted_elastic();
+  Found found;
+  found.choice = choice_of(scene);
+  if (!by_solves.empty() && !elastic.empty())
+    found = Pass(scene, goals, test, {scene, found.choice, elastic}, by_solves, true, true)();
+  if (by_solves.size() == wanted.size() && !elastic.empty()) return found;
+  return Pass(scene, goals, test, {scene, found.choice, knobs}, wanted, false, proportional(scene))();
 }
 
 } // namespace platen::apps

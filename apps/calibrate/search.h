@@ -1,33 +1,36 @@
-// What a calibration does with its trials. Bonds for a wanted material: Poisson's ratio by the stiffness
-// ratio (beams: the radius multiplier), Young's modulus by the bond's, to which it is proportional; then the
-// strengths by those of the bond, its moment contribution and its friction angle (strengths.h).
+// Bonds for a wanted material: what static solves tell by their parameters first, then all targets by all
+// parameters that are free, by least squares on a model of the trials (response_model.h).
 #pragma once
 
-#include "apps/calibrate/trials.h"
-#include "apps/io/seed_statistics.h"
-#include "apps/io/summary.h"
+#include <functional>
+
+#include "apps/calibrate/space.h"
 
 namespace platen::apps {
 
-// Over seeds; strengths of those runs that came to a peak.
-struct Measured {
-  SeedStatistics young, platen, poisson, compressive, tensile, triaxial;
-  int failed = 0;
+// What is measured of choices, one after the other, on all packings; `elastic_alone`: by static solves alone.
+using Measurement =
+    std::function<std::vector<Measured>(const std::vector<Choice> &choices, bool elastic_alone)>;
+
+// How the responses of the wanted goals go with what is free, at the best trial.
+struct Sensitivities {
+  std::vector<std::size_t> goals;
+  std::vector<Knob> knobs;
+  Eigen::MatrixXd slopes;    // changes of responses (rows of Goals::responses) by logarithms of the knobs
+  Eigen::VectorXd responses; // there
+  bool measured = false;     // by differences and trials; else the trials have only corrected a guess
 };
 
 struct Found {
-  BondChoice choice;
-  Measured training, unseen;
-  int strength_trials = 0;
-  std::vector<std::string> missed; // what could not be reached, one line each
+  Choice choice;
+  Measured measured;
+  int trials = 0; // with moving platens
+  Sensitivities sensitivities;
+  std::vector<std::string> at_bounds; // of the free parameters, one line each
 };
 
-Found search(const Scene &scene, Trials &trials, RunLog &log);
-
-// A table of elastic moduli against what bonds are made of: every combination of the lists, on every seed, as
-// abacus.csv; returns means over the seeds, one object for each combination. Moduli are proportional to the
-// bond's and Poisson's ratio does not depend on it, so one bond modulus is solved for, unless the platens'
-// stiffness is absolute.
-Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, RunLog &log);
+// Ends where every goal is within its tolerance, after Calibrate/Most trials, or where the bounds allow
+// nothing better. Throws NumericsError where no runs come to a peak, or no static solve to an end.
+Found search(const Scene &scene, const Goals &goals, const Measurement &test);
 
 } // namespace platen::apps

@@ -1,9 +1,17 @@
 # Sources of platen-calibrate but for its main, apps/platen_calibrate.cc; linked with platen_run.
 set(PLATEN_CALIBRATE_SOURCES
   calibrate/abacus.cc
+  calibrate/analysis.cc
+  calibrate/choice.cc
+  calibrate/found_report.cc
+  calibrate/goal_words.cc
+  calibrate/goals.cc
+  calibrate/guess.cc
   calibrate/response_model.cc
   calibrate/run_calibrate.cc
   calibrate/search.cc
-  calibrate/strengths.cc
+  calibrate/space.cc
+  calibrate/specimen_test.cc
+  calibrate/target_curve.cc
   calibrate/trial.cc
   calibrate/trials.cc)

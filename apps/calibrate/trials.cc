@@ -1,7 +1,6 @@
 #include "apps/calibrate/trials.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <fstream>
 #include <iterator>
@@ -20,25 +19,48 @@
 namespace platen::apps {
 namespace {
 
-constexpr const char *columns =
-    "test,seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,tensile_pa,shear_pa,"
-    "moment_contribution,friction_angle_rad,status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
-    "poisson_ratio,strength_pa,strain_at_peak";
+constexpr const char *head = "test,seed,", *tail =
+                                               "status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
+                                               "poisson_ratio,strength_pa,strain_at_peak,curve_pa";
+constexpr std::size_t first_number = 2, status_at = first_number + knob_count, results_at = status_at + 1,
+                      curve_at = results_at + 5;
+
+std::vector<std::string> columns() {
+  std::string all = head;
+  for (const KnobFacts &knob : knob_facts())
+    all += std::string(knob.column) + ",";
+  return cells_of(all + tail);
+}
 
 // What decides the result; elastic trials do not ask for strengths.
-std::array<double, 8> numbers_of(const Trial &t) {
-  const BondChoice &c = t.choice;
-  if (t.kind == TrialKind::elastic)
-    return {c.modulus, c.stiffness_ratio, c.radius_multiplier, c.poisson_ratio, 0, 0, 0, 0};
-  return {c.modulus,          c.stiffness_ratio, c.radius_multiplier,   c.poisson_ratio,
-          c.tensile_strength, c.shear_strength,  c.moment_contribution, c.friction_angle};
+Choice deciding(const Trial &t) {
+  Choice c = t.choice;
+  for (const KnobFacts &knob : knob_facts())
+    if (!t.test.loads() && !knob.elastic) c[knob.knob] = 0;
+  return c;
 }
 
 std::string key_of(const Trial &t) {
-  std::string key = std::string(word(t.kind)) + "," + std::to_string(t.seed);
-  for (const double number : numbers_of(t))
+  std::string key = t.test.name() + "," + std::to_string(t.seed);
+  for (const double number : deciding(t).numbers)
     key += "," + shortest_text(number);
   return key;
+}
+
+// Stresses of a curve in one cell, blanks between them.
+std::string text_of_curve(const std::vector<double> &curve) {
+  std::string text;
+  for (const double stress : curve)
+    text += (text.empty() ? "" : " ") + shortest_text(stress);
+  return text.empty() ? "-" : text;
+}
+
+std::vector<double> curve_of_text(const std::string &text) {
+  std::vector<double> curve;
+  std::istringstream numbers(text);
+  for (std::string number; numbers >> number;)
+    if (const auto stress = number_of(number)) curve.push_back(*stress);
+  return curve;
 }
 
 // Without what would break a row in two.
@@ -86,7 +108,7 @@ Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog
   if (resume)
     read();
   else
-    table_.emplace(paths_.folder / "trials.csv", cells_of(columns));
+    table_.emplace(paths_.folder / "trials.csv", columns());
 }
 
 void Trials::read() {
@@ -99,84 +121,92 @@ void Trials::read() {
   std::istringstream lines(text.substr(0, end + 1));
   std::string line;
   std::getline(lines, line);
-  if (line != columns)
+  if (cells_of(line) != columns())
     throw InputError(path.string() + ":1: error: has other columns than this version writes");
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
-    for (std::size_t k = 11; k < cells.size(); ++k)
+    for (std::size_t k = results_at; k < std::min(curve_at, cells.size()); ++k)
       if (const auto value = number_of(cells[k])) values.push_back(*value);
-    if (cells.size() != cells_of(columns).size() || values.size() != 5)
+    if (cells.size() != columns().size() || values.size() != curve_at - results_at)
       throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
     std::string key = cells[0] + "," + cells[1];
-    for (std::size_t k = 2; k < 10; ++k)
+    for (std::size_t k = first_number; k < status_at; ++k)
       key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
-    known_[key] = {cells[10], values[0], values[1], values[2], values[3], values[4]};
+    known_[key] = {cells[status_at],
+                   values[0],
+                   values[1],
+                   values[2],
+                   values[3],
+                   values[4],
+                   curve_of_text(cells[curve_at])};
   }
-  table_.emplace(path, cells_of(columns), end + 1);
+  table_.emplace(path, columns(), end + 1);
 }
 
 void Trials::keep(const Trial &t, const TrialResult &r) {
-  const std::string status = one_cell(r.status);
-  std::vector<CsvCell> cells{word(t.kind), t.seed};
-  for (const double number : numbers_of(t))
+  const std::string name = t.test.name(), status = one_cell(r.status), curve = text_of_curve(r.curve);
+  std::vector<CsvCell> cells{name, t.seed};
+  for (const double number : deciding(t).numbers)
     cells.emplace_back(number);
-  cells.insert(cells.end(),
-               {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength, r.strain_at_peak});
+  cells.insert(cells.end(), {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength,
+                             r.strain_at_peak, curve});
   table_->row(cells);
   known_[key_of(t)] = r;
   ++made_;
 }
 
 const dem::Specimen &Trials::packing(unsigned long seed) {
-  pack({seed});
-  return packings_.at(seed);
+  pack({{SpecimenTest{}, seed, Choice{}}});
+  return packings_.at({"", seed});
 }
 
-void Trials::pack(const std::vector<unsigned long> &seeds) {
-  std::vector<unsigned long> missing;
-  for (const unsigned long seed : seeds)
-    if (packings_.count(seed) == 0 && std::find(missing.begin(), missing.end(), seed) == missing.end())
-      missing.push_back(seed);
+void Trials::pack(const std::vector<Trial> &trials) {
+  std::vector<Trial> missing;
+  for (const Trial &t : trials)
+    if (packings_.count(packing_of(t)) == 0 &&
+        std::none_of(missing.begin(), missing.end(),
+                     [&](const Trial &m) { return packing_of(m) == packing_of(t); }))
+      missing.push_back(t);
   std::vector<dem::Specimen> made(missing.size());
-  const auto file_of = [&](unsigned long seed) {
-    return paths_.folder / ("packing_" + std::to_string(seed) + ".csv");
+  const auto name_of = [](const Trial &t) {
+    const std::string form = t.test.form();
+    return (form.empty() ? "" : form + "_") + std::to_string(t.seed);
   };
   in_order(missing.size(), [&](std::size_t k) {
+    const std::filesystem::path file = paths_.folder / ("packing_" + name_of(missing[k]) + ".csv");
     std::error_code ignored;
-    if (std::filesystem::exists(file_of(missing[k]), ignored)) {
-      made[k] = read_specimen_csv(file_of(missing[k])).specimen;
+    if (std::filesystem::exists(file, ignored)) {
+      made[k] = read_specimen_csv(file).specimen;
       return;
     }
-    Scene scene = scene_;
-    scene.general.seed = missing[k];
+    Scene scene = scene_of_form(scene_, missing[k].test);
+    scene.general.seed = missing[k].seed;
     made[k] = make_specimen(scene);
-    write_specimen_csv(file_of(missing[k]), made[k]);
+    write_specimen_csv(file, made[k]);
   });
   for (std::size_t k = 0; k < missing.size(); ++k) {
-    log_.info("packing of seed {}: {} spheres", missing[k], made[k].size());
-    packings_[missing[k]] = std::move(made[k]);
+    const std::string form = missing[k].test.form();
+    log_.info("packing of seed {}{}: {} spheres", missing[k].seed, form.empty() ? "" : " (" + form + ")",
+              made[k].size());
+    packings_[packing_of(missing[k])] = std::move(made[k]);
   }
 }
 
 TrialResult Trials::run(const Trial &t) const {
-  const dem::Specimen &specimen = packings_.at(t.seed);
-  if (t.kind == TrialKind::elastic) return elastic_trial(scene_, specimen, t.choice);
-  return strength_trial(scene_, specimen, t.choice, t.kind);
+  return run_test(scene_, packings_.at(packing_of(t)), t.choice, t.test);
 }
 
 std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
   std::vector<Trial> open;
-  std::vector<unsigned long> seeds;
   for (const Trial &t : trials) {
     const std::string key = key_of(t);
     if (known_.count(key) > 0 ||
         std::any_of(open.begin(), open.end(), [&](const Trial &o) { return key_of(o) == key; }))
       continue;
     open.push_back(t);
-    seeds.push_back(t.seed);
   }
-  pack(seeds);
+  pack(open);
   std::vector<std::optional<TrialResult>> results(open.size());
   std::mutex mutex;
   std::size_t written = 0;

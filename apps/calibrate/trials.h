@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/calibrate/trial.h"
@@ -15,9 +16,9 @@
 namespace platen::apps {
 
 struct Trial {
-  TrialKind kind = TrialKind::elastic;
+  SpecimenTest test;
   unsigned long seed = 1; // of the packing
-  BondChoice choice;
+  Choice choice;
 };
 
 // Packings that a calibration is made on, and those that it is judged by.
@@ -34,14 +35,16 @@ public:
   // a time as there are threads, and is written in the order of the trials as soon as it and all before it
   // are done. Packings are made on the way. Throws Stopped after a signal.
   std::vector<TrialResult> operator()(const std::vector<Trial> &trials);
-  const dem::Specimen &packing(unsigned long seed);
-  // Makes what packings are missing, several at a time.
-  void pack(const std::vector<unsigned long> &seeds);
+  const dem::Specimen &packing(unsigned long seed); // of the scene's own form
 
   long made() const { return made_; }     // here, not read
   long failed() const { return failed_; } // of all that were asked for
 
 private:
+  using PackingName = std::pair<std::string, unsigned long>; // form and seed
+  static PackingName packing_of(const Trial &trial) { return {trial.test.form(), trial.seed}; }
+  // Makes what packings are missing, several at a time.
+  void pack(const std::vector<Trial> &trials);
   TrialResult run(const Trial &trial) const;
   void read();
   void keep(const Trial &trial, const TrialResult &result);
@@ -49,7 +52,7 @@ private:
   const Scene &scene_;
   OutputPaths paths_;
   RunLog &log_;
-  std::map<unsigned long, dem::Specimen> packings_;
+  std::map<PackingName, dem::Specimen> packings_;
   std::map<std::string, TrialResult> known_;
   std::optional<CsvWriter> table_;
   long made_ = 0, failed_ = 0;

@@ -8,6 +8,7 @@ set(PLATEN_REPORT_SOURCES
   report/accuracy_study.cc
   report/bars.cc
   report/biaxial.cc
+  report/calibration.cc
   report/canvas.cc
   report/chart.cc
   report/cones.cc

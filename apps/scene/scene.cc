@@ -10,6 +10,7 @@
 #include "apps/scene/declare.h"
 #include "apps/scene/layers.h"
 #include "apps/scene/scene_files.h"
+#include "apps/scene/scene_targets.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {
@@ -37,6 +38,7 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   scene.loading.stages = stages_of(scene.loading.stage_sections);
+  scene.calibrate.targets = targets_of(parameters, scene.calibrate);
   PairTest &pair = scene.pair_test;
   const double modulus = scene.model.bond_layout.modulus;
   if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};

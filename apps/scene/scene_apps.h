@@ -5,6 +5,7 @@
 
 #include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
+#include "apps/scene/scene_calibrate.h"
 #include "apps/scene/scene_loading.h"
 
 namespace platen::apps {
@@ -35,31 +36,6 @@ struct PairTest { // platen-bonds
   int steps = 1000;
 };
 
-enum class CalibrateMode { bounds, abacus, search };
-inline const Words<CalibrateMode> calibrate_modes{
-    {"bounds", CalibrateMode::bounds}, {"abacus", CalibrateMode::abacus}, {"search", CalibrateMode::search}};
-
-struct Calibrate { // platen-calibrate
-  CalibrateMode mode = CalibrateMode::search;
-  // Wanted of the specimen; each may be left out.
-  double young_modulus = not_given, poisson_ratio = not_given;           // Pa, 1
-  double compressive_strength = not_given, tensile_strength = not_given; // Pa
-  double triaxial_strength = not_given, confining_pressure = not_given;  // Pa, largest axial stress at it
-  int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
-  double strain = 1e-5;                  // of the static solves
-  double tension_rate = not_given;       // m/s; tension tests
-  int most_trials = 8;                   // sets of strengths that are tried
-  double tolerance = 0.02;               // of strengths, relative
-  // Abacus; each holds the bond's own value where the list is empty.
-  std::vector<double> moduli, stiffness_ratios, radius_multipliers, poisson_ratios; // Pa, 1, 1, 1
-  // Where the search may go.
-  double ratio_low = 0.02, ratio_high = 1;                    // shear over normal stiffness (parallel bond)
-  double multiplier_low = 0.3, multiplier_high = 1;           // radius multiplier (cohesive beam)
-  double moments_low = 0;                                     // moment contribution
-  double strengths_low = 0.5, strengths_high = 6;             // shear over tensile strength of the bond
-  double friction_low = not_given, friction_high = not_given; // rad, friction angle of the bond
-};
-
 enum class BarLoad { all, tension, bending, torsion, impact, none };
 inline const Words<BarLoad> bar_loads{{"all", BarLoad::all},         {"tension", BarLoad::tension},
                                       {"bending", BarLoad::bending}, {"torsion", BarLoad::torsion},
@@ -79,11 +55,6 @@ struct BarTest {               // platen-bar
 
 struct DomainSize {              // of a cylinder
   double height = 0, radius = 0; // m
-};
-
-struct StudySurface { // a word, or a coefficient of friction
-  SurfaceKind kind = SurfaceKind::custom;
-  double friction = not_given; // static and dynamic; not given: what the word says
 };
 
 // The list, or the one value that the scene has.

@@ -5,15 +5,19 @@
 namespace platen::apps {
 namespace {
 
-// use(number) of the member of that name, if it is a number.
-template <class Parameters, class Use>
-void find_number(Parameters &of, const std::string &wanted, const Use &use) {
+// use(value) of the member of that name, if it is of that type.
+template <class Value, class Parameters, class Use>
+void find_member(Parameters &of, const std::string &wanted, const Use &use) {
   std::decay_t<Parameters>::describe(
       [&](const char *name, auto &value, const auto &.../*about*/) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Value>)
           if (name == wanted) use(value);
       },
       of);
+}
+template <class Parameters, class Use>
+void find_number(Parameters &of, const std::string &wanted, const Use &use) {
+  find_member<double>(of, wanted, use);
 }
 
 } // namespace
@@ -51,6 +55,19 @@ double Bond::number(const std::string &member) const {
 void Bond::set(const std::string &member, double value) {
   const auto use = [&](double &number) { number = value; };
   std::apply([&](auto &...of) { (find_number(of, member, use), ...); }, laws);
+}
+
+std::vector<double> Bond::list(const std::string &member) const {
+  std::vector<double> found;
+  const auto use = [&](const std::vector<double> &values) { found = values; };
+  if (bonded())
+    std::visit([&](const auto &of) { find_member<std::vector<double>>(of, member, use); }, *parameters());
+  return found;
+}
+
+void Bond::set(const std::string &member, const std::vector<double> &values) {
+  const auto use = [&](std::vector<double> &list) { list = values; };
+  std::apply([&](auto &...of) { (find_member<std::vector<double>>(of, member, use), ...); }, laws);
 }
 
 } // namespace platen::apps

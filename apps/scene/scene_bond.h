@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dem/heterogeneity.h"
 #include "dem/laws/bond_law.h"
@@ -31,6 +32,9 @@ public:
   // By the name of a member: of the first law that has it; in all of them.
   double number(const std::string &member) const;
   void set(const std::string &member, double value);
+  // Of the law chosen, empty where it has none; in all that have it.
+  std::vector<double> list(const std::string &member) const;
+  void set(const std::string &member, const std::vector<double> &values);
 };
 
 } // namespace platen::apps

@@ -33,6 +33,9 @@ public:
   void led_pair() const;
   void calibrate() const;
   void triaxial_strength() const;
+  void target(const Target &target) const;
+  void free_parameters() const;
+  void calibrate_bounds() const;
   void bar_test() const;
   void study() const;
   void notes();

@@ -59,68 +59,6 @@ void declare_pair_test(Parameters &parameters, PairTest &pair) {
   section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
 }
 
-void declare_calibrate(Parameters &parameters, Calibrate &c) {
-  Section section(parameters, "Calibrate");
-  auto &parallel = range_of<dem::ParallelBond::Parameters>;
-  const Range multipliers = range_of<dem::BondLayout>("radius_multiplier");
-  section.entry("Mode", c.mode, calibrate_modes,
-                "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
-  section.entry("Young modulus", c.young_modulus, "Pa", above(0),
-                "Wanted of the specimen's middle; may be left out.");
-  section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
-                 "Wanted of the specimen's middle; may be left out.");
-  section.entry("Compressive strength", c.compressive_strength, "Pa", above(0),
-                "Wanted between the platens of the scene; may be left out.");
-  section.entry("Tensile strength", c.tensile_strength, "Pa", above(0),
-                "Wanted between glued ends; may be left out.");
-  section.entry("Triaxial strength", c.triaxial_strength, "Pa", above(0),
-                "Wanted at the confining pressure, as largest axial stress (the pressure included); may be "
-                "left out.");
-  section.entry("Confining pressure", c.confining_pressure, "Pa", above(0),
-                "Of the triaxial strength; it acts as Loading/Confinement = particles.");
-  section.integer("Seeds", c.seeds, 1, 1000, "Packings to calibrate on: Scene/Seed and those after it.");
-  section.integer("Verification seeds", c.verification_seeds, 0, 1000,
-                  "Packings after those, on which what was found is judged.");
-  section.number("Strain", c.strain, above_up_to(0, 0.01), "Closure over height in the static solves.");
-  section.entry("Tension rate", c.tension_rate, "m/s", above(0),
-                "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
-                "tensile over compressive strength (a tenth where one is not wanted).");
-  section.integer("Most trials", c.most_trials, 1, 1000, "Sets of strengths that are tried.");
-  section.number("Tolerance", c.tolerance, above_up_to(0, 0.5),
-                 "Relative difference of the strengths that ends the search.");
-  section.entry("Modulus list", c.moduli, "Pa", above(0), "Abacus; empty: Bond/Modulus.");
-  section.entry("Stiffness ratio list", c.stiffness_ratios, "1", parallel("stiffness_ratio"),
-                "Abacus; empty: Bond/Stiffness ratio (parallel bond).");
-  section.entry("Radius multiplier list", c.radius_multipliers, "1", multipliers,
-                "Abacus; empty: Bond/Radius multiplier.");
-  section.entry("Poisson ratio list", c.poisson_ratios, "1",
-                range_of<dem::CohesiveBeam::Parameters>("poisson_ratio"),
-                "Abacus; empty: Bond/Poisson ratio (cohesive beam).");
-  section.number("Smallest stiffness ratio", c.ratio_low, above_up_to(0, 5),
-                 "Search for Poisson's ratio (parallel bond).");
-  section.number("Largest stiffness ratio", c.ratio_high, above_up_to(0, 5),
-                 "Search for Poisson's ratio (parallel bond).");
-  section.number("Smallest radius multiplier", c.multiplier_low, multipliers,
-                 "Search for Poisson's ratio (cohesive beam).");
-  section.number("Largest radius multiplier", c.multiplier_high, multipliers,
-                 "Search for Poisson's ratio (cohesive beam).");
-  section.number(
-      "Smallest moment contribution", c.moments_low, parallel("moment_contribution"),
-      "Search for compressive over tensile strength (parallel bond, cohesive beam); the largest is the "
-      "bond's own.");
-  section.number("Smallest shear over tensile strength", c.strengths_low, above_up_to(0, 1000),
-                 "Search for compressive over tensile strength.");
-  section.number("Largest shear over tensile strength", c.strengths_high, above_up_to(0, 1000),
-                 "Search for compressive over tensile strength.");
-  section.entry(
-      "Smallest friction angle", c.friction_low, "rad", parallel("friction_angle"),
-      "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
-      "a triaxial strength is wanted.");
-  section.entry("Largest friction angle", c.friction_high, "rad", parallel("friction_angle"),
-                "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
-                "degree if a triaxial strength is wanted.");
-}
-
 void declare_bar_test(Parameters &parameters, BarTest &bar) {
   Section section(parameters, "Bar test");
   section.entry("Load", bar.load, bar_loads,

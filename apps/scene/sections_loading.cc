@@ -1,12 +1,21 @@
 // What the specimen meets: platens, sleeve and loading. Keys stand in the order of scenes as they are
 // written.
+#include <algorithm>
 #include "apps/scene/layers.h"
+
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
+
+// Of those that a calibration wants.
+template <class Holds>
+bool any_target(const Scene &scene, const Holds &holds) {
+  const std::vector<Target> &targets = scene.calibrate.targets;
+  return std::any_of(targets.begin(), targets.end(), holds);
+}
 
 using By = dem::Weakening::By;
 
@@ -155,8 +164,13 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   of("overhang").unless("Platens/Sides", {"six"});
   of("edge_gap").unless("Platens/Sides", {"two"});
   of("strip_width")
-      .only_if([](const Situation &s) { return s.app == AppKind::brazilian || s.scene.loading.bending(); },
-               "only platen-brazilian and three point bending have strips");
+      .only_if(
+          [](const Situation &s) {
+            return s.app == AppKind::brazilian || s.scene.loading.bending() ||
+                   any_target(s.scene,
+                              [](const Target &target) { return target.kind == TargetKind::splitting; });
+          },
+          "only platen-brazilian and three point bending have strips");
   of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
   for (const char *member : {"thickness", "elements_across", "density"})
     of(member);
@@ -193,7 +207,11 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         of("bonded_rims", "Rims"), of("elements_around"), of("elements_through"), of("friction"),
         in("sleeve_stiffness", "Stiffness"), in("sleeve_seat_depth", "Seat depth"), of("contact_damping"),
         of("mass_damping", "Damping"), of("mass_scaling")})
-    declared.only_if("Loading/Confinement", {"sleeve"});
+    declared.only_if(
+        [](const Scene &s) {
+          return s.loading.sleeved() || any_target(s, [](const Target &target) { return target.sleeve; });
+        },
+        "Loading/Confinement is not sleeve");
   of.rest();
 }
 

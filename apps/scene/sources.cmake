@@ -9,6 +9,7 @@ set(PLATEN_SCENE_SOURCES
   scene/sections.cc
   scene/sections_apps.cc
   scene/sections_bond.cc
+  scene/sections_calibrate.cc
   scene/sections_expect.cc
   scene/sections_loading.cc
   scene/sections_specimen.cc
@@ -20,6 +21,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks.cc
   scene/checks_apps.cc
   scene/checks_bond.cc
+  scene/checks_calibrate.cc
   scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
@@ -30,6 +32,7 @@ set(PLATEN_SCENE_SOURCES
   scene/scene.cc
   scene/scene_bond.cc
   scene/scene_stages.cc
+  scene/scene_targets.cc
   scene/surfaces.cc
   scene/layers.cc
   scene/expect.cc

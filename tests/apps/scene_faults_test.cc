@@ -1,5 +1,6 @@
 // Every file of tests/apps/faulty has one fault and says itself, in lines "# says: ..." (in a file
-// NAME.json.says for JSON), what the message must hold. Adding a bad scene is adding a file.
+// NAME.json.says for JSON), what the message must hold. Adding a bad scene is adding a file; those of
+// platen-calibrate are called calibrate_..., the others are read by platen-compress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +50,9 @@ TEST(SceneFaults, each_bad_scene_is_refused_with_place_key_value_and_what_is_all
   const auto scenes = faulty_scenes();
   EXPECT_GE(scenes.size(), 60u);
   for (const auto &scene : scenes) {
-    const std::string message = message_of(scene.string());
+    const bool calibrates = scene.filename().string().rfind("calibrate_", 0) == 0;
+    const std::string message =
+        message_of(scene.string(), {}, calibrates ? AppKind::calibrate : AppKind::compress);
     const std::vector<std::string> fragments = announced(scene);
     EXPECT_FALSE(fragments.empty()) << scene << " does not say what is wrong with it";
     EXPECT_FALSE(message.empty()) << scene << " was read";

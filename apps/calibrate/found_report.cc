@@ -1,0 +1,198 @@
+#include "apps/calibrate/found_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/io/csv_writer.h"
+
+namespace platen::apps {
+namespace {
+
+std::string row_of(const Goals &goals, std::size_t k, const Judged &judged) {
+  const Goal &goal = goals.all()[k];
+  const double wanted = goal.curve ? 0 : goal.target.value;
+  const std::string goal_text = goal.wanted() ? fmt::format("{:.4g}", wanted / goal.unit) : "-";
+  const Measured &by = judged.verified() ? judged.unseen : judged.training;
+  const double off = goal.wanted() ? goals.miss(k, by) : not_given;
+  const std::string verdict =
+      std::isnan(off) ? "" : fmt::format("{:+.1f} %{}", 100 * off, goals.met(k, by) ? "" : " *");
+  return fmt::format("  {:<30} {:>8} {:>20} {:>20} {:>10}\n", goal.words, goal_text,
+                     text_of(judged.training.numbers[k], goal.unit),
+                     judged.verified() ? text_of(judged.unseen.numbers[k], goal.unit) : "-", verdict);
+}
+
+// A square or oblong table with a name for each row and column.
+std::string matrix_text(const std::vector<std::string> &rows, const std::vector<std::string> &columns,
+                        const Eigen::MatrixXd &numbers) {
+  std::string text = fmt::format("  {:<30}", "");
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    text += fmt::format(" {:>7}", fmt::format("({})", k + 1));
+  text += "\n";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    text += fmt::format("  {:<30}", rows[r]);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      text += fmt::format(" {:>+7.2f}", numbers(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)));
+    text += "\n";
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    text += fmt::format("    ({}) {}\n", k + 1, columns[k]);
+  return text;
+}
+
+std::vector<std::string> words_of(const std::vector<Knob> &knobs) {
+  std::vector<std::string> words;
+  for (const Knob knob : knobs)
+    words.emplace_back(facts_of(knob).words);
+  return words;
+}
+
+std::string listed(const char *what, const std::vector<std::string> &lines) {
+  std::string text;
+  for (const std::string &line : lines)
+    text += fmt::format("{}: {}\n", what, line);
+  return text;
+}
+
+Json json_of(const SeedStatistics &scatter) {
+  return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
+}
+
+Json json_of(const Goals &goals, const Measured &m) {
+  Json all = Json::object();
+  if (m.numbers.empty()) return all;
+  for (std::size_t k = 0; k < goals.all().size(); ++k)
+    all[goals.all()[k].key] = json_of(m.numbers[k]);
+  all["youngs_modulus_platen_pa"] = json_of(m.platen_modulus);
+  all["failed"] = m.failed;
+  return all;
+}
+
+Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
+  const Goal &goal = goals.all()[k];
+  Json one;
+  one["key"] = goal.key;
+  one["kind"] = word_of(target_kinds, goal.target.kind);
+  one["wanted"] = goal.curve ? 0 : goal.target.value;
+  one["weight"] = goal.target.weight;
+  one["tolerance"] = goal.target.tolerance;
+  one["training"] = json_of(judged.training.numbers[k]);
+  one["training_miss"] = goals.miss(k, judged.training);
+  one["met_in_training"] = goals.met(k, judged.training);
+  if (!judged.verified()) return one;
+  one["verification"] = json_of(judged.unseen.numbers[k]);
+  one["verification_miss"] = goals.miss(k, judged.unseen);
+  one["met"] = goals.met(k, judged.unseen);
+  return one;
+}
+
+// A row a knob: {"parameter": "stiffness ratio", COLUMN: number, ...}.
+Json json_of(const std::vector<Knob> &knobs, const std::vector<std::string> &columns,
+             const Eigen::MatrixXd &numbers) {
+  Json rows = Json::array();
+  for (std::size_t r = 0; r < knobs.size(); ++r) {
+    Json row;
+    row["parameter"] = facts_of(knobs[r]).column;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      row[columns[k]] = numbers(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+} // namespace
+
+std::string wishes(const Goals &goals) {
+  std::string text;
+  for (const std::size_t k : goals.wanted()) {
+    const Goal &goal = goals.all()[k];
+    const std::string value =
+        goal.curve ? goal.target.file : fmt::format("{:.5g}", goal.target.value / goal.unit);
+    text +=
+        fmt::format("  wanted: {} {} (tolerance {:.3g} %)\n", goal.words, value, 100 * goal.target.tolerance);
+  }
+  return text;
+}
+
+std::string table_of(const Goals &goals, const Judged &judged) {
+  std::string text = fmt::format("  {:<30} {:>8} {:>20} {:>20} {:>10}\n", "", "wanted", "calibrated on",
+                                 "unseen seeds", "off");
+  for (std::size_t k = 0; k < goals.all().size(); ++k)
+    text += row_of(goals, k, judged);
+  return text;
+}
+
+std::string findings(const Goals &goals, const Scene &scene, const Judged &judged) {
+  const Sensitivities &at = judged.found.sensitivities;
+  const Analysis a = analyse(goals, scene.calibrate.tolerance, at);
+  std::vector<std::string> targets;
+  for (const std::size_t k : at.goals)
+    targets.push_back(goals.all()[k].words);
+  const std::vector<std::string> knobs = words_of(at.knobs);
+  std::string text = fmt::format(
+      "  d ln target / d ln parameter, {}:\n",
+      at.measured ? "by differences and trials" : "that of one concrete, corrected by the trials");
+  text += matrix_text(knobs, targets, a.sensitivities);
+  text += "  correlations of the parameters:\n" + matrix_text(knobs, knobs, a.correlations);
+  text += listed("hardly told apart", a.correlated);
+  text += listed("not determined by the targets", a.undetermined);
+  text += listed("not met together", missed(goals, judged.found));
+  text += listed("at its bound", judged.found.at_bounds);
+  return text;
+}
+
+void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Json &s) {
+  const Sensitivities &at = judged.found.sensitivities;
+  const Analysis a = analyse(goals, scene.calibrate.tolerance, at);
+  for (const KnobFacts &knob : knob_facts())
+    if (knob.knob != Knob::poisson_ratio) s["found"][knob.column] = judged.found.choice[knob.knob];
+  s["training"] = json_of(goals, judged.training);
+  s["verification"] = json_of(goals, judged.unseen);
+  s["targets"] = Json::array();
+  for (const std::size_t k : goals.wanted())
+    s["targets"].push_back(json_of(goals, k, judged));
+  const Json by = s[judged.verified() ? "verification" : "training"]; // a copy: keys of s move
+  const auto mean = [&](const char *key) {
+    return by.contains(key) ? by[key]["mean"].get<double>() : not_given;
+  };
+  s["youngs_modulus_gauge_pa"] = mean("youngs_modulus_gauge_pa");
+  s["youngs_modulus_platen_pa"] = mean("youngs_modulus_platen_pa");
+  s["poisson_ratio"] = mean("poisson_ratio");
+  s["strength_pa"] = mean("compressive_strength_pa");
+  s["tensile_strength_pa"] = mean("tensile_strength_pa");
+  s["triaxial_strength_pa"] = mean("triaxial_strength_pa");
+  s["strength_trials"] = judged.found.trials;
+  std::vector<std::string> columns, knobs;
+  for (const std::size_t k : at.goals)
+    columns.push_back(goals.all()[k].key);
+  for (const Knob knob : at.knobs)
+    knobs.emplace_back(facts_of(knob).column);
+  s["sensitivities_measured"] = at.measured;
+  s["sensitivities"] = json_of(at.knobs, columns, a.sensitivities);
+  s["correlations"] = json_of(at.knobs, knobs, a.correlations);
+  s["correlated"] = a.correlated;
+  s["undetermined"] = a.undetermined;
+  s["missed"] = missed(goals, judged.found);
+  s["at_bounds"] = judged.found.at_bounds;
+}
+
+void write_curves(const Goals &goals, const Judged &judged, const OutputPaths &paths) {
+  int count = 0;
+  for (std::size_t k = 0; k < goals.all().size(); ++k) {
+    const Goal &goal = goals.all()[k];
+    if (!goal.curve) continue;
+    const std::string name = ++count == 1 ? "curve.csv" : fmt::format("curve_{}.csv", count);
+    WholeTable table(paths.folder / name, {goal.curve->of_gauge ? "strain_gauge" : "strain_platen",
+                                           "wanted_pa", "calibrated_pa", "unseen_pa"});
+    const std::vector<double> wanted = goal.curve->sampled();
+    const auto at = [&](const Measured &m, std::size_t point) {
+      return m.curves.empty() || m.curves[k].empty() ? not_given : m.curves[k][point];
+    };
+    for (std::size_t point = 0; point < curve_points; ++point)
+      table.row({goal.curve->last_strain() * static_cast<double>(point + 1) / curve_points, wanted[point],
+                 at(judged.training, point), at(judged.unseen, point)});
+    table.finish();
+  }
+}
+
+} // namespace platen::apps

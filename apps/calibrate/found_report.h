@@ -1,0 +1,29 @@
+// What a search has found, for the screen, for summary.json and as curves.
+#pragma once
+
+#include "apps/calibrate/analysis.h"
+#include "apps/io/output_folder.h"
+#include "apps/io/summary.h"
+
+namespace platen::apps {
+
+// A choice, and what it makes of the packings that it was found on and of others.
+struct Judged {
+  Found found;
+  Measured training, unseen;
+  bool verified() const { return !unseen.numbers.empty(); }
+};
+
+// "wanted: tensile strength, MPa 4.5 (tolerance 2 %)", a line each.
+std::string wishes(const Goals &goals);
+// Wanted, calibrated on, unseen, off; a line a goal.
+std::string table_of(const Goals &goals, const Judged &judged);
+// Sensitivities, correlations, what is not determined, what was missed, which bounds hold.
+std::string findings(const Goals &goals, const Scene &scene, const Judged &judged);
+
+void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Json &summary);
+
+// curve.csv (curve_2.csv ...) of each wanted curve: strain, the user's stress, the found ones'.
+void write_curves(const Goals &goals, const Judged &judged, const OutputPaths &paths);
+
+} // namespace platen::apps

@@ -1,0 +1,79 @@
+// What is wanted of a specimen, the tests that tell it, and how far what was measured lies from it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/calibrate/target_curve.h"
+#include "apps/calibrate/trial.h"
+#include "apps/io/seed_statistics.h"
+
+namespace platen::apps {
+
+struct Goal {
+  Target target;                   // without a value: only watched
+  std::size_t test = 0, other = 0; // places of its tests; the other one's strength divides
+  std::string key, words;          // of summary.json and the screen
+  double unit = 1;                 // that the screen counts in
+  std::optional<TargetCurve> curve;
+
+  bool wanted() const { return given(target.value) || curve; }
+  bool elastic() const {
+    return target.kind == TargetKind::young_modulus || target.kind == TargetKind::poisson_ratio;
+  }
+};
+
+std::string key_of(TargetKind kind); // of summary.json
+std::string words_of(const Target &target);
+double unit_on_screen(TargetKind kind);
+
+// Over the packings, by goal. Of a curve: root mean squares of its misses, and the mean stresses (Pa).
+struct Measured {
+  std::vector<SeedStatistics> numbers;
+  std::vector<std::vector<double>> curves;
+  SeedStatistics platen_modulus; // Pa
+  int failed = 0;                // runs
+};
+
+class Goals {
+public:
+  // Those of the scene, then Young's modulus and Poisson's ratio where they are not among them, to be
+  // watched. Throws InputError for a curve that is none.
+  explicit Goals(const Scene &scene);
+
+  const std::vector<Goal> &all() const { return goals_; }
+  const std::vector<SpecimenTest> &tests() const { return tests_; } // the longest first, elastic last
+  std::size_t elastic_test() const { return tests_.size() - 1; }
+  // The places of those that are wanted; of those that static solves tell.
+  std::vector<std::size_t> wanted() const;
+  std::vector<std::size_t> wanted_elastic() const;
+
+  // `results`: of one packing after the other, all tests of each (or the elastic one alone).
+  Measured measured(const std::vector<TrialResult> &results, bool elastic_alone = false) const;
+
+  // Relative, signed; of a curve the root mean square; NaN where it was not measured.
+  double miss(std::size_t goal, const Measured &measured) const;
+  bool met(std::size_t goal, const Measured &measured) const;
+  // What a search makes small, `rows(goal)` after each other of each goal: logarithms of measured over wanted
+  // numbers (of Poisson's ratio, which may be negative, the relative difference), differences of a curve's
+  // points; in multiples of the goal's tolerance over Calibrate/Tolerance, times the root of its weight. A
+  // specimen that comes to no peak counts as twice too strong where pressure or friction hold it; empty where
+  // another one comes to none.
+  Eigen::VectorXd responses(const std::vector<std::size_t> &goals, const Measured &measured) const;
+  Eigen::Index rows(std::size_t goal) const { return goals_[goal].curve ? curve_points : 1; }
+  double scale(std::size_t goal) const; // of its responses
+
+private:
+  void add(const Target &target);
+  std::size_t place_of(const SpecimenTest &test);
+  static double number(const Goal &goal, const TrialResult &own, const TrialResult &other);
+
+  double tolerance_; // Calibrate/Tolerance
+  std::vector<Goal> goals_;
+  std::vector<SpecimenTest> tests_;
+};
+
+} // namespace platen::apps

@@ -1,0 +1,114 @@
+// Where the slopes of a search begin.
+#include <algorithm>
+#include <cmath>
+
+#include "apps/calibrate/space.h"
+
+namespace platen::apps {
+namespace {
+
+// Changes of the logarithm of a number with each coordinate, as seen of a concrete of parallel bonds
+// (scenes/calibrate_concrete.prm): with the logarithm of shear over tensile strength, the moment contribution
+// and the friction angle (rad). Of a pressure's strength the part grows that is not the pressure's own.
+constexpr double compressive_by_ratio = 0.25, compressive_by_moments = -2.5, compressive_by_friction = 0.1;
+constexpr double confined_by_ratio = 0.5, confined_by_friction = 0.5;
+// Yield, and friction of what has broken, hold what is confined.
+constexpr double confined_by_limits = 0.2, confined_by_contacts = 0.2;
+// Poisson's ratio of beams by the logarithm of their radius (docs/theory.md, the abacus of silica).
+constexpr double poisson_by_radius = -0.2;
+constexpr double modulus_by_radius = 2;
+
+bool is_tension(TargetKind kind) {
+  return kind == TargetKind::tension || kind == TargetKind::splitting;
+}
+bool is_ratio(TargetKind kind) {
+  return kind == TargetKind::gain_by_friction || kind == TargetKind::cube_over_prism;
+}
+
+// Voigt: E ~ (2 + 3 r)/(4 + r), nu = (1 - r)/(4 + r).
+double elastic_slope(const Target &target, Knob knob, const Choice &at) {
+  const bool young = target.kind == TargetKind::young_modulus;
+  const double r = at[Knob::stiffness_ratio];
+  switch (knob) {
+    case Knob::modulus:
+      return young ? 1 : 0;
+    case Knob::stiffness_ratio:
+      return young ? 3 * r / (2 + 3 * r) - r / (4 + r) : -5 * r / ((4 + r) * (4 + r)) / target.value;
+    case Knob::radius_multiplier:
+      return young ? modulus_by_radius : poisson_by_radius / target.value;
+    default:
+      return 0;
+  }
+}
+
+double strength_slope(const Target &target, Knob knob, double share) {
+  const bool confined = target.kind == TargetKind::strength_at_pressure || is_ratio(target.kind);
+  const bool tension = is_tension(target.kind);
+  switch (knob) {
+    case Knob::modulus:
+      return target.kind == TargetKind::strain_at_peak ? -1 : 0;
+    case Knob::tensile_strength:
+      return is_ratio(target.kind) ? 0 : share;
+    case Knob::shear_strength:
+      return tension ? 0 : (confined ? confined_by_ratio : compressive_by_ratio);
+    case Knob::moment_contribution:
+      return tension || is_ratio(target.kind) ? 0 : compressive_by_moments;
+    case Knob::friction_angle:
+      return tension ? 0 : (confined ? confined_by_friction : compressive_by_friction);
+    case Knob::compression_limits:
+      return confined ? confined_by_limits : 0;
+    case Knob::contact_friction:
+      return confined ? confined_by_contacts : 0;
+    default:
+      return 0;
+  }
+}
+
+// s(e) = S F(e G/S): stresses in proportion to the strengths S and strains to S over the modulus G.
+double curve_slope(const TargetCurve &curve, Knob knob, double strain) {
+  const double step = 0.5 * curve.last_strain() / curve_points, from = strain - step,
+               to = std::min(strain + step, curve.last_strain());
+  const double steep = strain * (curve.stress_at(to) - curve.stress_at(from)) / (to - from);
+  if (knob == Knob::modulus) return steep / curve.largest_stress();
+  if (knob == Knob::tensile_strength) return (curve.stress_at(strain) - steep) / curve.largest_stress();
+  return 0;
+}
+
+// Of the strength at a pressure, that without one; 1 where none is wanted.
+double share_of(const Goals &goals, const Target &target) {
+  if (target.kind != TargetKind::strength_at_pressure) return 1;
+  for (const Goal &goal : goals.all())
+    if (goal.target.kind == TargetKind::strength) return std::min(1.0, goal.target.value / target.value);
+  return 1;
+}
+
+} // namespace
+
+Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> &of) const {
+  Eigen::Index rows = 0;
+  for (const std::size_t k : of)
+    rows += goals.rows(k);
+  Eigen::MatrixXd slopes(rows, static_cast<Eigen::Index>(knobs_.size()));
+  for (std::size_t column = 0; column < knobs_.size(); ++column) {
+    const Knob knob = knobs_[column];
+    Eigen::Index row = 0;
+    const auto put = [&](double slope) {
+      slopes(row++, static_cast<Eigen::Index>(column)) = axes_[column].unit * slope;
+    };
+    for (const std::size_t k : of) {
+      const Goal &goal = goals.all()[k];
+      const double scale = goals.scale(k);
+      if (goal.elastic())
+        put(scale * elastic_slope(goal.target, knob, start_));
+      else if (!goal.curve)
+        put(scale * strength_slope(goal.target, knob, share_of(goals, goal.target)));
+      else
+        for (std::size_t point = 1; point <= curve_points; ++point)
+          put(scale * curve_slope(*goal.curve, knob,
+                                  goal.curve->last_strain() * static_cast<double>(point) / curve_points));
+    }
+  }
+  return slopes;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,173 @@
+#include "apps/calibrate/space.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::apps {
+namespace {
+
+// Large changes of coordinates, and how much of one is tried at once.
+constexpr double factor_unit = 2.5, moments_unit = 0.6, friction_unit = 1, one_step = 0.35, long_step = 0.5;
+// Of moduli and strengths: factors to what they begin with that no scene asks for.
+constexpr double any_factor = 1e4, scale_step = 10;
+constexpr double largest_friction = 1.0471975511965976; // rad; of an angle that a search may turn
+constexpr double at_bound = 1e-3;                       // of the room between bounds
+
+struct Wants {
+  bool young = false, poisson = false, compressive = false, tensile = false, pressure = false, any = false;
+  explicit Wants(const Calibrate &c) {
+    for (const Target &t : c.targets) {
+      const TargetKind kind = t.kind;
+      const bool elastic = kind == TargetKind::young_modulus || kind == TargetKind::poisson_ratio;
+      young = young || kind == TargetKind::young_modulus || kind == TargetKind::curve;
+      poisson = poisson || kind == TargetKind::poisson_ratio;
+      compressive = compressive || kind == TargetKind::strength || kind == TargetKind::curve;
+      tensile = tensile || kind == TargetKind::tension || kind == TargetKind::splitting;
+      pressure = pressure || kind == TargetKind::strength_at_pressure;
+      any = any || !elastic;
+    }
+  }
+};
+
+bool bends(const Scene &scene) {
+  const std::optional<dem::BondParameters> bond = scene.bond.parameters();
+  return scene.bond.has("moment_contribution") && scene.model.rotation && dem::bends(dem::bond_law(*bond));
+}
+
+std::vector<Knob> needed_knobs(const Scene &scene) {
+  const Wants wants(scene.calibrate);
+  const bool both = wants.compressive && wants.tensile;
+  std::vector<Knob> knobs;
+  if (wants.young) knobs.push_back(Knob::modulus);
+  if (wants.poisson)
+    knobs.push_back(scene.bond.is<dem::CohesiveBeam>() ? Knob::radius_multiplier : Knob::stiffness_ratio);
+  if (wants.any) knobs.push_back(Knob::tensile_strength);
+  if (both) knobs.push_back(Knob::shear_strength);
+  // Elasto-damage-plastic bonds have neither; without moments there is nothing to count.
+  if (both && bends(scene)) knobs.push_back(Knob::moment_contribution);
+  if (scene.bond.has("friction_angle") && (both || wants.pressure)) knobs.push_back(Knob::friction_angle);
+  return knobs;
+}
+
+} // namespace
+
+std::vector<Knob> knobs_of(const Scene &scene) {
+  const Calibrate &c = scene.calibrate;
+  const std::vector<Knob> all = c.free.empty() ? needed_knobs(scene) : c.free;
+  return Space(scene, choice_of(scene), all).knobs();
+}
+
+Space::Space(const Scene &scene, const Choice &start, const std::vector<Knob> &knobs) : start_(start) {
+  for (const Knob knob : knobs) {
+    const Axis axis = axis_of(scene, knob);
+    if (axis.low >= axis.high) continue;
+    knobs_.push_back(knob), axes_.push_back(axis);
+  }
+}
+
+Space::Axis Space::axis_of(const Scene &scene, Knob knob) const {
+  const Calibrate &c = scene.calibrate;
+  const double own = start_[knob];
+  const auto or_else = [](double bound, double otherwise) { return given(bound) ? bound : otherwise; };
+  switch (knob) {
+    case Knob::stiffness_ratio:
+      return {true, factor_unit, c.ratio_low, c.ratio_high, long_step};
+    case Knob::radius_multiplier:
+      return {true, 1, c.multiplier_low, c.multiplier_high, long_step};
+    case Knob::shear_strength:
+      return {true, factor_unit, c.strengths_low, c.strengths_high, one_step};
+    case Knob::moment_contribution:
+      return {false, moments_unit, c.moments_low, or_else(c.moments_high, own), one_step};
+    case Knob::friction_angle: {
+      const bool turned = Wants(c).pressure || !c.free.empty();
+      return {false, friction_unit, or_else(c.friction_low, turned ? 0 : own),
+              or_else(c.friction_high, turned ? largest_friction : own), one_step};
+    }
+    case Knob::compression_limits:
+      return {true, factor_unit, c.limits_low, c.limits_high, one_step};
+    case Knob::contact_friction:
+      return {false, friction_unit, c.contact_friction_low, c.contact_friction_high, one_step};
+    default:
+      return {true, factor_unit, own / any_factor, own * any_factor, scale_step};
+  }
+}
+
+bool Space::free(Knob knob) const {
+  return std::find(knobs_.begin(), knobs_.end(), knob) != knobs_.end();
+}
+
+std::size_t Space::place(Knob knob) const {
+  return static_cast<std::size_t>(std::find(knobs_.begin(), knobs_.end(), knob) - knobs_.begin());
+}
+
+Eigen::VectorXd Space::scaled(Eigen::VectorXd x, Knob knob, double factor) const {
+  const std::size_t k = place(knob);
+  x[static_cast<Eigen::Index>(k)] += std::log(factor) / axes_[k].unit;
+  return x;
+}
+
+double Space::number(Knob knob, const Choice &of) const {
+  return knob == Knob::shear_strength ? of[knob] / of[Knob::tensile_strength] : of[knob];
+}
+
+Choice Space::choice(const Eigen::VectorXd &x) const {
+  Choice to = start_;
+  double ratio = start_[Knob::shear_strength] / start_[Knob::tensile_strength];
+  for (std::size_t k = 0; k < knobs_.size(); ++k) {
+    const double coordinate = axes_[k].unit * x[static_cast<Eigen::Index>(k)];
+    const double value = axes_[k].logarithm ? std::exp(coordinate) : coordinate;
+    (knobs_[k] == Knob::shear_strength ? ratio : to[knobs_[k]]) = value;
+  }
+  if (free(Knob::tensile_strength) || free(Knob::shear_strength))
+    to[Knob::shear_strength] = ratio * to[Knob::tensile_strength];
+  return to;
+}
+
+double Space::place(const Axis &axis, double value) {
+  return (axis.logarithm ? std::log(value) : value) / axis.unit;
+}
+
+std::vector<SearchParameter> Space::parameters(bool exact) const {
+  std::vector<SearchParameter> all;
+  for (std::size_t k = 0; k < knobs_.size(); ++k) {
+    const Axis &axis = axes_[k];
+    const bool scale = axis.step == scale_step, known = scale && exact;
+    all.push_back({place(axis, number(knobs_[k], start_)), place(axis, axis.low), place(axis, axis.high),
+                   scale && !known ? long_step : axis.step, known});
+  }
+  return all;
+}
+
+Eigen::MatrixXd Space::by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const {
+  Eigen::MatrixXd by = slopes;
+  for (std::size_t k = 0; k < knobs_.size(); ++k) {
+    const double rate = (axes_[k].logarithm ? 1 : number(knobs_[k], at)) / axes_[k].unit;
+    by.col(static_cast<Eigen::Index>(k)) *= rate;
+  }
+  // Both strengths grow along the first; alone it grows against the second.
+  if (free(Knob::tensile_strength) && free(Knob::shear_strength))
+    by.col(static_cast<Eigen::Index>(place(Knob::tensile_strength))) -=
+        by.col(static_cast<Eigen::Index>(place(Knob::shear_strength)));
+  return by;
+}
+
+std::vector<std::string> Space::at_bounds(const Choice &at) const {
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < knobs_.size(); ++k) {
+    const Axis &axis = axes_[k];
+    const double value = number(knobs_[k], at), low = place(axis, axis.low), high = place(axis, axis.high),
+                 here = place(axis, value), room = at_bound * (high - low);
+    if (here > low + room && here < high - room) continue;
+    const KnobFacts &facts = facts_of(knobs_[k]);
+    const bool ratio = knobs_[k] == Knob::shear_strength;
+    const double unit = ratio ? 1 : facts.unit;
+    all.push_back(fmt::format("{} {:.4g}{} (searched from {:.4g} to {:.4g})",
+                              ratio ? "shear over tensile strength" : facts.words, value / unit,
+                              ratio ? "" : facts.unit_word, axis.low / unit, axis.high / unit));
+  }
+  return all;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,53 @@
+// What a search may change, as the coordinates that it moves in: logarithms, but of what may be zero (moment
+// contribution, friction angle, contact friction), which is taken as it is; of the shear strength that over
+// the tensile one, so that strengths grow in proportion along one coordinate.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "apps/calibrate/goals.h"
+#include "apps/calibrate/response_model.h"
+
+namespace platen::apps {
+
+// What Calibrate/Free names, else what the targets need; those whose bounds leave them no room are left out.
+std::vector<Knob> knobs_of(const Scene &scene);
+
+class Space {
+public:
+  // About a choice, which is held where it is not free.
+  Space(const Scene &scene, const Choice &start, const std::vector<Knob> &knobs);
+
+  const std::vector<Knob> &knobs() const { return knobs_; }
+  bool free(Knob knob) const;
+  Choice choice(const Eigen::VectorXd &x) const;
+  // With a free number whose coordinate is its logarithm times a factor.
+  Eigen::VectorXd scaled(Eigen::VectorXd x, Knob knob, double factor) const;
+  // With the start, bounds, steps, and whether strengths grow in proportion to the bonds' whatever the trials
+  // say (`exact`).
+  std::vector<SearchParameter> parameters(bool exact) const;
+  // What slopes begin with, by rows of responses: Voigt's formulas, and what was seen of one concrete.
+  Eigen::MatrixXd guess(const Goals &goals, const std::vector<std::size_t> &of) const;
+  // Slopes by the coordinates as slopes by the logarithms of the knobs themselves at a choice.
+  Eigen::MatrixXd by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const;
+  // "stiffness ratio 0.02 is at its bound"; those of a choice that are.
+  std::vector<std::string> at_bounds(const Choice &at) const;
+
+private:
+  struct Axis {
+    bool logarithm;
+    double unit, low, high, step; // bounds of the number itself, step in units
+  };
+  Axis axis_of(const Scene &scene, Knob knob) const;
+  std::size_t place(Knob knob) const;                  // of one that is free
+  double number(Knob knob, const Choice &of) const;    // that the axis is of
+  static double place(const Axis &axis, double value); // its coordinate
+
+  Choice start_;
+  std::vector<Knob> knobs_;
+  std::vector<Axis> axes_;
+};
+
+} // namespace platen::apps

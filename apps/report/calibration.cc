@@ -1,0 +1,106 @@
+#include "apps/report/calibration.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "apps/report/chart.h"
+#include "apps/report/csv.h"
+#include "apps/report/report.h"
+#include "apps/scene/errors.h"
+
+namespace platen::apps::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json summary_of(const fs::path &folder) {
+  std::ifstream stream(folder / "summary.json");
+  return Json::parse(stream, nullptr, false);
+}
+
+// curve.csv, curve_2.csv, ...
+std::vector<fs::path> curves_of(const fs::path &folder) {
+  std::vector<fs::path> files;
+  for (int k = 1;; ++k) {
+    const fs::path file = folder / (k == 1 ? "curve.csv" : fmt::format("curve_{}.csv", k));
+    if (!fs::exists(file)) return files;
+    files.push_back(file);
+  }
+}
+
+std::string text_of(const Json &target, const char *key) {
+  if (!target.contains(key) || !target.at(key).at("mean").is_number()) return "-";
+  const Json &of = target.at(key);
+  const std::string mean = fmt::format("{:.4g}", of.at("mean").get<double>());
+  return of.at("deviation").is_number() ? fmt::format("{} +- {:.2g}", mean, of.at("deviation").get<double>())
+                                        : mean;
+}
+
+TableOfFigures table_of_targets(const Json &summary) {
+  TableOfFigures table{{"target (SI)", "wanted", "calibrated on", "unseen packings", "within its tolerance"},
+                       {}};
+  for (const Json &target : summary.at("targets"))
+    table.rows.push_back({target.at("key").get<std::string>(),
+                          fmt::format("{:.4g}", target.at("wanted").get<double>()),
+                          text_of(target, "training"), text_of(target, "verification"),
+                          target.value("met", target.value("met_in_training", false)) ? "yes" : "no"});
+  return table;
+}
+
+} // namespace
+
+bool holds_calibration(const fs::path &folder) {
+  const Json summary = summary_of(folder);
+  return summary.is_object() && summary.value("app", "") == "platen-calibrate";
+}
+
+void draw_calibrated_curve(const fs::path &csv, const fs::path &png) {
+  const CsvTable table = read_csv(csv);
+  const bool gauge = table.has("strain_gauge");
+  const std::vector<double> strain = scaled(table.column(gauge ? "strain_gauge" : "strain_platen"), 1e3);
+  const auto curve = [&](const char *label, const char *column, Colour colour, Stroke stroke) {
+    Curve one{label, {0}, {0}, colour, stroke}; // all begin at rest
+    one.x.insert(one.x.end(), strain.begin(), strain.end());
+    const std::vector<double> stress = scaled(table.column(column), 1 / pa_per_mpa);
+    one.y.insert(one.y.end(), stress.begin(), stress.end());
+    return one;
+  };
+  Chart chart;
+  chart.x_title = gauge ? "Axial strain of the gauge (mm/m)" : "Axial strain between platens (mm/m)";
+  chart.y_title = "Axial stress (MPa)";
+  chart.curves = {curve("calibrated on", "calibrated_pa", colours::blue, Stroke::solid),
+                  curve("unseen packings", "unseen_pa", colours::vermilion, Stroke::solid),
+                  curve("wanted", "wanted_pa", colours::black, Stroke::dashed)};
+  save_charts("Wanted and found", "Mean of the packings beside the curve that was wanted", {chart}, {900},
+              png);
+}
+
+void check_calibration(const fs::path &folder) {
+  if (curves_of(folder).empty())
+    throw InputError(folder.string() +
+                     ": is of a calibration without a curve (Kind = curve): nothing to draw; "
+                     "its figures are in summary.json and found.prm");
+}
+
+void write_calibration_report(const fs::path &folder, const fs::path &pictures, std::ostream &out) {
+  const Json summary = summary_of(folder);
+  Album album(pictures);
+  album.begin("Curves");
+  for (const fs::path &csv : curves_of(folder))
+    album.add(
+        csv.stem().string() + ".png",
+        "Dashed: the curve that was wanted. Blue: mean of the packings that were calibrated on; red: of "
+        "packings that were not.",
+        draw_calibrated_curve, csv);
+  std::vector<std::string> remarks;
+  try {
+    for (const Json &line : summary.at("missed"))
+      remarks.push_back("not met together: " + line.get<std::string>());
+    album.finish(summary.value("scene", folder.filename().string()), table_of_targets(summary), remarks, out);
+  } catch (const Json::exception &error) {
+    throw InputError((folder / "summary.json").string() + ": " + error.what());
+  }
+}
+
+} // namespace platen::apps::report

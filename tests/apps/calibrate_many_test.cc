@@ -1,0 +1,240 @@
+// Many targets by many parameters, on responses that are made: powers of the parameters, and a curve.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "apps/calibrate/analysis.h"
+#include "apps/scene/errors.h"
+#include "base/pi.h"
+#include "calibrate_stand_in.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double degree = pi / 180; // rad
+
+Scene yielding_scene() {
+  Scene s;
+  s.bond.law = static_cast<int>(dem::BondLaws::place<dem::YieldingParallelBond>());
+  s.bond.set("compression_limits", std::vector<double>{60e6, 110e6, 160e6});
+  s.bond.set("compression_slopes", std::vector<double>{3, 12, 22});
+  s.model.bond_layout.modulus = 30e9;
+  s.bond.set("stiffness_ratio", 0.5);
+  s.bond.set("tensile_strength", 6e6);
+  s.bond.set("shear_strength", 15e6);
+  s.bond.set("friction_angle", 35 * degree);
+  s.bond.set("moment_contribution", 0.5);
+  s.contact.friction = 0.5;
+  s.calibrate.most_trials = 60;
+  s.calibrate.tolerance = 0.02;
+  return s;
+}
+
+const std::vector<Knob> eight{Knob::modulus,
+                              Knob::stiffness_ratio,
+                              Knob::tensile_strength,
+                              Knob::shear_strength,
+                              Knob::moment_contribution,
+                              Knob::friction_angle,
+                              Knob::compression_limits,
+                              Knob::contact_friction};
+const std::vector<double> truth{48e9, 0.25, 9e6, 36e6, 0.22, 26.565 * degree, 1.2, 0.35};
+// Exponents of each target (row) with these parameters, in the way that a concrete goes.
+constexpr double exponents[8][8] = {{1, 0.2, 0, 0, 0, 0, 0, 0},
+                                    {0, -0.8, 0, 0, 0, 0, 0, 0},
+                                    {0, 0.1, 0.5, 0.4, -0.5, 0.1, 0.1, 0.05},
+                                    {-0.9, 0, 0.4, 0.3, -0.3, 0.1, -0.4, 0.05},
+                                    {0, 0, 1, 0, 0, 0, 0, 0},
+                                    {0, 0.1, 0.3, 0.4, -0.3, 0.5, 0.2, 0.1},
+                                    {0, 0, 0.1, 0.3, -0.1, 0.6, 0.45, 0.3},
+                                    {0, 0, -0.1, 0.3, 0.2, 0.3, -0.1, 0.4}};
+
+std::vector<Target> eight_targets(double tolerance) {
+  return {target_of(TargetKind::young_modulus, 26e9, tolerance),
+          target_of(TargetKind::poisson_ratio, 0.2, tolerance),
+          target_of(TargetKind::strength, 43e6, tolerance),
+          target_of(TargetKind::strain_at_peak, 2.4e-3, tolerance),
+          target_of(TargetKind::tension, 4.5e6, tolerance),
+          at_pressure(3e6, 62e6, tolerance),
+          at_pressure(9e6, 83e6, tolerance),
+          target_of(TargetKind::gain_by_friction, 1.45, tolerance)};
+}
+
+std::size_t place_of(const Goals &goals, const Goal &goal) {
+  return static_cast<std::size_t>(&goal - goals.all().data());
+}
+
+// Each target is what is wanted where the parameters are the true ones.
+double power_law(const Goals &goals, const Goal &goal, const Choice &choice) {
+  double value = goal.target.value;
+  for (std::size_t k = 0; k < eight.size(); ++k)
+    value *= std::pow(choice[eight[k]] / truth[k], exponents[place_of(goals, goal)][k]);
+  return value;
+}
+
+// A start that is off by half and more, nothing known of how strengths go with anything.
+TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
+  Scene scene = yielding_scene();
+  scene.calibrate.targets = eight_targets(0.002);
+  scene.calibrate.free = eight;
+  scene.calibrate.differences = true;
+  const Goals goals(scene);
+  const Found f =
+      search(scene, goals,
+             test_of(goals, [&](const Goal &goal, const Choice &c) { return power_law(goals, goal, c); }));
+  EXPECT_TRUE(missed(goals, f).empty());
+  RecordProperty("trials", std::to_string(f.trials));
+  EXPECT_LE(f.trials, 40);
+  for (std::size_t k = 0; k < eight.size(); ++k)
+    EXPECT_NEAR(f.choice[eight[k]] / truth[k], 1, 0.03) << facts_of(eight[k]).words;
+  const Analysis a = analyse(goals, scene.calibrate.tolerance, f.sensitivities);
+  EXPECT_TRUE(f.sensitivities.measured);
+  // A line through differences that reach to twice the moment contribution is no power law.
+  for (Eigen::Index knob = 0; knob < 8; ++knob)
+    for (Eigen::Index goal = 0; goal < 8; ++goal)
+      EXPECT_NEAR(a.sensitivities(knob, goal), exponents[goal][knob], 0.18)
+          << facts_of(eight[static_cast<std::size_t>(knob)]).words << " "
+          << goals.all()[static_cast<std::size_t>(goal)].words;
+  for (Eigen::Index knob = 0; knob < 8; ++knob)
+    EXPECT_NEAR(a.correlations(knob, knob), 1, 1e-9);
+}
+
+// Strength and tension that both go with the product of limits and contact friction.
+TEST(ManyTargets, parameters_that_act_as_one_are_told) {
+  Scene scene = yielding_scene();
+  scene.calibrate.targets = {target_of(TargetKind::strength, 43e6), at_pressure(3e6, 62e6)};
+  scene.calibrate.free = {Knob::compression_limits, Knob::contact_friction};
+  scene.calibrate.differences = true;
+  const Goals goals(scene);
+  const Found f =
+      search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
+               return goal.target.value *
+                      std::pow(c[Knob::compression_limits] * c[Knob::contact_friction] / 0.6, 0.5);
+             }));
+  EXPECT_NEAR(f.choice[Knob::compression_limits] * f.choice[Knob::contact_friction], 0.6, 0.03);
+  const Analysis a = analyse(goals, scene.calibrate.tolerance, f.sensitivities);
+  EXPECT_LT(a.correlations(0, 1), -0.99);
+  ASSERT_EQ(a.correlated.size(), 1u);
+  EXPECT_NE(a.correlated[0].find("factor of compression limits against contact friction"), std::string::npos);
+  ASSERT_EQ(a.undetermined.size(), 1u);
+  EXPECT_NE(a.undetermined[0].find("contact friction"), std::string::npos);
+}
+
+// One number cannot be two: the nearest lies between, by their weights, and each pulls against the other.
+TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
+  Scene scene = yielding_scene();
+  scene.calibrate.targets = {target_of(TargetKind::strength, 40e6), target_of(TargetKind::strength, 50e6),
+                             target_of(TargetKind::tension, 4.5e6)};
+  scene.calibrate.targets[1].box = true;
+  scene.calibrate.targets[1].weight = 3;
+  scene.calibrate.free = {Knob::tensile_strength, Knob::shear_strength};
+  scene.calibrate.differences = true;
+  const Goals goals(scene);
+  const Found f = search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
+                           const bool tension = goal.target.kind == TargetKind::tension;
+                           return tension ? 0.5 * c[Knob::tensile_strength] : c[Knob::shear_strength];
+                         }));
+  // Least squares of logarithms, weights 1 and 3.
+  EXPECT_NEAR(f.choice[Knob::shear_strength], std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
+  EXPECT_NEAR(f.choice[Knob::tensile_strength], 9e6, 0.02 * 9e6);
+  const std::vector<std::string> lines = missed(goals, f);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("against it pulls compressive strength, MPa, box"), std::string::npos) << lines[0];
+  EXPECT_EQ(goals.all()[1].key, "compressive_strength_pa_2");
+}
+
+class CurveFile : public testing::Test {
+protected:
+  CurveFile() : path(fs::temp_directory_path() / ("platen_curve_" + std::to_string(::getpid()) + ".csv")) {}
+  ~CurveFile() override { fs::remove(path); }
+  TargetCurve read(const std::string &text) const {
+    std::ofstream(path, std::ios::binary) << text;
+    return read_target_curve(path);
+  }
+  std::string fault(const std::string &text) const {
+    try {
+      read(text);
+    } catch (const InputError &error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path path;
+};
+
+TEST_F(CurveFile, a_known_curve_has_the_miss_that_it_was_given) {
+  const TargetCurve curve = read(
+      "\xef\xbb\xbf# of our own press\r\nstrain_gauge, stress_mpa\r\n 0.001 , 20\r\n\r\n"
+      "0.002,30\n0.004,10\n");
+  EXPECT_TRUE(curve.of_gauge);
+  EXPECT_DOUBLE_EQ(curve.stress_at(0.0005), 10e6); // from the origin
+  EXPECT_DOUBLE_EQ(curve.stress_at(0.0015), 25e6);
+  EXPECT_DOUBLE_EQ(curve.stress_at(0.003), 20e6);
+  std::vector<double> stress = curve.sampled();
+  EXPECT_EQ(root_mean_square(misses_of_curve(curve, stress)), 0);
+  for (double &value : stress)
+    value += 3e6;
+  EXPECT_NEAR(root_mean_square(misses_of_curve(curve, stress)), 0.1, 1e-12); // of 30 MPa
+}
+
+TEST_F(CurveFile, faults_are_refused_with_their_line) {
+  const std::string head = "strain_platen,stress_pa\n";
+  const auto says = [&](const std::string &text, const std::string &what) {
+    EXPECT_NE(fault(text).find(what), std::string::npos) << fault(text);
+  };
+  says("", "has no header");
+  says("strain,stress\n1,2\n", ":1: error: the header \"strain,stress\" is not that of a curve");
+  says(head, "has no row");
+  says(head + "0,0\n", "has no row with a strain above 0");
+  says(head + "0.001,1\n0.001,2\n", ":3: error: the strain 0.001 is not above the one before it");
+  says(head + "-0.001,1\n", ":2: error: the strain -0.001");
+  says(head + "0.001;1\n", ":2: error: \"0.001;1\" has not two numbers");
+  says(head + "0.001,x\n", "\"x\" is not a finite number");
+  says(head + "0.001,-1\n", "has no stress above 0");
+  fs::remove(path);
+  EXPECT_THROW(read_target_curve(path), InputError);
+}
+
+// s(e) = S F(e G/S) with the parabola F(x) = x - x^2/4: modulus and strength are what the curve was made of.
+TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
+  const auto stress = [](double modulus, double strength, double strain) {
+    const double x = strain * modulus / strength;
+    return strength * (x - 0.25 * x * x);
+  };
+  std::ofstream file(path);
+  file << "strain_platen,stress_pa\n";
+  for (int k = 1; k <= 60; ++k)
+    file << 5e-5 * k << "," << stress(30e9, 40e6, 5e-5 * k) << "\n";
+  file.close();
+  Scene scene = yielding_scene();
+  scene.calibrate.targets = {target_of(TargetKind::curve, not_given, 0.01)};
+  scene.calibrate.targets[0].file = path.string();
+  scene.calibrate.free = {Knob::modulus, Knob::tensile_strength};
+  scene.calibrate.differences = true;
+  scene.model.bond_layout.modulus = 20e9;
+  const Goals goals(scene);
+  const Measurement test = [&](const std::vector<Choice> &choices, bool) {
+    std::vector<Measured> all;
+    for (const Choice &c : choices) {
+      std::vector<TrialResult> results(goals.tests().size());
+      for (std::size_t point = 1; point <= curve_points; ++point)
+        results[goals.all()[0].test].curve.push_back(
+            stress(c[Knob::modulus], 10 * c[Knob::tensile_strength], 3e-3 * double(point) / curve_points));
+      all.push_back(goals.measured(results));
+    }
+    return all;
+  };
+  const Found f = search(scene, goals, test);
+  EXPECT_TRUE(missed(goals, f).empty());
+  EXPECT_LE(f.trials, 12);
+  EXPECT_NEAR(f.choice[Knob::modulus], 30e9, 0.03 * 30e9);
+  EXPECT_NEAR(f.choice[Knob::tensile_strength], 4e6, 0.03 * 4e6);
+}
+
+} // namespace
+} // namespace platen::apps
