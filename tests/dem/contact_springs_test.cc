@@ -158,6 +158,60 @@ TEST(contact_springs, a_broken_bond_hands_over_no_more_than_friction_holds) {
   EXPECT_LT(c.friction_work, 1e-9 * pair.model.works.fracture);
 }
 
+// A contact much stiffer than the bond would hold more energy at the overlap that there is: it begins from
+// the overlap at which it holds what the bond did, and nothing is released.
+TEST(contact_springs, a_stiff_contact_holds_what_the_bond_held) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
+    ModelSettings settings = breakable();
+    settings.contact->normal = normal;
+    settings.contact->stiffness.value = 1000;
+    settings.contact->young_modulus = 1000 * modulus, settings.contact->poisson_ratio = .2;
+    Bonded pair(settings);
+    const double pressed = 4e-3 * radius,
+                 slip = 1.1 * Bonded::length * shear_strength / (stiffness_ratio * modulus);
+    // The law is elastic: what it stores beyond its strength is told by an unbreakable pair at the same
+    // place.
+    ModelSettings unbreakable = settings;
+    parallel_bond(unbreakable).tensile_strength = parallel_bond(unbreakable).shear_strength = 0;
+    Bonded whole(unbreakable);
+    whole.place(-pressed, 3 * slip);
+    pair.place(-pressed, 3 * slip);
+    ASSERT_EQ(pair.model.broken_shear, 1);
+    const double held = bond_energy(whole.model.particles, *whole.model.bonds);
+    EXPECT_NEAR(pair.model.contacts->energy(), held, 1e-6 * held);
+    EXPECT_LT(pair.model.works.fracture, 1e-6 * held);
+  }
+}
+
+// Two grains that hold by friction do not notice that a third has come near.
+TEST(contact_springs, a_new_pair_leaves_those_that_are_there_alone) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
+    ModelSettings settings = Grains::hertz();
+    settings.contact->normal = normal;
+    settings.contact->stiffness = {Stiffness::Kind::absolute, 1e7};
+    settings.contact->damping = 0;
+    Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}, {0, 9 * radius, 0}}), settings);
+    Particles &p = model.particles;
+    const auto move = [&](std::size_t i, const Vector3 &by) {
+      for (std::size_t k = 0; k < p.size(); ++k)
+        p.velocity[k] = p.force[k] = (*p.torque)[k] = (*p.angular_velocity)[k] = {};
+      p.velocity[i] = by;
+      model.begin_step(1);
+      model.compute_forces(1);
+    };
+    move(1, {-1e-3 * radius, 0, 0});
+    move(1, {0, 1e-6 * radius, 0});
+    ASSERT_EQ(model.contacts->table.size(), 1u);
+    const Vector3 held = (*model.contacts->spring)[0];
+    ASSERT_GT(norm(held), 0);
+    for (int k = 0; k < 20; ++k)
+      move(2, {0, -.35 * radius, 0});
+    ASSERT_GT(model.contacts->table.size(), 1u);
+    EXPECT_LT(norm((*model.contacts->spring)[0] - held), 1e-9 * norm(held));
+    EXPECT_LT(std::abs(model.contacts->friction_work), 1e-6 * model.contacts->energy());
+  }
+}
+
 // Both strengths are passed in one step: the crack is of the kind that is passed by more.
 TEST(contact_springs, the_strength_that_is_passed_by_more_says_how_a_bond_broke) {
   for (const auto &[tension, shear] : {std::pair{1.1, 1.4}, std::pair{1.4, 1.1}, std::pair{1.1, .9}}) {
