@@ -89,6 +89,8 @@ TEST(disc_measures, a_deflection_looks_at_its_supports_and_between_them) {
   for (double x = -40; x <= 40; x += 2)
     for (const double z : {2., 10., 18.})
       s.centre.push_back({x * radius, 0, z * radius});
+  for (const double x : {-36.8, 36.8}) // within a window, but not within what is left of the bar beyond
+    s.centre.push_back({x * radius, 5 * radius, 10 * radius});
   s.radius.assign(s.centre.size(), radius);
   s.shape = box(82 * radius, 2 * radius, 20 * radius);
   Model model(s, bonded());
