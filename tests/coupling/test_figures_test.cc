@@ -19,5 +19,37 @@ TEST(test_figures, a_bar_on_supports_has_the_first_period_of_a_beam) {
   EXPECT_NEAR(problem.bending_period() * omega / (2 * pi), 1, 1e-12);
 }
 
+// What a scene says of its mass the sleeve has; only 0 leaves it to the program.
+TEST(test_figures, a_sleeve_is_as_heavy_as_it_was_asked_to_be) {
+  PlatenTestSettings settings = hydrostatic(true);
+  for (const double scaling : {1.0, 7.0}) {
+    settings.loading.cell->sleeve->mass_scaling = scaling;
+    const PlatenTest problem(cylinder(), settings);
+    EXPECT_EQ(problem.sleeve()->mass_scaling(), scaling);
+    EXPECT_NEAR(problem.sleeve()->solid().material().density,
+                scaling * settings.loading.cell->sleeve->density, 1e-9);
+  }
+  settings.loading.cell->sleeve->mass_scaling = 0;
+  EXPECT_GT(PlatenTest(cylinder(), settings).sleeve()->mass_scaling(), 7);
+}
+
+// As many elements around as faces of five mean radii have room, and eight at least.
+TEST(test_figures, a_sleeve_has_faces_of_some_spheres) {
+  PlatenTestSettings settings = hydrostatic(true);
+  for (const double larger : {1.0, 5.0}) {
+    dem::Specimen specimen =
+        dem::advancing_front(dem::cylinder(6e-3, 14e-3), dem::equal_radii(0.25e-3 * larger), 5);
+    const PlatenTest problem(specimen, settings);
+    std::size_t outer = 0; // faces around, of the outer rim
+    const auto &points = problem.sleeve()->solid().mesh().nodes;
+    double lowest = 1;
+    for (const Vector3 &x : points)
+      lowest = std::min(lowest, x.z);
+    for (const Vector3 &x : points)
+      outer += x.z < lowest + 1e-9 && std::hypot(x.x, x.y) > 6e-3 + 1e-3;
+    EXPECT_EQ(outer, larger == 1 ? 30u : 8u);
+  }
+}
+
 } // namespace
 } // namespace platen::coupling
