@@ -147,8 +147,10 @@ TEST(experiment, boundaries_that_push_one_particle_take_turns) {
   std::array<std::atomic<int>, 2> at{};
   std::atomic<int> met{0};
   Experiment experiment(small_cylinder(), ThreeAround::settings(), TimeStepSettings{});
+  int count = 0;
   for (const int particle : {0, 0, 1, 1, 0})
-    experiment.add(std::make_unique<Lingering>("of " + std::to_string(particle), log, particle, at, met));
+    experiment.add(std::make_unique<Lingering>(std::string(1, static_cast<char>('a' + count++)), log,
+                                               particle, at, met));
   std::vector<std::unique_ptr<Stage>> stages;
   stages.push_back(std::make_unique<Counting>(1000));
   experiment.begin(std::make_unique<Program>(seen, std::move(stages)));

