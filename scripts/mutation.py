@@ -469,8 +469,13 @@ def written(result, before):
     head = ["", "where", "fault", "text", "becomes"] + (["before"] if before is not None else []) + ["killed by"]
     survivors = sum(not f["killed"] for f in result["faults"])
     ways = {way: sum(f["killed"] == way for f in result["faults"]) for way in ("expectation", "crash", "time")}
-    lines = [f"{len(result['faults'])} faults, seed {result['seed']}: {survivors} survive, {ways['expectation']} are "
+    lines = ["# Single faults, and the tests that notice them", "",
+             f"{len(result['faults'])} faults, seed {result['seed']}: {survivors} survive, {ways['expectation']} are "
              f"killed by an expectation, {ways['crash']} by a crash, {ways['time']} by time.", ""]
+    if before is not None:
+        lived = sum(not (was.get((f["file"], f["before"], f["after"])) or {"killed": 1})["killed"]
+                    for f in result["faults"])
+        lines += [f"Before, {lived} of them survived.", ""]
     lines += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + rows
     return "\n".join(lines) + "\n"
 

@@ -32,6 +32,24 @@ TEST(test_figures, a_sleeve_is_as_heavy_as_it_was_asked_to_be) {
   }
 }
 
+// All sides alike, whether a cell or platens press them: strains count from its end. One side alone is no
+// consolidation.
+TEST(test_figures, pressing_all_sides_alike_consolidates) {
+  PlatenTestSettings settings = hydrostatic(false);
+  EXPECT_TRUE(PlatenTest(cylinder(), settings).program().stage(0).is_consolidation());
+  for (const double axial : {5e6, 6e6}) {
+    settings.loading.stages.clear();
+    StageSettings &stage = settings.loading.stages.emplace_back();
+    SideAsk ask;
+    ask.side = SideGroup::lateral, ask.ask = SideAsk::Ask::pressure, ask.value = 5e6;
+    stage.asks = {ask};
+    ask.side = SideGroup::axial, ask.ask = SideAsk::Ask::stress, ask.value = axial;
+    stage.asks.push_back(ask);
+    stage.until = {{Until::Reached::settled}};
+    EXPECT_EQ(PlatenTest(cylinder(), settings).program().stage(0).is_consolidation(), axial == 5e6);
+  }
+}
+
 // As many elements around as faces of five mean radii have room, and eight at least.
 TEST(test_figures, a_sleeve_has_faces_of_some_spheres) {
   PlatenTestSettings settings = hydrostatic(true);
