@@ -309,7 +309,6 @@ TEST(axial_rate, of_nothing_is_refused) {
   Seen seen;
   Drive drive(Drive::Parameters{axial, std::nullopt});
   EXPECT_THROW(drive.ask(0, 1e-3, seen, 0), std::invalid_argument);
-  EXPECT_THROW(drive.ask(std::nan(""), 1e-3, seen, 0), std::invalid_argument);
   EXPECT_NO_THROW(drive.ask(-0.1, 1e-3, seen, 0));
 }
 

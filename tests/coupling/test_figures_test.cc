@@ -50,6 +50,19 @@ TEST(test_figures, pressing_all_sides_alike_consolidates) {
   }
 }
 
+// Between platens that are far stiffer than bonds the spheres at the ends decide the step. Where platens
+// yield, the sphere's share alone is left of two equal springs in series, twice as stiff; a quarter on top
+// lets body and spheres be taken by themselves.
+TEST(test_figures, platens_that_yield_leave_the_step_that_their_springs_allow) {
+  PlatenTestSettings settings = smooth();
+  settings.platens.stiffness.value = 300;
+  const double rigid = PlatenTest(cylinder(), settings).time_step(),
+               yields =
+                   PlatenTest(cylinder(), elastic(settings, ElasticMotion::quasi_static, steel)).time_step();
+  EXPECT_GT(yields / rigid, 1 / std::sqrt(2 * 1.25)); // bonds count on both sides
+  EXPECT_LT(yields / rigid, 1 / std::sqrt(2.));
+}
+
 // As many elements around as faces of five mean radii have room, and eight at least.
 TEST(test_figures, a_sleeve_has_faces_of_some_spheres) {
   PlatenTestSettings settings = hydrostatic(true);
