@@ -1,5 +1,5 @@
-// Included ahead of every file of a mutated copy of the sources (scripts/mutation.py): one build holds all faults, the
-// environment says which of them acts.
+// Included ahead of every file of a mutated copy of the sources (scripts/mutation.py): one build holds all
+// faults, the environment says which of them acts.
 #pragma once
 
 #include <cstdio>
