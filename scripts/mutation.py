@@ -6,7 +6,8 @@
     scripts/mutation.py WORK --build              ... only draws and builds
     scripts/mutation.py WORK --survivors          ... runs no fault but those that survived the last time
     scripts/mutation.py WORK --only 17 23         ... none but these
-    scripts/mutation.py WORK --write FILE.md      ... and writes the list; with --before OLD.json its results beside
+    scripts/mutation.py WORK --write FILE.md      ... and writes the list (what is said above it stays)
+    scripts/mutation.py WORK --before OLD.json    ... with the results of another time beside
     scripts/mutation.py --check                   runs none: named faults and argued equivalents against the sources
 
 WORK is a scratch folder; what is in it is kept for the next time. Faults are signs, factors, powers, indices, bounds,
@@ -37,7 +38,7 @@ import time
 import mutation_draw
 from mutation_copy import DATA, SOURCE, Copy
 from mutation_draw import Fault
-from mutation_page import written
+from mutation_page import renewed, written
 
 ALLOWED = 0.05  # share that may survive, each argued
 FIRST, SECOND = 4.0, 25.0  # s, of tests in the first two goes at a fault
@@ -376,7 +377,8 @@ def main():
     status = mutation.run()
     if args.write and not args.build:
         before = json.loads(args.before.read_text()) if args.before else None
-        args.write.write_text(written(mutation.result, before))
+        said = args.write.read_text() if args.write.is_file() else ""
+        args.write.write_text(renewed(said, written(mutation.result, before)))
     return status
 
 

@@ -1,5 +1,7 @@
 """The page of single faults (mutation.py): what each was, and what has killed it."""
 
+import re
+
 
 def written(result, before):
     """The list as a page of Markdown."""
@@ -38,3 +40,9 @@ def written(result, before):
         lines += [f"Before, {lived} of them survived.", ""]
     lines += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + rows
     return "\n".join(lines) + "\n"
+
+
+def renewed(said, page):
+    """The page, with what an older one says above its list."""
+    begin = [re.search(r"^\d+ faults, seed", text, re.MULTILINE) for text in (said, page)]
+    return said[: begin[0].start()] + page[begin[1].start() :] if all(begin) else page
