@@ -65,6 +65,7 @@ TEST_F(BarApp, the_size_of_the_load_falls_out) {
   EXPECT_NEAR(a["force_n"].get<double>(), 10 * b["force_n"].get<double>(), 1e-9 * a["force_n"].get<double>());
   EXPECT_NEAR(a["static_error"].get<double>(), b["static_error"].get<double>(), 1e-6);
   EXPECT_NEAR(a["frequency_hz"].get<double>() / b["frequency_hz"].get<double>(), 1, 1e-3);
+  EXPECT_NEAR(a["period_s"].get<double>() * a["frequency_hz"].get<double>(), 1, 1e-12);
   EXPECT_FALSE(summary("a").contains("bending"));
   EXPECT_FALSE(summary("a").contains("impact"));
 }

@@ -35,6 +35,13 @@ double bounce_error(const Vector3 &velocity, const Vector3 &spin, const SurfaceC
          before;
 }
 
+TEST(contact_energy, a_surface_that_nothing_has_touched_holds_no_energy) {
+  const SphereScene scene(plate(0.01, 3), {{0, 0, 2 * sphere_radius}}, frictional(0.3, 0.3));
+  EXPECT_EQ(scene.layer.elastic_energy(), 0);
+  EXPECT_EQ(scene.layer.friction_work, 0);
+  EXPECT_EQ(scene.layer.damping_work, 0);
+}
+
 TEST(contact_energy, a_sphere_bounces_back_with_its_energy) {
   const double coarse = bounce_error({0, 0, -1}, {}, frictional(0.3, 0.3), 0.02);
   const double fine = bounce_error({0, 0, -1}, {}, frictional(0.3, 0.3), 0.002);

@@ -165,6 +165,21 @@ TEST(contact_plate, seats_are_those_within_the_end_layer) {
   EXPECT_EQ(scene.layer.seat_within(scene.particles, scene.body, 0.35 * sphere_radius), 5); // up to 1.3 R
 }
 
+// A strip grinds what is under its face, round-off of the face included; a face that leans grinds nothing.
+TEST(contact_plate, seats_under_a_face_allow_for_its_round_off) {
+  for (const auto &[slope, seats] : {std::pair{0.0, 1}, std::pair{1e-6, 1}, std::pair{1e-3, 0}}) {
+    const fem::Grid face =
+        fem::moved_grid(fem::make_grid(fem::BoxPlate{{-0.01, -0.01, -0.01}, {0.01, 0.01, 0}, {4, 4, 1}}),
+                        [slope = slope](const Vector3 &p) {
+                          return Vector3{p.x, p.y, p.z + slope * p.x};
+                        });
+    SphereScene scene(fem::RigidBody(face, steel), {{0.0012, 0, sphere_radius}}, frictional(0, 0));
+    EXPECT_EQ(scene.layer.seat_within(scene.particles, scene.body, 0.1 * sphere_radius, true), seats)
+        << slope;
+    EXPECT_EQ(scene.layer.seat_within(scene.particles, scene.body, 0.1 * sphere_radius, false), 1) << slope;
+  }
+}
+
 // Glue: pull and push alike, and no limit along the plate.
 TEST(contact_plate, glue_holds_in_tension_and_shear) {
   SurfaceContact contact = frictional(0.1, 0.1);

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "base/parallel.h"
 #include "coupling/program/program.h"
 #include "tests/coupling/small_cylinder.h"
 
@@ -113,6 +118,44 @@ TEST(experiment, a_step_has_one_order_and_followers_drift_last) {
                         "b apply", "c apply", "a finish", "b finish", "c finish"}));
   for (const Noted *boundary : {&s.a, &s.b, &s.c})
     EXPECT_EQ(boundary->done, std::vector<int>(3, 1)) << boundary->name(); // each part once
+}
+
+// Stays for a while with the particle that it pushes, and sees whether another one is there.
+class Lingering : public Noted {
+public:
+  Lingering(std::string name, Log &log, int particle, std::array<std::atomic<int>, 2> &at,
+            std::atomic<int> &met)
+      : Noted(std::move(name), log), particle_(particle), at_(at), met_(met) {
+    listed = {particle};
+  }
+  void apply_forces(dem::Particles &, const Step &) override {
+    if (++at_[static_cast<std::size_t>(particle_)] > 1) ++met_;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    --at_[static_cast<std::size_t>(particle_)];
+  }
+
+private:
+  int particle_;
+  std::array<std::atomic<int>, 2> &at_;
+  std::atomic<int> &met_;
+};
+
+TEST(experiment, boundaries_that_push_one_particle_take_turns) {
+  const ThreadLimit limit(2);
+  Log log;
+  Nothing seen;
+  std::array<std::atomic<int>, 2> at{};
+  std::atomic<int> met{0};
+  Experiment experiment(small_cylinder(), ThreeAround::settings(), TimeStepSettings{});
+  int count = 0;
+  for (const int particle : {0, 0, 1, 1, 0})
+    experiment.add(std::make_unique<Lingering>(std::string(1, static_cast<char>('a' + count++)), log,
+                                               particle, at, met));
+  std::vector<std::unique_ptr<Stage>> stages;
+  stages.push_back(std::make_unique<Counting>(1000));
+  experiment.begin(std::make_unique<Program>(seen, std::move(stages)));
+  experiment.advance(10);
+  EXPECT_EQ(met, 0);
 }
 
 TEST(experiment, parts_of_boundaries_without_any_do_not_shift_those_of_others) {

@@ -253,6 +253,65 @@ TEST(stress, goes_from_what_it_finds_smoothly) {
   }
 }
 
+// What is missing over time is asked again: a servo that is held off by a tenth asks for twice as much after
+// its integral time, three times after two.
+TEST(stress, what_stays_missing_is_asked_again) {
+  const double time = 1e-3;
+  Seen seen;
+  StressTask::Parameters p;
+  p.platens = top;
+  p.side = "top";
+  p.value = 5e6;
+  p.servo = {10, 100}; // no limit that it reaches
+  p.integral_time = time;
+  StressTask task(p);
+  seen.stress = 0.9 * p.value;
+  task.begin(seen, 0, {});
+  const auto speed = [&] {
+    Commands all(3);
+    for (int n = 0; n < 60; ++n)
+      task.command(seen, all);
+    return all[1].velocity[2];
+  };
+  seen.now = dt;
+  const double first = speed();
+  EXPECT_LT(first, 0);
+  for (int n = 1; n <= 2000; ++n) {
+    seen.now = n * dt;
+    task.update(seen);
+    if (n % 1000 == 0) {
+      EXPECT_NEAR(speed() / first, 1 + n * dt / time, 1e-6) << n;
+    }
+  }
+}
+
+// A platen that is pulled settles within the same hundredth.
+TEST(stress, of_either_sign_settles_within_a_hundredth) {
+  for (const double value : {5e6, -5e6}) {
+    Seen seen;
+    StressTask::Parameters p;
+    p.platens = top;
+    p.side = "top";
+    p.value = value;
+    p.servo = {10, 0.1};
+    StressTask task(p);
+    task.begin(seen, 0, {});
+    seen.now = dt;
+    for (const auto &[share, settled] : {std::pair{1.0, true}, std::pair{1.009, true}, std::pair{0.991, true},
+                                         std::pair{1.011, false}, std::pair{0.989, false}}) {
+      seen.stress = share * value;
+      EXPECT_EQ(task.has_settled(seen), settled) << share << " of " << value;
+    }
+  }
+}
+
+TEST(axial_rate, of_nothing_is_refused) {
+  Seen seen;
+  Drive drive(Drive::Parameters{axial, std::nullopt});
+  EXPECT_THROW(drive.ask(0, 1e-3, seen, 0), std::invalid_argument);
+  EXPECT_NO_THROW(drive.ask(-0.1, 1e-3, seen, 0));
+}
+
 // Platens that were moving come to rest within the ramp to rest.
 TEST(stress, what_moves_is_brought_to_rest) {
   for (const bool hold : {false, true}) {

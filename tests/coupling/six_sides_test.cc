@@ -72,6 +72,23 @@ PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, a
   return s;
 }
 
+// Strains count from the end of a stage that presses all three axes alike, of no other.
+TEST(six_sides, all_three_axes_alike_consolidate) {
+  const auto consolidates = [](const PlatenTestSettings &settings) {
+    return PlatenTest(cube(), settings).program().stage(0).is_consolidation();
+  };
+  EXPECT_TRUE(consolidates(six_platens()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<double, 3> stresses{asked, asked, asked};
+    stresses[axis] = 2 * asked;
+    EXPECT_FALSE(consolidates(six_platens(stresses))) << axis;
+    PlatenTestSettings two = six_platens();
+    std::vector<SideAsk> &asks = two.loading.stages[0].asks;
+    asks.erase(asks.begin() + static_cast<std::ptrdiff_t>(axis));
+    EXPECT_FALSE(consolidates(two)) << axis;
+  }
+}
+
 TEST(six_sides, axes_turn_into_one_another) {
   for (const Side side : all_sides) {
     const Vector3 up = from_upright(side, {0, 0, 1});

@@ -162,6 +162,22 @@ TEST(elastic_solid, the_stable_step_is_the_limit) {
   }
 }
 
+// One vertex on a spring much stiffer than the body: an oscillator of its mass with the spring, which a
+// dashpot of xi of critical lets step by sqrt(1 + xi^2) - xi of what it could without.
+TEST(elastic_solid, a_dashpot_at_one_vertex_shortens_the_step) {
+  const ElasticSolid solid(plate(), {steel}, Clamp{}, {1});
+  const std::size_t n = solid.surface().vertices.size();
+  VertexSprings springs{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  const double stiffness = springs.stiffness[n / 2] = 1e18;
+  const double without = solid.stable_step(springs),
+               omega = 2 / without; // own motion counts by 1e-4 beside it
+  EXPECT_LT(without, 1e-2 * solid.stable_step());
+  for (const double xi : {0.1, 0.5, 2.0}) {
+    springs.dashpot[n / 2] = 2 * xi * stiffness / omega;
+    EXPECT_NEAR(solid.stable_step(springs) / without, std::sqrt(1 + xi * xi) - xi, 1e-3) << xi;
+  }
+}
+
 TEST(elastic_solid, a_free_body_keeps_its_momentum) {
   Clamp none;
   none.tag = no_clamp;
