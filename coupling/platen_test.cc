@@ -102,6 +102,13 @@ void PlatenTest::require_in_range() const {
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
   require_machine(settings_);
+  if (!presses_by_hertz(settings_)) return;
+  if (settings_.platens.glued)
+    throw BadSetup("platens.contact", "presses alone, and ends are glued. Allowed: as grains, linear.");
+  if (loading.start_strain > 0)
+    throw BadSetup("loading.start_strain",
+                   "is solved for with linear springs on the platens. Allowed: 0, or "
+                   "`platens.contact` linear.");
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {

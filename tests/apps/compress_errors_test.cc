@@ -171,6 +171,13 @@ TEST_F(Errors, platens_that_cannot_be_meshed_are_refused_by_key_or_file) {
           {"--set 2: error: Platens/Top/Mesh file = slant.msh has no face", "nothing to hold"}});
 }
 
+TEST_F(Errors, hertz_on_platens_says_what_it_cannot_be) {
+  refuse({with({"Platens/Contact = hertz", "Platens/Attachment = glued"}),
+          {"--set 1: error: Platens/Contact = hertz", "Allowed: as grains, linear"}});
+  refuse({with({"Platens/Contact = hertz", "Loading/Start strain = 1e-4"}),
+          {"--set 2: error: Loading/Start strain = 1e-4", "linear springs"}});
+}
+
 TEST_F(Errors, output_folders_are_guarded) {
   put(folder_ / "file", "mine");
   refuse({{scene_}, {"is not a folder"}}, "file");
