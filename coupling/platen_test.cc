@@ -93,6 +93,13 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   begin(make_program(*this));
 }
 
+double PlatenTest::seconds_behind() const {
+  double latest = 0;
+  for (const Platen *platen : platens_)
+    if (platen != nullptr) latest = std::max(latest, platen->seconds_behind());
+  return latest;
+}
+
 void PlatenTest::require_in_range() const {
   const LoadingSettings &loading = settings_.loading;
   platen::require_in_range(settings_.platens);
