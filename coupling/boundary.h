@@ -101,6 +101,8 @@ public:
   virtual double dashpots() const { return 0; }
   virtual StepLimit limit(const dem::Particles &) const { return {}; }
   virtual double known_limit() const { return std::numeric_limits<double>::infinity(); } // s
+  // Whether a spring has grown stiffer than add_springs counted it.
+  virtual bool stiffened() const { return false; }
   // Contacts listed, and closed, whose growth is a reason to choose the step anew.
   virtual std::size_t near() const { return 0; }
   virtual std::size_t closed() const { return 0; }
@@ -146,6 +148,7 @@ public:
   long lists_made() const override { return layer().search().lists_made(); }
   void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override {
     layer().make_list(particles, surface());
+    layer().allow_for_depth();
     const std::vector<dem::GroundSpring> own = layer().ground_springs(particles, surface());
     springs.insert(springs.end(), own.begin(), own.end());
   }
@@ -154,6 +157,7 @@ public:
     energy.friction += layer().friction_work;
     energy.damping += layer().damping_work;
   }
+  bool stiffened() const override { return layer().stiffened(); }
   std::size_t bytes() const override { return layer().bytes(); }
   void write_vtu(std::ostream &stream) const override = 0;
   std::vector<ActiveContact> contacts() const override { return layer().contacts(); }

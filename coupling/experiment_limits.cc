@@ -140,7 +140,7 @@ void Experiment::choose_step(bool first) {
 void Experiment::check_step() {
   if (steps_ == 0) return;
   const bool stiffer = std::any_of(boundaries_.begin(), boundaries_.end(), [&](const auto &boundary) {
-    return time_step_ > boundary->known_limit();
+    return time_step_ > boundary->known_limit() || boundary->stiffened();
   });
   if (!stiffer && steps_ % steps_between_choices != 0) return;
   const double grown = static_cast<double>(contacts_closed()) - static_cast<double>(near_at_choice_);

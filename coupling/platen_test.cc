@@ -93,6 +93,13 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   begin(make_program(*this));
 }
 
+double PlatenTest::seconds_behind() const {
+  double latest = 0;
+  for (const Platen *platen : platens_)
+    if (platen != nullptr) latest = std::max(latest, platen->seconds_behind());
+  return latest;
+}
+
 void PlatenTest::require_in_range() const {
   const LoadingSettings &loading = settings_.loading;
   platen::require_in_range(settings_.platens);
@@ -102,6 +109,13 @@ void PlatenTest::require_in_range() const {
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
   require_machine(settings_);
+  if (!presses_by_hertz(settings_)) return;
+  if (settings_.platens.glued)
+    throw BadSetup("platens.contact", "presses alone, and ends are glued. Allowed: as grains, linear.");
+  if (loading.start_strain > 0)
+    throw BadSetup("loading.start_strain",
+                   "is solved for with linear springs on the platens. Allowed: 0, or "
+                   "`platens.contact` linear.");
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {

@@ -68,6 +68,9 @@ public:
   const SkinPressure *skin() const { return skin_; }
   const LateralWall *wall() const { return wall_; }
   bool cell() const { return settings_.loading.cell.has_value(); }
+  bool without_inertia() const { // platens that yield and are solved for
+    return settings_.platens.elastic && settings_.platens.elastic->motion == fem::ElasticMotion::quasi_static;
+  }
   bool bent() const { return settings_.platens.span > 0; } // a bar between one strip above and two below
 
   // Whether the platens have taken over from a cell (true without one); between a turn and its strain.
@@ -99,6 +102,7 @@ public:
   double midspan_moment() const; // N m, positive where it pulls the lower side; of a bent bar
   dem::EndPlanes end_planes() const { return ends_->planes(); } // where the platens' faces are now
   double platen_speed() const;                                  // m/s, closure speed now
+  double seconds_behind() const;   // s, of the platen without inertia that comes latest after its loads; or 0
   double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
 
   // What its program sees.

@@ -51,18 +51,24 @@ struct ElasticPlatens {
   static void describe(Visitor &&v, Self &p);
 };
 
+// How spheres press on platens: by the law of grains without bonds, or by one of their own.
+enum class PlatenContact { as_grains, linear, hertz };
+
 struct PlatenSettings {
   PlatenSide top, bottom;
   std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
   std::optional<ElasticPlatens> elastic;              // none: rigid
   MachineSettings machine;                            // behind the top platen
-  dem::Stiffness stiffness;                           // of the mean bond, or absolute
-  double tangential_ratio = 0.8;
-  double damping = 0.2;    // fraction of critical
-  double strip_width = 0;  // m, of strips that press a disc or bend a bar; 0: as wide as the platens
-  double span = not_given; // m, between the middles of two lower strips that a bar along x is bent on
-  double overhang = 1.2;   // platen half-width over the specimen's
-  double thickness = 0;    // m
+  PlatenContact contact = PlatenContact::as_grains;   // what is glued is linear
+  double contact_modulus = 0; // Pa, Hertz: Young's modulus of the platens' side; 0: rigid ones do not yield,
+                              // others by the material of their face
+  dem::Stiffness stiffness;   // linear: of the mean bond, or absolute
+  double tangential_ratio = 0.8; // linear
+  double damping = 0.2;          // fraction of critical
+  double strip_width = 0;        // m, of strips that press a disc or bend a bar; 0: as wide as the platens
+  double span = not_given;       // m, between the middles of two lower strips that a bar along x is bent on
+  double overhang = 1.2;         // platen half-width over the specimen's
+  double thickness = 0;          // m
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;
@@ -186,6 +192,15 @@ void ElasticPlatens::describe(Visitor &&v, Self &p) {
 
 template <class Visitor, class Self>
 void PlatenSettings::describe(Visitor &&v, Self &p) {
+  v("contact", p.contact,
+    Words<PlatenContact>{{"as grains", PlatenContact::as_grains},
+                         {"linear", PlatenContact::linear},
+                         {"hertz", PlatenContact::hertz}},
+    "Normal force of grains on platens; as grains: by their own law, linear where they have none and where "
+    "ends are glued. Hertz: sphere on plane, with Mindlin's tangential stiffness.");
+  v("contact_modulus", p.contact_modulus, "Pa", at_least(0),
+    "Hertz: Young modulus of the platens' side, with their Poisson ratio; 0: rigid platens do not give way "
+    "there, deformable ones by the material of their face.");
   v("tangential_ratio", p.tangential_ratio, "1", between(0, 5), "Tangential over normal penalty stiffness.");
   v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of grains on platens.");
   v("overhang", p.overhang, "1", between(1, 10), "Half-width of the platens over that of the specimen.");

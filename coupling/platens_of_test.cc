@@ -165,12 +165,52 @@ double platen_stiffness(const dem::Model &model, const PlatenTestSettings &setti
   return p.stiffness.value * mean_bond_stiffness(model);
 }
 
+// Of the specimen's side of a platen that yields; of a mesh the softest.
+fem::Material material_of_face(const PlatenSettings &p, Side side) {
+  if (!p.side(side)->grid) return layers_of(p, side).front().material;
+  const std::vector<fem::Material> all = materials_of(p, side);
+  return *std::min_element(all.begin(), all.end(), [](const fem::Material &a, const fem::Material &b) {
+    return a.young_modulus < b.young_modulus;
+  });
+}
+
+// Contacts of spheres on what is far softer than they are would grow as wide as the spheres.
+constexpr double softest_face = 0.1; // of the grains' modulus
+
+dem::HertzOnPlane hertz_contact(const PlatenTestSettings &settings, Side side) {
+  const PlatenSettings &p = settings.platens;
+  if (!settings.model.contact)
+    throw BadSetup("platens.contact",
+                   "takes the moduli of grains that touch, but they have no contact. "
+                   "Allowed: as grains, linear.");
+  const dem::ContactSettings &grains = *settings.model.contact;
+  dem::HertzOnPlane::Side platen;
+  platen.poisson_ratio = p.material.poisson_ratio;
+  if (p.contact_modulus > 0) {
+    platen.young_modulus = p.contact_modulus;
+  } else if (p.elastic) {
+    const fem::Material face = material_of_face(p, side);
+    platen.young_modulus = face.young_modulus, platen.poisson_ratio = face.poisson_ratio;
+  }
+  if (platen.young_modulus < softest_face * grains.young_modulus)
+    throw BadSetup("platens.contact",
+                   "is Hertz', whose contacts have to be small beside a sphere, and the "
+                   "platen there has " +
+                       text_of(platen.young_modulus) + " Pa. Allowed: linear, or " +
+                       text_of(softest_face * grains.young_modulus) +
+                       " Pa and more, a tenth of the grains'.");
+  return dem::HertzOnPlane::between({grains.young_modulus, grains.poisson_ratio}, platen);
+}
+
 SurfaceContact contact_settings(const dem::Model &model, const dem::Specimen &s,
                                 const PlatenTestSettings &settings, Side side, const fem::Body &body) {
   const PlatenSettings &p = settings.platens;
   SurfaceContact c;
   static_cast<dem::SurfaceFriction &>(c) = *p.side(side);
-  c.particle_stiffness = platen_stiffness(model, settings);
+  if (presses_by_hertz(settings))
+    c.hertz = hertz_contact(settings, side);
+  else
+    c.particle_stiffness = platen_stiffness(model, settings);
   c.face_compliance = body.face_compliance();
   c.tangential_ratio = p.tangential_ratio;
   c.damping = p.damping;
@@ -263,6 +303,13 @@ void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSetti
 }
 
 // Without bonds the stiffness that a bond would have still measures the grains; N/m.
+bool presses_by_hertz(const PlatenTestSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (p.contact != PlatenContact::as_grains) return p.contact == PlatenContact::hertz;
+  const auto &grains = settings.model.contact;
+  return !p.glued && grains && grains->normal == dem::NormalContact::hertz;
+}
+
 double mean_bond_stiffness(const dem::Model &model) {
   double sum = 0;
   if (model.bonds && model.bonds->size() > 0) {

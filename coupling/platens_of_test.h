@@ -36,5 +36,6 @@ void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSetti
 
 // N/m, of the bonds; without bonds of those that the pairs of the packing would have.
 double mean_bond_stiffness(const dem::Model &model);
+bool presses_by_hertz(const PlatenTestSettings &settings); // grains on platens
 
 } // namespace platen::coupling

@@ -97,6 +97,8 @@ StaticPress measured(const PlatenTest &test, const Contacts &c, const dem::Stati
 StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticSettings &settings) {
   if (!test.model.bonds || !(strain > 0))
     throw NumericsStopped("a static solve needs bonds and a strain above 0");
+  if (test.top().layer().parameters().hertz)
+    throw NumericsStopped("a static solve needs linear springs on the platens (`platens.contact`)");
   Contacts contacts = contacts_of(test, strain);
   dem::EquilibriumSolver solver(test.model.particles, *test.model.bonds);
   // While the set of contacts still changes a rough answer tells which.

@@ -13,11 +13,14 @@ struct EnergyLedger {
   double fracture = 0; // lost when bonds break or lose strength
   double plastic = 0;  // lost when bonds yield
   double boundary = 0; // done by platens, servo and weight
+  // Of what the residual has: what loads did on platens without inertia beyond what these store, of either
+  // sign.
+  double unbalanced = 0;
 
   EnergyLedger &operator+=(const EnergyLedger &b) {
     kinetic += b.kinetic, bonds += b.bonds, contacts += b.contacts, bodies += b.bodies;
     damping += b.damping, friction += b.friction, fracture += b.fracture, plastic += b.plastic;
-    boundary += b.boundary;
+    boundary += b.boundary, unbalanced += b.unbalanced;
     return *this;
   }
   double stored() const { return kinetic + bonds + contacts + bodies; }

@@ -10,16 +10,19 @@
 
 namespace platen::fem {
 
-// Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated - load_work -
-// clamp_work stays what it was. A rigid body keeps no energy balance: where its loads do work, the machine
-// does it.
+// Energies of a body and what it exchanged since the start (J): kinetic + strain + dissipated + unbalanced -
+// load_work - clamp_work stays what it was. A rigid body keeps no energy balance: where its loads do work,
+// the machine does it.
 struct EnergyBalance {
   // Explicit: the product of velocities half a step apart over two, which central differences keep exactly.
   double kinetic = 0;
   double strain = 0;
   double load_work = 0;  // by loads on the surface
   double clamp_work = 0; // by the machine
-  double dissipated = 0; // by damping; quasi-static: what the body is behind its loads, of either sign
+  double dissipated = 0; // by damping
+  // Quasi-static: what the loads did on its deformation less the strain energy that it has, of either sign.
+  // It is what the body is behind its loads.
+  double unbalanced = 0;
 };
 
 // What contacts add at each vertex of the surface, for the stable step.

@@ -103,6 +103,9 @@ public:
   // solve to solve where the body is softer than its contacts. At rest nothing is left of them. Quasi-static,
   // before the first aim().
   void set_support(const std::vector<double> &vertex_stiffness);
+  // Solves until the supported body has come to its place along a direction (unit, frame's axes) but for 1/e:
+  // about 2 + 3/2 D/K of springs D on a body K. After set_support().
+  double solves_behind(const Vector3 &direction);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
 
   double kinetic_energy() const; // J
@@ -180,7 +183,8 @@ private:
   bool on_the_path_ = false;              // whether the last drift deformed the body
   std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] along it
   double last_step_ = 0, last_move_ = 0;
-  double load_work_ = 0, clamp_work_ = 0, dissipated_ = 0;
+  double load_work_ = 0, clamp_work_ = 0;
+  double dissipated_ = 0; // J; quasi-static: work on the deformation less its energy
   struct Kicked {
     std::size_t node;
     Vector3 gain, before; // m/s

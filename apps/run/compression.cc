@@ -84,6 +84,13 @@ int CompressionRun::run() {
   if (!reasons.empty())
     log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}",
                  fmt::join(reasons, "; "));
+  constexpr double most_unbalanced = 0.01; // of the work
+  if (const double share = results_.platen_unbalanced_work_relative(); share > most_unbalanced)
+    log_.warning(
+        "platens without inertia are {:.1f} % of the work behind their loads (summary.json, "
+        "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
+        "Platens/Motion = explicit, or fewer Platens/Steps per solve",
+        100 * share, 100 * most_unbalanced);
   if (signal_ != 0) {
     log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*test_), command_.scene,
               command_.output);

@@ -62,6 +62,8 @@ std::string CompressionRun::description() const {
   if (const coupling::ElasticPlaten *top = test_->elastic_top())
     text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
                         top->solid().model().nodes.size(), top->solid().substeps(test_->time_step()));
+  if (const double behind = test_->seconds_behind(); behind > 0)
+    text += fmt::format("  platens without inertia come {:.3g} s after their loads\n", behind);
   if (const coupling::MachineSpring *machine = test_->machine()) {
     const double k = machine->settings().stiffness, mass = machine->settings().mass;
     text += fmt::format("  machine: a spring of {:.4g} N/m with {:.3g} kg on it, period {:.3g} s\n", k, mass,

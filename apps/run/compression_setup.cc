@@ -1,6 +1,8 @@
 // A test as it begins: the specimen laid as the app presses it, its problem, its folder; anew or resumed.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "apps/io/checkpoint_folder.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
@@ -31,6 +33,24 @@ dem::Specimen placed(const Scene &scene, Pressed pressed) {
   return made;
 }
 
+// Wave transits of the height within which platens without inertia have to follow their loads along their
+// way. A specimen that breaks sheds its load within a few; what comes later is too soft beside its contacts
+// to be solved for now and then, and most so across, where a sheet is pressed out
+// (elastic_platens.DISABLED_what_lag_does).
+constexpr double latest_by_transits = 15;
+
+void require_prompt_platens(const coupling::PlatenTest &test) {
+  const double behind = test.seconds_behind(), transit = test.facts().wave_transit;
+  if (!(transit > 0) || behind <= latest_by_transits * transit) return;
+  throw coupling::BadSetup(
+      "platens.elastic.motion",
+      fmt::format(
+          "comes {:.3g} s after its loads, being softer than the contacts on it, while a wave crosses "
+          "the specimen in {:.3g} s: up to {:.0f} times that. Allowed: explicit, or fewer "
+          "`platens.elastic.steps_per_solve`.",
+          behind, transit, latest_by_transits));
+}
+
 // The packing that the first part wrote; the list of ids may have changed since.
 dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
   dem::Specimen specimen = read_specimen_csv(paths.specimen_csv()).specimen;
@@ -48,6 +68,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
+  require_prompt_platens(*test_);
   results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
                      coupling::loaded_axis(*test_), tells_pattern(scene, *test_));
   sampler_ = std::make_unique<Sampler>(*test_);

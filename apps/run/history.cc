@@ -167,6 +167,9 @@ const std::vector<HistoryColumn> &history_columns() {
          return s.problem.machine()->elastic_energy() + s.problem.machine()->kinetic_energy();
        },
        number, on_spring},
+      {"platen_unbalanced_work_j", "J", &S::unbalanced_work,
+       [](const Seen &s) { return s.energy.unbalanced; }, number,
+       [](const PlatenTest &p) { return p.without_inertia(); }},
       {"stage", "1", &S::stage,
        [](const Seen &s) { return 1.0 + static_cast<double>(s.problem.program().stage_number()); }, count,
        staged},

@@ -40,6 +40,7 @@ struct Sample {
   double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
   double strain_x = 0, strain_y = 0; // of the platens there, as strain_platen is along z
   double machine_energy = 0;         // J, part of `body`: of the machine's spring and the mass on it
+  double unbalanced_work = 0;        // J, part of `residual`: of platens without inertia
   double cycling = 0;                // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;            // 0 while a cell's pressure rises and stands alone
   double stage = 1;                  // of those that the scene writes, from 1

@@ -184,13 +184,21 @@ std::size_t Results::whole_balance_from() const {
   return k;
 }
 
-double Results::energy_residual_relative() const {
+double Results::largest_over_work(double Sample::*value) const {
   const std::size_t from = whole_balance_from();
-  if (from == 0 || std::isnan(samples_[from].residual)) return not_measured; // no load, or no ledger
+  if (from == 0 || std::isnan(samples_[from].*value)) return not_measured; // no load, or no ledger
   double largest = 0;
   for (std::size_t k = from; k < samples_.size(); ++k)
-    largest = std::max(largest, std::abs(samples_[k].residual));
+    largest = std::max(largest, std::abs(samples_[k].*value));
   return largest / samples_[peak_ > 0 ? peak_row() : samples_.size() - 1].boundary;
+}
+
+double Results::energy_residual_relative() const {
+  return largest_over_work(&Sample::residual);
+}
+
+double Results::platen_unbalanced_work_relative() const {
+  return largest_over_work(&Sample::unbalanced_work);
 }
 
 double Results::kinetic_to_internal_max() const {

@@ -74,6 +74,8 @@ public:
   }
   // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
   double energy_residual_relative() const;
+  // The same of the work on platens without inertia that is not in them; 0 where there are none.
+  double platen_unbalanced_work_relative() const;
   double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
   double opening_at_peak() const { return at_peak(&Sample::opening); }               // m, of a disc
   double deflection_at_peak() const { return at_peak(&Sample::deflection); }         // m, of a bent bar
@@ -99,6 +101,7 @@ public:
 
 private:
   std::size_t peak_row() const;
+  double largest_over_work(double Sample::*value) const;
   // Samples on the ascending branch on both sides of a share of the strength, and the weight of the second.
   struct Crossing {
     bool found = false;

@@ -191,6 +191,8 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);
   s["broken_shear"] = model.broken(dem::BondState::broken_in_shear);
   s["energy_residual_relative"] = results.energy_residual_relative();
+  if (problem.without_inertia())
+    s["platen_unbalanced_work_relative"] = results.platen_unbalanced_work_relative();
   s["kinetic_to_internal_max"] = results.kinetic_to_internal_max();
   s["wave_crossings_to_peak"] = wave_transits_to_peak(problem, results);
   add_slowness(s, problem, results);

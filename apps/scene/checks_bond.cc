@@ -41,7 +41,8 @@ void SceneCheck::contact() const {
   };
   if (scene_.effects.contact == dem::NormalContact::linear && app_ != AppKind::pack)
     check("Contact/Stiffness", scene_.contact.stiffness, "\"4e5 N/m\", \"0.01 bulk\"");
-  if (loads()) check("Platens/Stiffness", scene_.platens.stiffness, "\"4e5 N/m\"");
+  if (loads() && !scene_.hertz_on_platens())
+    check("Platens/Stiffness", scene_.platens.stiffness, "\"4e5 N/m\"");
   if (scene_.contact.rolling_friction > 0 && scene_.contact.tangential == dem::TangentialContact::none)
     refuse("Contact/Rolling friction", "needs Effects/Tangential = coulomb with rolling resistance.");
 }

@@ -77,6 +77,13 @@ struct Scene {
   Study study;
   std::vector<std::string> notes; // entries that were set and have no effect here, one line each
   std::shared_ptr<const Parameters> parameters; // the same entries as text
+
+  // Whether grains press on platens by Hertz' law.
+  bool hertz_on_platens() const {
+    if (platens.contact != coupling::PlatenContact::as_grains)
+      return platens.contact == coupling::PlatenContact::hertz;
+    return !platens.glued && effects.contact == dem::NormalContact::hertz;
+  }
 };
 
 // Every entry at its default, nothing required. Never throws InputError.

@@ -42,6 +42,7 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"broken_tension", "1"},
     {"broken_shear", "1"},
     {"energy_residual_relative", "1"},
+    {"platen_unbalanced_work_relative", "1"},
     {"kinetic_to_internal_max", "1"},
     {"end_damage_top", "1"},
     {"end_damage_bottom", "1"},

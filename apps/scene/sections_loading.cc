@@ -157,10 +157,17 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
                              "the scene does not give it. " +
                                  surface_documentation());
   declare_friction(section, platens.both, "");
-  section.stiffness("Stiffness", platens.stiffness, false,
-                    "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
-  for (const char *member : {"tangential_ratio", "damping"})
-    of(member);
+  of("contact");
+  const auto hertz = [](const Scene &s) { return s.hertz_on_platens(); };
+  const auto linear = [](const Scene &s) { return !s.hertz_on_platens(); };
+  const std::string by_hertz = "grains press on platens by Hertz' law";
+  of("contact_modulus").only_if(hertz, "no grain presses on platens by Hertz' law");
+  section
+      .stiffness("Stiffness", platens.stiffness, false,
+                 "Penalty stiffness of grains on platens; a multiple is that of the mean bond.")
+      .only_if(linear, by_hertz);
+  of("tangential_ratio").only_if(linear, by_hertz);
+  of("damping");
   of("overhang").unless("Platens/Sides", {"six"});
   of("edge_gap").unless("Platens/Sides", {"two"});
   of("strip_width")
@@ -174,8 +181,13 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
   for (const char *member : {"thickness", "elements_across", "density"})
     of(member);
-  for (const char *member : {"young_modulus", "poisson_ratio"})
-    of(member).unless("Platens/Kind", {"rigid"});
+  of("young_modulus").unless("Platens/Kind", {"rigid"});
+  of("poisson_ratio")
+      .only_if(
+          [](const Scene &s) {
+            return s.platens.deformable || (s.hertz_on_platens() && s.platens.contact_modulus > 0);
+          },
+          "Platens/Kind = rigid");
   declare_elastic(section, platens);
   section.entry("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");

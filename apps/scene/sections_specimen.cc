@@ -67,7 +67,7 @@ void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::Co
     grains(member).only_if(
         [](const Scene &s) {
           return s.effects.contact == dem::NormalContact::hertz ||
-                 s.contact.stiffness.kind == Stiffness::Kind::of_bulk;
+                 s.contact.stiffness.kind == Stiffness::Kind::of_bulk || s.hertz_on_platens();
         },
         "no contact law takes it");
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Everything behind docs/accuracy.md: what each knob errs by and costs on two cylinders, with platens that yield and with a
+# Everything behind docs/accuracy.md and the five speeds of docs/theory.md: what each knob errs by and costs on two cylinders, with platens that yield and with a
 # sleeve, and how strength and cones go with the size of spheres. Reports with plots are made of each study.
 # Studies go on where they were stopped. About three hours on two cores, most of it for spheres of 1 and .75 mm; those of .5 mm (six hours) are left out.
 # Usage: bench/accuracy/run.sh BUILD FOLDER
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: $0 BUILD FOLDER" >&2; exit 2; }
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scenes=$(cd "$(dirname "$0")/../../scenes" && pwd)
 apps=$(cd "$1/apps" && pwd)
 mkdir -p "$2"
@@ -25,6 +26,8 @@ study quality accuracy study_quality_concrete
 study knobs accuracy study_accuracy_concrete
 study cylinder accuracy study_quality_cylinder
 alone=("Study/Quality list =" "Study/Wave crossings list =" "Study/Seeds = 3")
+study speeds rate brittle_concrete_dry "Specimen/Sphere radius = 1.78 mm" "Study/Axial rate list = 0.08 m/s, 0.16 m/s, 0.32 m/s, 0.8 m/s, 2 m/s" "Study/Seeds = 1" "Output/Fields = off"
+python3 "$here/speeds.py" speeds # docs/theory.md, 5.3
 study platens accuracy study_quality_concrete "${alone[@]}" "Platens/Kind = deformable" "Platens/Motion = quasi-static" \
   "Study/Steps per solve list = 100, 50, 20, 5" "Study/Platen mesh list = 4, 8, 16"
 study sleeve accuracy study_quality_concrete "${alone[@]}" "Loading/Confinement = sleeve" \

@@ -238,6 +238,7 @@ void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {
   const fem::EnergyBalance own = body_->energy_balance();
   energy.bodies += own.strain + own.kinetic;
   energy.damping += own.dissipated;
+  energy.unbalanced += own.unbalanced;
   energy.boundary += own.clamp_work;
 }
 
@@ -272,8 +273,10 @@ void ElasticPlaten::finish_on_spring(const Step &step) {
   solid_.push(machine_->finish_push(solid_.sliding_velocity(), solid_.sliding_mass(), step.dt));
 }
 
-void ElasticPlaten::fit(const dem::Particles &particles, double) {
-  if (quasi_static_) solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
+void ElasticPlaten::fit(const dem::Particles &particles, double time_step) {
+  if (!quasi_static_) return;
+  solid_.set_support(layer_.vertex_springs(particles, *body_).stiffness);
+  seconds_behind_ = solid_.solves_behind(inward_) * steps_per_solve_ * time_step;
 }
 
 void ElasticPlaten::describe(Archive &archive) {

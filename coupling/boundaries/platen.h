@@ -96,6 +96,9 @@ public:
   // it pulls the lower side.
   double midspan_moment(double z) const;
   const MachineSpring *machine() const { return machine_ ? &*machine_ : nullptr; } // null: a rigid one
+  // s, by which its face comes after its loads along its way: of one without inertia, from fit()
+  // on.
+  virtual double seconds_behind() const { return 0; }
   bool glued() const { return layer_.parameters().attachment == Attachment::glued; }
   // Springs of the particles near it, listed anew, in row order, with the indentations of its mesh.
   std::vector<dem::GroundSpring> whole_springs(const dem::Particles &particles);
@@ -196,6 +199,7 @@ public:
   double closure() const override { return face_.advance(body_->surface()); } // the mean of the face
   void describe(Archive &archive) override;
   const fem::ElasticSolid &solid() const { return solid_; }
+  double seconds_behind() const override { return seconds_behind_; }
 
 protected:
   std::string reason_of_limit() const override {
@@ -219,6 +223,7 @@ private:
   MeanPlace face_;
   bool quasi_static_;
   int steps_per_solve_;
+  double seconds_behind_ = 0; // s
   MeanLoads loads_;
 };
 

@@ -20,11 +20,18 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_answer = 0.85;
 constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
 
+// Overlap over radius from which the springs of Hertz are counted, as between grains; and how much deeper
+// than the deepest they are.
+constexpr double early_depth = 2e-3, reserve_of_depth = 2;
+
 // One minus the cosine of a normal that counts as upright.
 constexpr double aslant = 1e-9;
 
 void check(const SurfaceContact &p, bool rotation) {
-  require(p.particle_stiffness > 0, "surface contact: particle stiffness must be positive");
+  require(p.hertz || p.particle_stiffness > 0, "surface contact: particle stiffness must be positive");
+  require(!p.hertz || (p.hertz->modulus > 0 && p.hertz->tangential_ratio > 0),
+          "surface contact: moduli must be positive");
+  require(!p.hertz || p.attachment == Attachment::free, "surface contact: Hertz' contact holds nothing");
   require(p.tangential_ratio > 0, "surface contact: tangential stiffness ratio must be positive");
   require(p.friction_static >= 0, "surface contact: static friction must not be negative");
   require(p.dynamic() >= 0, "surface contact: dynamic friction must not be negative");
@@ -77,6 +84,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   stiffness_ = 1 / (1 / parameters.particle_stiffness);
   for (const double r : particles.radius)
     smallest_radius_ = std::min(smallest_radius_, r);
+  allow_for_depth();
   const bool friction = parameters.friction_static > 0 || parameters.dynamic() > 0;
   const bool tangential = friction || parameters.attachment == Attachment::glued;
   if (tangential || parameters.seat_modulus > 0) normal_ = &table_.add<Vector3>("normal", "1");
@@ -84,6 +92,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
     spring_ = &table_.add<Vector3>("tangential_force", "N");
     sliding_ = &table_.add<int>("sliding", "1");
     slip_ = &table_.add<double>("slip", "m");
+    if (parameters.hertz) tangential_stiffness_ = &table_.add<double>("tangential_stiffness", "N/m");
   }
   if (parameters.seat_modulus > 0) {
     seat_spring_ = &table_.add<Vector3>("seat_moment", "N m");
@@ -188,27 +197,45 @@ void ContactLayer::set_rows(const std::vector<int> &particles) {
   idle_until_.assign(particles.size(), 0);
 }
 
-double ContactLayer::spring(const SurfacePoint &at) const {
-  if (parameters_.face_compliance.empty()) return stiffness_;
+double ContactLayer::indentation(const SurfacePoint &at) const {
+  if (parameters_.face_compliance.empty()) return 0;
   const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
   const std::array<double, 4> &w = at.local.weights;
-  double indentation = 0;
+  double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    indentation += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
-  return beside_indentation(stiffness_, indentation);
+    sum += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
+  return sum;
+}
+
+double ContactLayer::spring(const SurfacePoint &at) const {
+  if (parameters_.face_compliance.empty()) return stiffness_;
+  return beside_indentation(stiffness_, indentation(at));
+}
+
+double ContactLayer::stiffness_of(double radius) const {
+  return parameters_.hertz ? (*parameters_.hertz)(counted_ * radius, radius).stiffness : stiffness_;
+}
+
+double ContactLayer::tangential_ratio() const {
+  return parameters_.hertz ? parameters_.hertz->tangential_ratio : parameters_.tangential_ratio;
+}
+
+void ContactLayer::allow_for_depth() {
+  if (parameters_.hertz) counted_ = std::max(early_depth, reserve_of_depth * deepest_);
 }
 
 double ContactLayer::seat_stiffness(double radius) const {
   return 2 * parameters_.seat_modulus * pi * radius * radius * radius / 8;
 }
 
-double ContactLayer::stiffest_spring(int face) const {
-  if (parameters_.face_compliance.empty()) return stiffness_;
+double ContactLayer::stiffest_spring(int face, double radius) const {
+  const double whole = stiffness_of(radius);
+  if (parameters_.face_compliance.empty()) return whole;
   // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
   // that is more than can be taken out, some other place is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
   return beside_indentation(
-      stiffness_, std::min(most_indentation / stiffness_, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+      whole, std::min(most_indentation / whole, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 
 std::size_t ContactLayer::bytes() const {
@@ -228,10 +255,9 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     spring.particle = i;
     spring.normal = at.normal;
     spring.arm = at.local.point;
-    spring.normal_stiffness = whole ? stiffness_ : stiffest_spring(at.face);
+    spring.normal_stiffness = whole ? stiffness_of(r) : stiffest_spring(at.face, r);
     spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
-    if (spring_ != nullptr)
-      spring.tangential_stiffness = parameters_.tangential_ratio * spring.normal_stiffness;
+    if (spring_ != nullptr) spring.tangential_stiffness = tangential_ratio() * spring.normal_stiffness;
     if (seat_spring_ != nullptr && row < table_.size() && seated_[row])
       spring.rotational_stiffness = seat_stiffness(r);
     springs.push_back(spring);
@@ -246,14 +272,14 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];
     const SurfacePoint at = search_.closest(body.surface(), row, particles.position[index(i)]);
-    const double k = stiffest_spring(at.face);
-    const double stiffest = spring_ != nullptr ? std::max(1.0, parameters_.tangential_ratio) * k : k;
-    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[index(i)]);
+    const double r = particles.radius[index(i)], k = stiffest_spring(at.face, r);
+    const double stiffest = spring_ != nullptr ? std::max(1.0, tangential_ratio()) * k : k;
+    const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_of(r) * particles.mass[index(i)]);
     // Held grains give moments without a limit, as forces along the normal on the corners: K = k b b^T for
     // each axis, with b = +- 1 / (2 h) across a width h, so that no row of both adds to more than k / h^2.
     const double h = narrowest(body.surface(), at.face);
     const bool held = seat_spring_ != nullptr && row < table_.size() && tied(row);
-    const double rocking = held ? seat_stiffness(particles.radius[index(i)]) / (h * h) : 0;
+    const double rocking = held ? seat_stiffness(r) / (h * h) : 0;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
       springs.stiffness[v] += at.local.weights[corner] * stiffest + rocking;
@@ -266,8 +292,9 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
 ServoLoad ContactLayer::servo_load(const dem::Particles &particles) const {
   ServoLoad load;
   for (const int particle : particle_) {
-    load.stiffness += stiffness_;
-    load.impedance += std::sqrt(stiffness_ * particles.mass[index(particle)]);
+    const double k = stiffness_of(particles.radius[index(particle)]);
+    load.stiffness += k;
+    load.impedance += std::sqrt(k * particles.mass[index(particle)]);
   }
   return load;
 }
@@ -277,6 +304,10 @@ void ContactLayer::describe(Archive &archive) {
   archive("friction_work", friction_work, "J");
   archive("damping_work", damping_work, "J");
   archive("closed", closed);
+  if (parameters_.hertz) {
+    archive("deepest", deepest_, "1");
+    archive("counted", counted_, "1");
+  }
   archive.table("rows", table_);
   if (archive.reads()) search_.forget();
 }

@@ -14,16 +14,23 @@
 // asked for, 1/k_n = 1/k - c: both together are k wherever on a face the contact lies, and what the body
 // gives way as a whole comes on top. That holds up to k c = .46, which elements of five radii of the contact
 // reach at their vertices; beyond, less is taken out, and from k c = .85 on nothing: the contact is too soft.
+//
+// Or Hertz-Mindlin (dem/laws/hertz_on_plane.h): N = 4/3 E* sqrt(R) (-g)^1.5 - c n.v with c = 2 sqrt(5/6) xi
+// sqrt(k_n m), which gives the restitution exp(-pi xi / sqrt(1 - xi^2)) where N is not held at zero. A
+// softer tangential spring keeps its stretch, a stiffer one its force, as between grains; what that loses is
+// friction's. The spring turns about the normal with the mean of sphere and surface.
 #pragma once
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/archive.h"
 #include "coupling/contact/surface_search.h"
 #include "coupling/program/platen_speed.h"
 #include "dem/laws/friction_law.h"
+#include "dem/laws/hertz_on_plane.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
 #include "fem/body.h"
@@ -37,7 +44,10 @@ enum class Attachment {
 
 // Frictionless surfaces have no tangential columns.
 struct SurfaceContact : dem::SurfaceFriction {
-  double particle_stiffness = std::numeric_limits<double>::quiet_NaN(); // N/m, k_n of the whole contact
+  // N/m, k_n of the whole contact; of a linear one
+  double particle_stiffness = std::numeric_limits<double>::quiet_NaN();
+  // Of the whole contact, in place of stiffness and tangential ratio. Nothing is glued with it.
+  std::optional<dem::HertzOnPlane> hertz;
   // Of a body that yields: the indentations of its mesh under single forces, which the stiffness above holds
   // already and which are therefore taken out of the spring (see below). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
@@ -124,6 +134,11 @@ public:
   fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
   // What a servo pushes against: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
+  // Of Hertz: whether a sphere has sunk in deeper than springs have been counted for since allow_for_depth().
+  bool stiffened() const { return deepest_ > counted_; }
+  // Of Hertz, before its springs are asked for: counts all of them as stiff as the deepest contact now, with
+  // a reserve.
+  void allow_for_depth();
 
   const Table &history() const { return table_; } // one row per particle near the surface, ascending
   void describe(Archive &archive);
@@ -144,6 +159,8 @@ private:
     Vector3 shear;           // N
     Vector3 moment;          // N m, of the seat
     dem::CoulombFriction::State spring, seat;
+    double tangential_stiffness = 0;                         // N/m
+    double depth = 0;                                        // 1, overlap over radius
     double idle_until = 0;                                   // m, of travelled_
     double slip = 0;                                         // m
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
@@ -155,6 +172,7 @@ private:
     std::array<double, 4> weights{};
     Vector3 force, torque;                                   // N, N m about the centre
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
+    double depth = 0;                                        // 1, overlap over radius
   };
   // What else is told of it when somebody asks.
   struct RowContact {
@@ -166,15 +184,21 @@ private:
   void find_due_rows();
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  void seat(int particle, double offset);      // m, the gap at rest, negative where it overlaps
-  double spring(const SurfacePoint &at) const; // N/m, without the indentation of the mesh
-  double stiffest_spring(int face) const;
+  void seat(int particle, double offset);           // m, the gap at rest, negative where it overlaps
+  double indentation(const SurfacePoint &at) const; // m/N, of the mesh under a force there
+  double spring(const SurfacePoint &at) const;      // N/m, linear, without that
+  double stiffness_of(double radius) const;         // N/m, of the whole contact of a sphere
+  double stiffest_spring(int face, double radius) const;
+  double tangential_ratio() const;
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
+  void press(const SurfacePoint &at, double mass, Kinematics &motion) const;
   void normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  double tangential_spring(std::size_t row, const Kinematics &motion, const Vector3 &stretch, Vector3 &spring,
+                           RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
@@ -191,11 +215,12 @@ private:
   Column<int> &seated_ = table_.add<int>("seated", "1");
   Column<double> &offset_ = table_.add<double>("offset", "m");
   Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
-  Column<Vector3> *normal_ = nullptr;      // where there is a tangential or seat spring
-  Column<Vector3> *spring_ = nullptr;      // N; with friction or glue
-  Column<int> *sliding_ = nullptr;         // the same
-  Column<double> *slip_ = nullptr;         // m, the same
-  Column<Vector3> *seat_spring_ = nullptr; // N m; with seats
+  Column<Vector3> *normal_ = nullptr;              // where there is a tangential or seat spring
+  Column<Vector3> *spring_ = nullptr;              // N; with friction or glue
+  Column<int> *sliding_ = nullptr;                 // the same
+  Column<double> *slip_ = nullptr;                 // m, the same
+  Column<double> *tangential_stiffness_ = nullptr; // N/m, the same; of Hertz, where it changes
+  Column<Vector3> *seat_spring_ = nullptr;         // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 
   double travelled_ = 0;             // m, sum of the distances told to moved()
@@ -204,6 +229,8 @@ private:
   std::vector<RowLoad> loads_;       // of them
   std::vector<RowContact> contacts_; // of them
   double elastic_energy_ = 0;
+  // Of Hertz, overlap over radius: the most in the last step, and what springs are counted for.
+  double deepest_ = 0, counted_ = 0;
 };
 
 } // namespace platen::coupling

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
-constexpr double idle_margin = 1e-9;  // of a gap, for round-off
-constexpr std::size_t rows_per_part = 32; // a row costs as much as some dozen bonds
+const double tsuji = std::sqrt(5.0 / 6.0); // with it Hertz' dashpot is a fraction of critical
+constexpr double idle_margin = 1e-9;       // of a gap, for round-off
+constexpr std::size_t rows_per_part = 32;  // a row costs as much as some dozen bonds
 
 } // namespace
 
@@ -28,6 +29,8 @@ struct ContactLayer::Kinematics {
   Vector3 rocking;          // rad/s, relative rotation in the contact plane; only with seats
   double spin = 0;          // rad/s of the surface about the normal
   double k_n = 0, c_n = 0;  // N/m, N s/m
+  double pressing = 0;      // N, of the spring
+  double stored = 0;        // J, in it
   double radius = 0;        // m
 };
 
@@ -88,6 +91,7 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
   load.force = r.normal_force * r.at.normal + r.shear;
   load.torque = cross(arm, load.force) + r.moment;
   load.elastic = r.elastic;
+  load.depth = r.depth;
   contacts_[k] = {centre + arm, r.at.normal,          r.shear, r.moment, r.normal_force,
                   r.slip,       r.spring.sliding != 0};
 }
@@ -103,7 +107,7 @@ void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &b
     if (particles.has_rotation()) (*particles.torque)[i] += load.torque;
   });
   std::size_t active = 0;
-  double elastic = 0, friction_loss = 0, damping_loss = 0;
+  double elastic = 0, friction_loss = 0, damping_loss = 0, deepest = 0;
   for (std::size_t k = 0; k < loads_.size(); ++k) {
     const RowLoad &load = loads_[k];
     friction_loss += load.friction_loss;
@@ -111,12 +115,14 @@ void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &b
     if (load.particle < 0) continue;
     ++active;
     elastic += load.elastic;
+    deepest = std::max(deepest, load.depth);
     apply_force(body, load.face, load.weights, -load.force);
     if (seat_spring_ != nullptr && norm_squared(contacts_[k].moment) > 0)
       apply_moment(body, load.face, -contacts_[k].moment);
   }
   closed = active;
   elastic_energy_ = elastic;
+  deepest_ = deepest;
   friction_work += friction_loss;
   damping_work += damping_loss;
 }
@@ -128,6 +134,7 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
     (*spring_)[row] = r.spring.spring;
     (*sliding_)[row] = r.spring.sliding;
     (*slip_)[row] = r.slip = r.active ? (*slip_)[row] + r.slip : 0;
+    if (tangential_stiffness_ != nullptr) (*tangential_stiffness_)[row] = r.tangential_stiffness;
   }
   if (seat_spring_ != nullptr) {
     (*seat_spring_)[row] = r.seat.spring;
@@ -158,9 +165,9 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   motion.opening_speed = dot(v, n);
   motion.slide = v - motion.opening_speed * n;
   motion.spin = surface.spin;
-  motion.k_n = spring(result.at);
-  if (parameters_.damping > 0)
-    motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness_ * particles.mass[i]);
+  if (parameters_.hertz && particles.has_rotation()) motion.spin = 0.5 * (surface.spin + dot(spin, n));
+  press(result.at, particles.mass[i], motion);
+  if (parameters_.hertz && result.active) result.depth = -motion.gap / motion.radius;
   normal_force(row, motion, dt, result);
   if (spring_ != nullptr) tangential_force(row, motion, dt, result);
   if (seat_spring_ != nullptr && seated_[row]) {
@@ -170,17 +177,50 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   }
 }
 
+// The spring by itself, and its dashpot.
+void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion) const {
+  if (!parameters_.hertz) {
+    motion.k_n = spring(at);
+    if (parameters_.damping > 0) motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness_ * mass);
+    motion.pressing = -motion.k_n * motion.gap;
+    motion.stored = 0.5 * motion.k_n * motion.gap * motion.gap;
+    return;
+  }
+  if (!(motion.gap < 0)) return;
+  const dem::HertzOnPlane::Response r = (*parameters_.hertz)(-motion.gap, motion.radius, indentation(at));
+  motion.k_n = r.stiffness;
+  motion.c_n = 2 * tsuji * parameters_.damping * std::sqrt(r.stiffness * mass);
+  motion.pressing = r.force;
+  motion.stored = r.energy;
+}
+
 // The work of the dashpot by the trapezoid rule, as the leapfrog does it. Where the sum is held at zero the
 // dashpot has used up the spring's force, and what the spring gives back is lost to it.
 void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   if (result.active) {
-    const double spring = -motion.k_n * motion.gap;
-    result.normal_force = spring - motion.c_n * motion.opening_speed;
+    result.normal_force = motion.pressing - motion.c_n * motion.opening_speed;
     if (!tied(row)) result.normal_force = std::max(0.0, result.normal_force);
-    result.dashpot = result.normal_force - spring;
-    result.elastic = 0.5 * motion.k_n * motion.gap * motion.gap;
+    result.dashpot = result.normal_force - motion.pressing;
+    result.elastic = motion.stored;
   }
   result.damping_loss = -0.5 * (dashpot_[row] + result.dashpot) * motion.opening_speed * dt;
+}
+
+// N/m, of a contact that is there or was in the last step. Where it has become softer the spring keeps its
+// stretch, where stiffer its force: both only lose energy. The leapfrog saw the force as it was over half of
+// the stretch (m).
+double ContactLayer::tangential_spring(std::size_t row, const Kinematics &motion, const Vector3 &stretch,
+                                       Vector3 &spring, RowForce &result) {
+  if (!parameters_.hertz) return parameters_.tangential_ratio * motion.k_n;
+  const double before = (*tangential_stiffness_)[row];
+  if (!result.active) return before;
+  const double now = result.tangential_stiffness = parameters_.hertz->tangential_ratio * motion.k_n;
+  if (!(before > 0)) return now;
+  const double held = 0.5 * norm_squared(spring) / before;
+  const Vector3 seen = spring;
+  if (now < before) spring *= now / before;
+  result.friction_loss += held - 0.5 * norm_squared(spring) / now + 0.5 * dot(seen - spring, stretch);
+  return now;
 }
 
 void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
@@ -191,7 +231,8 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
     state.spring =
         dem::spin_in_plane(dem::carry_with_plane(state.spring, (*normal_)[row], n), n, motion.spin * dt);
   const Vector3 stretch = -dt * motion.slide;
-  const double k_t = parameters_.tangential_ratio * motion.k_n;
+  const double k_t = tangential_spring(row, motion, stretch, state.spring, result);
+  if (!(k_t > 0)) return; // of Hertz: neither now nor before
   // Glue has no limit, and any force presses it.
   const CoulombFriction glue{{infinite, infinite}};
   const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);

@@ -150,6 +150,15 @@ TEST_F(Determinism, elastic_platens_are_as_repeatable_and_their_energy_balance_c
     const nlohmann::json found = summary_in(folder_ / whole);
     EXPECT_GT(found["broken_tension"], 500);
     EXPECT_LT(found["energy_residual_relative"], 0.01);
+    const bool still = motion == "quasi-static";
+    EXPECT_EQ(found.contains("platen_unbalanced_work_relative"), still);
+    const std::string history = content_of(folder_ / whole / "history.csv");
+    EXPECT_EQ(history.find("platen_unbalanced_work_j") != std::string::npos, still);
+    if (still) {
+      const auto left = column_of(folder_ / whole / "history.csv", "platen_unbalanced_work_j");
+      EXPECT_NE(left.back(), 0);
+      EXPECT_LT(found["platen_unbalanced_work_relative"], 0.01);
+    }
     const auto held = column_of(folder_ / whole / "history.csv", "body_energy_j");
     EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
     EXPECT_NE(content_of(folder_ / whole / "frames/platens_000002.vtu").find("von_mises"), std::string::npos);

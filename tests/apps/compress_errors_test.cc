@@ -171,6 +171,24 @@ TEST_F(Errors, platens_that_cannot_be_meshed_are_refused_by_key_or_file) {
           {"--set 2: error: Platens/Top/Mesh file = slant.msh has no face", "nothing to hold"}});
 }
 
+TEST_F(Errors, pads_that_come_after_their_loads_are_refused_without_inertia) {
+  const std::vector<std::string> pads{"Platens/Kind = deformable", "Platens/Pad thickness = 1 mm",
+                                      "Platens/Pad modulus = 5 MPa", "Platens/Pad Poisson ratio = 0.45",
+                                      "Platens/Pad density = 1200 kg/m3"};
+  std::vector<std::string> late = pads;
+  late.emplace_back("Platens/Motion = quasi-static");
+  refuse({with(late),
+          {"--set 6: error: Platens/Motion = quasi-static", "after its loads", "Allowed: explicit",
+           "Platens/Steps per solve"}});
+}
+
+TEST_F(Errors, hertz_on_platens_says_what_it_cannot_be) {
+  refuse({with({"Platens/Contact = hertz", "Platens/Attachment = glued"}),
+          {"--set 1: error: Platens/Contact = hertz", "Allowed: as grains, linear"}});
+  refuse({with({"Platens/Contact = hertz", "Loading/Start strain = 1e-4"}),
+          {"--set 2: error: Loading/Start strain = 1e-4", "linear springs"}});
+}
+
 TEST_F(Errors, output_folders_are_guarded) {
   put(folder_ / "file", "mine");
   refuse({{scene_}, {"is not a folder"}}, "file");

@@ -8,6 +8,7 @@
 #include "apps/run/model_setup.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/members.h"
+#include "coupling/platens_of_test.h"
 #include "dem/laws/normal_contact.h"
 
 namespace platen::apps {
@@ -276,6 +277,36 @@ TEST(SceneBindings, what_platens_sleeve_and_loading_say_arrives) {
   EXPECT_EQ(told.loading.rate_multiplier, 4);
   EXPECT_EQ(told.time_step.safety, 0.3);
   EXPECT_EQ(told.ends, dem::EndPreparation::ground);
+}
+
+// By the law of the grains unless platens have one; what is glued is linear.
+TEST(SceneBindings, grains_press_on_platens_as_the_scene_says) {
+  const auto told = [](std::vector<std::string> entries) {
+    entries.insert(entries.begin(), {"Platens/Stiffness = 1e7 N/m", "Platens/Tangential ratio = 0.5"});
+    return scene_with(entries);
+  };
+  const auto by_hertz = [](const Scene &scene) {
+    EXPECT_EQ(coupling::presses_by_hertz(problem_settings(scene)), scene.hertz_on_platens());
+    return scene.hertz_on_platens();
+  };
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = linear"})));
+  EXPECT_TRUE(by_hertz(told({"Effects/Contact = hertz"})));
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = hertz", "Platens/Attachment = glued"})));
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = hertz", "Platens/Contact = linear"})));
+  EXPECT_TRUE(by_hertz(told({"Effects/Contact = linear", "Platens/Contact = hertz"})));
+  EXPECT_EQ(problem_settings(told({"Platens/Contact modulus = 210 GPa"})).platens.contact_modulus, 210e9);
+  const auto noted = [&](const std::string &contact, const std::string &path) {
+    const Scene scene = told({"Effects/Contact = " + contact, "Platens/Contact modulus = 200 GPa"});
+    for (const std::string &note : scene.notes)
+      if (note.find("note: " + path + " ") != std::string::npos) return true;
+    return false;
+  };
+  for (const std::string key : {"Platens/Stiffness", "Platens/Tangential ratio"}) {
+    EXPECT_TRUE(noted("hertz", key)) << key;
+    EXPECT_FALSE(noted("linear", key)) << key;
+  }
+  EXPECT_TRUE(noted("linear", "Platens/Contact modulus"));
+  EXPECT_FALSE(noted("hertz", "Platens/Contact modulus"));
 }
 
 // Each side takes its own figure, that of its own word, the common one; sides without platens are left out.

@@ -146,7 +146,12 @@ TEST(elastic_loadings, the_energy_balance_closes_while_things_break) {
     for (const ElasticMotion motion : both_motions) {
       PlatenTest test(l.specimen(), elastic(l.settings, motion, steel));
       advance_to(test, 2500);
-      EXPECT_LT(residual(test), 0.01) << l.name << static_cast<int>(motion);
+      // Without inertia what platens do not hold is told apart; broken ends run ahead of them.
+      const dem::EnergyLedger e = test.energy();
+      EXPECT_LT(std::abs(e.residual() + e.unbalanced), 0.01 * e.boundary)
+          << l.name << static_cast<int>(motion);
+      EXPECT_LT(std::abs(e.residual()), 0.05 * e.boundary) << l.name << static_cast<int>(motion);
+      EXPECT_EQ(e.unbalanced != 0, motion == ElasticMotion::quasi_static);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -102,7 +103,7 @@ TEST(elastic_platens, explicit_and_quasi_static_ones_bear_alike) {
                 0.5 * problem.top().body().energy_balance().strain);
     // Contacts, friction, bonds and platens in one energy balance.
     const dem::EnergyLedger energy = problem.energy();
-    EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary) << still;
+    EXPECT_LT(std::abs(energy.residual() + energy.unbalanced), 1e-3 * energy.boundary) << still;
     EXPECT_GT(energy.bodies, 0.01 * energy.boundary);
   }
   EXPECT_NEAR(stress[1] / stress[0], 1, 0.01);
@@ -166,7 +167,9 @@ TEST(elastic_platens, the_energy_balance_closes_through_a_crush) {
     EXPECT_GT(problem.model.broken_tension, 20);
     const dem::EnergyLedger energy = problem.energy();
     EXPECT_GT(energy.friction, 0);
-    EXPECT_LT(std::abs(energy.residual()), 2e-3 * energy.boundary) << static_cast<int>(motion);
+    EXPECT_LT(std::abs(energy.residual() + energy.unbalanced), 2e-3 * energy.boundary)
+        << static_cast<int>(motion);
+    EXPECT_LT(std::abs(energy.residual()), 0.02 * energy.boundary); // what comes late in so fast a crush
   }
 }
 
@@ -189,7 +192,8 @@ TEST(elastic_platens, a_spherical_seat_takes_no_moment) {
         force += problem.top().body().total_force()[2];
       }
       arm[seat] = norm(Vector3{moment[0], moment[1], 0}) / force;
-      EXPECT_LT(std::abs(problem.energy().residual()), 2e-3 * problem.energy().boundary);
+      EXPECT_LT(std::abs(problem.energy().residual() + problem.energy().unbalanced),
+                2e-3 * problem.energy().boundary);
       EXPECT_EQ(clamp_closure(problem) > 0, true);
       const double turned = problem.elastic_top()->solid().rotation().w;
       EXPECT_EQ(turned == 1, !seat);
@@ -212,7 +216,8 @@ TEST(elastic_platens, the_energy_balance_closes_in_a_cell) {
   EXPECT_NEAR(0.5 * (problem.stress_top() + problem.stress_bottom()), 1e6, 5e4);
   advance_to(problem, problem.steps() + 1000);
   EXPECT_GT(problem.stress_top(), 1.5e6);
-  EXPECT_LT(std::abs(problem.energy().residual()), 5e-3 * problem.energy().boundary);
+  EXPECT_LT(std::abs(problem.energy().residual() + problem.energy().unbalanced),
+            5e-3 * problem.energy().boundary);
 }
 
 TEST(elastic_platens, a_resumed_run_goes_on_to_the_same_bits) {
@@ -252,14 +257,67 @@ TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
   EXPECT_GT(yielded, least);
   EXPECT_LT(yielded, most);
   // Damped vibrations are .1 % of so small a work.
-  EXPECT_LT(std::abs(problem.energy().residual()), 2e-3 * problem.energy().boundary);
+  EXPECT_LT(std::abs(problem.energy().residual() + problem.energy().unbalanced),
+            2e-3 * problem.energy().boundary);
 }
 
 // Softer than its contacts, and still at rest from solve to solve.
 TEST(elastic_platens, a_soft_pad_without_inertia_does_not_oscillate) {
   PlatenTest problem(cylinder(), on_pads(ElasticMotion::quasi_static));
   advance_to(problem, 5000);
-  EXPECT_LT(std::abs(problem.energy().residual()), 1e-4 * problem.energy().boundary);
+  const dem::EnergyLedger e = problem.energy();
+  EXPECT_LT(std::abs(e.residual() + e.unbalanced), 1e-4 * e.boundary);
+}
+
+// What platens do not hold of the work on them is no loss: the balance misses it, and names it.
+TEST(elastic_platens, work_that_platens_without_inertia_do_not_hold_stays_in_the_residual) {
+  PlatenTestSettings settings = on_pads(ElasticMotion::quasi_static);
+  settings.loading.rate = 5;
+  PlatenTest late(cylinder(), settings);
+  advance_to(late, 2000);
+  const dem::EnergyLedger e = late.energy();
+  EXPECT_GT(std::abs(e.unbalanced), 5e-3 * e.boundary);
+  EXPECT_LT(std::abs(e.residual() + e.unbalanced), 1e-3 * e.boundary);
+  PlatenTest prompt(cylinder(), on_pads(ElasticMotion::explicit_steps));
+  advance_to(prompt, 500);
+  EXPECT_EQ(prompt.energy().unbalanced, 0);
+}
+
+// The softer the sheet, the later it comes; with its inertia there is nothing to come late.
+TEST(elastic_platens, sheets_without_inertia_say_how_late_they_come) {
+  double last = 0;
+  for (const double young : {20e9, 1e9, 50e6}) {
+    PlatenTestSettings settings = on_pads(ElasticMotion::quasi_static);
+    settings.platens.elastic->pad.young_modulus = young;
+    const PlatenTest problem(cylinder(), settings);
+    EXPECT_GT(problem.seconds_behind(), 4 * last);
+    last = problem.seconds_behind();
+  }
+  EXPECT_EQ(PlatenTest(cylinder(), on_pads(ElasticMotion::explicit_steps)).seconds_behind(), 0);
+}
+
+// What the bound of platen-compress stands on: the peak of a crush with and without the inertia of sheets.
+TEST(elastic_platens, DISABLED_what_lag_does) {
+  std::printf("sheet, GPa | solve each | behind, transits | peak, MPa | unbalanced over work | residual\n");
+  for (const double pad : {steel, 20e9, 5e9, 1e9, 0.3e9, 0.1e9})
+    for (const int each : {0, 5, 20}) { // 0: with inertia
+      PlatenTestSettings s =
+          crushing(each == 0 ? ElasticMotion::explicit_steps : ElasticMotion::quasi_static);
+      s.platens.elastic->steps_per_solve = std::max(1, each);
+      s.platens.elastic->pad_thickness = 1e-3;
+      s.platens.elastic->pad = {1200, pad, 0.45};
+      PlatenTest test(cylinder(), s);
+      double peak = 0, work = 0, most = 0;
+      while (test.steps() < 12000 && !(test.axial_stress() < 0.5 * peak && peak > 1e6)) {
+        test.advance(20);
+        test.model.take_cracks();
+        if (test.axial_stress() > peak) peak = test.axial_stress(), work = test.energy().boundary;
+        most = std::max(most, std::abs(test.energy().unbalanced));
+      }
+      std::printf("%g | %d | %.2g | %.3g | %.2g | %.2g\n", 1e-9 * pad, each,
+                  test.seconds_behind() / test.facts().wave_transit, 1e-6 * peak, most / work,
+                  test.energy().residual() / work);
+    }
 }
 
 // A grid of one's own that is the plate which would have been made presses as that does, wherever it lay:

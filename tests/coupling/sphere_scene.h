@@ -43,8 +43,8 @@ struct SphereScene {
   Vector3 gravity;
 
   SphereScene(fem::RigidBody plate_body, const std::vector<Vector3> &centres, const SurfaceContact &contact,
-              bool rotation = true, double radius = sphere_radius)
-      : particles(spheres(centres, radius), 2500, rotation),
+              bool rotation = true, double radius = sphere_radius, double density = 2500)
+      : particles(spheres(centres, radius), density, rotation),
         body(std::move(plate_body)),
         layer(particles, body, contact) {}
 

@@ -80,6 +80,86 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
   }
 }
 
+// Loads that stand in full all along the way do twice the strain energy, loads that grow with it just that.
+// What is left over is told apart, and found here from forces and ways alone.
+TEST(elastic_solid, work_that_a_body_without_inertia_does_not_hold_is_told_by_itself) {
+  for (const bool grows : {false, true}) {
+    ElasticSolid solid(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
+    const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
+    const auto load = [&](double share) {
+      std::vector<Vector3> now(loads);
+      for (Vector3 &f : now)
+        f = (grows ? share : 1) * f;
+      solid.clear_loads();
+      put(solid, now);
+      return now;
+    };
+    const double dt = 1e-6;
+    constexpr int steps = 20;
+    solid.aim(loads, steps * dt);
+    double work = 0;
+    std::vector<Vector3> before = load(0);
+    for (int k = 0; k < steps; ++k) {
+      const auto from = solid.surface().vertices;
+      solid.kick(0.5 * dt), solid.drift(dt);
+      const std::vector<Vector3> now = load((k + 1.0) / steps);
+      solid.kick(0.5 * dt);
+      for (std::size_t v = 0; v < from.size(); ++v)
+        work += 0.5 * dot(before[v] + now[v], solid.surface().vertices[v] - from[v]);
+      before = now;
+    }
+    const EnergyBalance b = solid.energy_balance();
+    ASSERT_GT(b.strain, 0);
+    EXPECT_EQ(b.dissipated, 0);
+    EXPECT_NEAR(b.unbalanced, work - b.strain, 1e-9 * b.strain);
+    EXPECT_NEAR(b.unbalanced, grows ? 0 : b.strain, 1e-9 * b.strain);
+  }
+}
+
+// The softer a block is beside its springs, the more solves it takes to its place; counted one by one.
+TEST(elastic_solid, a_supported_body_says_how_many_solves_it_is_behind) {
+  ElasticSolid alone(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
+  EXPECT_EQ(alone.solves_behind({1, 0, 0}), 2);
+  double last = 2;
+  for (const double spring : {1e6, 1e8, 1e9, 1e10}) { // N/m a vertex
+    ElasticSolid solid(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
+    std::vector<double> springs(solid.surface().vertices.size(), 0.0);
+    for (std::size_t f = 0; f < solid.surface().faces.size(); ++f)
+      if (solid.surface().face_tags[f] == low_end_tag)
+        for (const int v : solid.surface().faces[f])
+          springs[static_cast<std::size_t>(v)] = spring;
+    solid.set_support(springs);
+    const double behind = solid.solves_behind({1, 0, 0});
+    EXPECT_GT(behind, last);
+    last = behind;
+    if (spring < 1e9) continue;
+    const std::vector<Vector3> start = solid.surface().vertices;
+    const auto mean = [&] {
+      double sum = 0, count = 0;
+      for (std::size_t v = 0; v < springs.size(); ++v)
+        if (springs[v] > 0) sum += solid.surface().vertices[v].x - start[v].x, ++count;
+      return sum / count;
+    };
+    std::vector<Vector3> loads(springs.size());
+    const auto solve = [&] {
+      solid.aim(loads, 1e-6);
+      solid.drift(1e-6);
+    };
+    for (std::size_t v = 0; v < springs.size(); ++v)
+      loads[v] = {springs[v] > 0 ? 1e3 : 0.0, 0, 0};
+    std::vector<double> places;
+    for (int k = 0; k < 40 * behind; ++k) {
+      solve();
+      places.push_back(mean());
+    }
+    const double end = places.back();
+    std::size_t n = 0;
+    while (std::abs(places[n] - end) > std::exp(-1) * std::abs(end))
+      ++n;
+    EXPECT_NEAR(static_cast<double>(n + 1), behind, 0.5 * behind) << spring;
+  }
+}
+
 TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
   std::vector<State> ends;
   for (const int threads : {1, 2, 4}) {

@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+"""The spheres of a packing that lie wholly in an upright cylinder about its middle, as specimen.csv on the screen.
+Usage: core.py SPECIMEN.CSV RADIUS HEIGHT, in m."""
+import csv
+import math
+import sys
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    radius, height = float(sys.argv[2]), float(sys.argv[3])
+    with open(sys.argv[1], encoding="utf-8") as file:
+        spheres = [tuple(float(v) for v in row) for row in csv.reader(file) if row[0][0] not in "#x"]
+    middle = 0.5 * (max(s[2] for s in spheres) + min(s[2] for s in spheres))
+    print(f"# shape: cylinder radius_m={radius!r} height_m={height!r}\nx_m,y_m,z_m,radius_m")
+    for x, y, z, r in spheres:
+        z -= middle
+        if math.hypot(x, y) + r <= radius and abs(z) + r <= 0.5 * height:
+            print(f"{x!r},{y!r},{z + 0.5 * height!r},{r!r}")
+
+
+if __name__ == "__main__":
+    main()
