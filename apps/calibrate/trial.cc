@@ -17,6 +17,8 @@ constexpr double readings = 600;
 constexpr double fallen = 0.8, modulus_share = 0.4;
 // A specimen may flow on: its peak counts if it lies before this share of the largest strain.
 constexpr double before_the_end = 0.8;
+// A fall before this share of the largest strain is none: what a cell leaves shakes about zero at first.
+constexpr double begun = 0.02;
 
 struct Reading {
   double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
@@ -85,7 +87,7 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     const Reading &now = all.back();
     if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
     const bool broken = problem.model.broken_tension + problem.model.broken_shear > 0;
-    fell = fell || (broken && now.stress < fallen * peak);
+    fell = fell || (broken && now.strain_platen > begun * target && now.stress < fallen * peak);
   }
   if (fell || result.strain_at_peak < before_the_end * target) {
     result.strength = peak + start.stress;
