@@ -247,8 +247,8 @@ TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
   // What crushed.prm leaves out: a servo, Hertz contacts with rolling, seats, gravity, scaled masses, a
   // dissipative scheme, bonds of unlike strength, phases.
   std::vector<std::string> effects;
-  for (const char *entry : {"Platens/Top/Control = stress", "Platens/Top/Stress = 40 MPa",
-                            "Loading/Ramp = 0.2 ms", "Loading/Hold = 0.05 ms", "Effects/Contact = hertz",
+  for (const char *entry : {"Platens/Top/Control = stress", "Platens/Top/Stress = 60 MPa",
+                            "Loading/Ramp = 0.2 ms", "Loading/Hold = 0.2 ms", "Effects/Contact = hertz",
                             "Effects/Tangential = coulomb with rolling resistance",
                             "Contact/Rolling friction = 0.1", "Effects/Gravity = on", "Specimen/Seat = on",
                             "Integration/Mass scaling = 2", "Integration/Scheme = tchamwa wielgosz",
@@ -265,7 +265,7 @@ TEST_F(Determinism, all_that_has_a_memory_goes_on_where_it_stopped) {
                              "dissipative scheme", "scattered strengths", "phases"})
     EXPECT_TRUE(contains(summary_in(folder_ / "whole")["effects"].dump(), effect)) << effect;
   EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 500);
-  EXPECT_EQ(stop_at("stopped", 60, SIGTERM, with({"-t", "2"})), 143);
+  EXPECT_EQ(stop_at("stopped", 90, SIGTERM, with({"-t", "2"})), 143);
   const Outcome last = run_compress(with({scene_, "-o", "stopped", "--resume", "--quiet"}), folder_);
   EXPECT_EQ(last.status, 0) << last.error;
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
