@@ -212,7 +212,7 @@ GROUPS = [
     ]),
     ("Studies", [
         Scene("study_friction_quick", f"{STUDY} friction", "strength_slenderness",
-              "How much of the strength is the platen's doing: at height over width 1 dry steel gains a fourth over "
+              "How much of the strength is the platen's doing: at height over width 1 dry steel gains a third over "
               "grease, at 2 less than a tenth. The diamonds are of laboratories. One packing."),
         Scene("study_friction_concrete", f"{STUDY} friction", "strength_slenderness",
               "The same on five packings, finer spheres, more platens and slendernesses: 100 runs. Figures and a picture of "
