@@ -29,6 +29,7 @@ double measured_of(const Scene &scene, const RigReading &row) {
 double by_hand_of(const Scene &scene, const BondRun &run, std::size_t k) {
   if (is_prescribed(scene)) {
     const InterfaceLoad &load = run.interface.rows[k].by_hand;
+    if (turns(scene)) return load.moment;
     return slides(scene) ? load.shear : load.normal;
   }
   const RigReading &row = run.path.rows[k];
@@ -88,27 +89,30 @@ std::string report_by_closed_form(const Scene &scene, const std::vector<BondRun>
 }
 
 std::string report_of_prescribed(const Scene &scene, const std::vector<BondRun> &runs) {
-  std::string text = fmt::format("  {:>10} {:>14} {:>14} {:>14} {:>8} {:>11}\n", "modulus", "displacement",
-                                 "force", "by hand", "damage", "difference");
-  text +=
-      fmt::format("  {:>10} {:>14} {:>14} {:>14} {:>8} {:>11}\n", "GPa", "um", "N", "N", "", "of largest");
+  const bool turning = turns(scene);
+  const char *unit = turning ? "N m" : "N";
+  std::string text = fmt::format("  {:>10} {:>14} {:>14} {:>14} {:>8} {:>11}\n", "modulus",
+                                 turning ? "rotation" : "displacement", turning ? "moment" : "force",
+                                 "by hand", "damage", "difference");
+  text += fmt::format("  {:>10} {:>14} {:>14} {:>14} {:>8} {:>11}\n", "GPa", turning ? "urad" : "um", unit,
+                      unit, "", "of largest");
   for (const BondRun &run : runs) {
     const std::size_t rows = run.path.rows.size(), shown = std::min<std::size_t>(rows, 12);
     for (std::size_t k = 1; k <= shown; ++k) {
       const std::size_t n = k * rows / shown - 1;
       const RigReading &row = run.path.rows[n];
       const InterfaceRow &at = run.interface.rows[n];
-      text += fmt::format("  {:>10.6g} {:>14.7g} {:>14.7g} {:>14.7g} {:>8.4f} {:>11.2e}\n",
-                          1e-9 * run.modulus, 1e6 * row.displacement, row.force, by_hand_of(scene, run, n),
-                          std::max(at.measured.tension_damage, at.measured.shear_damage),
-                          run.interface.difference(n));
+      text += fmt::format(
+          "  {:>10.6g} {:>14.7g} {:>14.7g} {:>14.7g} {:>8.4f} {:>11.2e}\n", 1e-9 * run.modulus,
+          1e6 * displacement_of(scene, row), load_of(scene, row), by_hand_of(scene, run, n),
+          std::max(at.measured.tension_damage, at.measured.shear_damage), run.interface.difference(n));
     }
     const InterfaceRow &last = run.interface.rows.back();
     text += fmt::format("  dissipated {:.10g} J; by hand {:.10g} J\n", last.measured.dissipated,
                         last.dissipated_by_hand);
     if (!std::isnan(run.path.break_load))
-      text +=
-          fmt::format("  strength {:.10g} N; by hand {:.10g} N\n", run.path.break_load, run.strength_by_hand);
+      text += fmt::format("  strength {:.10g} {}; by hand {:.10g} {}\n", run.path.break_load, unit,
+                          run.strength_by_hand, unit);
     if (!std::isnan(run.interface.fracture_energy))
       text += fmt::format("  fracture energy {:.10g} J/m2; by hand {:.10g} J/m2\n",
                           run.interface.fracture_energy, run.interface.fracture_energy_by_hand);
@@ -116,12 +120,13 @@ std::string report_of_prescribed(const Scene &scene, const std::vector<BondRun> 
   return text;
 }
 
-void add_prescribed(Json &j, const BondRun &run) {
+void add_prescribed(Json &j, const Scene &scene, const BondRun &run) {
   const InterfaceRow &last = run.interface.rows.back();
   // The first place on the prescribed path: a sheared bond is pressed first.
   const auto moved = std::find_if(run.path.rows.begin(), run.path.rows.end(),
-                                  [](const RigReading &row) { return row.displacement != 0; });
-  j["stiffness"] = moved != run.path.rows.end() ? moved->force / moved->displacement : not_given;
+                                  [&](const RigReading &row) { return displacement_of(scene, row) != 0; });
+  j["stiffness"] =
+      moved != run.path.rows.end() ? load_of(scene, *moved) / displacement_of(scene, *moved) : not_given;
   j["largest_difference"] = run.interface.largest_difference();
   j["work_j"] = last.measured.work;
   j["stored_j"] = last.measured.stored;
@@ -150,14 +155,14 @@ Json summary_of(const Scene &scene, const BondRun &run) {
   j["fracture_work_j"] = run.fracture_work;
   j["largest_difference"] = largest_difference(scene, run);
   j["steps"] = run.steps;
-  if (is_prescribed(scene)) add_prescribed(j, run);
+  if (is_prescribed(scene)) add_prescribed(j, scene, run);
   return j;
 }
 
 std::vector<std::string> effects_of(const Scene &scene) {
   std::vector<std::string> effects{scene.bond.word()};
   if (scene.model.rotation) effects.emplace_back("rotation");
-  if (scene.model.rotation && !is_prescribed(scene)) effects.emplace_back("bond moments");
+  if (scene.model.rotation && (turns(scene) || !is_prescribed(scene))) effects.emplace_back("bond moments");
   if (scene.effects.contact) effects.push_back(dem::word(*scene.effects.contact) + std::string(" contact"));
   if (scene.model.bond_dashpot > 0 && !is_prescribed(scene)) effects.emplace_back("bond dashpots");
   if (!is_prescribed(scene)) effects.emplace_back("local damping");

@@ -53,9 +53,11 @@ InterfaceSection section_of(const dem::BondLaw &law, double length, double area,
 // One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
 struct InterfacePlace {
   double opening = 0, slip = 0; // m
+  double turn = 0;              // rad, of one sphere against the other
 };
 struct InterfaceLoad {
   double normal = 0, shear = 0; // N, tension positive; on the driven sphere by its holder
+  double moment = 0;            // N m
 };
 
 class InterfaceByHand {

@@ -1,6 +1,7 @@
 #include "apps/bonds/interface_test.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,15 @@ bool slides(const PairTest &test) {
   return test.path == PairPath::shear;
 }
 
+bool turning(const PairTest &test) {
+  return test.path == PairPath::bending || test.path == PairPath::twisting;
+}
+
+// How much of a moment counts towards failure.
+double beta_of(const dem::BondLaw &law) {
+  return dem::of_remembering(law, [](const auto &of) { return of.parameters.moment_contribution; });
+}
+
 // Shares of a straight line where rows stand, ascending, the last one 1.
 std::vector<double> shares_of(const std::vector<double> &kinks, int steps) {
   std::vector<double> shares = kinks;
@@ -53,23 +63,33 @@ std::vector<double> shares_of(const std::vector<double> &kinks, int steps) {
 }
 
 double length_of(const InterfacePlace &from, const InterfacePlace &to) {
-  return std::abs(to.opening - from.opening) + std::abs(to.slip - from.slip);
+  return std::abs(to.opening - from.opening) + std::abs(to.slip - from.slip) + std::abs(to.turn - from.turn);
 }
 
-// Places that the path goes to on straight lines, from touching spheres on.
-std::vector<InterfacePlace> turning_places(const PairTest &test, const InterfaceSection &section) {
+InterfacePlace between(const InterfacePlace &from, const InterfacePlace &to, double share) {
+  if (share == 1) return to;
+  return {from.opening + share * (to.opening - from.opening), from.slip + share * (to.slip - from.slip),
+          from.turn + share * (to.turn - from.turn)};
+}
+
+// Places that the path goes to on straight lines, from touching spheres on. A displacement of what turns is
+// that of a sphere's skin.
+std::vector<InterfacePlace> turning_places(const PairTest &test, const InterfaceSection &section,
+                                           double sphere_radius) {
   std::vector<double> turns = test.turns;
   if (turns.empty())
     for (const double point : turning_points(test))
       turns.push_back(point * test.displacement);
   std::vector<InterfacePlace> places;
   const double closed = slides(test) && test.pressure > 0 ? -section.closing_at(test.pressure) : 0;
-  if (closed != 0) places.push_back({closed, 0});
+  if (closed != 0) places.push_back({closed, 0, 0});
   for (const double turn : turns) {
     if (slides(test))
-      places.push_back({closed, turn});
+      places.push_back({closed, turn, 0});
+    else if (turning(test))
+      places.push_back({0, 0, turn / sphere_radius});
     else
-      places.push_back({turn, test.path == PairPath::combined ? test.slip_ratio * turn : 0});
+      places.push_back({turn, test.path == PairPath::combined ? test.slip_ratio * turn : 0, 0});
   }
   return places;
 }
@@ -78,14 +98,21 @@ std::vector<InterfacePlace> turning_places(const PairTest &test, const Interface
 
 InterfaceTest::InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio)
     : test_(scene.pair_test),
+      radius_(scene.specimen.sphere_radius),
       model_(touching_spheres(scene), settings_of(scene, modulus, stiffness_ratio)),
       section_(section_of_one(*model_.bonds, modulus)),
       by_hand_(section_, test_.path == PairPath::combined, test_.slip_ratio) {
   (model_.particles.id[0] == 0 ? lower_ : upper_) = 1; // sphere 0 of the specimen is the upper one
+  if (!turning(test_)) return;
+  const dem::Bonds &bonds = *model_.bonds;
+  moment_.emplace(moment_section(section_,
+                                 test_.path == PairPath::bending ? MomentAxis::across : MomentAxis::along,
+                                 beta_of(bonds.law), bonds.bond_radius[0]));
 }
 
 // The upper sphere goes along the line of centres, and both turn about the same axis so that their surfaces
-// slide on each other by the slip at a distance that stays.
+// slide on each other by the slip at a distance that stays. What bends or twists turns against each other,
+// half each, so that nothing slides.
 void InterfaceTest::move(const InterfacePlace &to) {
   dem::Particles &p = model_.particles;
   const double here = p.position[upper_].z - p.position[lower_].z;
@@ -94,13 +121,19 @@ void InterfaceTest::move(const InterfacePlace &to) {
   if (p.has_rotation())
     for (Vector3 &spin : *p.angular_velocity)
       spin = {0, -(to.slip - at_.slip) / (distance * step), 0};
+  const Vector3 axis = test_.path == PairPath::bending ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
+  if (turning(test_)) {
+    (*p.angular_velocity)[upper_] = (0.5 * (to.turn - at_.turn) / step) * axis;
+    (*p.angular_velocity)[lower_] = (-0.5 * (to.turn - at_.turn) / step) * axis;
+  }
   model_.begin_step(step);
   model_.compute_forces(step);
   const Vector3 force = p.force[upper_];
   const InterfaceLoad before = now_;
-  now_ = {0 - force.z, 0 - force.x};
+  now_ = {0 - force.z, 0 - force.x, turning(test_) ? 0 - dot((*p.torque)[upper_], axis) : 0};
   work_ += 0.5 * ((before.normal + now_.normal) * (to.opening - at_.opening) +
-                  (before.shear + now_.shear) * (to.slip - at_.slip));
+                  (before.shear + now_.shear) * (to.slip - at_.slip) +
+                  (before.moment + now_.moment) * (to.turn - at_.turn));
   at_ = to;
   ++steps_;
   // At rest again, and free of loads: the next step begins by half a kick.
@@ -126,6 +159,8 @@ void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
   RigReading row;
   row.force = slides(test_) ? now_.shear : now_.normal;
   row.displacement = slides(test_) ? at.slip : at.opening;
+  row.moment = now_.moment;
+  row.rotation = at.turn;
   row.normal = now_.normal;
   row.shear = now_.shear;
   row.tension_ratio = response.tension_ratio;
@@ -133,12 +168,42 @@ void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
   row.intact = static_cast<int>(model_.intact_bonds());
   row.strain_ratio = not_given;
   run.path.rows.push_back(row);
-  run.interface.rows.push_back({read(), now_, by_hand_.load(), by_hand_.dissipated()});
-  if (row.intact > 0 && std::abs(row.force) > std::abs(run.path.largest.force)) run.path.largest = row;
+  if (moment_)
+    run.interface.rows.push_back({read(), now_, {0, 0, moment_->moment()}, moment_->dissipated()});
+  else
+    run.interface.rows.push_back({read(), now_, by_hand_.load(), by_hand_.dissipated()});
+  const RigReading &largest = run.path.largest;
+  if (row.intact > 0 &&
+      std::abs(row.force) + std::abs(row.moment) > std::abs(largest.force) + std::abs(largest.moment))
+    run.path.largest = row;
+}
+
+std::vector<double> InterfaceTest::kinks(const InterfacePlace &to) const {
+  return moment_ ? moment_->kinks(to.turn) : by_hand_.kinks(to);
+}
+
+void InterfaceTest::go_by_hand(const InterfacePlace &to) {
+  moment_ ? moment_->go(to.turn) : by_hand_.go(to);
+}
+
+void InterfaceTest::conclude_turning(BondRun &run) const {
+  const MomentSection section =
+      moment_section(section_, test_.path == PairPath::bending ? MomentAxis::across : MomentAxis::along,
+                     beta_of(model_.bonds->law), model_.bonds->bond_radius[0]);
+  run.stiffness_by_hand = section.stiffness;
+  run.strength_by_hand = moment_->strength();
+  InterfaceResult &result = run.interface;
+  run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = not_given;
+  const std::vector<RigReading> &rows = run.path.rows;
+  if (rows.back().intact > 0) return;
+  run.path.break_load = 0;
+  for (std::size_t k = 0; rows[k].intact > 0; ++k)
+    run.path.break_load = std::max(run.path.break_load, std::abs(rows[k].moment));
 }
 
 // What is known by hand, and the energy of the softening branch.
 void InterfaceTest::conclude(BondRun &run) const {
+  if (moment_) return conclude_turning(run);
   const bool combined = test_.path == PairPath::combined;
   const SofteningByHand softening = slides(test_) ? section_.shear(test_.pressure) : section_.tension();
   run.stiffness_by_hand = section_.area * softening.stiffness;
@@ -146,7 +211,7 @@ void InterfaceTest::conclude(BondRun &run) const {
   if (test_.path == PairPath::compression) run.strength_by_hand = std::numeric_limits<double>::infinity();
   if (combined) { // where the first of the lines bends down
     InterfaceByHand fresh(section_, true, test_.slip_ratio);
-    const InterfacePlace end = turning_places(test_, section_).front();
+    const InterfacePlace end = turning_places(test_, section_, radius_).front();
     const std::vector<double> kinks = fresh.kinks(end);
     run.strength_by_hand = not_given;
     if (!kinks.empty()) { // of a brittle one just before it breaks
@@ -175,9 +240,10 @@ BondRun InterfaceTest::run() {
   run.stiffness_ratio = section_.shear_stiffness() / section_.normal_stiffness();
   run.bonds = model_.intact_bonds();
   run.bond_area = section_.area;
+  run.interface.length = section_.length;
   run.time_step = run.strain_ratio_by_hand = not_given;
   run.time_step_reason = "none: spheres are led without inertia";
-  const std::vector<InterfacePlace> places = turning_places(test_, section_);
+  const std::vector<InterfacePlace> places = turning_places(test_, section_, radius_);
   double length = 0;
   InterfacePlace from;
   for (const InterfacePlace &to : places)
@@ -186,13 +252,10 @@ BondRun InterfaceTest::run() {
   for (const InterfacePlace &to : places) {
     const double part = length_of(from, to) / length;
     const int steps = std::max(1, static_cast<int>(std::lround(part * test_.steps)));
-    for (const double share : shares_of(by_hand_.kinks(to), steps)) {
-      const InterfacePlace next = share < 1
-                                      ? InterfacePlace{from.opening + share * (to.opening - from.opening),
-                                                       from.slip + share * (to.slip - from.slip)}
-                                      : to;
+    for (const double share : shares_of(kinks(to), steps)) {
+      const InterfacePlace next = between(from, to, share);
       move(next);
-      by_hand_.go(next);
+      go_by_hand(next);
       add_row(run, next);
     }
     from = to;
@@ -204,12 +267,18 @@ BondRun InterfaceTest::run() {
 }
 
 double InterfaceResult::difference(std::size_t row) const {
+  const auto each = [this](const InterfaceLoad &of) {
+    return std::array<double, 3>{length * of.normal, length * of.shear, of.moment};
+  };
   double scale = 0;
   for (const InterfaceRow &r : rows)
-    scale = std::max({scale, std::abs(r.by_hand.normal), std::abs(r.by_hand.shear)});
-  const InterfaceRow &r = rows[row];
-  const double normal = r.load.normal - r.by_hand.normal, shear = r.load.shear - r.by_hand.shear;
-  return (std::abs(normal) > std::abs(shear) ? normal : shear) / scale;
+    for (const double load : each(r.by_hand))
+      scale = std::max(scale, std::abs(load));
+  const auto measured = each(rows[row].load), by_hand = each(rows[row].by_hand);
+  double largest = 0;
+  for (std::size_t k = 0; k < measured.size(); ++k)
+    if (std::abs(measured[k] - by_hand[k]) > std::abs(largest)) largest = measured[k] - by_hand[k];
+  return largest / scale;
 }
 
 double InterfaceResult::largest_difference() const {

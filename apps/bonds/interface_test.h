@@ -3,8 +3,12 @@
 // oscillations of free spheres. The bond itself is the model's own, brought on by its kernels.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "apps/bonds/interface_forms.h"
 #include "apps/bonds/load_path.h"
+#include "apps/bonds/moment_forms.h"
 
 namespace platen::apps {
 
@@ -17,12 +21,13 @@ struct InterfaceReading {
 
 struct InterfaceRow {
   InterfaceReading measured;
-  InterfaceLoad load, by_hand;   // N, that holds the moved sphere
+  InterfaceLoad load, by_hand;   // that holds the moved sphere
   double dissipated_by_hand = 0; // J
 };
 
 struct InterfaceResult {
   std::vector<InterfaceRow> rows;
+  double length = 0; // m, of the bond: at this arm forces count beside moments
   // J/m^2, area under the softening branch; NaN where the bond has not failed in tension, or in shear without
   // pressure.
   double fracture_energy = 0, fracture_energy_by_hand = 0;
@@ -45,14 +50,19 @@ public:
 private:
   void move(const InterfacePlace &to);
   void add_row(BondRun &run, const InterfacePlace &at) const;
+  std::vector<double> kinks(const InterfacePlace &to) const; // of the lines by hand
+  void go_by_hand(const InterfacePlace &to);
   void conclude(BondRun &run) const;
+  void conclude_turning(BondRun &run) const;
   InterfaceReading read() const;
 
   const PairTest &test_;
+  double radius_; // m, of a sphere
   dem::Model model_;
   InterfaceSection section_;
   InterfaceByHand by_hand_;
-  std::size_t upper_ = 0, lower_ = 0; // rows
+  std::optional<MomentByHand> moment_; // by hand, on a path that bends or twists
+  std::size_t upper_ = 0, lower_ = 0;   // rows
   InterfacePlace at_;
   InterfaceLoad now_;
   double work_ = 0;

@@ -6,4 +6,5 @@ set(PLATEN_BONDS_SOURCES
   bonds/interface_forms.cc
   bonds/interface_test.cc
   bonds/load_path.cc
+  bonds/moment_forms.cc
   bonds/run_bonds.cc)

@@ -28,10 +28,16 @@ void SceneCheck::led_pair() const {
   if (test.particles != 2)
     refuse("Pair test/Particles",
            "leaves a bond that remembers to the oscillations of free spheres. Allowed: 2.");
-  if (test.path == PairPath::bending || test.path == PairPath::twisting)
+  const bool turns = test.path == PairPath::bending || test.path == PairPath::twisting;
+  const bool yields = scene_.bond.is<dem::YieldingParallelBond>();
+  const bool bends = yields ? std::get<dem::YieldingParallelBond::Parameters>(scene_.bond.laws).moments
+                            : std::get<dem::ElastoDamagePlastic::Parameters>(scene_.bond.laws).moments;
+  if (turns && !(bends && scene_.model.rotation))
     refuse("Pair test/Path",
-           "moves nothing here: a bond that is led from place to place neither bends nor twists. "
-           "Allowed: tension, compression, shear, cyclic, combined.");
+           std::string("turns spheres against each other, which their bond without moments does "
+                       "not resist. Allowed: tension, compression, shear, cyclic, combined, or "
+                       "Effects/Rotation and Effects/") +
+               (yields ? "Bond" : "Interface") + " moments = on.");
   if (given(test.force))
     refuse("Pair test/Force",
            "cannot lead a bond through its softening. Allowed: Pair test/Displacement or "

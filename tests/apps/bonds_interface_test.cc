@@ -213,6 +213,54 @@ TEST(bonds_interface, a_cycle_through_tension_and_compression_is_the_one_by_hand
   EXPECT_GT(last(run).measured.plastic_closing, 1e-6);
 }
 
+const Words turned{"Effects/Interface moments = on", "Bond/Moment contribution = 0.5"};
+Words turning(Words more) {
+  more.insert(more.begin(), turned.begin(), turned.end());
+  return more;
+}
+
+// The skin's strength 5 MPa at beta R_b of the axis: M = sigma I/(beta R_b), and the turn that goes with it.
+TEST(bonds_interface, bending_softens_from_the_strength_of_the_skin) {
+  const BondRun run = run_pair(turning({"Pair test/Path = bending", "Pair test/Displacement = 1.2 um"}));
+  expect_by_hand(run);
+  const double inertia = .25 * area * 1e-6, strength = 5e6 * inertia / (.5 * 1e-3);
+  EXPECT_NEAR(run.path.break_load, strength, close * strength);
+  EXPECT_NEAR(run.path.rows.front().moment / run.path.rows.front().rotation, kn * inertia,
+              1e-6 * kn * inertia);
+  const double limit = strength / (kn * inertia); // rad; nothing is left at 1.2 times as much
+  EXPECT_NEAR(last(run).measured.dissipated, .5 * strength * 1.2 * limit, 1e-6 * strength * limit);
+  EXPECT_EQ(run.broken_tension, 1);
+  EXPECT_EQ(last(run).load.normal, 0);
+}
+
+TEST(bonds_interface, twisting_softens_from_the_strength_of_the_skin_in_shear) {
+  const BondRun run = run_pair(turning({"Pair test/Path = twisting", "Pair test/Displacement = 12 um"}));
+  expect_by_hand(run);
+  const double inertia = .5 * area * 1e-6, strength = 16e6 * inertia / (.5 * 1e-3);
+  EXPECT_NEAR(run.path.break_load, strength, close * strength);
+  EXPECT_EQ(run.broken_shear, 1);
+}
+
+TEST(bonds_interface, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_by_what_is_left) {
+  for (const char *line : {"Bond/Failure line = uncoupled", "Bond/Failure line = coupled"})
+    for (const char *path : {"bending", "twisting"}) {
+      SCOPED_TRACE(std::string(line) + ", " + path);
+      const BondRun run =
+          run_pair(turning({line, std::string("Pair test/Path = ") + path, "Bond/Softening tension = 0.4",
+                            "Pair test/Displacement =", "Pair test/Turns = 0.8 um, -0.9 um, 0.85 um, 12 um"}));
+      expect_by_hand(run);
+      EXPECT_EQ(run.path.rows.back().moment, 0);
+    }
+}
+
+TEST(bonds_interface, a_skin_that_does_not_count_never_breaks) {
+  const BondRun run = run_pair({"Effects/Interface moments = on", "Bond/Moment contribution = 0",
+                                "Pair test/Path = bending", "Pair test/Displacement = 5 um"});
+  expect_by_hand(run);
+  EXPECT_EQ(run.broken_tension + run.broken_shear, 0);
+  EXPECT_TRUE(std::isinf(run.strength_by_hand));
+}
+
 TEST(bonds_interface, without_rotation_the_normal_law_is_the_same) {
   const BondRun with = run_pair({}), without = run_pair({"Effects/Rotation = off"});
   ASSERT_EQ(with.path.rows.size(), without.path.rows.size());
@@ -222,7 +270,9 @@ TEST(bonds_interface, without_rotation_the_normal_law_is_the_same) {
 
 TEST(bonds_interface, what_cannot_be_led_is_refused) {
   const std::pair<Words, const char *> faults[] = {
-      {{"Pair test/Path = bending"}, "neither bends nor twists"},
+      {{"Pair test/Path = bending"}, "Effects/Interface moments = on"},
+      {{"Pair test/Path = twisting", "Effects/Interface moments = on", "Effects/Rotation = off"},
+       "Effects/Rotation and"},
       {{"Pair test/Particles = 3"}, "Pair test/Particles"},
       {{"Pair test/Force = 1 kN"}, "through its softening"},
       {{"Pair test/Displacement ="}, "is not set"},

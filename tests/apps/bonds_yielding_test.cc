@@ -72,6 +72,22 @@ TEST(bonds_yielding, tension_and_shear_at_once_break_by_the_first_of_both) {
   EXPECT_EQ(run.path.rows.back().force, 0);
 }
 
+// M = sigma I/(beta R_b) of 9 MPa and tau J/(beta R_b), of what neither opens nor slips.
+TEST(bonds_yielding, bending_and_twisting_break_at_the_strength_of_the_skin) {
+  for (const bool twists : {false, true}) {
+    const BondRun run =
+        run_pair({std::string("Pair test/Path = ") + (twists ? "twisting" : "bending"),
+                  "Bond/Moment contribution = 0.5", "Pair test/Turns = 0.5 um, -1 um, 60 um"});
+    expect_by_hand(run, 1e-7);
+    const double inertia = .25 * area * 1e-6;
+    EXPECT_NEAR(run.path.break_load, run.strength_by_hand, 3e-7 * run.strength_by_hand); // the row before
+    const double by_hand = twists ? 36e6 * 2 * inertia / .5e-3 : 9e6 * inertia / .5e-3;
+    EXPECT_NEAR(run.strength_by_hand, by_hand, 1e-9 * by_hand);
+    EXPECT_EQ(twists ? run.broken_shear : run.broken_tension, 1);
+    EXPECT_EQ(run.path.rows.back().moment, 0);
+  }
+}
+
 TEST(bonds_yielding, stiffness_ratios_are_a_list_as_of_the_parallel_bond) {
   const auto scene =
       read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm",
