@@ -58,6 +58,25 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
+// The first `count` members of a state, scalars, to their columns.
+template <std::size_t count, class State>
+PLATEN_INLINE void keep_scalars(const MemoryColumns &columns, std::size_t k, State &state) {
+  std::size_t at = 0;
+  State::describe(
+      [&](const char *, const char *, auto &member) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>)
+          if (at < count) store(columns.scalar[at] + k, member);
+        ++at;
+      },
+      state);
+}
+
+// Laws that tell of whole bonds by their pose alone.
+template <class Law, class = void>
+constexpr bool is_quick_while_whole = false;
+template <class Law>
+constexpr bool is_quick_while_whole<Law, std::enable_if_t<Law::quick_while_whole>> = true;
+
 // Without rotation orientations are those of the reference.
 template <bool rotation>
 PLATEN_INLINE BondMotion<Pack> pose_of(const Ends &ends) {
@@ -110,31 +129,47 @@ PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t
   return g;
 }
 
+// What a pair does by all it remembers and has done.
+template <bool rotation, bool factors, class Law>
+PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law, std::size_t k,
+                                      const Ends &ends, double dt) {
+  const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
+  typename Law::template State<Pack> s;
+  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+  const InterfaceMotion<Pack> m = motion_of<rotation, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+  const InterfaceResponse<Pack> response = law(s, g, m);
+  for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
+  if constexpr (Law::needs_orientations) {
+    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+  } else { // only what is across the distance has a moment: d x F = d x F_s
+    const Triple<Pack> moment = cross(m.distance, response.force);
+    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+  }
+  return response.failed_now;
+}
+
+// The same as a function of its own, so that the loop over what is whole keeps its registers.
+template <bool rotation, bool factors, class Law>
+[[gnu::noinline]] Pack add_broken_pack(const InterfaceColumns &c, const Law &law, std::size_t k,
+                                       const Ends &ends, double dt) {
+  return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
+}
+
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
                             double dt) {
-  const BondColumns &b = c.bonds;
-  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, factors);
-  typename Law::template State<Pack> s;
-  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const auto motion = [&] { return motion_of<rotation, Law::needs_orientations>(b, k, ends, g.lever, dt); };
-  const auto keep = [&] {
-    for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
-  };
-  if constexpr (Law::needs_orientations) {
+  if constexpr (is_quick_while_whole<Law>) {
+    typename Law::template State<Pack> s;
+    for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+    InterfaceResponse<Pack> response;
     bool changed = false;
-    const InterfaceResponse<Pack> response = law.advance(s, g, pose_of<rotation>(ends), motion, changed);
-    if (changed) keep();
+    if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), pose_of<rotation>(ends), response, changed))
+      return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
+    if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
     scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
-    return response.failed_now;
+    return Pack(0.0);
   } else {
-    const InterfaceMotion<Pack> m = motion();
-    const InterfaceResponse<Pack> response = law(s, g, m);
-    keep();
-    // Only what is across the distance has a moment: d x F = d x F_s.
-    const Triple<Pack> moment = cross(m.distance, response.force);
-    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
-    return response.failed_now;
+    return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
   }
 }
 

@@ -26,9 +26,9 @@ struct BendingInterface {
   template <class Real>
   Whole<Real> whole(const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose) const;
 
-  template <class Real, class Motion>
-  InterfaceResponse<Real> advance(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                  const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
+  template <class Real>
+  InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                     const InterfaceMotion<Real> &m) const;
   template <class Real>
   HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
                         const BondMotion<Real> &pose) const {
@@ -66,15 +66,12 @@ PLATEN_INLINE auto BendingInterface::whole(const InterfaceGeometry<Real> &g,
   return w;
 }
 
-template <class Real, class Motion>
-PLATEN_INLINE InterfaceResponse<Real> BendingInterface::advance(InterfaceState<Real> &s,
-                                                                const InterfaceGeometry<Real> &g,
-                                                                const BondMotion<Real> &pose,
-                                                                const Motion &motion, bool &changed) const {
-  changed = true; // its history is the path
-  const InterfaceMotion<Real> m = motion();
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> BendingInterface::operator()(InterfaceState<Real> &s,
+                                                                   const InterfaceGeometry<Real> &g,
+                                                                   const InterfaceMotion<Real> &m) const {
   const Real was = law.share_of_moments(s, g);
-  const Whole<Real> w = whole(g, pose);
+  const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
   InterfaceResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
   const Real is = law.share_of_moments(s, g);
   // As of every spring that loses a share: the product of both ends, of which the first is the second less

@@ -78,16 +78,14 @@ struct YieldingParallelBond {
   // Brings the state up to date and tells what acts.
   template <class Real>
   InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const {
-    bool changed = false;
-    return advance(
-        s, g, {m.distance, m.turn_i, m.turn_j}, [&] { return m; }, changed);
-  }
-  // The same where motion() is asked only of bonds that are broken, or break: most are whole, and need no
-  // more than their pose. `changed`: the state has to be kept.
-  template <class Real, class Motion>
-  InterfaceResponse<Real> advance(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                  const BondMotion<Real> &pose, const Motion &motion, bool &changed) const;
+                                     const InterfaceMotion<Real> &m) const;
+  // The same for what is whole and stays so, from its pose alone: most bonds at most times. False where one
+  // of a pack is broken, or breaks in this step: then nothing is changed or told.
+  static constexpr bool quick_while_whole = true;
+  static constexpr std::size_t scalars_while_whole = 1; // of its State, from the first: those that it changes
+  template <class Real>
+  bool advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose,
+                     InterfaceResponse<Real> &r, bool &changed) const;
   // How much more the motion from a state to the present is resisted when it goes on: that of the branch
   // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
   // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
@@ -113,6 +111,12 @@ private:
   template <class Real>
   BondResponse<Real> broken(const State<Real> &s, const InterfaceGeometry<Real> &g,
                             const Triple<Real> &distance) const;
+  template <class Real>
+  Real yields(const Real &plastic, const Real &elastic) const;
+  template <class Real>
+  static Real reached(const BondResponse<Real> &bond);
+  template <class Real>
+  static void tell_whole(const BondResponse<Real> &bond, const Real &tension, InterfaceResponse<Real> &r);
 };
 
 // As ParallelBond::turning, but for what has yielded.
@@ -164,35 +168,65 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> 
   return r;
 }
 
-template <class Real, class Motion>
-PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance(State<Real> &s,
-                                                                    const InterfaceGeometry<Real> &g,
-                                                                    const BondMotion<Real> &pose,
-                                                                    const Motion &motion,
-                                                                    bool &changed) const {
-  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
-  const Real length = root(dot(pose.distance, pose.distance)), elastic = kn * (g.rest_length - length);
-  const Real zero = elastic * 0.0, one = zero + 1.0;
-  const Real yield = positive_part(Real(elastic - compression.envelope(elastic) - s.plastic));
-  s.plastic = s.plastic + yield;
-  Triple<Real> slip;
-  const BondResponse<Real> bond = whole(s.plastic, g, pose, slip);
-  InterfaceResponse<Real> r;
+template <class Real>
+PLATEN_INLINE void YieldingParallelBond::tell_whole(const BondResponse<Real> &bond, const Real &tension,
+                                                    InterfaceResponse<Real> &r) {
   r.force = bond.force, r.torque_i = bond.torque_i, r.torque_j = bond.torque_j, r.shear = bond.shear;
-  r.normal = bond.normal_force, r.energy = bond.energy, r.tension = s.plastic - elastic, r.failed_now = zero;
+  r.normal = bond.normal_force, r.energy = bond.energy, r.tension = tension;
+  r.failed_now = tension * 0.0;
+}
+
+// 1 where its strength is reached, else 0.
+template <class Real>
+PLATEN_INLINE Real YieldingParallelBond::reached(const BondResponse<Real> &bond) {
+  const Real zero = bond.excess * 0.0;
+  return where_positive(Real(-bond.excess), zero, Real(zero + 1.0));
+}
+
+template <class Real>
+PLATEN_INLINE Real YieldingParallelBond::yields(const Real &plastic, const Real &elastic) const {
+  return positive_part(Real(elastic - compression.envelope(elastic) - plastic));
+}
+
+template <class Real>
+PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g,
+                                                       const BondMotion<Real> &pose,
+                                                       InterfaceResponse<Real> &r, bool &changed) const {
+  if (any_positive(s.broken)) return false;
+  const Real length = root(dot(pose.distance, pose.distance));
+  const Real elastic = g.normal_stiffness * (g.rest_length - length);
+  const Real yield = yields(s.plastic, elastic), plastic = s.plastic + yield;
+  Triple<Real> slip;
+  const BondResponse<Real> bond = whole(plastic, g, pose, slip);
+  if (any_positive(reached(bond))) return false;
+  changed = any_positive(yield);
+  s.plastic = plastic;
+  tell_whole(bond, Real(plastic - elastic), r);
+  return true;
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Real> &s,
+                                                                       const InterfaceGeometry<Real> &g,
+                                                                       const InterfaceMotion<Real> &m) const {
+  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
+  const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
+  const Real zero = elastic * 0.0, one = zero + 1.0;
+  s.plastic = s.plastic + yields(s.plastic, elastic);
+  Triple<Real> slip;
+  const BondResponse<Real> bond = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
+  InterfaceResponse<Real> r;
+  tell_whole(bond, Real(s.plastic - elastic), r);
   const Real was_broken = s.broken;
-  const Real reached = where_positive(was_broken, zero, where_positive(Real(-bond.excess), zero, one));
-  const bool whole_all = !any_positive(Real(was_broken + reached));
-  changed = !whole_all || any_positive(yield);
-  if (whole_all) return r;
+  const Real breaking = where_positive(was_broken, zero, reached(bond));
+  if (!any_positive(Real(was_broken + breaking))) return r;
 
   // Which has broken in this step, and how.
   const Real mode = where_positive(Real(bond.shear_ratio - bond.tension_ratio), Real(one + 1.0), one);
-  const Real breaks = reached * mode;
+  const Real breaks = breaking * mode;
   s.broken = s.broken + breaks;
 
   // A broken one slides from where it was, or from the slip that it broke with.
-  const InterfaceMotion<Real> m = motion();
   PlaneMotion<Real> plane(m, length);
   plane.take_from_the_middle(m.moved);
   const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {

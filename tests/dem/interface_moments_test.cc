@@ -39,12 +39,7 @@ struct Interface {
   double work = 0; // J, by the trapezoid
 
   explicit Interface(const ElastoDamagePlastic::Parameters &p) : law(p) { advance(); }
-  void advance() {
-    bool changed = false;
-    now = BendingInterface{law}.advance(
-        state, geometry, BondMotion<double>{pose.distance, pose.turn_i, pose.turn_j}, [&] { return pose; },
-        changed);
-  }
+  void advance() { now = BendingInterface{law}(state, geometry, pose); }
   void move(const Triple<double> &by, const Triple<double> &turn_i, const Triple<double> &turn_j,
             int steps = 1) {
     const auto share = [&](const Triple<double> &v) { return scale(1.0 / steps, v); };
