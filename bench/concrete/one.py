@@ -1,16 +1,16 @@
-"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER [SEED...] [unseen SEED...]
+"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER|FILE.csv [SEED...] [unseen SEED...]
 
 A row is a figure: mean +- standard deviation over packings (how many), of those it was calibrated for and of unseen ones.
-Where the mean lies outside of its band the row says so, in red on a terminal.
+Where the mean lies outside of its band the row says so, in red on a terminal. What the table takes from each run is kept in
+FOLDER/runs.csv (runs.py), which makes the table alone as well.
 """
-import csv
-import json
 import math
 import pathlib
 import statistics
 import sys
 
-folder = pathlib.Path(sys.argv[1])
+import runs
+
 words = sys.argv[2:] or ["1", "2", "3", "4", "5", "unseen", "6", "7"]
 cut = words.index("unseen") if "unseen" in words else len(words)
 known, unseen = [int(w) for w in words[:cut]], [int(w) for w in words[cut + 1:]]
@@ -18,70 +18,23 @@ seeds = known + unseen
 MPA, GPA = 1e-6, 1e-9
 STRENGTH = "strength_pa"
 PRESSURES = ("1.5", "3", "4.5", "9", "30", "60")
-
-
-def summary(name):
-    """Of a finished run, else None."""
-    path = folder / name / "summary.json"
-    found = json.loads(path.read_text()) if path.exists() else {}
-    return found if found.get("status") == "done" else None
+found = runs.gather(pathlib.Path(sys.argv[1]))
 
 
 def of_seeds(name, what, scale=1.0):
-    """{seed: figure} of each seed whose run has it; `what` is a key or takes the summary."""
-    found = {}
+    """{seed: figure} of each seed whose run has it; `what` is a column or takes the run."""
+    figures = {}
     for seed in seeds:
-        s = summary(f"{name}_{seed}")
-        value = s and (what(s) if callable(what) else s.get(what))
+        run = found.get(f"{name}_{seed}")
+        value = run and (what(run) if callable(what) else run[what])
         if value is not None:
-            found[seed] = scale * value
-    return found
+            figures[seed] = scale * value
+    return figures
 
 
 def ratio(one, other):
     """Seed by seed: a packing beside itself."""
     return {seed: one[seed] / other[seed] for seed in one if seed in other}
-
-
-def history(name):
-    with open(folder / name / "history.csv") as file:
-        return [{k: float(v) if v else 0.0 for k, v in row.items()} for row in csv.DictReader(file)]
-
-
-def sheared(name):
-    """Rows of a test under pressure from the deviator's peak on, the peak's deviator, and the platens' strain where it began."""
-    rows = history(name)
-    peak = max(range(len(rows)), key=lambda i: rows[i]["deviator_pa"])
-    start = rows[peak]["axial_strain_platen"] - summary(name)["strain_at_peak_platen"]
-    return rows, peak, start
-
-
-def last_over_peak(name, factor=None, strain=None):
-    """Deviator at so many times the strain at peak, or at a strain, over the largest; none where the run ends before."""
-    found = {}
-    for seed in seeds:
-        run = f"{name}_{seed}"
-        if not summary(run):
-            continue
-        rows, peak, start = sheared(run)
-        wanted = start + (strain if factor is None else factor * summary(run)["strain_at_peak_platen"])
-        later = [row["deviator_pa"] for row in rows[peak:] if row["axial_strain_platen"] >= wanted]
-        if later:
-            found[seed] = later[0] / rows[peak]["deviator_pa"]
-    return found
-
-
-def volume(name, least):
-    """Volumetric strain in percent, larger positive, of the sleeve's inside from the bare specimen on: at the peak, or its least."""
-    found = {}
-    for seed in seeds:
-        run = f"{name}_{seed}"
-        if not summary(run):
-            continue
-        rows, peak, _ = sheared(run)
-        values = [-100 * row["volumetric_strain_sleeve"] for row in rows]
-        found[seed] = min(values[:peak + 1]) if least else values[peak]
-    return found
 
 
 def mander(fc, p):
@@ -124,10 +77,6 @@ def row(what, figures, low=None, high=None, laboratory=""):
 
 def heading(what):
     print(f"\n**{what}**\n\n| | packings | unseen packings | band | laboratory | |\n| --- | --- | --- | --- | --- | --- |")
-
-
-def worse(s):
-    return max(s["end_damage_top"], s["end_damage_bottom"])
 
 
 def plain():
@@ -179,15 +128,15 @@ def triaxial():
             f"{lines[0]:.1f} ... {lines[1]:.1f}, Mander 1988, EN 1998-3")
     row("strain at peak at 9 MPa, 1e-3", of_seeds("triaxial_9", "strain_at_peak_platen", 1e3),
         laboratory="authors differ: 2.6 to 6.3 times the bare one")
-    row("last over peak at 9 MPa, at 1.45 times the strain at peak", last_over_peak("triaxial_9", factor=1.45),
+    row("last over peak at 9 MPa, at 1.45 times the strain at peak", of_seeds("triaxial_9", "left_at_1.45"),
         laboratory=".99 at .36 fc, Imran and Pantazopoulou 1996")
     for pressure in ("30", "60"):
-        row(f"last over peak at {pressure} MPa, at 3.45e-2", last_over_peak(f"triaxial_{pressure}", strain=0.0345), 0.9)
+        row(f"last over peak at {pressure} MPa, at 3.45e-2", of_seeds(f"triaxial_{pressure}", "left_at_0.0345"), 0.9)
     for pressure, least, peak in (("9", "-.8", ".1"), ("30", "-1.6", "-.4"), ("60", "-2.0", "-1.3")):
         at = {"9": ".36", "30": ".63", "60": ".91"}[pressure]
-        row(f"least volume at {pressure} MPa ({float(pressure) / fc:.2f} fc), %", volume(f"triaxial_{pressure}", True),
+        row(f"least volume at {pressure} MPa ({float(pressure) / fc:.2f} fc), %", of_seeds(f"triaxial_{pressure}", "least_volume_percent"),
             laboratory=f"{least} at {at} fc, Imran and Pantazopoulou 1996")
-        row(f"volume at its peak, %", volume(f"triaxial_{pressure}", False), laboratory=f"{peak}, the same")
+        row(f"volume at its peak, %", of_seeds(f"triaxial_{pressure}", "volume_at_peak_percent"), laboratory=f"{peak}, the same")
 
 
 def biaxial():
@@ -209,17 +158,17 @@ def friction():
     for name, mu in runs:
         greased, held = mu == "0", mu in ("0.57", "0.3")
         row(f"strength, friction {mu}, MPa", of_seeds(name, STRENGTH, MPA))
-        row("damage of the worse end", of_seeds(name, worse), 0.4 if greased else None, 0.3 if held else None)
+        row("damage of the worse end", of_seeds(name, "worse_end_damage"), 0.4 if greased else None, 0.3 if held else None)
         row("damage of the middle", of_seeds(name, "middle_damage"), 0.5 if held else None)
-        row("r0 of the worse end's dead zone", of_seeds(name, lambda s: min((s[f"dead_zone_{e}"] or {}).get("base_ratio") or 0.0
-                                                                         for e in ("top", "bottom"))))
+        row("r0 of the worse end's dead zone", of_seeds(name, "least_base_ratio"))
         row("share of packings with cones", of_seeds(name, has_cones), 1 if held else None, 0 if greased else None)
     angles = {}
     for seed in seeds:
-        found = [s[f"cone_{e}"]["half_angle_deg"] for n in ("concrete_dry", "friction_0.3")
-                 if (s := summary(f"{n}_{seed}")) for e in ("top", "bottom") if s[f"cone_{e}"]]
-        if found:
-            angles[seed] = statistics.mean(found)
+        held = [run for n in ("concrete_dry", "friction_0.3") if (run := found.get(f"{n}_{seed}"))]
+        of_cones = [run[f"half_angle_{end}_deg"] for run in held for end in ("top", "bottom")]
+        of_cones = [angle for angle in of_cones if angle is not None]
+        if of_cones:
+            angles[seed] = statistics.mean(of_cones)
     k = secant("9")
     mohr = math.degrees(math.atan(statistics.mean(k.values()) ** -0.5)) if k else None
     row("half-angle of cones by displacement, .3 and .57, degrees", angles, mohr and mohr - 6, mohr and mohr + 6,
@@ -240,5 +189,4 @@ triaxial()
 friction()
 biaxial()
 recipe()
-print(f"\nLargest energy residual of all runs (1 %): "
-      f"{max(json.loads(p.read_text()).get('energy_residual_relative') or 0.0 for p in folder.glob('*/summary.json')):.2g}")
+print(f"\nLargest energy residual of all runs (1 %): {max(run['energy_residual_relative'] or 0.0 for run in found.values()):.2g}")

@@ -2,7 +2,8 @@
 # One concrete in every test, on as many packings as seeds are named: cylinders, cubes and prisms between dry and greased
 # platens, cores, flat specimens, tension, splitting, bending, triaxial tests in a rubber sleeve, squares under biaxial stress.
 # Ends with the table of one.py, beside what laboratories find; seeds named after `unseen` stand in a column of their own.
-# Finished runs are skipped. About 45 minutes a seed on one core.
+# Finished runs are skipped, and those of FOLDER/runs.csv, which keeps what the table takes from each: to go on elsewhere, put that
+# file into an empty folder (bench/results/one_concrete.csv is the one behind bench/results/one_concrete.md). About 40 minutes a seed on one core.
 # Usage: bench/concrete/one.sh BUILD FOLDER [SEED...] [unseen SEED...], by default 1 2 3 4 5 unseen 6 7.
 # GROUPS_RUN="uniaxial friction cores plain triaxial biaxial recipe" names what is run.
 set -euo pipefail
@@ -21,7 +22,7 @@ mkdir -p "$folder"
 run() { # NAME SCENE SEED OPTIONS...
   local scene=$2 seed=$3 name=$1_$3 program=platen-compress
   shift 3
-  if grep -qs '"status": "done"' "$folder/$name/summary.json"; then return; fi
+  if grep -qs '"status": "done"' "$folder/$name/summary.json" || grep -qs "^$name," "$folder/runs.csv"; then return; fi
   [ "$scene" = brazilian_concrete ] && program=platen-brazilian
   "$apps/$program" "$scenes/$scene.prm" -o "$folder/$name" --overwrite -t 1 --quiet -s "Output/Fields = off" \
     -s "Scene/Seed = $seed" "$@" 2> "$folder/$name.log" ||
