@@ -13,7 +13,9 @@ constexpr double factor_unit = 2.5, moments_unit = 0.6, friction_unit = 1, one_s
 // Of moduli and strengths: factors to what they begin with that no scene asks for.
 constexpr double any_factor = 1e4, scale_step = 10;
 constexpr double largest_friction = 1.0471975511965976; // rad; of an angle that a search may turn
-constexpr double at_bound = 1e-3;                       // of the room between bounds
+constexpr double at_bound = 1e-3, on_bound = 1e-9;      // of the room between bounds
+// Of the room: what a change is set beside where a number that may be zero is less than that.
+constexpr double least_share = 0.1;
 
 struct Wants {
   bool young = false, poisson = false, compressive = false, tensile = false, pressure = false, any = false;
@@ -117,12 +119,19 @@ Choice Space::choice(const Eigen::VectorXd &x) const {
   double ratio = start_[Knob::shear_strength] / start_[Knob::tensile_strength];
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const double coordinate = axes_[k].unit * x[static_cast<Eigen::Index>(k)];
-    const double value = axes_[k].logarithm ? std::exp(coordinate) : coordinate;
+    const double value = on_its_bound(axes_[k], axes_[k].logarithm ? std::exp(coordinate) : coordinate);
     (knobs_[k] == Knob::shear_strength ? ratio : to[knobs_[k]]) = value;
   }
   if (free(Knob::tensile_strength) || free(Knob::shear_strength))
     to[Knob::shear_strength] = ratio * to[Knob::tensile_strength];
   return to;
+}
+
+// A search that rests on a bound misses it by round-off: an angle of zero stays zero.
+double Space::on_its_bound(const Axis &axis, double value) {
+  for (const double bound : {axis.low, axis.high})
+    if (std::abs(value - bound) < on_bound * (axis.high - axis.low)) return bound;
+  return value;
 }
 
 double Space::place(const Axis &axis, double value) {
@@ -143,7 +152,9 @@ std::vector<SearchParameter> Space::parameters(bool exact) const {
 Eigen::MatrixXd Space::by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const {
   Eigen::MatrixXd by = slopes;
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
-    const double rate = (axes_[k].logarithm ? 1 : number(knobs_[k], at)) / axes_[k].unit;
+    const Axis &axis = axes_[k];
+    const double own = std::max(number(knobs_[k], at), least_share * (axis.high - axis.low));
+    const double rate = (axis.logarithm ? 1 : own) / axis.unit;
     by.col(static_cast<Eigen::Index>(k)) *= rate;
   }
   // Both strengths grow along the first; alone it grows against the second.

@@ -30,7 +30,8 @@ public:
   std::vector<SearchParameter> parameters(bool exact) const;
   // What slopes begin with, by rows of responses: Voigt's formulas, and what was seen of one concrete.
   Eigen::MatrixXd guess(const Goals &goals, const std::vector<std::size_t> &of) const;
-  // Slopes by the coordinates as slopes by the logarithms of the knobs themselves at a choice.
+  // Slopes by the coordinates as slopes by the logarithms of the knobs themselves at a choice; of a number
+  // that may be zero, and is less than a tenth of its room, by that tenth.
   Eigen::MatrixXd by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const;
   // "stiffness ratio 0.02 is at its bound"; those of a choice that are.
   std::vector<std::string> at_bounds(const Choice &at) const;
@@ -44,6 +45,7 @@ private:
   std::size_t place(Knob knob) const;                  // of one that is free
   double number(Knob knob, const Choice &of) const;    // that the axis is of
   static double place(const Axis &axis, double value); // its coordinate
+  static double on_its_bound(const Axis &axis, double value);
 
   Choice start_;
   std::vector<Knob> knobs_;

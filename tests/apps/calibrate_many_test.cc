@@ -105,6 +105,24 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
 }
 
 // Strength and tension that both go with the product of limits and contact friction.
+// What ends at zero has its effect all the same, and is zero exactly.
+TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
+  Scene scene = yielding_scene();
+  scene.calibrate.free = {Knob::modulus, Knob::friction_angle};
+  Choice at = choice_of(scene);
+  const Space space(scene, at, scene.calibrate.free);
+  Eigen::MatrixXd slopes(1, 2);
+  slopes << 0, 3;
+  Eigen::VectorXd x(2);
+  x << space.parameters(false)[0].start, 1e-13;
+  at = space.choice(x);
+  EXPECT_EQ(at[Knob::friction_angle], 0);
+  EXPECT_NEAR(space.by_logarithms(slopes, at)(0, 1), 3 * 0.1 * 60 * degree, 1e-12);
+  x[1] = 0.5;
+  at = space.choice(x);
+  EXPECT_NEAR(space.by_logarithms(slopes, at)(0, 1), 3 * at[Knob::friction_angle], 1e-12);
+}
+
 TEST(ManyTargets, parameters_that_act_as_one_are_told) {
   Scene scene = yielding_scene();
   scene.calibrate.targets = {target_of(TargetKind::strength, 43e6), at_pressure(3e6, 62e6)};
