@@ -3,7 +3,8 @@
 Usage: brush_platen.py FILE [--pins 6] [--pins-y N] [--pin 10] [--gap 0.5] [--length 50] [--block 10] [--along 3]
 Without `--pins-y` there are as many pins along y as along x. With `--down` the pins point to -z, for the platen above, on the
 right or at the back. Of a side platen of a box x and y are, in turn, the axes that follow that of its normal: of one that
-presses along x they are y and z of the box.
+presses along x they are y and z of the box. `--block 0` leaves the block out: the machine holds the pins where they would stand on
+it. In a block, cells as narrow as the gaps set the time step of a brush that has inertia, several times smaller than pins alone need.
 """
 import argparse
 
@@ -25,14 +26,14 @@ def main():
     parser.add_argument("--pin", type=float, default=10, help="width, mm")
     parser.add_argument("--gap", type=float, default=0.5, help="mm")
     parser.add_argument("--length", type=float, default=50, help="of the pins, mm")
-    parser.add_argument("--block", type=float, default=10, help="thickness, mm")
+    parser.add_argument("--block", type=float, default=10, help="thickness, mm; 0: none")
     parser.add_argument("--along", type=int, default=3, help="elements along a pin")
     parser.add_argument("--down", action="store_true")
     a = parser.parse_args()
 
     x = lattice(a.pins, a.pin, a.gap)
     y = lattice(a.pins if a.pins_y is None else a.pins_y, a.pin, a.gap)
-    z = [-a.block - a.length, -a.length] + [-a.length * (1 - (k + 1) / a.along) for k in range(a.along)]
+    z = ([-a.block - a.length] if a.block > 0 else []) + [-a.length] + [-a.length * (1 - (k + 1) / a.along) for k in range(a.along)]
     number, nodes, cells = {}, [], []
 
     def node(i, j, k):
@@ -44,7 +45,7 @@ def main():
     for k in range(len(z) - 1):
         for j in range(len(y) - 1):
             for i in range(len(x) - 1):
-                if k > 0 and (i % 2 or j % 2):
+                if (k > 0 or not a.block > 0) and (i % 2 or j % 2):
                     continue  # between the pins
                 cells.append([node(i + di, j + dj, k + dk) for dk in (0, 1)
                               for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1))])
