@@ -1,5 +1,7 @@
 #include "tests/dem/examples.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -168,6 +170,48 @@ std::vector<unsigned char> shaken_to_pieces(const ModelSettings &of, int threads
       bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
     }
   return bytes;
+}
+
+EnergyLedger expect_balance_of_breaking_block(const ModelSettings &settings, double speed, double rate,
+                                              double coarse, double fine) {
+  EnergyLedger energy;
+  for (const int finer : {1, 4}) {
+    Model model(packed_box(16, 16, 16), settings);
+    shake(model.particles, speed, rate);
+    const double start = model.energy().stored(), dt = .25 / finer * model.stable_step({}, 0).limit;
+    for (int s = 0; s < 400 * finer; ++s)
+      step(model, dt);
+    const std::size_t failed = model.bonds->failed_rows;
+    EXPECT_GT(failed, 20u) << "at 1/" << 4 * finer << " of the largest step";
+    EXPECT_EQ(model.broken_tension + model.broken_shear, static_cast<long>(failed));
+    EXPECT_EQ(model.intact_bonds() + failed, model.bonds->initial_count());
+    energy = model.energy();
+    EXPECT_GT(energy.fracture, .01 * start);
+    EXPECT_GT(energy.friction, 0);
+    // Of random motion, whose kinetic energy at whole steps is off by the square of the step.
+    EXPECT_LT(std::abs(energy.residual() - start), (finer == 1 ? coarse : fine) * start)
+        << "of " << start << " J at 1/" << 4 * finer << " of the largest step";
+  }
+  return energy;
+}
+
+void expect_momentum_through_failure(const ModelSettings &settings, double speed) {
+  Model model(packed_box(14, 14, 14), settings);
+  shake(model.particles, speed);
+  const Momentum before = momentum(model.particles);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 300; ++s)
+    step(model, dt);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
+  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+void expect_same_bits_of_threads(const ModelSettings &settings) {
+  const std::vector<unsigned char> one = shaken_to_pieces(settings, 1);
+  for (const int threads : {2, 4})
+    EXPECT_EQ(one, shaken_to_pieces(settings, threads)) << threads << " threads";
 }
 
 } // namespace platen::dem::examples

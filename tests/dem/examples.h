@@ -82,4 +82,13 @@ void shake(Particles &particles, double speed, double rate = 0);
 // All columns of particles and bonds of a shaken block, some of whose bonds have failed.
 std::vector<unsigned char> shaken_to_pieces(const ModelSettings &settings, int threads);
 
+// What every law that remembers has to show on a free block that shakes itself to pieces; `settings` as the
+// law's test has them, without dashpots. What the block had at first is stored, or counted as loss: the
+// balance is off by at most `coarse` of it at a quarter of the largest step, `fine` at a sixteenth. Returns
+// the model after the finer run.
+EnergyLedger expect_balance_of_breaking_block(const ModelSettings &settings, double speed, double rate,
+                                              double coarse, double fine);
+void expect_momentum_through_failure(const ModelSettings &settings, double speed);
+void expect_same_bits_of_threads(const ModelSettings &settings); // 1, 2 and 4
+
 } // namespace platen::dem::examples

@@ -219,38 +219,16 @@ TEST(InterfaceMoments, kernels_follow_the_law_on_every_instruction_set) {
 }
 
 TEST(InterfaceMoments, the_energy_balance_of_a_breaking_block_closes) {
-  double residual[2];
-  for (int fine = 0; fine < 2; ++fine) {
-    Model model(packed_box(16, 16, 16), bending());
-    shake(model.particles, 1.5, 600);
-    const double start = model.energy().stored(), dt = (fine ? .0625 : .25) * model.stable_step({}, 0).limit;
-    for (int s = 0; s < (fine ? 1600 : 400); ++s)
-      step(model, dt);
-    EXPECT_GT(model.bonds->failed_rows, 50u);
-    residual[fine] = std::abs(model.energy().residual() - start) / start;
-  }
-  EXPECT_LT(residual[0], 2e-2);
-  EXPECT_LT(residual[1], 2e-3);
+  expect_balance_of_breaking_block(bending(), 1.5, 600, 2e-2, 2e-3);
 }
 
 TEST(InterfaceMoments, momentum_is_kept_through_failure) {
-  Model model(packed_box(14, 14, 14), bending());
-  shake(model.particles, 1.5);
-  const Momentum before = momentum(model.particles);
-  const double dt = .5 * model.stable_step({}, 0).limit;
-  for (int s = 0; s < 300; ++s)
-    step(model, dt);
-  EXPECT_GT(model.bonds->failed_rows, 50u);
-  const Momentum after = momentum(model.particles);
-  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
-  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+  expect_momentum_through_failure(bending(), 1.5);
 }
 
 TEST(InterfaceMoments, threads_do_not_change_a_bit) {
-  const std::vector<unsigned char> one = shaken_to_pieces(bending(), 1);
-  EXPECT_EQ(one, shaken_to_pieces(bending(), 2));
-  EXPECT_EQ(one, shaken_to_pieces(bending(), 4));
-  EXPECT_NE(one, shaken_to_pieces(bending(false), 1));
+  expect_same_bits_of_threads(bending());
+  EXPECT_NE(shaken_to_pieces(bending(), 1), shaken_to_pieces(bending(false), 1));
 }
 
 // Of touching spheres with the same k_n and k_s, the largest step is that of parallel bonds: moments are in
