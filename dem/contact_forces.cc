@@ -122,12 +122,14 @@ void Contacts::tangential_force(const Particles &p, double dt, std::size_t k, To
   CoulombFriction::State state{turned((*spring)[k], k, t), (*sliding)[k]};
   if constexpr (!Effects::Law::constant_stiffness) {
     // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and the ledger gets
-    // it.
+    // it, with what the mean force over the step has done by the part that is gone.
     const double now = Effects::Law::tangential_ratio(settings_) * t.kn;
     const double before = 0.5 * norm_squared(state.spring) / kt;
+    const Vector3 seen = state.spring;
     if (now < kt) state.spring *= now / kt;
     if (Effects::ledger && kt > 0 && norm_squared(state.spring) > 0)
-      lost.friction += before - 0.5 * norm_squared(state.spring) / now;
+      lost.friction += before - 0.5 * norm_squared(state.spring) / now +
+                       0.5 * dt * dot(seen - state.spring, t.slip_velocity);
     kt = now;
   }
   const CoulombFriction friction{{settings_.friction, settings_.friction}};

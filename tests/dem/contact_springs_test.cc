@@ -81,6 +81,20 @@ TEST(contact_springs, unloading_takes_force_and_energy_from_hertz_springs) {
   EXPECT_NEAR(c.friction_work, .75 * energy, 1e-3 * energy);
 }
 
+// Drawn back and sheared in one step, a spring loses by the mean of its forces before and after.
+TEST(contact_springs, hertz_springs_that_soften_while_they_shear_close_the_balance) {
+  Grains grains(Grains::hertz());
+  const double pressed = 1e-3 * radius, aside = 1e-7 * radius;
+  grains.move({-pressed, 0, 0});
+  grains.move({0, aside, 0});
+  const auto stored = [&] { return .5 * norm_squared(grains.spring()) / grains.stiffness(); };
+  const double energy = stored(), force = norm(grains.spring()), lost = grains.model.contacts->friction_work;
+  grains.move({.75 * pressed, aside, 0});
+  const double work = .5 * (force + norm(grains.spring())) * aside;
+  EXPECT_NEAR(grains.model.contacts->friction_work - lost, energy + work - stored(), 3e-3 * energy);
+  EXPECT_GT(work, energy);
+}
+
 // Parted, a contact forgets: what its springs held is lost, and nothing of it acts when they meet again.
 TEST(contact_springs, a_contact_that_opens_loses_what_it_held) {
   for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
