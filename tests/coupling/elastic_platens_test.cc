@@ -296,30 +296,6 @@ TEST(elastic_platens, sheets_without_inertia_say_how_late_they_come) {
   EXPECT_EQ(PlatenTest(cylinder(), on_pads(ElasticMotion::explicit_steps)).seconds_behind(), 0);
 }
 
-// What the bound of platen-compress stands on: the peak of a crush with and without the inertia of sheets.
-TEST(elastic_platens, DISABLED_what_lag_does) {
-  std::printf("sheet, GPa | solve each | behind, transits | peak, MPa | unbalanced over work | residual\n");
-  for (const double pad : {steel, 20e9, 5e9, 1e9, 0.3e9, 0.1e9})
-    for (const int each : {0, 5, 20}) { // 0: with inertia
-      PlatenTestSettings s =
-          crushing(each == 0 ? ElasticMotion::explicit_steps : ElasticMotion::quasi_static);
-      s.platens.elastic->steps_per_solve = std::max(1, each);
-      s.platens.elastic->pad_thickness = 1e-3;
-      s.platens.elastic->pad = {1200, pad, 0.45};
-      PlatenTest test(cylinder(), s);
-      double peak = 0, work = 0, most = 0;
-      while (test.steps() < 12000 && !(test.axial_stress() < 0.5 * peak && peak > 1e6)) {
-        test.advance(20);
-        test.model.take_cracks();
-        if (test.axial_stress() > peak) peak = test.axial_stress(), work = test.energy().boundary;
-        most = std::max(most, std::abs(test.energy().unbalanced));
-      }
-      std::printf("%g | %d | %.2g | %.3g | %.2g | %.2g\n", 1e-9 * pad, each,
-                  test.seconds_behind() / test.facts().wave_transit, 1e-6 * peak, most / work,
-                  test.energy().residual() / work);
-    }
-}
-
 // A grid of one's own that is the plate which would have been made presses as that does, wherever it lay:
 // but for the last bits of its nodes' places, by which friction chooses among paths.
 TEST(elastic_platens, a_given_mesh_of_the_same_plate_presses_alike) {
