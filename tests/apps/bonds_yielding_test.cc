@@ -6,6 +6,7 @@
 
 #include "apps/bonds/run_bonds.h"
 #include "apps/scene/errors.h"
+#include "tests/measured.h"
 
 namespace platen::apps {
 namespace {
@@ -33,6 +34,7 @@ void expect_by_hand(const BondRun &run, double close) {
 TEST(bonds_yielding, closing_yields_unloads_and_comes_back_as_by_hand) {
   const BondRun run = run_pair({});
   expect_by_hand(run, 1e-8);
+  measured::expect_below(51, "load_off_in_compression", run.interface.largest_difference(), 1e-8);
   // 160 MPa at 60 + 150 + 600 over 48000 MPa, then a slope of G_b/22 up to 50 um of 2 mm.
   const double stress = 160e6 + (0.025 - 810e6 / 48e9) * 48e9 / 22;
   EXPECT_NEAR(run.path.rows.back().force, -stress * area, 1e-8 * stress * area);
@@ -79,6 +81,8 @@ TEST(bonds_yielding, bending_and_twisting_break_at_the_strength_of_the_skin) {
         run_pair({std::string("Pair test/Path = ") + (twists ? "twisting" : "bending"),
                   "Bond/Moment contribution = 0.5", "Pair test/Turns = 0.5 um, -1 um, 60 um"});
     expect_by_hand(run, 1e-7);
+    measured::expect_below(51, twists ? "load_off_in_twisting" : "load_off_in_bending",
+                           run.interface.largest_difference(), 1e-7);
     const double inertia = .25 * area * 1e-6;
     EXPECT_NEAR(run.path.break_load, run.strength_by_hand, 3e-7 * run.strength_by_hand); // the row before
     const double by_hand = twists ? 36e6 * 2 * inertia / .5e-3 : 9e6 * inertia / .5e-3;
