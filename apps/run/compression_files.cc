@@ -1,6 +1,8 @@
 // What a test writes while it runs, and what it says beforehand.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "apps/io/checkpoint_folder.h"
 #include "apps/io/summary.h"
 #include "apps/run/compression_run.h"
@@ -37,6 +39,12 @@ std::string CompressionRun::description() const {
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, test_->coordination_number(),
                       test_->facts().packing_fraction);
+  if (const SizeCorrection &size = scene_.bond.size; size.reference > 0) {
+    const double share = scene_.specimen.sphere_radius / size.reference;
+    text += fmt::format(
+        "  bonds for spheres of {:.4g} times the calibrated radius: modulus x {:.4f}, strengths x {:.4f}\n",
+        share, std::pow(share, size.modulus_exponent), std::pow(share, size.strength_exponent));
+  }
   std::vector<std::string> seats;
   for (const coupling::Side side : coupling::all_sides)
     if (const coupling::Platen *platen = test_->platen(side))

@@ -1,5 +1,6 @@
 #include "apps/run/model_setup.h"
 
+#include <cmath>
 #include <string>
 
 #include "apps/io/specimen_csv.h"
@@ -29,6 +30,11 @@ dem::ModelSettings model_settings(const Scene &scene) {
   dem::ModelSettings to = scene.model;
   if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
   to.bond = scene.bond.parameters();
+  if (scene.bond.size.reference > 0) {
+    const double radius = scene.specimen.sphere_radius;
+    to.bond = scene.bond.for_radius(radius).parameters();
+    to.bond_layout.modulus *= std::pow(radius / scene.bond.size.reference, scene.bond.size.modulus_exponent);
+  }
   to.bond_layout.by_range = scene.bond.bonds_by_range();
   if (scene.bond.bonded() && scene.bond.scattered) {
     to.strength_scatter = scene.bond.scatter;

@@ -14,12 +14,29 @@ void SceneCheck::bond() const {
                ": a bare number is metres. Did you mean \"" + shortest_text(gap.value) + " R_min\"?");
   if (scene_.bond.scattered && app_ == AppKind::bonds)
     refuse("Bond/Strength scatter", "leaves no bond of a known strength to test. Allowed: none.");
+  size_correction();
   if (!scene_.bond.bonded()) return;
   try {
     dem::bond_law(*scene_.bond.parameters());
   } catch (const BadParameter &e) {
     parameters_.refuse(e);
   }
+}
+
+void SceneCheck::size_correction() const {
+  const SizeCorrection &size = scene_.bond.size;
+  const double radius = scene_.specimen.sphere_radius;
+  if (!(size.reference > 0)) return;
+  if (app_ == AppKind::bonds || app_ == AppKind::bar)
+    refuse("Bond/Calibrated radius", "is of specimens of concrete. Allowed: 0.");
+  if (!given(radius))
+    refuse("Bond/Calibrated radius", "needs the mean radius: Specimen/Sphere radius is not set.");
+  const double share = radius / size.reference;
+  if (!(share >= SizeCorrection::least_share && share <= SizeCorrection::most_share))
+    refuse("Bond/Calibrated radius",
+           "is too far from Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
+               ". Allowed: " + shortest_text(1 / SizeCorrection::most_share) + " to " +
+               shortest_text(1 / SizeCorrection::least_share) + " times that.");
 }
 
 void SceneCheck::phases() const {

@@ -1,5 +1,6 @@
 #include "apps/scene/scene_bond.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace platen::apps {
@@ -68,6 +69,19 @@ std::vector<double> Bond::list(const std::string &member) const {
 void Bond::set(const std::string &member, const std::vector<double> &values) {
   const auto use = [&](std::vector<double> &list) { list = values; };
   std::apply([&](auto &...of) { (find_member<std::vector<double>>(of, member, use), ...); }, laws);
+}
+
+Bond Bond::for_radius(double radius) const {
+  Bond to = *this;
+  if (!(size.reference > 0)) return to;
+  const double factor = std::pow(radius / size.reference, size.strength_exponent);
+  for (const char *strength : {"tensile_strength", "shear_strength"})
+    to.set(strength, factor * number(strength)); // of all laws: the same number
+  std::vector<double> limits = list("compression_limits");
+  for (double &limit : limits)
+    limit *= factor;
+  if (!limits.empty()) to.set("compression_limits", limits);
+  return to;
 }
 
 } // namespace platen::apps

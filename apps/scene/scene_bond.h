@@ -11,6 +11,27 @@
 
 namespace platen::apps {
 
+// Bonds that are calibrated for spheres of one size, for spheres of another: the modulus, and strengths and
+// limits of compression, times powers of the mean radius over that of the calibration.
+struct SizeCorrection {
+  double reference = 0; // m, mean radius that they are calibrated for; 0: taken as they are
+  double modulus_exponent = 0, strength_exponent = 0;
+  // Of the mean radius over the reference: what the exponents of bench/results/sizes.md were found in.
+  static constexpr double least_share = 0.5, most_share = 1.5;
+
+  static constexpr const char *name = "SizeCorrection";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p) {
+    v("calibrated_radius", p.reference, "m", at_least(0),
+      "Mean radius of the spheres that the bonds are calibrated for; 0: bonds are as they are given for "
+      "spheres of any size.");
+    v("modulus_exponent", p.modulus_exponent, "1", between(-1, 1),
+      "Bond/Modulus is multiplied by (Specimen/Sphere radius over Calibrated radius) to this power.");
+    v("strength_exponent", p.strength_exponent, "1", between(-1, 1),
+      "The same of both strengths and of Compression limits.");
+  }
+};
+
 class Bond {
 public:
   static constexpr int none = -1;
@@ -18,6 +39,7 @@ public:
   dem::BondLaws::AllParameters laws;
   bool scattered = false; // Strength scatter
   dem::StrengthScatter scatter;
+  SizeCorrection size;
 
   bool bonded() const { return law != none; }
   template <class Law>
@@ -35,6 +57,8 @@ public:
   // Of the law chosen, empty where it has none; in all that have it.
   std::vector<double> list(const std::string &member) const;
   void set(const std::string &member, const std::vector<double> &values);
+  // With what stands for spheres of this mean radius (m).
+  Bond for_radius(double radius) const;
 };
 
 } // namespace platen::apps

@@ -17,6 +17,7 @@ public:
   void effects() const;
   void needed() const;
   void bond() const;
+  void size_correction() const;
   void phases() const;
   void contact() const;
   void sides() const;

@@ -44,6 +44,11 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   Members(section, bond.scatter)("weibull_modulus")
       .only_if("Bond/Strength scatter", {"weibull"})
       .needed_if("Bond/Strength scatter", {"weibull"});
+  Members size(section, bond.size);
+  size("calibrated_radius");
+  for (const char *member : {"modulus_exponent", "strength_exponent"})
+    size(member).only_if([](const Scene &s) { return s.bond.size.reference > 0; },
+                         "Bond/Calibrated radius = 0");
   layout("interaction_range").only_if("Effects/Bond", by_range).told(joined(by_range));
   layout("area_factor");
   layout.rest();

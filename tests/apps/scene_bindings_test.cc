@@ -85,6 +85,35 @@ TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
             "has no effect: Integration/Damping = 0.");
 }
 
+// Half as large: modulus times .5^-.1, strengths and limits of compression times .5^-.02.
+TEST(SceneBindings, bonds_calibrated_for_one_size_are_those_of_another_by_powers) {
+  const std::vector<std::string> bonds{"Effects/Bond = yielding parallel bond",
+                                       "Bond/Modulus = 40 GPa",
+                                       "Bond/Tensile strength = 9 MPa",
+                                       "Bond/Shear strength = 30 MPa",
+                                       "Bond/Compression limits = 60 MPa, 110 MPa",
+                                       "Bond/Compression slopes = 3, 12",
+                                       "Specimen/Sphere radius = 1 mm"};
+  std::vector<std::string> sized = bonds;
+  for (const char *entry :
+       {"Bond/Calibrated radius = 2 mm", "Bond/Modulus exponent = -0.1", "Bond/Strength exponent = -0.02"})
+    sized.emplace_back(entry);
+  const dem::ModelSettings as_given = model_settings(scene_with(bonds)),
+                           corrected = model_settings(scene_with(sized));
+  const auto &one = std::get<dem::YieldingParallelBond::Parameters>(*as_given.bond),
+             &other = std::get<dem::YieldingParallelBond::Parameters>(*corrected.bond);
+  EXPECT_EQ(as_given.bond_layout.modulus, 40e9);
+  EXPECT_NEAR(corrected.bond_layout.modulus, 40e9 * std::pow(0.5, -0.1), 1e-3);
+  const double stronger = std::pow(0.5, -0.02);
+  EXPECT_EQ(one.tensile_strength, 9e6);
+  EXPECT_NEAR(other.tensile_strength, 9e6 * stronger, 1e-3);
+  EXPECT_NEAR(other.shear_strength, 30e6 * stronger, 1e-3);
+  ASSERT_EQ(other.compression_limits.size(), 2u);
+  EXPECT_NEAR(other.compression_limits[1], 110e6 * stronger, 1e-3);
+  EXPECT_EQ(other.friction_angle, one.friction_angle);
+  EXPECT_EQ(other.compression_slopes, one.compression_slopes);
+}
+
 TEST(SceneBindings, a_scene_is_the_settings_of_the_library) {
   const dem::ModelSettings plain = model_settings(scene_with({})), own;
   // A model that is told nothing is the one of a scene that says nothing.
