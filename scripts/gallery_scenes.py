@@ -88,11 +88,10 @@ GROUPS = [
               "climbs a little less steeply than the one before, for bonds have broken."),
         Scene("biaxial_steel", COMPRESS, "side_stresses",
               "A square in plane stress: the platens at the sides bear half of what those above and below do, all along. "
-              "Dry steel holds the thin edges, so it bears twice the uniaxial strength; between brushes laboratories find "
-              "1.27 times."),
+              "It bears 1.8 times its uniaxial strength; between brushes laboratories find 1.27 times."),
         Scene("biaxial_brush", COMPRESS, "side_stresses",
-              "The same square between brushes: steel pins that bend with the concrete. It fails at a little less than between dry "
-              "steel, and at equal stresses (`Lateral x = share of Axial 1`) at two thirds of that."),
+              "The same square between brushes: steel pins that bend with the concrete. It fails at an eighth less than between dry "
+              "steel, 1.8 times what it bears along one axis; at equal stresses (`Lateral x = share of Axial 1`) it bears 1.6 times that."),
         Scene("true_triaxial", COMPRESS, "side_stresses",
               "Six greased platens: 5 MPa on all sides, then the axial ones close while the others hold their stress by "
               "their servos against a cube that widens ever faster."),
