@@ -3,7 +3,7 @@
 # spheres of each radius (mm), all other entries as they are. Ends with the table of sizes.py. Finished runs are skipped, and those
 # of FOLDER/runs.csv, as in one.sh (bench/results/sizes.csv is the one behind bench/results/sizes.md).
 # Usage: bench/concrete/sizes.sh BUILD FOLDER [SEED...], by default 1 2 3 4 5.
-# RADII="1.78 1.41 1.25 1" names the radii, ENDS="dry lubricated" the platens; EXPONENTS="0.09 0.09" corrects modulus and strengths
+# RADII="1.78 1.41 1.25 1" names the radii, ENDS="dry lubricated" the platens; EXPONENTS="0.08 0.07" corrects modulus and strengths
 # of the bonds, calibrated at 1.41 mm, by these powers (into a folder of its own).
 # One core, by spheres across the diameter: 14: 20 s, 18: 45 s, 20: 75 s, 25: 3 minutes, 35: 12, 50: 50 a run.
 set -euo pipefail
