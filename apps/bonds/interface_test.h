@@ -62,7 +62,7 @@ private:
   InterfaceSection section_;
   InterfaceByHand by_hand_;
   std::optional<MomentByHand> moment_; // by hand, on a path that bends or twists
-  std::size_t upper_ = 0, lower_ = 0;   // rows
+  std::size_t upper_ = 0, lower_ = 0;  // rows
   InterfacePlace at_;
   InterfaceLoad now_;
   double work_ = 0;
