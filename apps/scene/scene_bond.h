@@ -16,7 +16,7 @@ namespace platen::apps {
 struct SizeCorrection {
   double reference = 0; // m, mean radius that they are calibrated for; 0: taken as they are
   double modulus_exponent = 0, strength_exponent = 0;
-  // Of the mean radius over the reference: what the exponents of bench/results/sizes.md were found in.
+  // Of the mean radius over the reference: a little beyond the sizes of bench/results/sizes.md (.51 to 1.26).
   static constexpr double least_share = 0.5, most_share = 1.5;
 
   static constexpr const char *name = "SizeCorrection";
