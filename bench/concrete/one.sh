@@ -8,31 +8,11 @@
 # GROUPS_RUN="uniaxial friction cores plain triaxial biaxial recipe" names what is run.
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED...] [unseen SEED...]" >&2; exit 2; }
-here=$(cd "$(dirname "$0")" && pwd)
-scenes=$here/../../scenes
-apps=$1/apps
-folder=$2
+source "$(dirname "$0")/runs.sh" "$1" "$2"
 shift 2
 [ $# -gt 0 ] || set -- 1 2 3 4 5 unseen 6 7
 seeds=${*//unseen/}
 groups=${GROUPS_RUN:-uniaxial friction cores plain triaxial biaxial recipe}
-jobs=${JOBS:-$(nproc)}
-mkdir -p "$folder"
-
-run() { # NAME SCENE SEED OPTIONS...
-  local scene=$2 seed=$3 name=$1_$3 program=platen-compress
-  shift 3
-  if grep -qs '"status": "done"' "$folder/$name/summary.json" || grep -qs "^$name," "$folder/runs.csv"; then return; fi
-  [ "$scene" = brazilian_concrete ] && program=platen-brazilian
-  "$apps/$program" "$scenes/$scene.prm" -o "$folder/$name" --overwrite -t 1 --quiet -s "Output/Fields = off" \
-    -s "Scene/Seed = $seed" "$@" 2> "$folder/$name.log" ||
-    [ $? -eq 1 ] || { echo "$name: $(tail -n 1 "$folder/$name.log")" >&2; } # 1: not what the scene expects
-}
-
-queue() { # waits for a free core
-  while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do wait -n || true; done
-  run "$@" &
-}
 
 uniaxial() {
   for scene in concrete_dry concrete_lubricated concrete_tension cube_dry cube_lubricated prism_dry prism_lubricated flat_dry; do
