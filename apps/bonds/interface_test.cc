@@ -187,10 +187,7 @@ void InterfaceTest::go_by_hand(const InterfacePlace &to) {
 }
 
 void InterfaceTest::conclude_turning(BondRun &run) const {
-  const MomentSection section =
-      moment_section(section_, test_.path == PairPath::bending ? MomentAxis::across : MomentAxis::along,
-                     beta_of(model_.bonds->law), model_.bonds->bond_radius[0]);
-  run.stiffness_by_hand = section.stiffness;
+  run.stiffness_by_hand = moment_->stiffness();
   run.strength_by_hand = moment_->strength();
   InterfaceResult &result = run.interface;
   run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = not_given;

@@ -16,7 +16,7 @@ MomentSection moment_section(const InterfaceSection &section, MomentAxis axis, d
   const double inertia = 0.25 * section.area * bond_radius * bond_radius; // m^4
   MomentSection s;
   s.arm = beta * bond_radius;
-  s.coupled = section.coupled;
+  s.coupled = section.coupled && axis == MomentAxis::across; // what is twisted alone is not pulled
   s.area = section.area;
   s.own = section.tension(), s.other = section.shear(0);
   s.stiffness = section.normal_stiffness() * inertia;

@@ -31,6 +31,7 @@ public:
   double stored() const; // J
   double work() const { return work_; }
   double dissipated() const { return work_ - stored(); }
+  double stiffness() const { return section_.stiffness; } // N m/rad, of a whole bond
   double strength() const; // N m, where damage begins; infinite where it never does
 
 private:

@@ -135,6 +135,10 @@ struct ElastoDamagePlastic {
   }
 
 private:
+  // Of the tensile strength: the coupled line holds from there on. It begins with a jump, for shear then
+  // softens tension too, and what is only sheared or twisted has no normal stress but round-off of either
+  // sign.
+  static constexpr double least_tension = 1e-9;
   // Pa; of what is never reached a number whose square is one too.
   double tensile_strength_, shear_strength_;
   // What has broken has no stiffness, and nothing to divide by it.
@@ -222,10 +226,10 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
   const Real tensile = g.strength_factor * tensile_strength_;
   const Real strength = cohesion + p.friction_static * closing;
   Real used_n = opening / tensile, used_s = sliding / strength;
-  if (p.failure_line == FailureLine::coupled) { // in tension both count together
-    const Real both = used_n + used_s;
-    used_n = where_positive(opening, both, used_n);
-    used_s = where_positive(opening, both, used_s);
+  if (p.failure_line == FailureLine::coupled) { // in tension both count together; round-off is no tension
+    const Real both = used_n + used_s, pulled = opening - least_tension * tensile;
+    used_n = where_positive(pulled, both, used_n);
+    used_s = where_positive(pulled, both, used_s);
   }
   const Real sound = 1.0 - larger(s.tension_damage, s.shear_damage);
   const Real least = zero + 1e-150; // brittle, or broken long ago: damage at once, and no division by zero

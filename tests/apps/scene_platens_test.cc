@@ -1,0 +1,231 @@
+// What a scene says of platens, sleeve and loading arrives in the settings of the library, side by side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "apps/run/problem_setup.h"
+#include "coupling/platens_of_test.h"
+
+namespace platen::apps {
+namespace {
+
+const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
+
+Scene scene_with(const std::vector<std::string> &overrides) {
+  return read_scene(good, overrides, AppKind::compress);
+}
+
+// Every number and flag by its name; words, stiffnesses and gaps as they compare.
+struct Values {
+  std::map<std::string, double> of;
+  template <class Member, class... About>
+  void operator()(const char *name, const Member &value, const About &...) {
+    if constexpr (std::is_arithmetic_v<Member> || std::is_enum_v<Member>)
+      of[name] = static_cast<double>(value);
+  }
+};
+
+template <class Described>
+void expect_same(const Described &scene, const Described &library, const std::vector<std::string> &but = {}) {
+  Values a, b;
+  Described::describe(a, scene);
+  Described::describe(b, library);
+  EXPECT_GT(a.of.size(), 1u);
+  for (const auto &[name, value] : a.of) {
+    const bool differs = std::find(but.begin(), but.end(), name) != but.end();
+    const bool same = value == b.of.at(name) || (std::isnan(value) && std::isnan(b.of.at(name)));
+    EXPECT_EQ(same, !differs) << Described::name << "." << name << ": scene " << value << ", library "
+                              << b.of.at(name);
+  }
+}
+
+TEST(ScenePlatens, a_default_of_platens_sleeve_and_loading_is_stated_once) {
+  const coupling::PlatenTestSettings library;
+  const coupling::PlatenTestSettings plain = problem_settings(scene_with({}));
+  // The file states an axial rate; a scene ends by itself, a program of one's own where it likes.
+  expect_same<coupling::LoadingSettings>(plain.loading, library.loading, {"rate", "target_strain"});
+  // A tenth of the specimen.
+  expect_same<coupling::PlatenSettings>(plain.platens, library.platens, {"thickness"});
+  expect_same(plain.time_step, library.time_step);
+  const coupling::PlatenTestSettings held = problem_settings(scene_with(
+      {"Platens/Kind = deformable", "Loading/Confinement = sleeve", "Loading/Confining pressure = 2 MPa",
+       "Specimen/Shape = cylinder", "Specimen/Radius = 50 mm"}));
+  expect_same(*held.platens.elastic, coupling::ElasticPlatens());
+  expect_same(*held.loading.cell, coupling::CellSettings(), {"pressure"});
+  expect_same(*held.loading.cell->sleeve, coupling::SleeveSettings());
+  EXPECT_FALSE(plain.platens.elastic || plain.loading.cell || plain.loading.wall);
+}
+
+TEST(ScenePlatens, layers_arrive_with_their_materials) {
+  const std::vector<std::string> entries{
+      "Platens/Kind = deformable", "Platens/Layers = hard rubber 2 mm, steel 20 mm",
+      "Platens/Layer materials = steel: 210 GPa, 0.3, 7850 kg/m3; hard rubber: 5 MPa, 45 %, 1.1 g/cm3",
+      "Platens/Bottom/Layers = platen 1 mm, steel 3 mm"};
+  const coupling::PlatenTestSettings settings = problem_settings(scene_with(entries));
+  const coupling::PlatenSettings &told = settings.platens;
+  ASSERT_EQ(told.elastic->layers.size(), 2u);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].thickness, 2e-3);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.young_modulus, 5e6);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.poisson_ratio, 0.45);
+  EXPECT_DOUBLE_EQ(told.elastic->layers[0].material.density, 1100);
+  EXPECT_EQ(told.elastic->layers[1].material.young_modulus, 210e9);
+  EXPECT_DOUBLE_EQ(told.thickness, 22e-3); // as thick as they are
+  ASSERT_EQ(told.bottom.layers.size(), 2u);
+  EXPECT_EQ(told.bottom.layers[0].material.young_modulus, told.material.young_modulus);
+  EXPECT_DOUBLE_EQ(told.bottom.thickness, 4e-3);
+  EXPECT_TRUE(told.top.layers.empty());
+  EXPECT_EQ(told.top.thickness, 0);
+  std::vector<std::string> thicker(entries);
+  thicker.emplace_back("Platens/Thickness = 30 mm");
+  const coupling::PlatenTestSettings other = problem_settings(scene_with(thicker));
+  const coupling::PlatenSettings &given = other.platens;
+  EXPECT_DOUBLE_EQ(given.thickness, 30e-3);
+  EXPECT_EQ(given.bottom.thickness, 0); // what its layers leave is platen
+}
+
+TEST(ScenePlatens, what_platens_sleeve_and_loading_say_arrives) {
+  const coupling::PlatenTestSettings told =
+      problem_settings(scene_with({"Platens/Kind = deformable",
+                                   "Platens/Top/Friction static = 0.4",
+                                   "Platens/Friction dynamic = 0.2",
+                                   "Platens/Bottom/Friction law = slip weakening",
+                                   "Platens/Slip length = 1 mm",
+                                   "Platens/Degree = 2",
+                                   "Platens/Pad thickness = 0.5 mm",
+                                   "Platens/Pad modulus = 3 MPa",
+                                   "Platens/Pad Poisson ratio = 0.4",
+                                   "Platens/Pad density = 1200 kg/m3",
+                                   "Platens/Young modulus = 70 GPa",
+                                   "Platens/Motion = quasi-static",
+                                   "Platens/Stiffness = 4e5 N/m",
+                                   "Loading/Confinement = sleeve",
+                                   "Loading/Confining pressure = 2 MPa",
+                                   "Loading/Pressure path = 0.5",
+                                   "Loading/Confinement area = sphere",
+                                   "Loading/Hold = 1 ms",
+                                   "Sleeve/Rims = sliding",
+                                   "Sleeve/Modulus = 2 MPa",
+                                   "Sleeve/Friction = 0.1",
+                                   "Sleeve/Seat depth = 2",
+                                   "Loading/Unload at = 0.001, 0.002",
+                                   "Loading/Hurry = 4",
+                                   "Integration/Safety = 0.3",
+                                   "Specimen/Shape = cylinder",
+                                   "Specimen/Radius = 50 mm",
+                                   "Specimen/Ends = ground"}));
+  EXPECT_EQ(told.platens.top.friction_static, 0.4);
+  EXPECT_EQ(told.platens.bottom.friction_static, 0.3);
+  EXPECT_EQ(told.platens.top.dynamic(), 0.2);
+  EXPECT_EQ(told.platens.top.weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(told.platens.bottom.weakening.by, dem::Weakening::By::slip);
+  EXPECT_EQ(told.platens.bottom.weakening.slip_length, 1e-3);
+  EXPECT_EQ(told.platens.elastic->degree, 2);
+  EXPECT_EQ(told.platens.elastic->motion, fem::ElasticMotion::quasi_static);
+  EXPECT_EQ(told.platens.elastic->pad_thickness, 0.5e-3);
+  EXPECT_EQ(told.platens.elastic->pad.young_modulus, 3e6);
+  EXPECT_EQ(told.platens.elastic->pad.density, 1200);
+  EXPECT_EQ(told.platens.material.young_modulus, 70e9);
+  EXPECT_EQ(told.platens.stiffness.kind, Stiffness::Kind::absolute);
+  EXPECT_EQ(told.loading.cell->pressure, 2e6);
+  EXPECT_EQ(told.loading.cell->path, 0.5);
+  EXPECT_EQ(told.loading.cell->area, dem::ConfinementArea::sphere);
+  EXPECT_EQ(told.loading.hold, 1e-3);
+  EXPECT_FALSE(told.loading.cell->sleeve->bonded_rims);
+  EXPECT_EQ(told.loading.cell->sleeve->young_modulus, 2e6);
+  EXPECT_EQ(told.loading.cell->sleeve->contact.friction_static, 0.1);
+  EXPECT_EQ(told.loading.cell->sleeve->contact.dynamic(), 0.1);
+  EXPECT_EQ(told.loading.cell->sleeve_seat_depth, 2);
+  EXPECT_EQ(told.loading.unload_at, (std::vector<double>{0.001, 0.002}));
+  EXPECT_EQ(told.loading.rate_multiplier, 4);
+  EXPECT_EQ(told.time_step.safety, 0.3);
+  EXPECT_EQ(told.ends, dem::EndPreparation::ground);
+}
+
+// By the law of the grains unless platens have one; what is glued is linear.
+TEST(ScenePlatens, grains_press_on_platens_as_the_scene_says) {
+  const auto told = [](std::vector<std::string> entries) {
+    entries.insert(entries.begin(), {"Platens/Stiffness = 1e7 N/m", "Platens/Tangential ratio = 0.5"});
+    return scene_with(entries);
+  };
+  const auto by_hertz = [](const Scene &scene) {
+    EXPECT_EQ(coupling::presses_by_hertz(problem_settings(scene)), scene.hertz_on_platens());
+    return scene.hertz_on_platens();
+  };
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = linear"})));
+  EXPECT_TRUE(by_hertz(told({"Effects/Contact = hertz"})));
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = hertz", "Platens/Attachment = glued"})));
+  EXPECT_FALSE(by_hertz(told({"Effects/Contact = hertz", "Platens/Contact = linear"})));
+  EXPECT_TRUE(by_hertz(told({"Effects/Contact = linear", "Platens/Contact = hertz"})));
+  EXPECT_EQ(problem_settings(told({"Platens/Contact modulus = 210 GPa"})).platens.contact_modulus, 210e9);
+  const auto noted = [&](const std::string &contact, const std::string &path) {
+    const Scene scene = told({"Effects/Contact = " + contact, "Platens/Contact modulus = 200 GPa"});
+    for (const std::string &note : scene.notes)
+      if (note.find("note: " + path + " ") != std::string::npos) return true;
+    return false;
+  };
+  for (const std::string key : {"Platens/Stiffness", "Platens/Tangential ratio"}) {
+    EXPECT_TRUE(noted("hertz", key)) << key;
+    EXPECT_FALSE(noted("linear", key)) << key;
+  }
+  EXPECT_TRUE(noted("linear", "Platens/Contact modulus"));
+  EXPECT_FALSE(noted("hertz", "Platens/Contact modulus"));
+}
+
+// Each side takes its own figure, that of its own word, the common one; sides without platens are left out.
+TEST(ScenePlatens, sides_have_platens_where_the_scene_puts_them) {
+  const std::vector<std::string> box{"Specimen/Shape = box",
+                                     "Specimen/Radius =",
+                                     "Specimen/Width x = 10 mm",
+                                     "Specimen/Width y = 10 mm",
+                                     "Platens/Friction static = 0.4",
+                                     "Platens/Left/Friction static = 0.2",
+                                     "Platens/Right/Surface = grease",
+                                     "Platens/Front/Friction law = slip weakening",
+                                     "Platens/Front/Friction dynamic = 0.1",
+                                     "Platens/Slip length = 1 mm",
+                                     "Platens/Edge gap = 0.3 mm"};
+  const auto told = [&](const std::string &sides) {
+    std::vector<std::string> entries = box;
+    entries.push_back("Platens/Sides = " + sides);
+    return scene_with(entries);
+  };
+  const coupling::PlatenSettings two = problem_settings(told("two")).platens,
+                                 x = problem_settings(told("four x")).platens,
+                                 y = problem_settings(told("four y")).platens,
+                                 six = problem_settings(told("six")).platens;
+  EXPECT_FALSE(two.left || two.right || two.front || two.back);
+  EXPECT_TRUE(x.left && x.right && !x.front && !x.back);
+  EXPECT_TRUE(!y.left && !y.right && y.front && y.back);
+  ASSERT_TRUE(six.left && six.right && six.front && six.back);
+  EXPECT_EQ(six.edge_gap, 0.3e-3);
+  EXPECT_EQ(six.top.friction_static, 0.4);
+  EXPECT_EQ(six.left->friction_static, 0.2);
+  EXPECT_EQ(six.left->dynamic(), 0.2);
+  EXPECT_EQ(six.right->friction_static, 0.0048);
+  EXPECT_EQ(six.front->friction_static, 0.4);
+  EXPECT_EQ(six.front->dynamic(), 0.1);
+  EXPECT_EQ(six.front->weakening.by, dem::Weakening::By::slip);
+  EXPECT_EQ(six.back->weakening.by, dem::Weakening::By::nothing);
+  EXPECT_EQ(six.back->friction_static, 0.4);
+  EXPECT_TRUE(told("six").notes.empty());
+  const auto notes = [&](const std::string &sides, const std::string &path) {
+    for (const std::string &note : told(sides).notes)
+      if (note.find("note: " + path + " ") != std::string::npos)
+        return note.substr(note.find("has no effect"));
+    return std::string();
+  };
+  EXPECT_EQ(notes("two", "Platens/Left/Friction static"),
+            "has no effect: Platens/Sides leaves that side free.");
+  EXPECT_EQ(notes("four x", "Platens/Left/Friction static"), "");
+  EXPECT_EQ(notes("four x", "Platens/Front/Friction dynamic"),
+            "has no effect: Platens/Sides leaves that side free.");
+  EXPECT_EQ(notes("four x", "Platens/Slip length"), "has no effect: no Friction law is slip weakening.");
+  EXPECT_EQ(notes("two", "Platens/Edge gap"), "has no effect: Platens/Sides = two.");
+  EXPECT_EQ(notes("four y", "Platens/Edge gap"), "");
+}
+
+} // namespace
+} // namespace platen::apps
