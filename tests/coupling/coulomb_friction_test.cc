@@ -167,6 +167,12 @@ TEST(rotating_plane, spin_turns_about_the_normal) {
   const Vector3 n = {0, 0, 1}, turned = spin_in_plane({1, 0, 0}, n, 0.3);
   EXPECT_NEAR(turned.x, std::cos(0.3), 1e-16);
   EXPECT_NEAR(turned.y, std::sin(0.3), 1e-16);
+  // Those of a step take a series instead, up to 1e-4.
+  for (const double angle : {1e-7, 1e-5, 9.9e-5, -9.9e-5, 1.01e-4}) {
+    const Vector3 a_little = spin_in_plane({1, 0, 0}, n, angle);
+    EXPECT_NEAR(a_little.x, std::cos(angle), 2e-16) << angle;
+    EXPECT_NEAR(a_little.y, std::sin(angle), 4e-16 * std::abs(angle)) << angle;
+  }
 }
 
 } // namespace

@@ -52,6 +52,16 @@ TEST(bond_failure, the_rule_decides_the_radius) {
   EXPECT_DOUBLE_EQ(radius_by(RadiusRule::given), 5.6e-4);
 }
 
+// Three spheres in a row have two pairs, so that each has 4/3 neighbours.
+TEST(bond_failure, the_packing_factor_is_forty_porosities_over_the_neighbours_of_a_sphere) {
+  Specimen s = spheres({{0, 0, 0}, {2 * radius, 0, 0}, {4 * radius, 0, 0}});
+  s.shape = box(10 * radius, 6 * radius, 8 * radius);
+  const double porosity = 1 - 3 * 4. / 3 * pi / (10 * 6 * 8);
+  BondLayout layout;
+  layout.gap.value = 0.01;
+  EXPECT_NEAR(packing_factor(s, layout), 40 * porosity / (4. / 3), 1e-12);
+}
+
 TEST(bond_failure, spheres_with_one_centre_cannot_be_bonded) {
   EXPECT_THROW(Model(spheres({{1, 2, 3}, {1, 2, 3}}), bonded()), std::invalid_argument);
 }

@@ -16,6 +16,15 @@ using namespace examples;
 
 constexpr double degree = pi / 180;
 
+// As a cone is made it stands upright: what is below its apex is within.
+TEST(cone_fit, a_cone_stands_on_its_base) {
+  Cone cone;
+  cone.apex = {0, 0, 10};
+  cone.half_angle = 30 * degree;
+  EXPECT_NEAR(cone.distance({0, 0, 6}), -4 * std::sin(30 * degree), 1e-12);
+  EXPECT_GT(cone.distance({0, 0, 14}), 0);
+}
+
 // Points of a lattice in and out of a leaning cone. From half the angle or half as much again, from an apex a
 // quarter too low or too high, five grains beside the axis: the same cone, to the last digits of the fit; as
 // near to the true one as half a point.

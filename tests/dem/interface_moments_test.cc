@@ -88,6 +88,25 @@ TEST(InterfaceMoments, are_those_of_the_parallel_bond_while_whole) {
   EXPECT_NEAR(s.twisting, pair.twisting(), 1e-12 * s.twisting);
 }
 
+// Sheared, bent and twisted, of spheres that differ: what is told is what acts, on each of both ends.
+TEST(InterfaceMoments, told_of_both_ends_are_those_that_act) {
+  Interface pair(concrete());
+  pair.geometry.lever = 0.3;
+  pair.move({2e-7, -3e-7, 1e-7}, {1e-5, 2e-5, -3e-5}, {-2e-5, 1e-5, 2e-5});
+  const BondResponse<double> told = pair.law.bond_response(pair.state, pair.geometry, pair.pose);
+  EXPECT_GT(std::abs(pair.now.torque_i.x - pair.now.torque_j.x), 0.3 * std::abs(pair.now.torque_i.x));
+  const auto near = [](const Triple<double> &a, const Triple<double> &b) {
+    const double size = root(dot(b, b));
+    EXPECT_NEAR(a.x, b.x, 1e-13 * size);
+    EXPECT_NEAR(a.y, b.y, 1e-13 * size);
+    EXPECT_NEAR(a.z, b.z, 1e-13 * size);
+  };
+  near(told.force, pair.now.force);
+  near(told.torque_i, pair.now.torque_i);
+  near(told.torque_j, pair.now.torque_j);
+  EXPECT_NEAR(told.energy, pair.now.energy, 1e-13 * told.energy);
+}
+
 // beta M R/I is a stress of tension at the skin, beta M R/J one of shear: damage begins at the strength,
 // falls along a line, and ends at 1 + delta times its angle with nothing left. What it took is the area under
 // the curve.
