@@ -142,9 +142,8 @@ void SceneCheck::start() const {
   if (scene_.loading.servo) refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
   if (!scene_.bond.bonded()) refuse_start("needs bonds to solve for. Allowed: 0.");
   if (scene_.bond.remembers())
-    refuse_start(
-        "needs bonds without a memory: Effects/Bond = elasto damage plastic answers to its whole "
-        "path. Allowed: 0.");
+    refuse_start("needs bonds without a memory: Effects/Bond = " + std::string(scene_.bond.word()) +
+                 " answers to its whole path. Allowed: 0.");
   if (scene_.effects.gravity) refuse_start("does not go with Effects/Gravity = on. Allowed: 0.");
   if (loading.start_strain >= loading.target_strain)
     refuse_start("is not below Loading/Target strain = " + parameters_.at("Loading/Target strain").text +
