@@ -11,6 +11,8 @@ ERRORS = (("strength", "strength"), ("strain at peak", "strain_at_peak"), ("E", 
 
 
 def percent(value, sign="+"):
+    if value == 0:
+        return "0"
     digits = 3 if abs(value) < 1e-4 else 2 if abs(value) < 5e-3 else 1 if abs(value) < 0.1 else 0
     return f"{100 * value:{sign}.{digits}f}"
 
@@ -20,12 +22,13 @@ def cells_of(value, knob, seconds, last):
     for _, key in ERRORS:
         error = value["errors"][key]
         scatter = knob["scatter_of_seeds"][key]
-        if last and knob["ordered"]:
+        if last:
             cells.append("-" if scatter is None else f"({percent(scatter, '')})")
         elif not error["runs"]:
             cells.append("-")
         else:
-            spread = f" +- {percent(error['deviation'], '')}" if error["runs"] > 1 else " (1)"
+            exact = error["mean"] == error["deviation"] == 0
+            spread = "" if exact else f" +- {percent(error['deviation'], '')}" if error["runs"] > 1 else " (1)"
             cells.append(percent(error["mean"]) + spread)
     for key in ("energy_residual_relative", "kinetic_to_internal_max"):
         cells.append(f"{value[key]['mean']:.1e}".replace("e-0", "e-") if value[key]["runs"] else "-")
@@ -54,7 +57,8 @@ def main():
         print(f"## {pathlib.Path(folder).name}, {len(study['seeds'])} seeds\n")
         for knob in study["accuracy"]:
             unit = f", {knob['unit']}" if knob["unit"] else ""
-            print(f"| `{knob['entry']}`{unit} | " + " | ".join(f"{name}, %" for name, _ in ERRORS) +
+            head = f"`{knob['entry']}`{unit}" if knob["ordered"] else "change"
+            print(f"| {head} | " + " | ".join(f"{name}, %" for name, _ in ERRORS) +
                   " | energy residual | kinetic over internal | steps | seconds |")
             print("|" + " --- |" * 9)
             for k, value in enumerate(knob["values"]):
