@@ -40,9 +40,6 @@ Every scene of `scenes/`, run as it stands: what to see, a picture from its repo
 Written by `scripts/gallery.py BUILD RUNS --write`; only the sentences on what to see are written by hand
 ([gallery_scenes.py](../scripts/gallery_scenes.py)). As many runs at a time as the machine has cores, with low priority:
 seconds are upper bounds. One seed each, but for studies; strengths scatter by a few percent from seed to seed.
-
-Studies but the quick one, `triaxial_concrete` and `class_two_concrete` show runs of `parts/brittle_concrete.prm`, from before the concrete
-of the scenes yielded.
 """
 
 

@@ -219,14 +219,14 @@ GROUPS = [
               "about two hours on one core"),
         Scene("study_laboratory_concrete", f"{STUDY} friction", "strength_friction",
               "Cubes and prisms as a laboratory crushed them in 1967, five packings of each: gains by dry platens of "
-              "1.39 and 1.05 (measured then: 1.42 and 1.08).",
+              "1.45 and 1.07 (measured then: 1.42 and 1.08).",
               "about 20 minutes on one core"),
         Scene("study_laboratory_interfaces", f"{STUDY} friction", "strength_friction",
               "The same of elasto-damage-plastic interfaces: cubes gain 1.43, prisms 1.14, more than in the laboratory.",
               "about half an hour on one core"),
         Scene("study_slenderness_concrete", f"{STUDY} slenderness", "strength_slenderness",
-              "Short cores between dry steel beside the factors of ASTM C42 (black diamonds), five packings of each: a "
-              "little above at height over width 1, on them from 1.5 on.",
+              "Short cores between dry steel beside the factors of ASTM C42 (black diamonds), five packings of each: on them "
+              "from 1.75 on, above them the shorter they are.",
               "about 20 minutes on one core"),
         Scene("study_slenderness_interfaces", f"{STUDY} slenderness", "strength_slenderness",
               "The same of elasto-damage-plastic interfaces, on the factors at all heights; packings scatter more.",
@@ -235,8 +235,8 @@ GROUPS = [
               "Four sphere radii of the thesis on concrete between dry steel: are cones sharper with smaller spheres?",
               "about six hours on one core, most of it for 0.5 mm"),
         Scene("study_size_concrete", f"{STUDY} size", "",
-              "Spheres from 6 to 12.5 across the diameter: coarse ones pack looser and are weaker; from ten on it is "
-              "within the scatter."),
+              "Spheres from 6 to 12.5 across the diameter: coarse ones pack looser and are softer; what they bear differs by "
+              "less than the scatter."),
         Scene("study_size_tannu", f"{STUDY} size", "",
               "The four sphere radii and three cylinders of Tannu 2017, ends ground.",
               "about eight hours on one core"),
@@ -252,7 +252,7 @@ GROUPS = [
               "spheres and what is left out of the physics are not."),
         Scene("study_quality_concrete", f"{STUDY} accuracy", "accuracy",
               "The words of Scene/Quality and the speed in wave crossings: fast costs a ninth of the steps of reference, "
-              "and nothing that its strength could tell."),
+              "nothing that its strength could tell, and one percent of the modulus."),
         Scene("study_quality_cylinder", f"{STUDY} accuracy", "accuracy",
               "The same for a cylinder of seven times as many spheres, where chaos is smaller and haste shows: half the "
               "speed, half the error. A hurry while it is elastic costs nothing."),

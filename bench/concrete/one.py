@@ -96,11 +96,16 @@ def plain():
     row("prism, dry over greased", ratio(prism, prism_lub), 1.03, 1.11, "1.08, the same")
     row("cube over prism, dry", ratio(cube, prism), 1.21, 1.47, "1.37, the same")
     row("cube over prism, greased", ratio(cube_lub, prism_lub), 1.00, 1.10, "1.04, the same")
+    for friction in ("0.0048", "0.03"):
+        free = ratio(of_seeds(f"cube_{friction}", STRENGTH, MPA), of_seeds(f"prism_{friction}", STRENGTH, MPA))
+        row(f"the same, friction {friction}", free, 1.00, 1.10, "1.04, the same")
     row("height over diameter .5 over 2, dry", ratio(of_seeds("flat_dry", STRENGTH, MPA), dry), 1.5, 2.2)
     row("1 over 2", ratio(of_seeds("core_50", STRENGTH, MPA), dry), laboratory="1.15 to 1.18, ASTM C42")
     for height, factor in (("62.5", 1 / 0.93), ("75", 1 / 0.96), ("87.5", 1 / 0.98)):
         row(f"{float(height) / 50:g} over 2", ratio(of_seeds(f"core_{height}", STRENGTH, MPA), dry), 0.95 * factor,
             1.05 * factor, f"{factor:.2f}, ASTM C42")
+    row("1.25 over 2, friction 0.1", ratio(of_seeds("core_62.5_0.1", STRENGTH, MPA), of_seeds("friction_0.1", STRENGTH, MPA)),
+        0.95 / 0.93, 1.05 / 0.93, "1.08, ASTM C42")
     row("splitting strength over direct tension", ratio(of_seeds("brazilian_concrete", STRENGTH, MPA), tension))
     row("bending strength over direct tension", ratio(of_seeds("bending_concrete", STRENGTH, MPA), tension),
         laboratory="1.3 to 2 in small beams")

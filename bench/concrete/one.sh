@@ -5,14 +5,14 @@
 # Finished runs are skipped, and those of FOLDER/runs.csv, which keeps what the table takes from each: to go on elsewhere, put that
 # file into an empty folder (bench/results/one_concrete.csv is the one behind bench/results/one_concrete.md). About 40 minutes a seed on one core.
 # Usage: bench/concrete/one.sh BUILD FOLDER [SEED...] [unseen SEED...], by default 1 2 3 4 5 unseen 6 7.
-# GROUPS_RUN="uniaxial friction cores plain triaxial biaxial recipe" names what is run.
+# GROUPS_RUN="uniaxial friction cores ends plain triaxial biaxial recipe" names what is run.
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED...] [unseen SEED...]" >&2; exit 2; }
 source "$(dirname "$0")/runs.sh" "$1" "$2"
 shift 2
 [ $# -gt 0 ] || set -- 1 2 3 4 5 unseen 6 7
 seeds=${*//unseen/}
-groups=${GROUPS_RUN:-uniaxial friction cores plain triaxial biaxial recipe}
+groups=${GROUPS_RUN:-uniaxial friction cores ends plain triaxial biaxial recipe}
 
 uniaxial() {
   for scene in concrete_dry concrete_lubricated concrete_tension cube_dry cube_lubricated prism_dry prism_lubricated flat_dry; do
@@ -53,6 +53,15 @@ friction() { # between dry steel (0.57) and grease (0): 0.1 and 0.3
   for friction in 0.1 0.3; do
     queue friction_$friction concrete_dry "$1" -s "Platens/Friction static = $friction"
   done
+}
+
+ends() { # what laboratories do not tell: free ends are greased sheets (0.0048) or Teflon (0.03), capped cores smoother than dry steel
+  for friction in 0.0048 0.03; do
+    queue cube_$friction cube_lubricated "$1" -s "Platens/Friction static = $friction"
+    queue prism_$friction prism_lubricated "$1" -s "Platens/Friction static = $friction"
+  done
+  queue core_62.5_0.1 concrete_dry "$1" -s "Specimen/Height = 62.5 mm" -s "Loading/Target strain = 0.012" \
+    -s "Loading/Stop at residual = 0.7" -s "Platens/Friction static = 0.1"
 }
 
 recipe() { # what should not matter: rougher steel, a thicker end layer, half the speed

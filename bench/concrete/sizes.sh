@@ -5,7 +5,7 @@
 # Usage: bench/concrete/sizes.sh BUILD FOLDER [SEED...], by default 1 2 3 4 5.
 # RADII="1.78 1.41 1.25 1" names the radii, ENDS="dry lubricated" the platens; EXPONENTS="0.08 0.07" corrects modulus and strengths
 # of the bonds, calibrated at 1.41 mm, by these powers (into a folder of its own).
-# One core, by spheres across the diameter: 14: 20 s, 18: 45 s, 20: 75 s, 25: 3 minutes, 35: 12, 50: 50 a run.
+# One core, by spheres across the diameter: 14: 20 s, 18: 45 s, 20: 75 s, 25: 3 minutes, 35: 15, 50: four hours a run.
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: $0 BUILD FOLDER [SEED...]" >&2; exit 2; }
 source "$(dirname "$0")/runs.sh" "$1" "$2"
