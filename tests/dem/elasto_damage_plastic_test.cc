@@ -309,6 +309,26 @@ TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) 
   EXPECT_EQ(damage[0], damage[1]);
 }
 
+// Sheared a tenth beyond its strength it is damaged in tension too from a ten-millionth of that strength on,
+// not with what is round-off, nor with a pressure.
+TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is_no_round_off) {
+  const auto tension_damage = [](double share) { // of the tensile strength, positive in tension
+    ElastoDamagePlastic::Parameters p = concrete();
+    p.failure_line = FailureLine::coupled;
+    Interface pair(p);
+    const Triple<double> opened{0, 0, share * pair.opening_limit()};
+    pair.distance = pair.distance + opened;
+    const double slip = 1.1 * 16e6 / pair.shear_stiffness();
+    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, opened, {slip, 0, 0}, 0});
+    EXPECT_GT(pair.state.shear_damage, 0.05) << share;
+    return pair.state.tension_damage;
+  };
+  EXPECT_GT(tension_damage(1e-7), 0.05);
+  EXPECT_EQ(tension_damage(1e-11), 0);
+  EXPECT_EQ(tension_damage(-1e-11), 0);
+  EXPECT_EQ(tension_damage(-1e-3), 0);
+}
+
 TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
   Interface pair(concrete());
   pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {3e-6, 1e-6, 0}, 0});
