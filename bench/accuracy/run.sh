@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything behind docs/accuracy.md and the five speeds of docs/theory.md: what each knob errs by and costs on two cylinders, with platens that yield and with a
-# sleeve, and how strength and cones go with the size of spheres. Reports with plots are made of each study.
-# Studies go on where they were stopped. About three hours on two cores, most of it for spheres of 1 and .75 mm; those of .5 mm (six hours) are left out.
+# sleeve, and how strength goes with the size of spheres. Reports with plots are made of each study; ends with the tables of tables.py.
+# Studies go on where they were stopped. About half an hour on two cores.
 # Usage: bench/accuracy/run.sh BUILD FOLDER
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: $0 BUILD FOLDER" >&2; exit 2; }
@@ -34,4 +34,4 @@ study sleeve accuracy study_quality_concrete "${alone[@]}" "Loading/Confinement 
   "Loading/Confining pressure = 4.5 MPa" "Loading/Target strain = 0.02" "Loading/Stop at residual = 0.7" \
   "Study/Sleeve mass scaling list = 1000, 100, 10, 1" "Study/Sleeve mesh list = 8, 10, 12, 16"
 study size size study_size_concrete
-study cones size study_cones_concrete "Study/Sphere radius list = 1.25 mm, 1 mm, 0.75 mm" "Study/Seeds = 2"
+python3 "$here/tables.py" quality knobs cylinder platens sleeve
