@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/summary_of_run.h"
+#include "apps/run/validity.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/gauge.h"
 
@@ -17,6 +19,17 @@ namespace {
 // Lines for the screen, of what has been measured.
 class Report {
 public:
+  explicit Report(const Validity &validity) : validity_(validity) {}
+  // Of a key of summary.json; where there is a reason against it, that, told once.
+  template <class... Numbers>
+  void figure(const char *key, const char *what, const char *format, Numbers... numbers) {
+    if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
+    if (validity_.holds(key)) return line(what, format, numbers...);
+    const std::string &reason = validity_.reasons(key).front();
+    words(what,
+          "none: " + (std::find(told_.begin(), told_.end(), reason) == told_.end() ? reason : "as above"));
+    told_.push_back(reason);
+  }
   template <class... Numbers>
   void line(const char *what, const char *format, Numbers... numbers) {
     if ((std::isnan(static_cast<double>(numbers)) || ...)) return;
@@ -26,61 +39,89 @@ public:
   const std::string &text() const { return text_; }
 
 private:
+  const Validity &validity_;
+  std::vector<std::string> told_;
   std::string text_;
 };
+
+// Of a test that ended before its peak, or on a plateau.
+void report_peak(Report &report, const Results &results) {
+  const PeakOfCurve peak = results.peak();
+  if (!(peak.largest > 0)) return;
+  if (peak.kind == PeakKind::none)
+    report.line("largest stress, which is no strength", "{:.2f} MPa at the strain of {:.5f}",
+                results.strength() / 1e6, peak.strain_of_largest);
+  if (peak.kind == PeakKind::plateau)
+    report.line("the peak is a plateau", "{:.2f} % gained in the last fifth of the strain",
+                100 * peak.gained);
+}
 
 void report_strength(Report &report, const Scene &scene, const coupling::PlatenTest &problem,
                      const Results &results) {
   const bool disc = problem.shape().kind == dem::ShapeKind::disc,
              tension = scene.loading.test == LoadingTest::tension;
   if (disc || problem.bent())
-    report.line("load at failure", "{:.2f} kN", results.strength() * problem.nominal_area() / 1e3);
-  report.line(disc             ? "splitting strength, 2P/(pi D t)"
-              : problem.bent() ? "flexural strength, 3PL/(2bd^2)"
-              : tension        ? "tensile strength"
-                               : "compressive strength",
-              "{:.2f} MPa", results.strength() / 1e6);
+    report.figure("failure_load_n", "load at failure", "{:.2f} kN",
+                  results.strength() * problem.nominal_area() / 1e3);
+  report.figure("strength_pa",
+                disc             ? "splitting strength, 2P/(pi D t)"
+                : problem.bent() ? "flexural strength, 3PL/(2bd^2)"
+                : tension        ? "tensile strength"
+                                 : "compressive strength",
+                "{:.2f} MPa", results.strength() / 1e6);
+  report_peak(report, results);
   if (problem.cell()) {
-    report.line("largest deviator", "{:.2f} MPa", results.deviator_strength() / 1e6);
-    report.line("bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
+    report.figure("deviator_strength_pa", "largest deviator", "{:.2f} MPa",
+                  results.deviator_strength() / 1e6);
+    report.figure("bulk_modulus_pa", "bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
   }
   std::vector<std::string> sides;
   for (const coupling::Side side : further_sides(problem, results.axis()))
     sides.push_back(
         fmt::format("{} {:.2f}", coupling::name_of(side), results.side_stress_at_peak(side) / 1e6));
-  if (!sides.empty() && !std::isnan(results.strength()))
+  if (!sides.empty() && !std::isnan(results.strength()) && results.peak().reached())
     report.words("stress on the sides then", fmt::format("{} MPa", fmt::join(sides, ", ")));
 }
 
 void report_stiffness(Report &report, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.bent()) {
-    report.line("deflection at peak", "{:.2f} um", 1e6 * results.deflection_at_peak());
-    report.line("flexural modulus", "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
-                flexural_modulus(problem, results) / 1e9,
-                problem.three_points().shear_share(assumed_poisson_ratio));
+    report.figure("deflection_at_peak_m", "deflection at peak", "{:.2f} um",
+                  1e6 * results.deflection_at_peak());
+    report.figure("flexural_modulus_pa", "flexural modulus",
+                  "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",
+                  flexural_modulus(problem, results) / 1e9,
+                  problem.three_points().shear_share(assumed_poisson_ratio));
     report.line("moment at mid-span over PL/4", "{:.3f}", moment_over_nominal(problem, results));
     return;
   }
   if (results.axis() != 2) {
     report.words("loaded along", std::string(1, "xyz"[results.axis()]));
-    report.line("strain at peak (platen)", "{:.5f}", results.strain_at_peak_platen());
+    report.figure("strain_at_peak_platen", "strain at peak (platen)", "{:.5f}",
+                  results.strain_at_peak_platen());
     report.line("stress over strain, at 40 %", "{:.2f} GPa", results.youngs_modulus_platen() / 1e9);
     return;
   }
-  report.line("strain at peak (platen, gauge)", "{:.5f}, {:.5f}", results.strain_at_peak_platen(),
-              results.strain_at_peak_gauge());
+  report.figure("strain_at_peak_platen", "strain at peak (platen, gauge)", "{:.5f}, {:.5f}",
+                results.strain_at_peak_platen(), results.strain_at_peak_gauge());
   if (problem.shape().kind == dem::ShapeKind::disc) return;
   const bool walled = problem.wall() != nullptr, held = !further_sides(problem).empty();
-  report.line(walled ? "constrained modulus (gauge, platen)"
-              : held ? "axial stress over strain, at 40 %"
-                     : "Young's modulus (gauge, platen)",
-              "{:.2f}, {:.2f} GPa", results.youngs_modulus_gauge() / 1e9,
-              results.youngs_modulus_platen() / 1e9);
-  if (held) return;
-  if (walled)
-    report.line("lateral over axial stress", "{:.3f}", results.lateral_over_axial());
-  else
-    report.line("Poisson's ratio", "{:.3f}", results.poisson_ratio());
+  if (held) {
+    report.line("axial stress over strain, at 40 %", "{:.2f}, {:.2f} GPa",
+                results.youngs_modulus_gauge() / 1e9, results.youngs_modulus_platen() / 1e9);
+    return;
+  }
+  if (walled) {
+    report.figure("constrained_modulus_pa", "constrained modulus (gauge, platen)", "{:.2f}, {:.2f} GPa",
+                  results.youngs_modulus_gauge() / 1e9, results.youngs_modulus_platen() / 1e9);
+    report.figure("lateral_over_axial_stress", "lateral over axial stress", "{:.3f}",
+                  results.lateral_over_axial());
+    return;
+  }
+  report.figure("youngs_modulus_gauge_pa", "Young's modulus (gauge)", "{:.2f} GPa",
+                results.youngs_modulus_gauge() / 1e9);
+  report.figure("youngs_modulus_platen_pa", "Young's modulus (platen)", "{:.2f} GPa",
+                results.youngs_modulus_platen() / 1e9);
+  report.figure("poisson_ratio", "Poisson's ratio", "{:.3f}", results.poisson_ratio());
 }
 
 void report_damage(Report &report, const Scene &scene, const coupling::PlatenTest &problem,
@@ -128,7 +169,8 @@ void report_emission(Report &report, const Results &results) {
 
 std::string report_of_run(const Scene &scene, const coupling::PlatenTest &problem, const Results &results,
                           const RunCosts &costs) {
-  Report report;
+  const Validity validity = judge(scene, problem, results);
+  Report report(validity);
   report_strength(report, scene, problem, results);
   report_stiffness(report, problem, results);
   report_damage(report, scene, problem, results);

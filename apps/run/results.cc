@@ -98,6 +98,64 @@ std::size_t Results::peak_row() const {
   return best;
 }
 
+PeakOfCurve Results::peak() const {
+  if (samples_.empty()) return {};
+  const Sample start = zero();
+  const auto strain = platen_strain(axis_);
+  std::vector<CurvePoint> curve;
+  for (const Sample &s : samples_)
+    if (s.axial_stage != 0 && s.cycling == 0)
+      curve.push_back({sign_ * (s.*strain - start.*strain), stress(s),
+                       s.intact_bonds + s.broken() == 0 || s.broken() > start.broken()});
+  return judge_peak(curve, strain_may_fall_);
+}
+
+double Results::stress_at_end() const {
+  return samples_.empty() ? not_measured : sign_ * samples_.back().stress(axis_);
+}
+
+std::size_t Results::readings_to_peak() const {
+  if (!(peak_ > 0)) return 0;
+  std::size_t count = 0;
+  for (std::size_t k = 1; k <= peak_row(); ++k)
+    count += samples_[k].axial_stage != 0;
+  return count;
+}
+
+ModulusState Results::modulus_state() const {
+  ModulusState state;
+  const Crossing c = ascending(modulus_share);
+  if (!c.found) return state;
+  const Sample &s = samples_[c.after];
+  state.found = true;
+  state.stress = modulus_share * peak_;
+  for (std::size_t k = 1; k <= c.after; ++k)
+    state.readings += samples_[k].axial_stage != 0;
+  state.broken = s.broken() - zero().broken();
+  const double plastic = s.plastic - zero().plastic;
+  if (s.bond > 0 && plastic > 0) state.plastic_share = plastic / s.bond;
+  return state;
+}
+
+double Results::unequal(const Sample &a, const Sample &b, double weight) const {
+  const auto difference = [&](const Sample &s) {
+    return axis_ == 0   ? s.stress_left - s.stress_right
+           : axis_ == 1 ? s.stress_front - s.stress_back
+                        : s.stress_top - s.stress_bottom;
+  };
+  const auto mean = [&](double of_a, double of_b) { return (1 - weight) * of_a + weight * of_b; };
+  return std::abs(mean(difference(a), difference(b)) / mean(a.stress(axis_), b.stress(axis_)));
+}
+
+double Results::unequal_at_peak() const {
+  return peak_ > 0 ? unequal(samples_[peak_row()], samples_[peak_row()], 0) : not_measured;
+}
+
+double Results::unequal_at_modulus() const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? unequal(samples_[c.after - 1], samples_[c.after], c.weight) : not_measured;
+}
+
 double Results::strength() const {
   return peak_ > 0 ? sign_ * samples_[peak_row()].stress(axis_) : not_measured;
 }
@@ -164,7 +222,7 @@ double Results::gained(const Crossing &c, double Sample::*value) const {
 }
 double Results::secant(double Sample::*value) const {
   const Crossing c = ascending(modulus_share);
-  return c.found ? modulus_share * peak_ / (sign_ * gained(c, value)) : not_measured;
+  return c.found ? (modulus_share * peak_ - stress(zero())) / (sign_ * gained(c, value)) : not_measured;
 }
 double Results::lateral_over_axial() const {
   const Crossing c = ascending(modulus_share);

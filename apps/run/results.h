@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/run/history.h"
+#include "apps/run/peak.h"
 #include "apps/run/state_at_peak.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/acoustic_emission.h"
@@ -23,6 +24,15 @@ struct Pattern {
   void describe(Archive &archive);
 };
 
+// Of the specimen where moduli are taken, at 40 % of the largest stress.
+struct ModulusState {
+  bool found = false;
+  double stress = not_measured; // Pa, the deviator there
+  std::size_t readings = 0;     // of the axial stage until then
+  double broken = 0;            // bonds, since the axial stage began
+  double plastic_share = 0;     // plastic work over the energy of bonds; 0 without a ledger
+};
+
 // What cracks told while they came.
 struct Emission {
   dem::CrackRose rose;
@@ -38,12 +48,14 @@ public:
   // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends, cones and what
   // the gauge measures are of a specimen that is loaded along z; along another axis they are not measured.
   // What moves with the platens after the peak is followed where the test tells a pattern.
+  // Where the test is led by how the specimen widens, its strain may fall while it fails.
   explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
-                   bool tells_pattern = true)
+                   bool tells_pattern = true, bool strain_may_fall = false)
       : sign_(tension ? -1.0 : 1.0),
         soundness_(soundness),
         axis_(axis),
-        follows_motion_(tells_pattern && axis == 2) {}
+        follows_motion_(tells_pattern && axis == 2),
+        strain_may_fall_(strain_may_fall) {}
 
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
@@ -54,6 +66,15 @@ public:
   void listen(const dem::Crack &crack);
   // The state at the end, and events of the cracks so far.
   void finish(const coupling::PlatenTest &problem, const dem::EventWindow &window);
+
+  // Did the deviator of the axial stage reach its peak, or only its largest value?
+  PeakOfCurve peak() const;
+  double stress_at_end() const; // Pa, positive in the sense of the test
+  ModulusState modulus_state() const;
+  std::size_t readings_to_peak() const; // of the axial stage, with that at the peak; 0 without one
+  // Difference of the stresses on both platens of the axis over their mean, where two press.
+  double unequal_at_peak() const;
+  double unequal_at_modulus() const; // where moduli are taken
 
   // Of all samples; NaN where the run did not get there.
   int axis() const { return axis_; }
@@ -115,6 +136,7 @@ private:
   const Sample &zero() const; // where the strains of the axial stage begin
   double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
   double gained_at_peak(double Sample::*value) const;
+  double unequal(const Sample &a, const Sample &b, double weight) const;
   double at_peak(double Sample::*value) const;
   // Stress over what is gained, and minus what is gained across over what is gained along, at the share of
   // the strength where moduli are told.
@@ -127,7 +149,7 @@ private:
   double sign_;
   dem::Soundness soundness_;
   int axis_;
-  bool follows_motion_;
+  bool follows_motion_, strain_may_fall_;
   StateAtPeak state_at_peak_;
   std::vector<Sample> samples_;
   Pattern at_eighty_, last_;

@@ -11,6 +11,7 @@ set(PLATEN_RUN_SOURCES
   run/history.cc
   run/model_setup.cc
   run/pack.cc
+  run/peak.cc
   run/problem_setup.cc
   run/quasi_static.cc
   run/report_of_run.cc
@@ -19,4 +20,5 @@ set(PLATEN_RUN_SOURCES
   run/specimen_setup.cc
   run/stages_of_run.cc
   run/state_at_peak.cc
-  run/summary_of_run.cc)
+  run/summary_of_run.cc
+  run/validity.cc)

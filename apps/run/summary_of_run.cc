@@ -9,6 +9,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/stages_of_run.h"
+#include "apps/run/validity.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/gauge.h"
@@ -113,6 +114,19 @@ void add_bar(Json &to, const coupling::PlatenTest &problem, const Results &resul
   withdraw_moduli(to);
 }
 
+// Null where nothing loads the specimen along its axis.
+void add_peak(Json &to, const Results &results) {
+  const PeakOfCurve peak = results.peak();
+  const bool loaded = peak.largest > 0;
+  to["peak_reached"] = loaded ? Json(peak.reached()) : Json();
+  to["peak_is"] = !loaded                          ? Json()
+                  : peak.kind == PeakKind::fallen  ? Json("fallen")
+                  : peak.kind == PeakKind::plateau ? Json("plateau")
+                                                   : Json("not reached");
+  to["largest_stress_pa"] = loaded ? results.strength() : not_measured;
+  to["stress_at_end_pa"] = results.stress_at_end();
+}
+
 // Without a peak nothing is told.
 void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   const Slowness slow = slowness(problem, results);
@@ -173,6 +187,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["bytes_per_particle"] = model.particles.table.bytes_per_row();
   s["bytes_per_bond"] = bytes_per_bond(model);
   s["bytes_in_columns_and_search"] = problem.bytes();
+  add_peak(s, results);
   s["strength_pa"] = results.strength();
   s["strain_at_peak_platen"] = results.strain_at_peak_platen();
   s["strain_at_peak_gauge"] = results.strain_at_peak_gauge();
@@ -180,6 +195,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["youngs_modulus_platen_pa"] = results.youngs_modulus_platen();
   s["poisson_ratio"] = results.poisson_ratio();
   s["poisson_ratio_extremal"] = results.poisson_ratio_extremal();
+  s["moduli_at_stress_pa"] = results.modulus_state().stress;
   s["youngs_modulus_voigt_pa"] =
       problem.facts().voigt_modulus > 0 ? problem.facts().voigt_modulus : not_measured;
   add_cell(s, problem, results);
@@ -203,6 +219,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["fragments"] = fragments.count;
   s["loose_particles"] = fragments.single;
   add_failure(s, scene, problem, results);
+  judge(scene, problem, results).complete(s);
   return s;
 }
 

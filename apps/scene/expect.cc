@@ -11,19 +11,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string not_measured(const Expectation &expected) {
-  return expected.origin + ": " + expected.key + " was not measured, expected " + expected.text;
+// With the reasons that the summary has against it.
+std::string not_measured(const Expectation &expected, const Json &summary) {
+  std::string reasons;
+  const Json::json_pointer place("/validity/" + expected.key.substr(0, expected.key.find('/')));
+  if (summary.contains(place) && summary.at(place).is_array())
+    for (const Json &reason : summary.at(place))
+      reasons += (reasons.empty() ? " (" : "; ") + reason.get<std::string>();
+  return expected.origin + ": " + expected.key + " was not measured" +
+         (reasons.empty() ? "" : reasons + ")") + ", expected " + expected.text;
 }
 
 // Empty where it holds.
-std::string fault_of_number(const Expectation &expected, double value) {
-  if (std::isnan(value)) return not_measured(expected);
+std::string fault_of_number(const Expectation &expected, double value, const Json &summary) {
+  if (std::isnan(value)) return not_measured(expected, summary);
   if (value >= expected.low && value <= expected.high) return "";
   return expected.origin + ": " + expected.key + " = " + shortest_text(value) + " is not in " + expected.text;
 }
 
-std::string fault_of_word(const Expectation &expected, const Json &found) {
-  if (!found.is_string()) return not_measured(expected);
+std::string fault_of_word(const Expectation &expected, const Json &found, const Json &summary) {
+  if (!found.is_string()) return not_measured(expected, summary);
   const std::string word = found.get<std::string>();
   if (std::find(expected.words.begin(), expected.words.end(), word) != expected.words.end()) return "";
   return expected.origin + ": " + expected.key + " = " + word + " is not " +
@@ -42,8 +49,8 @@ ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
     const Json::json_pointer path("/" + expected.key);
     const Json found = summary.contains(path) ? summary.at(path) : Json();
     const double number = found.is_number() ? found.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    const std::string fault =
-        expected.words.empty() ? fault_of_number(expected, number) : fault_of_word(expected, found);
+    const std::string fault = expected.words.empty() ? fault_of_number(expected, number, summary)
+                                                     : fault_of_word(expected, found, summary);
     if (!fault.empty()) check.failed.push_back(fault);
   }
   return check;

@@ -61,7 +61,8 @@ TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage)
   ASSERT_EQ(pressure[stood], 20e6);
   EXPECT_GT(closure[stood], 0.001);
   EXPECT_NEAR(closure.back() - closure[stood], 0.001, 0.0001); // a row closes by a thirtieth
-  EXPECT_GT(s["deviator_strength_pa"].get<double>(), 0.001 * 5e9);
+  EXPECT_GT(*std::max_element(deviator.begin(), deviator.end()), 0.001 * 5e9);
+  EXPECT_TRUE(s["deviator_strength_pa"].is_null()); // bonds that never break, and unloading is no peak
   std::size_t turn = stood;
   while (turn + 1 < deviator.size() && deviator[turn + 1] > deviator[turn] - 0.01e6)
     ++turn;

@@ -102,7 +102,7 @@ TEST_F(Along, strength_and_strain_are_of_the_axis_that_is_driven) {
     time_ = 0, crush(*results);
   EXPECT_NEAR(x.strength(), 20e6, 1);
   EXPECT_NEAR(x.strain_at_peak_platen(), 1e-3, 1e-15); // since the end of the consolidation
-  EXPECT_NEAR(x.youngs_modulus_platen(), 8e6 / (1e-4 + 4e-4 * 7 / 9 - 1e-4), 1);
+  EXPECT_NEAR(x.youngs_modulus_platen(), (8e6 - 1e6) / (1e-4 + 4e-4 * 7 / 9 - 1e-4), 1); // since then
   EXPECT_EQ(x.time_at_peak(), 3);
   EXPECT_TRUE(x.fallen_to(0.8));
   EXPECT_FALSE(x.fallen_to(0.7));
@@ -113,6 +113,16 @@ TEST_F(Along, strength_and_strain_are_of_the_axis_that_is_driven) {
   EXPECT_NEAR(z.strain_at_peak_platen(), 7e-3, 1e-15);
   EXPECT_FALSE(z.fallen_to(0.9));
   EXPECT_EQ(x.side_stress_at_peak(coupling::Side::top), 80e6);
+  EXPECT_NEAR(x.unequal_at_peak(), 0.2, 1e-12); // 1.1 and 0.9 of the mean
+  EXPECT_NEAR(x.unequal_at_modulus(), 0.2, 1e-12);
+  EXPECT_NEAR(y.unequal_at_peak(), 0.4, 1e-12);
+  EXPECT_EQ(z.unequal_at_peak(), 0);
+  EXPECT_EQ(x.readings_to_peak(), 2u); // the first row is of the consolidation
+  EXPECT_EQ(x.modulus_state().readings, 1u);
+  EXPECT_EQ(x.modulus_state().broken, 1);
+  EXPECT_NEAR(x.modulus_state().stress, 8e6, 1e-6);
+  EXPECT_TRUE(x.peak().reached());
+  EXPECT_NEAR(x.stress_at_end(), 15e6, 1e-6);
 }
 
 TEST_F(Along, the_pattern_is_taken_where_that_stress_has_fallen) {

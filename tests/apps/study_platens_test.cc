@@ -302,7 +302,7 @@ TEST_F(Study, of_friction_compares_nothing_that_never_peaked) {
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_TRUE(contains(content_of(folder_ / "a/run.log"), "grease_seed_3: its stress did not fall to 0.8"));
   EXPECT_EQ(json("a")["cases"][0]["without_peak"], 1);
-  EXPECT_GT(json("a")["cases"][0]["strength_pa"]["mean"], 0); // what it bore
+  EXPECT_TRUE(json("a")["cases"][0]["strength_pa"]["mean"].is_null());
   EXPECT_TRUE(json("a")["comparisons"][0]["mean"].is_null());
 }
 

@@ -1,0 +1,251 @@
+#include "apps/run/validity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/run/at_peak.h"
+#include "apps/run/failure_summary.h"
+#include "apps/run/summary_of_run.h"
+#include "dem/measure/gauge.h"
+
+namespace platen::apps {
+namespace {
+
+using Figures = std::vector<const char *>;
+
+const Figures of_strength{"strength_pa",           "deviator_strength_pa",   "failure_load_n",
+                          "strain_at_peak_platen", "strain_at_peak_gauge",   "opening_at_peak_m",
+                          "deflection_at_peak_m",  "side_stress_at_peak_pa", "barrel_at_peak",
+                          "moment_over_nominal"};
+const Figures of_gauge{"youngs_modulus_gauge_pa", "poisson_ratio"};
+const Figures of_young{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio",
+                       "poisson_ratio_extremal", "flexural_modulus_pa"};
+// With those that a wall has instead.
+const Figures of_modulus{"youngs_modulus_gauge_pa",  "youngs_modulus_platen_pa", "poisson_ratio",
+                         "poisson_ratio_extremal",   "flexural_modulus_pa",      "constrained_modulus_pa",
+                         "lateral_over_axial_stress"};
+const Figures of_damage{"end_damage_top", "end_damage_bottom", "worse_end_damage", "middle_damage",
+                        "end_spread",     "cone_top",          "cone_bottom",      "pattern"};
+const Figures of_cell{"bulk_modulus_pa"};
+
+// Nothing in a test is better known than its energy is balanced.
+constexpr double most_residual = 0.1; // of the work
+// Where both platens do not bear the same, their mean is no stress of the specimen. Oscillations of a slow
+// test are a tenth of this.
+constexpr double most_unequal = 0.1; // of the mean
+// Readings until a figure is read off; between fewer the curve is a guess.
+constexpr std::size_t fewest_to_modulus = 3, fewest_to_peak = 8;
+// A network of bonds is no stiffer than Voigt's bound; grains that touch without a bond add a little, and the
+// middle of a specimen is not its mean.
+constexpr double most_over_voigt = 1.2;
+// Without a peak a modulus is told of an elastic specimen alone. Of the energy in the bonds:
+constexpr double most_plastic = 0.01;
+// Twelve numbers are fitted to the motion of the gauge's spheres, three of each.
+constexpr std::size_t fewest_in_gauge = 12;
+
+bool has_axial_stage(const Results &results) {
+  return std::any_of(results.samples().begin(), results.samples().end(),
+                     [](const Sample &s) { return s.axial_stage != 0; });
+}
+
+void judge_strength(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  if (!has_axial_stage(results)) {
+    of.add(of_strength, "the test has no stage that loads the specimen along its axis");
+    return;
+  }
+  if (const std::string words = words_against(results.peak()); !words.empty()) of.add(of_strength, words);
+  if (problem.settings().loading.start_strain > 0) return; // the way to it is solved for, without readings
+  if (const std::size_t n = results.readings_to_peak(); n > 0 && n < fewest_to_peak)
+    of.add(of_strength, fmt::format("{} readings before the peak, {} at least: a smaller Output/Every", n,
+                                    fewest_to_peak));
+}
+
+void judge_shared_load(Validity &of, const Results &results) {
+  const auto check = [&](const Figures &figures, double unequal, const char *where) {
+    if (unequal > most_unequal)
+      of.add(figures,
+             fmt::format("the stresses of both platens differ by {:.0f} % of their mean {}, {:.0f} % at "
+                         "most: too fast to be one stress",
+                         100 * unequal, where, 100 * most_unequal));
+  };
+  check(of_strength, results.unequal_at_peak(), "at the peak");
+  check(of_modulus, results.unequal_at_modulus(), "at 40 % of the peak");
+}
+
+void judge_residual(Validity &of, const Results &results) {
+  const double residual = results.energy_residual_relative();
+  if (!(residual > most_residual)) return;
+  const std::string reason = fmt::format("the energy balance leaves {:.0f} % of the work, {:.0f} % at most",
+                                         100 * residual, 100 * most_residual);
+  for (const Figures *all : {&of_strength, &of_modulus, &of_damage})
+    of.add(*all, reason);
+}
+
+// What a test says nothing of.
+void judge_kind_of_test(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  if (problem.shape().kind == dem::ShapeKind::disc)
+    of.add(of_young, "the stress in a disc is not even: a splitting test has no modulus");
+  else if (problem.bent())
+    of.add({"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"},
+           "the stress in a bent bar is not even: its modulus is flexural_modulus_pa");
+  else if (problem.wall() != nullptr)
+    of.add(of_young, "a wall holds the sides: the ratio of stress and strain is constrained_modulus_pa");
+  else if (!further_sides(problem).empty())
+    of.add(of_young, "platens hold the sides: the ratio of stress and strain is no Young's modulus");
+  if (results.axis() != 2)
+    of.add({"strain_at_peak_gauge", "youngs_modulus_gauge_pa", "poisson_ratio", "barrel_at_peak"},
+           "the gauge is of tests along z");
+}
+
+void judge_moduli(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  if (!has_axial_stage(results)) {
+    of.add(of_modulus, "the test has no stage that loads the specimen along its axis");
+    return;
+  }
+  const ModulusState at = results.modulus_state();
+  if (!at.found) {
+    of.add(of_modulus, "the specimen bore nothing");
+    return;
+  }
+  if (problem.settings().loading.start_strain == 0 && at.readings < fewest_to_modulus)
+    of.add(of_modulus, fmt::format("{} readings before 40 % of the largest stress, {} at least: a smaller "
+                                   "Output/Every",
+                                   at.readings, fewest_to_modulus));
+  if (results.peak().reached()) return;
+  if (at.broken > 0)
+    of.add(of_young, fmt::format("no peak was reached, and at 40 % of the largest stress {:.0f} bonds had "
+                                 "broken: the ratio is not of the sound specimen",
+                                 at.broken));
+  if (at.plastic_share > most_plastic)
+    of.add(of_young, fmt::format("no peak was reached, and at 40 % of the largest stress bonds had yielded: "
+                                 "plastic work is {:.2g} of their energy, {:g} at most",
+                                 at.plastic_share, most_plastic));
+}
+
+void judge_gauge(Validity &of, const coupling::PlatenTest &problem) {
+  const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
+  if (gauge.size() < fewest_in_gauge)
+    of.add({"youngs_modulus_gauge_pa", "poisson_ratio", "strain_at_peak_gauge", "constrained_modulus_pa",
+            "bulk_modulus_pa"},
+           fmt::format("{} spheres in the middle half of the specimen, {} at least", gauge.size(),
+                       fewest_in_gauge));
+}
+
+// What no elastic specimen has, whatever the reason.
+void judge_values(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  const double voigt = problem.facts().voigt_modulus;
+  const auto modulus = [&](const char *figure, double value) {
+    if (std::isnan(value) || !of.holds(figure)) return;
+    if (!std::isfinite(value) || value <= 0)
+      of.add({figure}, fmt::format("{:.3g} GPa: no modulus of a solid", 1e-9 * value));
+    else if (voigt > 0 && value > most_over_voigt * voigt)
+      of.add({figure}, fmt::format("{:.3g} GPa is more than the bonds can have, {:.3g} GPa (Voigt's bound)",
+                                   1e-9 * value, 1e-9 * voigt));
+  };
+  modulus("youngs_modulus_gauge_pa", results.youngs_modulus_gauge());
+  modulus("youngs_modulus_platen_pa", results.youngs_modulus_platen());
+  const auto ratio = [&](const char *figure, double value) {
+    if (of.holds(figure) && !std::isnan(value) && !(value > -1 && value <= 0.5))
+      of.add({figure}, fmt::format("{:.3g}: an elastic specimen has -1 to 0.5", value));
+  };
+  ratio("poisson_ratio", results.poisson_ratio());
+  ratio("poisson_ratio_extremal", results.poisson_ratio_extremal());
+  if (problem.cell() && of.holds("bulk_modulus_pa") && results.bulk_modulus() <= 0)
+    of.add({"bulk_modulus_pa"},
+           fmt::format("{:.3g} GPa: no modulus of a solid", 1e-9 * results.bulk_modulus()));
+}
+
+void judge_damage(Validity &of, const Scene &scene, const coupling::PlatenTest &problem,
+                  const Results &results) {
+  if (!tells_pattern(scene, problem)) {
+    of.add({"end_spread", "cone_top", "cone_bottom", "pattern"},
+           "ends and cones are told of cylinders and boxes that are compressed along z");
+    return;
+  }
+  if (std::isnan(results.pattern().time)) {
+    of.add(of_damage, "the stress has not fallen to 0.8 of its peak");
+    return;
+  }
+  const auto cone = [&](const char *figure, const dem::DeadZone &zone) {
+    if (!zone.is_cone()) of.add({figure}, cone_words(zone));
+  };
+  cone("cone_top", results.pattern().failure.dead[dem::top_end]);
+  cone("cone_bottom", results.pattern().failure.dead[dem::bottom_end]);
+}
+
+// What summary.json says the validity of, in this order.
+const Figures headline{"strength_pa",
+                       "deviator_strength_pa",
+                       "failure_load_n",
+                       "strain_at_peak_platen",
+                       "strain_at_peak_gauge",
+                       "opening_at_peak_m",
+                       "deflection_at_peak_m",
+                       "youngs_modulus_gauge_pa",
+                       "youngs_modulus_platen_pa",
+                       "poisson_ratio",
+                       "poisson_ratio_extremal",
+                       "bulk_modulus_pa",
+                       "constrained_modulus_pa",
+                       "lateral_over_axial_stress",
+                       "flexural_modulus_pa",
+                       "side_stress_at_peak_pa",
+                       "barrel_at_peak",
+                       "end_damage_top",
+                       "end_damage_bottom",
+                       "worse_end_damage",
+                       "middle_damage",
+                       "end_spread",
+                       "pattern",
+                       "cone_top",
+                       "cone_bottom"};
+
+bool is_missing(const Json &value) {
+  return value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()));
+}
+
+} // namespace
+
+void Validity::add(const std::vector<const char *> &figures, const std::string &reason) {
+  for (const char *figure : figures)
+    reasons_[figure].push_back(reason);
+}
+
+const std::vector<std::string> &Validity::reasons(const std::string &figure) const {
+  static const std::vector<std::string> none;
+  const auto found = reasons_.find(figure);
+  return found == reasons_.end() ? none : found->second;
+}
+
+void Validity::complete(Json &summary) const {
+  for (const auto &[figure, reasons] : reasons_)
+    if (summary.contains(figure)) summary[figure] = nullptr;
+  Json validity = Json::object();
+  for (const char *figure : headline) {
+    if (!summary.contains(figure)) continue;
+    if (!holds(figure))
+      validity[figure] = reasons(figure);
+    else if (is_missing(summary[figure]))
+      validity[figure] = Json::array({"not measured by this test"});
+    else
+      validity[figure] = "valid";
+  }
+  summary["validity"] = validity;
+}
+
+Validity judge(const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
+  Validity of;
+  judge_kind_of_test(of, problem, results);
+  judge_strength(of, problem, results);
+  judge_moduli(of, problem, results);
+  judge_shared_load(of, results);
+  judge_residual(of, results);
+  judge_gauge(of, problem);
+  judge_values(of, problem, results);
+  judge_damage(of, scene, problem, results);
+  return of;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,87 @@
+// Figures that a set-up cannot mean are null, with the reason; the others are valid.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/crushed.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class Figures : public Crushed {
+protected:
+  // The reasons against a figure of a run, one after the other; "" where it is valid.
+  static std::string against(const nlohmann::json &summary, const std::string &figure) {
+    const nlohmann::json &said = summary.at("validity").at(figure);
+    if (said == "valid") {
+      EXPECT_FALSE(summary.at(figure).is_null()) << figure << " is valid and null";
+      return "";
+    }
+    EXPECT_TRUE(summary.at(figure).is_null())
+        << figure << " = " << summary.at(figure) << ", against it: " << said;
+    std::string all;
+    for (const nlohmann::json &reason : said)
+      all += reason.get<std::string>() + "\n";
+    EXPECT_NE(all, "") << figure;
+    return all;
+  }
+  static void expect_reason(const nlohmann::json &summary, const std::vector<std::string> &figures,
+                            const std::string &words) {
+    for (const std::string &figure : figures)
+      EXPECT_NE(against(summary, figure).find(words), std::string::npos)
+          << figure << " lacks \"" << words << "\": " << against(summary, figure);
+  }
+  static void expect_valid(const nlohmann::json &summary, const std::vector<std::string> &figures) {
+    for (const std::string &figure : figures)
+      EXPECT_EQ(against(summary, figure), "") << figure;
+  }
+};
+
+const std::vector<std::string> strength{"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge",
+                                        "barrel_at_peak"},
+    moduli{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio"};
+
+TEST_F(Figures, of_a_crushed_cylinder_are_valid) {
+  const nlohmann::json s = crush("run", {});
+  EXPECT_EQ(s["peak_reached"], true);
+  EXPECT_EQ(s["peak_is"], "fallen");
+  EXPECT_EQ(s["largest_stress_pa"], s["strength_pa"]);
+  EXPECT_LT(s["stress_at_end_pa"].get<double>(), 0.98 * s["strength_pa"].get<double>());
+  expect_valid(s, strength);
+  expect_valid(s, moduli);
+  expect_valid(s, {"end_damage_top", "middle_damage", "end_spread"});
+}
+
+TEST_F(Figures, of_a_test_that_ends_before_its_peak_are_none_but_the_moduli_of_sound_bonds) {
+  const nlohmann::json s = crush("short", {"Loading/Target strain = 0.0002", "Expect/pattern ="});
+  EXPECT_EQ(s["peak_reached"], false);
+  expect_reason(s, strength, "no peak was reached: by the strain of 0.00018");
+  expect_valid(s, moduli);
+  EXPECT_NEAR(s["stress_at_end_pa"].get<double>(), s["largest_stress_pa"].get<double>(),
+              0.05 * s["largest_stress_pa"].get<double>());
+  EXPECT_NEAR(s["moduli_at_stress_pa"].get<double>(), 0.4 * s["largest_stress_pa"].get<double>(), 1);
+  expect_reason(s, {"end_damage_top", "cone_top"}, "has not fallen to 0.8");
+}
+
+TEST_F(Figures, an_expectation_of_one_that_is_none_says_why) {
+  const Outcome outcome =
+      run_compress({test_scene("crushed.prm"), "-o", "run", "-s", "Loading/Target strain = 0.0002", "-s",
+                    "Output/Fields = off", "-s", "Expect/strength_pa = 1 Pa ... 1 GPa"},
+                   folder_);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.error.find("strength_pa was not measured (no peak was reached"), std::string::npos)
+      << outcome.error;
+  EXPECT_NE(outcome.out.find("none: no peak was reached"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("largest stress, which is no strength"), std::string::npos) << outcome.out;
+}
+
+// Rows of history.csv so far apart that the peak may lie anywhere between two.
+TEST_F(Figures, between_few_readings_are_none) {
+  const nlohmann::json s = crush("coarse", {"Output/Every = 600", "Expect/pattern ="});
+  expect_reason(s, {"strength_pa"}, "readings before the peak, 8 at least");
+  expect_reason(s, moduli, "3 at least: a smaller Output/Every");
+}
+
+} // namespace
+} // namespace platen::apps::testing
