@@ -63,6 +63,15 @@ void require_machine(const PlatenTestSettings &settings) {
 
 } // namespace
 
+double distance_to_plane(const dem::Specimen &specimen, Side side) {
+  const int axis = axis_of(side);
+  const double plane = extent(specimen.shape, axis)[is_high(side)];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < specimen.size(); ++i)
+    least = std::min(least, std::abs(plane - specimen.centre[i][axis]) - specimen.radius[i]);
+  return least;
+}
+
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
                        const dem::Model &model) {
   SpecimenFacts facts;
@@ -85,6 +94,8 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   require_in_range();
   add_platens(specimen);
   facts_ = facts_of(specimen, settings.model, model);
+  for (const Side side : all_sides)
+    require_cover(side);
   seat_platens(specimen);
   choose_rates();
   add_lateral(mean_bond_stiffness(model));
@@ -133,17 +144,54 @@ void PlatenTest::add_platens(const dem::Specimen &specimen) {
                            platen_plane(specimen, Side::top, settings_.ends)});
 }
 
+std::optional<PlatenCover> PlatenTest::cover(Side side) const {
+  if (platen(side) == nullptr || shape().kind == dem::ShapeKind::disc || bent()) return std::nullopt;
+  const int axis = axis_of(side);
+  const double plane = axis != 2           ? extent(shape(), axis)[is_high(side)]
+                       : side == Side::top ? ends_->high_plane
+                                           : ends_->low_plane;
+  const double edge = has_neighbours(settings_.platens, side)
+                          ? edge_gap(shape(), settings_.platens, (axis + 1) % 3) +
+                                edge_gap(shape(), settings_.platens, (axis + 2) % 3)
+                          : 0.0;
+  return cover_of(shape(), platen(side)->surface().surface(), side, plane, 2 * facts_.mean_radius, edge);
+}
+
+// A mesh in another unit, or the mesh of another specimen.
+void PlatenTest::require_cover(Side side) const {
+  constexpr double round_off = 1e-3, most_wide = 20; // of the specimen's width
+  const std::optional<PlatenCover> found = cover(side);
+  if (!found || settings_.platens.side(side)->grid == nullptr) return;
+  const std::string member = std::string("platens.") + name_of(side) + ".grid",
+                    wide = text_of(found->extent[0]) + " m x " + text_of(found->extent[1]) + " m";
+  const int axis = axis_of(side);
+  for (const int k : {0, 1})
+    if (const double width = width_of_end(shape(), (axis + 1 + k) % 3);
+        found->extent[static_cast<std::size_t>(k)] > most_wide * width)
+      throw BadSetup(member, "is " + wide + " wide where the specimen has " + text_of(width) +
+                                 " m: is it in another unit? Allowed: up to " + text_of(most_wide) +
+                                 " times the specimen.");
+  if (found->within_reach >= 1 - round_off || settings_.platens.partial_cover) return;
+  throw BadSetup(member,
+                 "faces the specimen with " + wide + ", which reaches over " +
+                     text_of(std::round(100 * found->within_reach)) +
+                     " % of its end: stresses over the whole end would mean nothing. Allowed: all of it, "
+                     "or `platens.partial_cover` = partial.");
+}
+
 void PlatenTest::seat_platens(const dem::Specimen &specimen) {
   const double depth = settings_.end_layer * dem::mean_radius(specimen);
   if (settings_.ends == Ends::ground || settings_.platens.glued) {
     const auto seats = [&](Platen &platen) {
       return platen.layer().seat_within(model.particles, platen.body(), depth, bent());
     };
-    for (Platen *platen : platens_)
-      if (platen != nullptr && seats(*platen) == 0)
+    for (const Side side : all_sides)
+      if (Platen *platen = platens_[static_cast<std::size_t>(side)]; platen != nullptr && seats(*platen) == 0)
         throw BadSetup("end_layer",
-                       "leaves a platen without a sphere. Allowed: a deeper layer, or a specimen "
-                       "that reaches its end planes.");
+                       "leaves a platen without a sphere: the nearest lies " +
+                           text_of(distance_to_plane(specimen, side)) + " m from the plane of the " +
+                           name_of(side) + " one, and the layer is " + text_of(depth) +
+                           " m deep. Allowed: a deeper layer, or a specimen that reaches its end planes.");
   }
   if (bent()) require_strips_to_meet(specimen, settings_, depth);
 }

@@ -8,6 +8,7 @@
 
 #include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"
+#include "coupling/platen_cover.h"
 #include "coupling/platen_test_settings.h"
 #include "coupling/program/task.h"
 #include "dem/measure/circumference.h"
@@ -25,6 +26,9 @@ struct SpecimenFacts {
 };
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
                        const dem::Model &model);
+
+// m, of the outermost sphere from the plane of an end or side of the shape; negative where it reaches out.
+double distance_to_plane(const dem::Specimen &specimen, Side side);
 
 class PlatenTest : public Experiment, public Measures {
 public:
@@ -71,6 +75,8 @@ public:
   bool without_inertia() const { // platens that yield and are solved for
     return settings_.platens.elastic && settings_.platens.elastic->motion == fem::ElasticMotion::quasi_static;
   }
+  // What a platen covers of its end at the start; of a disc and of a bent bar, which strips press, nothing.
+  std::optional<PlatenCover> cover(Side side) const;
   bool bent() const { return settings_.platens.span > 0; } // a bar between one strip above and two below
 
   // Whether the platens have taken over from a cell (true without one); between a turn and its strain.
@@ -121,6 +127,7 @@ public:
 private:
   void require_in_range() const;
   void add_platens(const dem::Specimen &specimen);
+  void require_cover(Side side) const;
   void seat_platens(const dem::Specimen &specimen);
   void add_lateral(double bond);
   void add_sleeve(const CellSettings &cell, double bond);

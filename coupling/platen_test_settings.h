@@ -68,6 +68,7 @@ struct PlatenSettings {
   double strip_width = 0;        // m, of strips that press a disc or bend a bar; 0: as wide as the platens
   double span = not_given;       // m, between the middles of two lower strips that a bar along x is bent on
   double overhang = 1.2;         // platen half-width over the specimen's
+  bool partial_cover = false;    // a given mesh need not reach over all of its end of the specimen
   double thickness = 0;          // m
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
@@ -204,6 +205,9 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
   v("tangential_ratio", p.tangential_ratio, "1", between(0, 5), "Tangential over normal penalty stiffness.");
   v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of grains on platens.");
   v("overhang", p.overhang, "1", between(1, 10), "Half-width of the platens over that of the specimen.");
+  v("partial_cover", p.partial_cover, Words<bool>{{"whole", false}, {"partial", true}},
+    "Of meshes: whole, they have to reach over all of the specimen's end, gaps between their faces aside; or "
+    "partial, for punches: stresses are over the whole end all the same.");
   v("strip_width", p.strip_width, "m", at_least(0),
     "platen-brazilian: width of the strips that the disc lies between; 0: of the whole platens. "
     "Test = three point bending: of the strip above the bar and the two below.");

@@ -35,6 +35,10 @@ constexpr Side opposite(Side side) {
   return static_cast<Side>(static_cast<std::size_t>(side) ^ 1);
 }
 
+constexpr Side low_side(int axis) {
+  return axis == 0 ? Side::left : axis == 1 ? Side::front : Side::bottom;
+}
+
 // Unit vector into the specimen.
 inline Vector3 inward(Side side) {
   Vector3 n{};

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
@@ -20,6 +22,7 @@ RunCosts CompressionRun::costs() const {
   c.setup_seconds = setup_seconds_;
   c.steps_here = test_->steps() - first_step_;
   c.step_seconds = seconds_since(loop_start_);
+  c.ended_by = failed_ ? "failure" : signal_ != 0 ? "signal" : ended_by();
   return c;
 }
 
@@ -65,6 +68,7 @@ int CompressionRun::run() {
   try {
     loop();
   } catch (const coupling::NumericsStopped &e) {
+    failed_ = true;
     save_summary("failed");
     std::error_code ignored;
     const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);
@@ -78,6 +82,11 @@ int CompressionRun::run() {
   if (fields_) fields_->write(*test_, results_.moves_with(*test_));
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
+  if (ended_by() == "shortened too far")
+    log_.warning(
+        "the specimen is shortened by {:.0f} % of its length: the test ends, for what is between the "
+        "platens is no specimen of its size any more; a smaller Loading/Target strain ends before",
+        100 * std::abs(test_->closure_strain(results_.axis())));
   tell_unsettled(0);
   const std::vector<std::string> reasons =
       reasons_not_quasi_static(slowness(*test_, results_), test_->bent());

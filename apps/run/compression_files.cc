@@ -30,6 +30,17 @@ const std::vector<std::string> crack_columns{"time_s",   "axial_strain", "x_m", 
                                              "nx",       "ny",           "nz",        "area_m2", "mode",
                                              "energy_j", "particle_a",   "particle_b"};
 
+// Extent and shares of the specimen's ends that platens cover.
+std::string text_of_cover(const coupling::PlatenTest &test) {
+  std::vector<std::string> covers;
+  for (const coupling::Side side : coupling::all_sides)
+    if (const auto cover = test.cover(side))
+      covers.push_back(fmt::format("{} {:.1f} mm x {:.1f} mm, facing {:.2f} of the end",
+                                   coupling::name_of(side), 1e3 * cover->extent[0], 1e3 * cover->extent[1],
+                                   cover->facing));
+  return covers.empty() ? "" : fmt::format("  platens: {}\n", fmt::join(covers, "; "));
+}
+
 } // namespace
 
 std::string CompressionRun::description() const {
@@ -39,6 +50,7 @@ std::string CompressionRun::description() const {
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, test_->coordination_number(),
                       test_->facts().packing_fraction);
+  text += text_of(specimen_state_);
   if (const SizeCorrection &size = scene_.bond.size; size.reference > 0) {
     const double share = scene_.specimen.sphere_radius / size.reference;
     text += fmt::format(
@@ -50,6 +62,7 @@ std::string CompressionRun::description() const {
     if (const coupling::Platen *platen = test_->platen(side))
       seats.push_back(fmt::format("{} {}", platen->name(), platen->layer().seats()));
   text += fmt::format("  seated spheres: {}\n", fmt::join(seats, ", "));
+  text += text_of_cover(*test_);
   text += text_of(scene_.general.quality, *scene_.parameters);
   text += text_of(scene_.platens);
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", fmt::join(effects_on(scene_), ", "),

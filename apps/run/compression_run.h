@@ -11,6 +11,7 @@
 #include "apps/run/fields.h"
 #include "apps/run/history.h"
 #include "apps/run/results.h"
+#include "apps/run/specimen_check.h"
 #include "apps/run/summary_of_run.h"
 #include "coupling/platen_test.h"
 
@@ -47,7 +48,8 @@ private:
   void checkpoint();
   bool checkpoint_due() const;
   ProgressSample where() const;
-  bool finished() const;
+  bool finished() const { return !ended_by().empty(); }
+  std::string ended_by() const; // empty: it goes on
   void tell_unsettled(std::size_t from) const;
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
@@ -65,12 +67,14 @@ private:
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there
   Results results_;
+  SpecimenState specimen_state_;
   std::optional<CsvWriter> history_, cracks_;
   std::optional<FieldSeries> fields_;
   double setup_seconds_ = 0, earlier_seconds_ = 0;
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
+  bool failed_ = false;
 };
 
 } // namespace platen::apps

@@ -9,6 +9,9 @@ namespace {
 
 // Steps between two checks of signals and progress.
 constexpr double most_unobserved = 16;
+// Of the loaded length: what is pressed further is rubble between two plates, and no specimen of its height
+// and section. Laboratories end tests of soil at half of this.
+constexpr double most_shortened = 0.3;
 
 } // namespace
 
@@ -52,9 +55,12 @@ bool CompressionRun::checkpoint_due() const {
          std::fmod(static_cast<double>(test_->steps()), every.value) == 0;
 }
 
-bool CompressionRun::finished() const {
-  if (test_->program().finished()) return true;
-  return scene_.loading.stop_at_residual > 0 && results_.fallen_to(scene_.loading.stop_at_residual);
+std::string CompressionRun::ended_by() const {
+  if (test_->program().finished()) return "target";
+  if (scene_.loading.stop_at_residual > 0 && results_.fallen_to(scene_.loading.stop_at_residual))
+    return "stop at residual";
+  if (std::abs(test_->closure_strain(results_.axis())) > most_shortened) return "shortened too far";
+  return "";
 }
 
 ProgressSample CompressionRun::where() const {

@@ -10,6 +10,7 @@
 #include "apps/run/failure_summary.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
+#include "apps/run/specimen_check.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
 #include "coupling/program_of_test.h"
@@ -73,10 +74,13 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   const bool resumes = command.resume && !command.dry_run;
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
+  require_spheres(scene, specimen);
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   require_prompt_platens(*test_);
+  specimen_state_ = state_of(specimen, *test_);
+  require_specimen(scene, specimen_state_);
   results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
                      coupling::loaded_axis(*test_), tells_pattern(scene, *test_), is_led_by_widening(*test_));
   sampler_ = std::make_unique<Sampler>(*test_);

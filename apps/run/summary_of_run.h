@@ -17,6 +17,7 @@ struct RunCosts {
   double wall_seconds = 0, setup_seconds = 0; // s, of all parts of the run; of this part
   long steps_here = 0;                        // steps that this part made
   double step_seconds = 0;                    // s, of those steps
+  std::string ended_by;                       // why the run is over; empty: it goes on
 };
 
 // status: "done", "stopped" or "failed". Numbers that were not measured are NaN, written null.

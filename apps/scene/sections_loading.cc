@@ -169,6 +169,8 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   of("tangential_ratio").only_if(linear, by_hertz);
   of("damping");
   of("overhang").unless("Platens/Sides", {"six"});
+  of("partial_cover", "Cover")
+      .only_if([](const Scene &s) { return s.platens.meshed(); }, "platens have no mesh");
   of("edge_gap").unless("Platens/Sides", {"two"});
   of("strip_width")
       .only_if(

@@ -1,5 +1,6 @@
 // What platen-compress refuses, and how: the exit status, one message that names the place, and nothing
 // written.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -151,9 +152,28 @@ TEST_F(Errors, specimen_files_are_refused_by_line_or_sphere) {
   refuse_file(header + "0,0,0.01,0.001\n0,0.0098,0.01,0.001\n", {"bad.prm:4", "sphere 1 reaches 0.0008"});
   refuse_file("# shape: cylinder radius_m=0.01 height_m=0.03\n" + header + "0,0,0.01,0.001\n",
               {"crushed.prm:", "Specimen/Height = 20 mm contradicts", "0.03 m"});
-  // Neither platen would ever meet it.
   refuse_file(header + "0,0,0.01,0.001\n",
-              {"crushed.prm:", "Specimen/End layer = 0.5 leaves a platen without a sphere"});
+              {"Specimen/File = spheres.csv makes 1 sphere, which is no specimen"});
+  // A cubic lattice in layers of 2 mm; bonds reach 0.05 mm.
+  const auto lattice = [&](double radius, const std::vector<int> &layers, const std::string &more = "") {
+    std::string text = header + more;
+    for (const int layer : layers)
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j)
+          text += fmt::format("{},{},{},{}\n", 2e-3 * i, 2e-3 * j, 1e-3 + 2e-3 * layer, radius);
+    return text;
+  };
+  const std::vector<int> all{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  refuse_file(lattice(1e-3, {0, 1, 2, 3, 4, 6, 7, 8, 9}),
+              {"bad.prm:4: error: Specimen/File = spheres.csv leaves the specimen in 2 pieces, the largest "
+               "with 56 %"});
+  refuse_file(lattice(0.95e-3, all), {"Bond/Gap = 0.05 R_min leaves no bond"});
+  refuse_file(
+      lattice(1e-3, all, "0,0,0.0034,0.001\n"),
+      {"bad.prm:4: error: Specimen/File = spheres.csv has spheres in one another", "overlap by 1.6 of"});
+  refuse_file(lattice(1e-3, {1, 2, 3, 4, 5, 6, 7, 8, 9}),
+              {"crushed.prm:", "Specimen/End layer = 0.5 leaves a platen without a sphere",
+               "lies 0.002 m from", "the bottom one", "0.0005 m deep"});
   fs::remove(folder_ / "spheres.csv");
   refuse({{"bad.prm"}, {"bad.prm:4: error: Specimen/File = spheres.csv cannot be read"}});
 }
@@ -163,6 +183,35 @@ TEST_F(Errors, platens_that_cannot_be_meshed_are_refused_by_key_or_file) {
           {"--set 2: error: Platens/Elements across = 2", "at least 3"}});
   refuse({with({"Platens/Top/Mesh file = nowhere.msh"}),
           {"--set 1: error: Platens/Top/Mesh file = nowhere.msh cannot be read"}});
+  // A cube of 30 units, of 12, and without its unit.
+  const auto cube = [](double half) {
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n";
+    int node = 0;
+    for (const double z : {0.0, 10.0})
+      for (const auto &[x, y] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+        text += fmt::format("{} {} {} {}\n", ++node, x, y, z);
+    return text + "$EndNodes\n$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n";
+  };
+  put(folder_ / "wide.msh", cube(15));
+  put(folder_ / "narrow.msh", cube(6));
+  const std::string all_of_it = "Platens/Mesh unit = 1 mm", wide = "Platens/Top/Mesh file = wide.msh",
+                    narrow = "Platens/Top/Mesh file = narrow.msh";
+  refuse({with({narrow, all_of_it}), // a square of 12 in a circle of 20 mm
+          {"--set 1: error: Platens/Top/Mesh file = narrow.msh faces the specimen with 0.012 m x 0.012 m",
+           "46 % of its end", "Platens/Cover = partial"}});
+  refuse({with({wide, "Platens/Mesh unit = 1 m"}),
+          {"wide.msh is 30 m x 30 m wide where the specimen has 0.02 m: is it in another unit?"}});
+  for (const std::vector<std::string> &entries :
+       {std::vector{wide, all_of_it},
+        std::vector{narrow, all_of_it, std::string("Platens/Cover = partial")}}) {
+    std::vector<std::string> arguments = with(entries);
+    arguments.insert(arguments.end(), {"--dry-run", "-o", "dry"});
+    const Outcome outcome = run_compress(arguments, folder_);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_TRUE(contains(outcome.out, entries.size() == 2 ? "top 30.0 mm x 30.0 mm, facing 1.00"
+                                                          : "top 12.0 mm x 12.0 mm, facing 0.46"))
+        << outcome.out;
+  }
   put(folder_ / "bad.msh", "$Mess\n");
   refuse(
       {with({"Platens/Top/Mesh file = bad.msh"}), {"bad.msh:1: error: \"$Mess\" where $MeshFormat is due"}});

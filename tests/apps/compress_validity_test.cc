@@ -46,6 +46,7 @@ TEST_F(Figures, of_a_crushed_cylinder_are_valid) {
   const nlohmann::json s = crush("run", {});
   EXPECT_EQ(s["peak_reached"], true);
   EXPECT_EQ(s["peak_is"], "fallen");
+  EXPECT_EQ(s["ended_by"], "stop at residual");
   EXPECT_EQ(s["largest_stress_pa"], s["strength_pa"]);
   EXPECT_LT(s["stress_at_end_pa"].get<double>(), 0.98 * s["strength_pa"].get<double>());
   expect_valid(s, strength);
@@ -56,6 +57,7 @@ TEST_F(Figures, of_a_crushed_cylinder_are_valid) {
 TEST_F(Figures, of_a_test_that_ends_before_its_peak_are_none_but_the_moduli_of_sound_bonds) {
   const nlohmann::json s = crush("short", {"Loading/Target strain = 0.0002", "Expect/pattern ="});
   EXPECT_EQ(s["peak_reached"], false);
+  EXPECT_EQ(s["ended_by"], "target");
   expect_reason(s, strength, "no peak was reached: by the strain of 0.00018");
   expect_valid(s, moduli);
   EXPECT_NEAR(s["stress_at_end_pa"].get<double>(), s["largest_stress_pa"].get<double>(),
@@ -77,6 +79,19 @@ TEST_F(Figures, an_expectation_of_one_that_is_none_says_why) {
 }
 
 // Rows of history.csv so far apart that the peak may lie anywhere between two.
+TEST_F(Figures, a_specimen_that_is_shortened_too_far_ends_its_test) {
+  const Outcome outcome =
+      run_compress({test_scene("crushed.prm"), "-o", "run", "-s", "Loading/Target strain = 0.9", "-s",
+                    "Loading/Stop at residual = 0", "-s", "Loading/Axial rate = 20 m/s", "-s",
+                    "Output/Fields = off", "-s", "Specimen/Sphere radius = 2 mm"},
+                   folder_);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  const nlohmann::json s = summary_in(folder_ / "run");
+  EXPECT_EQ(s["ended_by"], "shortened too far");
+  EXPECT_NEAR(column_of(folder_ / "run/history.csv", "axial_strain_platen").back(), 0.3, 0.01);
+  EXPECT_NE(outcome.error.find("is shortened by 30 % of its length"), std::string::npos) << outcome.error;
+}
+
 TEST_F(Figures, between_few_readings_are_none) {
   const nlohmann::json s = crush("coarse", {"Output/Every = 600", "Expect/pattern ="});
   expect_reason(s, {"strength_pa"}, "readings before the peak, 8 at least");

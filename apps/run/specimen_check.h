@@ -1,0 +1,35 @@
+// Is what stands between the platens a specimen? Found before the first step.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "apps/scene/scene.h"
+#include "coupling/platen_test.h"
+#include "dem/packing/specimen.h"
+
+namespace platen::apps {
+
+struct SpecimenState {
+  std::size_t spheres = 0, bonds = 0;
+  int pieces = 0;                       // of at least two spheres that bonds hold together
+  int loose = 0;                        // spheres without a bond
+  double largest_piece = 0;             // share of the bonded spheres
+  bool spans = false;                   // it reaches both platens of the loaded axis, within `reach`
+  double reach = 0;                     // m
+  double deepest_overlap = 0;           // over the smaller of the two radii
+  std::array<int, 2> deepest{{-1, -1}}; // the ids of these spheres
+  std::array<double, 2> from_ends{}; // m, of the outermost sphere from the low and the high end of that axis
+};
+
+// Throws InputError, naming the entry, where there are fewer than four.
+void require_spheres(const Scene &scene, const dem::Specimen &specimen);
+// Of a test that has been set up and not stepped.
+SpecimenState state_of(const dem::Specimen &specimen, const coupling::PlatenTest &test);
+// Throws InputError, naming the entry, where it is none: no bonds where the scene
+// has a bond law, pieces, a body that does not reach from platen to platen, spheres in one another.
+void require_specimen(const Scene &scene, const SpecimenState &state);
+// Lines for the screen at the start.
+std::string text_of(const SpecimenState &state);
+
+} // namespace platen::apps
