@@ -21,6 +21,9 @@ constexpr double patience = 2;
 // A share or a path follows with this lag in wave transits: long enough for waves to pass, and for the
 // specimen's own answer, which would ring otherwise.
 constexpr double lag_of_share = 4;
+// A pressure along a path follows with this lag, more where it gains more than the deviator and so feeds back
+// on it: while platens gather speed within ten wave transits, it keeps to its path within a percent.
+constexpr double lag_of_path = 1.5;
 // And may move platens this many times as fast as any close at a rate.
 constexpr double reserve_of_share = 10;
 // What is missing of a stress is asked again within this many of the servo's own times: it does not swing
@@ -145,6 +148,7 @@ private:
     p.path = ask.path;
     if (ask.ask == Ask::share) p.followed = platens(ask.of);
     if (p.path != 0 || p.followed) p.lag = lag();
+    if (p.path != 0) p.lag = std::max(1.0, p.path) * lag_of_path * test_.facts().wave_transit;
     return std::make_unique<PressureTask>(p);
   }
 

@@ -8,6 +8,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
+#include "apps/run/pressure_path.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/stages_of_run.h"
 #include "apps/scene/errors.h"
@@ -30,6 +31,20 @@ RunCosts CompressionRun::costs() const {
 void CompressionRun::tell_unsettled(std::size_t from) const {
   for (std::size_t k = from; k < test_->program().stages_ended(); ++k)
     if (const std::string words = unsettled_words(*test_, k); !words.empty()) log_.warning("{}", words);
+}
+
+void CompressionRun::tell_path() const {
+  constexpr double most_deviation = 0.01; // of the pressure
+  const PressurePath path = pressure_path(*test_, results_);
+  if (path.deviation > most_deviation)
+    log_.warning(
+        "the pressure was up to {:.1f} % off its path, {:.0f} % at most: a lower Loading/Axial rate helps",
+        100 * path.deviation, 100 * most_deviation);
+  if (!std::isnan(path.ended_at_strain))
+    log_.warning(
+        "the pressure had come down to nothing at the strain of {:.5f}: from there on the test goes along "
+        "no path, without a pressure",
+        path.ended_at_strain);
 }
 
 void CompressionRun::loop() {
@@ -87,6 +102,7 @@ int CompressionRun::run() {
         "the specimen is shortened by {:.0f} % of its length: the test ends, for what is between the "
         "platens is no specimen of its size any more; a smaller Loading/Target strain ends before",
         100 * std::abs(test_->closure_strain(results_.axis())));
+  tell_path();
   tell_unsettled(0);
   const std::vector<std::string> reasons =
       reasons_not_quasi_static(slowness(*test_, results_), test_->bent());

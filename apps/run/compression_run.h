@@ -51,6 +51,7 @@ private:
   bool finished() const { return !ended_by().empty(); }
   std::string ended_by() const; // empty: it goes on
   void tell_unsettled(std::size_t from) const;
+  void tell_path() const;
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
   void write_events() const;

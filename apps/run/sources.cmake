@@ -12,6 +12,7 @@ set(PLATEN_RUN_SOURCES
   run/model_setup.cc
   run/pack.cc
   run/peak.cc
+  run/pressure_path.cc
   run/problem_setup.cc
   run/quasi_static.cc
   run/report_of_run.cc

@@ -6,6 +6,7 @@
 #include "apps/run/app_output.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
+#include "apps/run/pressure_path.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/stages_of_run.h"
@@ -39,6 +40,11 @@ void add_cell(Json &to, const coupling::PlatenTest &problem, const Results &resu
   to["confining_pressure_pa"] = problem.confining_pressure();
   to["deviator_strength_pa"] = results.deviator_strength();
   to["bulk_modulus_pa"] = results.bulk_modulus();
+  if (problem.settings().loading.cell->path != 0) {
+    const PressurePath path = pressure_path(problem, results);
+    to["pressure_path_deviation"] = path.deviation;
+    to["pressure_path_ended_at_strain"] = path.ended_at_strain;
+  }
   if (const coupling::Sleeve *sleeve = problem.sleeve()) {
     to["sleeve_elements"] = sleeve->solid().mesh().cells.size();
     to["sleeve_seats"] = sleeve->layer().seats();

@@ -90,6 +90,9 @@ void judge_kind_of_test(Validity &of, const coupling::PlatenTest &problem, const
   else if (problem.bent())
     of.add({"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"},
            "the stress in a bent bar is not even: its modulus is flexural_modulus_pa");
+  else if (problem.settings().loading.cell && problem.settings().loading.cell->path != 0)
+    of.add(of_young,
+           "the pressure changes along its path: the ratio of stress and strain is no Young's modulus");
   else if (problem.wall() != nullptr)
     of.add(of_young, "a wall holds the sides: the ratio of stress and strain is constrained_modulus_pa");
   else if (!further_sides(problem).empty())

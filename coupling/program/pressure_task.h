@@ -19,7 +19,9 @@ public:
     // found at another value was on its way along the path.
     double path = 0;
     std::optional<PlatensOfAxis> followed; // whose stress it is a share of; none: a pressure
-    double lag = 0; // s, with which it follows a deviator or a stress, > 0 where it does
+    // s, over which a deviator or a stress is smoothed, > 0 where it follows one. What grows steadily is
+    // followed without a lag: smoothed twice, f and g, the estimate is 2 f - g.
+    double lag = 0;
   };
   // Throws std::invalid_argument where the parameters are none.
   explicit PressureTask(const Parameters &parameters);
@@ -32,8 +34,9 @@ public:
 
 private:
   Parameters parameters_;
-  double begun_ = 0, found_ = 0;       // s, Pa
-  double deviator_ = 0, followed_ = 0; // Pa, smoothed
+  double begun_ = 0, found_ = 0;                   // s, Pa
+  double deviator_ = 0, followed_ = 0;             // Pa, smoothed
+  double deviator_again_ = 0, followed_again_ = 0; // Pa, smoothed again
 };
 
 // Holds what the stage finds.

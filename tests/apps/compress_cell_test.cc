@@ -72,6 +72,27 @@ TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage)
   EXPECT_GT(closure[turn] - closure[stood], 0.00045);
 }
 
+TEST_F(Cell, a_stress_path_tells_how_well_it_held_and_where_it_ended) {
+  const Outcome outcome =
+      run_compress({test_scene("crushed.prm"), "-o", "path", "-s", "Output/Fields = off", "-s",
+                    "Loading/Confinement = particles", "-s", "Loading/Confining pressure = 3 MPa", "-s",
+                    "Loading/Pressure path = -0.333", "-s", "Loading/Target strain = 0.002"},
+                   folder_);
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  const nlohmann::json s = summary_in(folder_ / "path");
+  EXPECT_GT(s["pressure_path_deviation"], 0);
+  EXPECT_LT(s["pressure_path_deviation"], 0.05); // thirty times the speed of a laboratory's scene
+  const double ended = s["pressure_path_ended_at_strain"];
+  // Three times the pressure as a deviator, of a specimen with E of 11 to 20 GPa between soft ends.
+  EXPECT_GT(ended, 9e6 / 20e9);
+  EXPECT_LT(ended, 9e6 / 5e9);
+  const auto pressure = column("path", "confining_pressure_pa");
+  EXPECT_EQ(*std::min_element(pressure.begin() + static_cast<long>(pressure.size()) / 2, pressure.end()), 0);
+  EXPECT_TRUE(contains(outcome.error, "from there on the test goes along no path")) << outcome.error;
+  EXPECT_EQ(s["validity"]["youngs_modulus_gauge_pa"][0],
+            "the pressure changes along its path: the ratio of stress and strain is no Young's modulus");
+}
+
 TEST_F(Cell, unconfined_runs_have_no_column_of_it) {
   crush("bare", {"Loading/Target strain = 0.001"});
   const std::string header = content_of(folder_ / "bare/history.csv").substr(0, 900);

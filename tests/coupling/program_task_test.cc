@@ -210,17 +210,22 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
     path.command(seen, all);
     return all[lateral].pressure;
   };
-  for (int n = 1; n <= 50; ++n)
+  // Of a step s the mean of n values is s (1 - q^n), that of the means s (1 - q^n (1 + n / 50)).
+  for (int n = 1; n <= 25; ++n)
     seen.now = n * dt, path.update(seen);
-  EXPECT_NEAR(asked(), 10e6 - 2e6 * (1 - std::pow(1 - 1.0 / 50, 50)), 1e-3);
+  EXPECT_NEAR(asked(), 10e6 - 2e6 * (1 - 0.5 * std::pow(1 - 1.0 / 50, 25)), 1e-3);
   PressureTask after(p); // a stage that goes on along the path
   from.asked[lateral].pressure = 9e6;
   after.begin(seen, seen.now, from);
   Commands all(3);
   after.command(seen, all);
   EXPECT_NEAR(all[lateral].pressure, 9e6, 1e-6);
+  // What grows steadily is followed without a lag.
+  for (int n = 26; n <= 1025; ++n)
+    seen.now = n * dt, seen.stress = 16e6 + 1e3 * (n - 25), path.update(seen);
+  EXPECT_NEAR(asked(), 10e6 - (6e6 + 1e6) / 3, 1);
   seen.stress = 1e9;
-  for (int n = 51; n <= 550; ++n)
+  for (int n = 1026; n <= 1550; ++n)
     seen.now = n * dt, path.update(seen);
   EXPECT_EQ(asked(), 0);
 }
@@ -247,7 +252,7 @@ TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
   EXPECT_NEAR(all[lateral].pressure, 2e6, 1e-6);
   seen.stress = 16e6, seen.now += dt;
   share.update(seen), share.command(seen, all);
-  EXPECT_NEAR(all[lateral].pressure, 0.25 * (8e6 + 0.1 * 8e6), 1e-6);
+  EXPECT_NEAR(all[lateral].pressure, 0.25 * (8e6 + (2 * 0.1 - 0.01) * 8e6), 1e-6);
 }
 
 // The strain asked is the integral of a smooth start; the platens close faster where the specimen lags, and

@@ -227,6 +227,7 @@ TEST(six_sides, what_has_no_such_sides_is_refused) {
 TEST(six_sides, meshes_lie_on_their_sides_and_short_of_each_other) {
   const auto with_mesh = [](double half_width) {
     PlatenTestSettings settings = six_platens();
+    settings.platens.partial_cover = true;
     settings.platens.left->grid =
         fem::make_grid(fem::BoxPlate{{-half_width, -3e-3, 7e-3}, {half_width, 3e-3, 9e-3}, {4, 4, 1}});
     return settings;
