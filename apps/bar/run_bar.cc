@@ -199,7 +199,7 @@ int BarRun::carry_out() {
   const Json summary = summary_of(scene_, results_, signal_ != 0 ? "stopped" : "done");
   const std::string report = report_of(results_);
   if (signal_ != 0) {
-    write_summary(output_.paths.summary(), summary);
+    output_.save(summary);
     output_.log.info("{}\nstopped by a signal; a bar test keeps no checkpoint", report);
     return exit_status_of_signal(signal_);
   }

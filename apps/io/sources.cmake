@@ -8,6 +8,7 @@ set(PLATEN_IO_SOURCES
   io/vtu.cc
   io/pvd.cc
   io/output_folder.cc
+  io/sha256.cc
   io/summary.cc
   io/machine.cc
   io/run_log.cc

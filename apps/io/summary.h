@@ -10,12 +10,25 @@ namespace platen::apps {
 using Json = nlohmann::ordered_json; // keys stay in the order in which they were given
 
 // Writes aside and renames, so that a summary that is there is whole. Numbers that are not finite become
-// null, numbers are written in full precision, text that is not UTF-8 gets replacement characters. Throws
-// OutputError.
+// null, numbers are written in full precision, text that is not UTF-8 gets replacement characters. The last
+// key, `checksum`, is the SHA-256 of the file without the line that it stands in:
+//   grep -v '^  "checksum":' summary.json | sha256sum
+// Throws OutputError.
 void write_summary(const std::filesystem::path &path, const Json &summary);
+
+// A summary that is read back, and what speaks against it.
+struct ReadSummary {
+  Json summary;         // an object; null where the file is missing or no such thing
+  std::string fault;    // "" where the file is as it was written, else a sentence without its name
+  bool changed = false; // has a checksum, which does not hold
+};
+ReadSummary read_summary(const std::filesystem::path &path);
 
 // A number of a summary by its key, `object/member` for that of an object; NaN where it is no number or is
 // not there.
 double number_in(const Json &summary, const std::string &key);
+
+// A text of a summary by its key; "" where it is none or is not there.
+std::string text_in(const Json &summary, const std::string &key);
 
 } // namespace platen::apps

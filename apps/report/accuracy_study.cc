@@ -9,6 +9,7 @@
 #include "apps/io/seed_statistics.h"
 #include "apps/report/chart.h"
 #include "apps/report/platen_study.h"
+#include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -139,6 +140,7 @@ AccuracyResults read_accuracy(const std::filesystem::path &folder) {
     add_seconds(results, study.at("costs").at("wall_seconds"));
     add_prices(results, study.at("costs").at("prices"));
     add_failed_runs(study, results.remarks);
+    add_if_changed(folder / "study.json", results.remarks);
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   }

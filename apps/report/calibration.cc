@@ -7,6 +7,7 @@
 #include "apps/report/chart.h"
 #include "apps/report/csv.h"
 #include "apps/report/report.h"
+#include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -52,7 +53,7 @@ TableOfFigures table_of_targets(const Json &summary) {
 
 bool holds_calibration(const fs::path &folder) {
   const Json summary = summary_of(folder);
-  return summary.is_object() && summary.value("app", "") == "platen-calibrate";
+  return summary.is_object() && text_in(summary, "app") == "platen-calibrate";
 }
 
 void draw_calibrated_curve(const fs::path &csv, const fs::path &png) {
@@ -97,6 +98,9 @@ void write_calibration_report(const fs::path &folder, const fs::path &pictures, 
   try {
     for (const Json &line : summary.at("missed"))
       remarks.push_back("not met together: " + line.get<std::string>());
+    add_if_changed(folder / "summary.json", remarks);
+    for (const std::string &remark : remarks)
+      out << remark << '\n';
     album.finish(summary.value("scene", folder.filename().string()), table_of_targets(summary), remarks, out);
   } catch (const Json::exception &error) {
     throw InputError((folder / "summary.json").string() + ": " + error.what());

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/report/chart.h"
+#include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -160,7 +161,9 @@ StudyResults read_study(const fs::path &folder) {
                      "runs (" +
                      (folder / "runs").string() + ")");
   try {
-    return results_of(study, title_of_study(folder));
+    StudyResults results = results_of(study, title_of_study(folder));
+    add_if_changed(file, results.remarks);
+    return results;
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   } catch (const std::out_of_range &error) {

@@ -19,13 +19,11 @@ namespace fs = std::filesystem;
 // eaten too.
 constexpr double post_peak_share = 0.8;
 
-Json read_summary(const fs::path &file) {
-  std::ifstream stream(file);
-  try {
-    return Json::parse(stream);
-  } catch (const Json::exception &error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
+Json read_summary_of(Run &run) {
+  const ReadSummary read = read_summary(run.folder / "summary.json");
+  if (!read.summary.is_object()) throw InputError((run.folder / "summary.json").string() + ": " + read.fault);
+  add_if_changed(run.folder / "summary.json", run.remarks);
+  return read.summary;
 }
 
 constexpr std::array<std::array<const char *, 2>, 3> stress_columns{
@@ -67,6 +65,11 @@ std::string scene_entry(const fs::path &scene, const std::string &path) {
       sections.pop_back();
   }
   return "";
+}
+
+void add_if_changed(const fs::path &file, std::vector<std::string> &remarks) {
+  if (const ReadSummary read = read_summary(file); read.changed)
+    remarks.push_back(file.filename().string() + " " + read.fault + ", do not trust its figures");
 }
 
 std::vector<double> platen_stress(const CsvTable &history, int axis) {
@@ -132,7 +135,7 @@ Run read_run(const fs::path &folder) {
   run.title = scene_entry(folder / "scene.prm", "Scene/Title");
   if (run.title.empty()) run.title = run.name;
   run.history = read_csv(folder / "history.csv");
-  if (fs::exists(folder / "summary.json")) run.summary = read_summary(folder / "summary.json");
+  if (fs::exists(folder / "summary.json")) run.summary = read_summary_of(run);
   run.axis = loaded_axis(run.summary);
   run.moments = moments_of(run.history, run.axis);
   if (!run.moments.post_peak_time)

@@ -56,6 +56,9 @@ struct Run {
 // What a .prm sets an entry to, "Platens/Top/Surface"; empty where it does not.
 std::string scene_entry(const std::filesystem::path &scene, const std::string &path);
 
+// A remark where summary.json or study.json is no longer as it was written (its checksum).
+void add_if_changed(const std::filesystem::path &file, std::vector<std::string> &remarks);
+
 // Reads history, summary, cracks and the lists of frames. Only history.csv must be there; what else is
 // missing becomes a remark. Throws InputError where the folder or the history is missing, or any file is
 // damaged.

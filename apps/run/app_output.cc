@@ -7,6 +7,7 @@
 
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
+#include "apps/io/sha256.h"
 #include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
@@ -39,9 +40,9 @@ std::vector<std::filesystem::path> input_files(const Scene &scene) {
   return files;
 }
 
-void require_same_scene(const Scene &scene, const OutputPaths &paths) {
+std::optional<SceneChange> change_of_scene(const Scene &scene, const OutputPaths &paths) {
   const std::string path = paths.scene().string();
-  if (!std::filesystem::exists(path))
+  if (!std::filesystem::is_regular_file(path))
     throw InputError(path + ": error: is missing: the folder holds nothing to resume; leave out --resume");
   std::istringstream before(completed_scene_text(path, paths.folder.string())),
       now(scene_text(scene, paths.folder));
@@ -49,15 +50,28 @@ void require_same_scene(const Scene &scene, const OutputPaths &paths) {
   while (true) {
     const bool more_before = static_cast<bool>(std::getline(before, a)),
                more = static_cast<bool>(std::getline(now, b));
-    if (!more_before && !more) return;
+    if (!more_before && !more) return std::nullopt;
     if (!more_before) a.clear();
     if (!more) b.clear();
-    if (a != b)
-      throw InputError(
-          fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
-                      "start it anew in another folder, or resume with the scene as it was",
-                      path, a, b));
+    if (a != b) return SceneChange{a, b};
   }
+}
+
+void require_same_scene(const Scene &scene, const OutputPaths &paths) {
+  if (const std::optional<SceneChange> change = change_of_scene(scene, paths))
+    throw InputError(
+        fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
+                    "start it anew in another folder, or resume with the scene as it was",
+                    paths.scene().string(), change->was, change->now));
+}
+
+Json input_sums(const Scene &scene) {
+  Json sums = Json::object();
+  for (const Entry &entry : scene.parameters->entries())
+    if (entry.is_file && !entry.text.empty())
+      if (const std::optional<std::string> sum = sha256_of_file(resolved_path(entry)))
+        sums[entry.path] = *sum;
+  return sums;
 }
 
 AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_checkpoint)
@@ -71,6 +85,7 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_c
                                : FolderUse::fresh),
       limit_(command.threads) {
   if (command.dry_run) return;
+  input_sums_ = input_sums(scene);
   if (!command.resume || from_checkpoint) check_output_folder(paths.folder, use_, inputs_);
   lock_ = lock_of_run(paths.folder, log);
   if (command.resume) require_same_scene(scene, paths);
@@ -85,11 +100,18 @@ void AppOutput::open(int working_threads) {
     open_locked(lock_, paths.folder, use_, inputs_, log);
     write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
   }
+  scene_sum_ = sha256_of_file(paths.scene()).value_or("");
   log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
 }
 
-int AppOutput::finish(const Json &summary, const std::string &report) {
+void AppOutput::save(Json summary) const {
+  summary["scene_sha256"] = scene_sum_;
+  summary["inputs_sha256"] = input_sums_;
   write_summary(paths.summary(), summary);
+}
+
+int AppOutput::finish(const Json &summary, const std::string &report) {
+  save(summary);
   log.info("{}", report);
   return tell_expectations(summary);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,16 @@ Loudness loudness_of(const CommandLine &command);
 std::string title_of(const Scene &scene);
 // The scene, what it includes and all files that it names: what a run must not write over.
 std::vector<std::filesystem::path> input_files(const Scene &scene);
+// The first line in which a scene differs from that of the folder.
+struct SceneChange {
+  std::string was, now;
+};
+// Nothing where they are the same. Throws InputError where the folder has no scene.prm.
+std::optional<SceneChange> change_of_scene(const Scene &scene, const OutputPaths &paths);
 // Throws InputError, naming the first line that differs, where the folder was begun with another scene.
 void require_same_scene(const Scene &scene, const OutputPaths &paths);
+// Of the files that the scene names, by entry: "Specimen/File" to the SHA-256 of what it holds now.
+Json input_sums(const Scene &scene);
 
 class AppOutput {
 public:
@@ -36,7 +45,9 @@ public:
   // Opens the folder, and leaves scene.prm and the head of run.log with the threads that work. A resumed run
   // only goes on with its log.
   void open(int working_threads = loop_threads());
-  // Writes summary.json, says `report`, and checks what the scene expects; returns the exit status.
+  // Writes summary.json, with the SHA-256 of the scene as run and of the files that it names.
+  void save(Json summary) const;
+  // Does so, says `report`, and checks what the scene expects; returns the exit status.
   int finish(const Json &summary, const std::string &report);
   // Tells each expectation that does not hold, and those that another app would have to check; returns the
   // exit status, status_done or status_check_failed.
@@ -44,6 +55,9 @@ public:
 
   int threads() const { return loop_threads(); }
   double seconds() const; // since the start
+
+  // Of the files that the scene names, as they were when the run began.
+  const Json &inputs() const { return input_sums_; }
 
   const OutputPaths paths;
   RunLog log;
@@ -55,6 +69,8 @@ private:
   FolderUse use_;
   Clock::time_point start_ = Clock::now();
   ThreadLimit limit_;
+  Json input_sums_ = Json::object();
+  std::string scene_sum_; // of scene.prm, once the folder is open
   std::unique_ptr<FolderLock> lock_;
 };
 

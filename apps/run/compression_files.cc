@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "apps/io/checkpoint_folder.h"
-#include "apps/io/summary.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
@@ -199,7 +198,7 @@ void CompressionRun::write_events() const {
 }
 
 void CompressionRun::save_summary(const std::string &status) {
-  write_summary(paths_.summary(), summary_of_run(status, scene_, *test_, results_, costs()));
+  output_.save(summary_of_run(status, scene_, *test_, results_, costs()));
 }
 
 } // namespace platen::apps

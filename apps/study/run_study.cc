@@ -14,6 +14,7 @@
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
+#include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
 #include "apps/io/summary.h"
 #include "apps/run/app_output.h"
@@ -205,6 +206,8 @@ int StudyApp::finish(const StudyTables &tables) {
   s["threads"] = threads();
   s["wall_seconds"] = seconds_since(start_);
   s["peak_memory_bytes"] = peak_memory_bytes();
+  s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");
+  s["inputs_sha256"] = input_sums(scene_);
   write_summary(paths_.summary(), s);
   log_.info("{}{}", tables.text(), compared);
   if (tables.failed() > 0) log_.warning("{} of {} runs failed", tables.failed(), runs_.size());

@@ -11,7 +11,10 @@
 #include <system_error>
 #include <thread>
 
+#include "apps/io/numbers.h"
+#include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
+#include "apps/run/app_output.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -22,12 +25,40 @@ namespace fs = std::filesystem;
 // How often running programs are checked.
 constexpr std::chrono::milliseconds glance{20};
 
-// The summary of a whole run, nothing where it is missing, damaged or of a run that did not end.
-std::optional<Json> summary_of_done(const fs::path &folder) {
-  std::ifstream file(OutputPaths(folder).summary(), std::ios::binary);
-  Json summary = Json::parse(file, nullptr, false);
-  if (!summary.is_object() || summary.value("status", "") != "done") return std::nullopt;
-  return summary;
+// What a run has left.
+struct Left {
+  std::optional<Json> summary; // of one that came to its end and can be kept
+  std::string fault;           // why not; "" where it had not come to its end, or had not begun
+  bool of_this = true;         // else its checkpoints are of no use either
+};
+
+// Why a summary as it was written is of another run than this one; "" where it is of this.
+std::string other_run(const Json &summary, const StudyRun &run) {
+  const OutputPaths paths(run.folder);
+  if (text_in(summary, "scene_sha256") != sha256_of_file(paths.scene()).value_or("missing"))
+    return "scene.prm is not the scene that summary.json was made with";
+  const Scene scene = read_scene(run.scene, run.overrides, AppKind::compress);
+  if (const std::optional<SceneChange> change = change_of_scene(scene, paths))
+    return fmt::format("it is of another scene: \"{}\", now \"{}\"", trimmed(change->was),
+                       trimmed(change->now));
+  const Json now = input_sums(scene);
+  if (summary.value("inputs_sha256", Json()) == now) return "";
+  for (const auto &[entry, sum] : now.items())
+    if (text_in(summary.value("inputs_sha256", Json::object()), entry) != sum)
+      return fmt::format("the file that {} names has changed", entry);
+  return "the files that the scene names have changed";
+}
+
+Left left_by(const StudyRun &run) {
+  std::error_code none;
+  const fs::path file = OutputPaths(run.folder).summary();
+  if (!fs::exists(fs::symlink_status(file, none))) return {};
+  ReadSummary read = read_summary(file);
+  if (!read.fault.empty()) return {std::nullopt, "summary.json " + read.fault};
+  if (text_in(read.summary, "status") != "done") return {}; // stopped or failed, as it says
+  const std::string other = other_run(read.summary, run);
+  if (!other.empty()) return {std::nullopt, other, false};
+  return {std::move(read.summary), ""};
 }
 
 bool has_checkpoint(const fs::path &folder) {
@@ -98,18 +129,22 @@ void Processes::start(std::size_t k, bool may_resume) {
 void Processes::start_more() {
   while (signal_ == 0 && next_ < runs_.size() && active_.size() < at_a_time_) {
     const std::size_t k = next_++;
-    if (std::optional<Json> summary = summary_of_done(runs_[k].folder))
-      outcomes_[k] = RunOutcome{true, true, "", std::move(*summary)};
-    else
-      start(k, true);
+    Left left = left_by(runs_[k]);
+    if (left.summary) {
+      outcomes_[k] = RunOutcome{true, true, "", std::move(*left.summary)};
+      continue;
+    }
+    if (!left.fault.empty()) log_.warning("{}: is made again: {}", runs_[k].name, left.fault);
+    start(k, left.of_this);
   }
 }
 
 void Processes::ended(Active &one) {
   const StudyRun &run = runs_[one.run];
   const int status = one.process.status();
-  if (std::optional<Json> summary = summary_of_done(run.folder)) {
-    outcomes_[one.run] = RunOutcome{true, false, "", std::move(*summary)};
+  Left left = left_by(run);
+  if (left.summary) {
+    outcomes_[one.run] = RunOutcome{true, false, "", std::move(*left.summary)};
   } else if (signal_ != 0) {
     return; // stopped with us, to go on later
   } else if (one.resumes && status == status_bad_input) {
@@ -179,8 +214,10 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
       run.seed = seed;
       run.name = plan.cases[k].name + "_seed_" + std::to_string(seed);
       run.folder = paths.runs() / run.name;
+      run.scene = scene;
+      run.overrides = overrides_of(plan.cases[k], seed, overrides);
       run.command = {program, scene, "-o", run.folder.string(), "-t", share, "--quiet"};
-      for (const std::string &entry : overrides_of(plan.cases[k], seed, overrides))
+      for (const std::string &entry : run.overrides)
         run.command.insert(run.command.end(), {"-s", entry});
       runs.push_back(std::move(run));
     }

@@ -19,6 +19,8 @@ struct StudyRun {
   unsigned long seed = 0;
   std::string name; // of its folder below runs/: "sphere_radius_0.001_seed_2"
   std::filesystem::path folder;
+  std::string scene; // that its entries change
+  std::vector<std::string> overrides = {};
   std::vector<std::string> command; // platen-compress and what it is given, but for overwrite or resume
 };
 
@@ -39,11 +41,12 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               int threads);
 
 // Carries out all runs, at most `at_a_time` at once, started in their order; `keep` is called for each in
-// that order as soon as it and all before it have ended. A run whose summary says done is kept; one with
-// checkpoints goes on from the newest; any other is made anew. A run that fails is an outcome, no exception;
-// but where one cannot write, no other could: those under way are stopped with their checkpoints, and
-// OutputError is thrown. A signal that asks this program to stop is passed on; when the runs have written
-// their checkpoints, Stopped is thrown.
+// that order as soon as it and all before it have ended. A run whose summary says done is kept where the
+// summary is as it was written, of this scene and of the files that it names now; else the reason is told and
+// it is made again. One with checkpoints goes on from the newest; any other is made anew. A run that fails is
+// an outcome, no exception; but where one cannot write, no other could: those under way are stopped with
+// their checkpoints, and OutputError is thrown. A signal that asks this program to stop is passed on; when
+// the runs have written their checkpoints, Stopped is thrown.
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
                const std::function<void(std::size_t, const RunOutcome &)> &keep);
 

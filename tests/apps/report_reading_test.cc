@@ -116,6 +116,21 @@ TEST(ReportReading, a_damaged_list_or_summary_is_refused_by_name) {
   EXPECT_TRUE(holds(complaint([&] { read_run(folder.path()); }), "summary.json"));
 }
 
+TEST(ReportReading, figures_that_were_changed_are_not_to_be_trusted) {
+  const TestFolder folder;
+  write_example(folder.path(), {});
+  const std::filesystem::path file = folder / "summary.json";
+  write_summary(file, Json::parse(text_of(file)));
+  EXPECT_TRUE(read_run(folder.path()).remarks.empty());
+  std::string text = text_of(file);
+  folder.write("summary.json", text.replace(text.find("0.0025"), 6, "0.0035"));
+  ASSERT_EQ(read_run(folder.path()).remarks.size(), 1u);
+  EXPECT_EQ(
+      read_run(folder.path()).remarks[0],
+      "summary.json has been changed since it was written: its checksum does not hold, do not trust its "
+      "figures");
+}
+
 TEST(ReportReading, what_is_not_there_is_said_and_only_the_history_is_a_must) {
   const TestFolder folder;
   write_example(folder / "run", {});

@@ -112,6 +112,67 @@ TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {
   EXPECT_EQ(table("a"), before);
 }
 
+// What the summary of one run has become, and what --resume has to say of it.
+TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) {
+  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
+  ASSERT_EQ(run("a", small).status, 0);
+  const std::string before = table("a");
+  const std::string name = "sphere_radius_0.002_seed_4";
+  const fs::path one = folder_ / "a/runs" / name, summary = one / "summary.json";
+  const std::string whole = content_of(summary);
+  const auto made_again = [&](const std::string &reason) {
+    const Outcome rest = run("a", with(small, "--resume"));
+    EXPECT_EQ(rest.status, 0) << rest.error;
+    EXPECT_EQ(table("a"), before);
+    const std::string said = reason.empty() ? "" : name + ": is made again: " + reason;
+    EXPECT_TRUE(contains(rest.error, said)) << rest.error;
+    EXPECT_EQ(contains(rest.error, "again"), !reason.empty()) << rest.error;
+  };
+  const auto replaced = [&](const std::string &was, const std::string &now) {
+    std::string text = content_of(summary);
+    const auto at = text.find(was);
+    ASSERT_NE(at, std::string::npos) << was;
+    put(summary, text.replace(at, was.size(), now));
+  };
+  made_again(""); // all as it was
+  put(summary, "{\"status\": \"done\"}");
+  made_again("summary.json has no checksum, older versions wrote none");
+  replaced("\"strength_pa\": ", "\"strength_pa\": 1");
+  made_again("summary.json has been changed since it was written");
+  put(summary, content_of(summary).substr(0, 700));
+  made_again("summary.json is damaged");
+  fs::remove(summary);
+  fs::create_directory(summary);
+  EXPECT_EQ(run("a", with(small, "--resume")).status, 4); // in the way: no run can write there
+  fs::remove(summary);
+  made_again("");
+  // Whole, but that of its neighbour; then with its scene, and with all that it left.
+  const fs::path other = folder_ / "a/runs/sphere_radius_0.002_seed_3";
+  fs::copy_file(other / "summary.json", summary, fs::copy_options::overwrite_existing);
+  made_again("scene.prm is not the scene that summary.json was made with");
+  fs::copy_file(other / "summary.json", summary, fs::copy_options::overwrite_existing);
+  fs::copy_file(other / "scene.prm", one / "scene.prm", fs::copy_options::overwrite_existing);
+  made_again("it is of another scene: \"set Seed    = 3\", now \"set Seed    = 4\"");
+  EXPECT_EQ(summary_in(one)["strength_pa"], nlohmann::json::parse(whole)["strength_pa"]);
+}
+
+TEST_F(Study, a_file_that_the_scene_names_has_to_be_the_one_that_was_run) {
+  put(folder_ / "aggregate.txt", "1\n2\n3\n");
+  const std::vector<std::string> phases{"-s", "Phases/By = file",
+                                        "-s", "Phases/File = " + (folder_ / "aggregate.txt").string(),
+                                        "-s", "Study/Sphere radius list = 2 mm"};
+  const Outcome first = run("a", phases);
+  ASSERT_EQ(first.status, 0) << first.error;
+  EXPECT_FALSE(contains(run("a", with(phases, "--resume")).error, "again"));
+  put(folder_ / "aggregate.txt", "1\n2\n4\n");
+  const Outcome rest = run("a", with(phases, "--resume"));
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  for (const char *seed : {"seed_3", "seed_4"})
+    EXPECT_TRUE(contains(
+        rest.error, std::string(seed) + ": is made again: the file that Phases/File names has changed\n"))
+        << rest.error;
+}
+
 TEST_F(Study, a_case_that_fails_is_told_and_survived) {
   // One step for all: above the limit of the smaller spheres, found when their run is set up.
   const Outcome outcome = run("a", {"-s", "Integration/Time step = 2.4e-7 s"});
