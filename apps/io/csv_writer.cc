@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -57,6 +58,19 @@ void check_resumable(const std::filesystem::path &path, const std::string &heade
         fmt::format("{}: no row ends at byte {}, where the checkpoint goes on", path.string(), length));
 }
 
+Sha256 sum_of_begin(const std::filesystem::path &path, std::uint64_t length) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string chunk(1 << 16, '\0');
+  Sha256 sum;
+  while (length > 0 && stream) {
+    stream.read(chunk.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(chunk.size(), length)));
+    const auto got = static_cast<std::size_t>(stream.gcount());
+    sum.update(std::string_view(chunk).substr(0, got));
+    length -= got;
+  }
+  return sum;
+}
+
 } // namespace
 
 void CsvCell::append_to(std::string &line) const {
@@ -87,9 +101,15 @@ CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string>
                      std::uint64_t length)
     : columns_(std::move(columns)) {
   check_resumable(path, header_line(columns_), length);
+  sum_ = sum_of_begin(path, length);
   file_ = OutputFile(path, OutputFile::Mode::append);
   file_.truncate(length);
   bytes_ = length;
+}
+
+void CsvWriter::sync() {
+  file_.require_alone(bytes_);
+  file_.sync();
 }
 
 void CsvWriter::row(const std::vector<CsvCell> &cells) {
@@ -100,6 +120,7 @@ void CsvWriter::row(const std::vector<CsvCell> &cells) {
 }
 
 void CsvWriter::write(const std::string &line) {
+  file_.require_alone(bytes_);
   try {
     file_.write(line);
   } catch (const OutputError &) {
@@ -107,6 +128,7 @@ void CsvWriter::write(const std::string &line) {
     throw;
   }
   bytes_ += line.size();
+  sum_.update(line);
 }
 
 WholeTable::~WholeTable() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/io/file.h"
+#include "apps/io/sha256.h"
 
 namespace platen::apps {
 
@@ -36,7 +37,8 @@ private:
 };
 
 // Each row reaches the file before row() returns. Failures throw OutputError, and the row that failed is
-// taken off again, so that the file ends with a whole row.
+// taken off again, so that the file ends with a whole row. A file that another program has removed, replaced,
+// shortened or lengthened in between is a failure too, found by the next row or by sync().
 class CsvWriter {
 public:
   // A new file with its header line; one that is there is replaced. None is left where not even that can be
@@ -50,9 +52,10 @@ public:
 
   // One value for each column, else std::logic_error.
   void row(const std::vector<CsvCell> &cells);
-  std::uint64_t bytes() const { return bytes_; } // of header and whole rows
+  std::uint64_t bytes() const { return bytes_; }  // of header and whole rows
+  std::string sum() const { return sum_.text(); } // their SHA-256, as they were written
   // Waits until the disk has all rows: before a checkpoint that states bytes().
-  void sync() { file_.sync(); }
+  void sync();
   const std::filesystem::path &path() const { return file_.path(); }
 
 private:
@@ -60,6 +63,7 @@ private:
   std::vector<std::string> columns_;
   OutputFile file_;
   std::uint64_t bytes_ = 0;
+  Sha256 sum_;
 };
 
 // A table that is written at one go: it stands under its name with all rows or not at all. Failures throw

@@ -1,6 +1,7 @@
 #include "apps/io/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -59,6 +60,22 @@ void OutputFile::write(const void *bytes, std::size_t count) {
     next += written;
     count -= static_cast<std::size_t>(written);
   }
+}
+
+void OutputFile::require_alone(std::uint64_t length) const {
+  struct stat open {
+  }, there{};
+  if (::fstat(descriptor_, &open) != 0 || !S_ISREG(open.st_mode)) return;
+  const auto refuse = [&](const std::string &what) {
+    throw OutputError(path_.string() + ": " + what +
+                      " while the run wrote it: the run cannot go on with it, --resume goes on from its last "
+                      "checkpoint");
+  };
+  if (::stat(path_.c_str(), &there) != 0) refuse("has been removed");
+  if (there.st_ino != open.st_ino || there.st_dev != open.st_dev) refuse("has been replaced by another file");
+  if (static_cast<std::uint64_t>(open.st_size) != length)
+    refuse("has been changed by another program (" + std::to_string(open.st_size) + " bytes, " +
+           std::to_string(length) + " were written)");
 }
 
 bool OutputFile::try_truncate(std::uint64_t new_length) noexcept {

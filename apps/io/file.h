@@ -26,6 +26,9 @@ public:
   const std::filesystem::path &path() const { return path_; }
   void write(const void *bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
+  // Throws OutputError where the path leads to another file by now, or to none, or where the file has not the
+  // `length` that was written. Pipes and devices may do as they like.
+  void require_alone(std::uint64_t length) const;
   void truncate(std::uint64_t length); // and goes on writing there
   bool try_truncate(std::uint64_t length) noexcept;
   void sync(); // returns when the disk has it

@@ -158,7 +158,12 @@ void CompressionRun::checkpoint() {
   history_->sync();
   if (cracks_) cracks_->sync();
   FileMarks marks;
+  marks.history_bytes = history_->bytes();
+  marks.history_sum = history_->sum();
   marks.cracks_bytes = cracks_ ? cracks_->bytes() : 0;
+  marks.cracks_sum = cracks_ ? cracks_->sum() : "";
+  marks.specimen_sum = specimen_sum_;
+  marks.input_sums = output_.inputs().dump();
   marks.last_frame = fields_ ? fields_->last_time() : -1.0;
   marks.frames = fields_ ? fields_->count() : 0;
   marks.wall_seconds = costs().wall_seconds;

@@ -42,6 +42,7 @@ private:
   void loop();
   void start_pressed();
   dem::InstructionSet instruction_set_of_checkpoint();
+  void require_files_of_checkpoint();
   void sample();
   void keep(const Sample &s);
   void write_cracks();
@@ -71,6 +72,7 @@ private:
   SpecimenState specimen_state_;
   std::optional<CsvWriter> history_, cracks_;
   std::optional<FieldSeries> fields_;
+  std::string specimen_sum_; // SHA-256 of specimen.csv
   double setup_seconds_ = 0, earlier_seconds_ = 0;
   double expected_steps_ = 1;
   long first_step_ = 0;

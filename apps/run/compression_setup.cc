@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "apps/io/checkpoint_folder.h"
+#include "apps/io/sha256.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
@@ -72,6 +73,7 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
     : command_(command), scene_(scene), output_(command, scene, true) {
   const bool resumes = command.resume && !command.dry_run;
+  if (resumes) require_files_of_checkpoint();
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
   require_spheres(scene, specimen);
@@ -91,6 +93,13 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
   output_.open();
   if (!resumes) write_specimen_csv(paths_.specimen_csv(), specimen);
+  specimen_sum_ = sha256_of_file(paths_.specimen_csv()).value_or("");
+}
+
+void CompressionRun::require_files_of_checkpoint() {
+  const FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
+  require_same_files(marks, paths_, log_);
+  require_same_inputs(marks, scene_, output_.inputs());
 }
 
 dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {

@@ -9,17 +9,6 @@ constexpr const char *instruction_set_block = "test/specimen/instruction_set";
 
 } // namespace
 
-void FileMarks::describe(Archive &archive) {
-  if (archive.version(2) < 2) { // how long history.csv was, which is written anew
-    std::uint64_t history_bytes = 0;
-    archive("history_bytes", history_bytes);
-  }
-  archive("cracks_bytes", cracks_bytes);
-  archive("last_frame", last_frame, "s");
-  archive("frames", frames);
-  archive("wall_seconds", wall_seconds, "s");
-}
-
 void save_state(CheckpointWriter &to, const coupling::PlatenTest &problem, const Results &results,
                 const FileMarks &marks) {
   save_part(to, test_part, problem);
@@ -43,6 +32,16 @@ dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog
       "no longer those of one machine",
       begun, dem::name(best));
   return best;
+}
+
+FileMarks load_marks(const CheckpointReader &from) {
+  FileMarks marks;
+  try {
+    LoadingArchive(from).part(marks_part, marks);
+  } catch (const StateError &e) {
+    from.fail(e.what());
+  }
+  return marks;
 }
 
 FileMarks load_state(const CheckpointReader &from, coupling::PlatenTest &problem, Results &results) {

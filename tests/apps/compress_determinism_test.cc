@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
@@ -37,7 +38,7 @@ protected:
   nlohmann::json figures(const std::string &name) const {
     nlohmann::json summary = summary_in(folder_ / name);
     for (const char *cost : {"threads", "wall_seconds", "setup_seconds", "particle_steps_per_second",
-                             "stage_seconds", "peak_memory_bytes", "bytes_in_columns_and_search"})
+                             "stage_seconds", "peak_memory_bytes", "bytes_in_columns_and_search", "checksum"})
       summary.erase(cost);
     return summary;
   }
@@ -78,16 +79,107 @@ TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   EXPECT_EQ(figures("whole"), figures("stopped"));
 }
 
-// An older version of the program had fewer columns; its checkpoint has the rows all the same.
-TEST_F(Determinism, a_resumed_run_writes_its_history_anew_whatever_has_become_of_the_file) {
+// The checkpoint has its rows.
+TEST_F(Determinism, a_resumed_run_writes_a_lost_history_anew) {
   crush("whole", "2");
   const fs::path history = folder_ / "stopped/history.csv";
   EXPECT_EQ(stop_at("stopped", 30, SIGHUP, {"-t", "1"}), 129);
   fs::remove(history);
-  EXPECT_EQ(stop_at("stopped", 60, SIGTERM, {"-t", "1", "--resume"}), 143);
-  std::ofstream(history) << "time_s,intact_bonds\n0,7\n";
-  EXPECT_EQ(resume("stopped", "2").status, 0);
+  const Outcome last = resume("stopped", "2");
+  EXPECT_EQ(last.status, 0);
+  EXPECT_TRUE(contains(content_of(folder_ / "stopped/run.log"),
+                       "stopped/history.csv: is missing, it is written anew from the checkpoint"));
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+}
+
+// Each is refused with nothing changed, and the run goes on once the file is what it was; rows after the
+// checkpoint count for nothing.
+TEST_F(Determinism, a_file_that_was_edited_or_lost_since_the_checkpoint_is_refused_by_name) {
+  put(folder_ / "aggregate.txt", "1\n2\n3\n");
+  const std::vector<std::string> phases{"-s", "Phases/By = file", "-s",
+                                        "Phases/File = " + (folder_ / "aggregate.txt").string()};
+  crush("whole", "1", phases);
+  std::vector<std::string> arguments{"-t", "1"};
+  arguments.insert(arguments.end(), phases.begin(), phases.end());
+  EXPECT_EQ(stop_at("stopped", 150, SIGTERM, arguments), 143);
+  const auto again = [&] {
+    std::vector<std::string> all{scene_, "-o", "stopped", "--resume"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return run_compress(all, folder_);
+  };
+  const auto refused = [&](const fs::path &file, const std::string &content, const std::string &said) {
+    const std::string whole = content_of(file), log = content_of(folder_ / "stopped/run.log");
+    content == "gone" ? static_cast<void>(fs::remove(file)) : put(file, content);
+    const Outcome outcome = again();
+    EXPECT_EQ(outcome.status, 2) << said;
+    EXPECT_TRUE(contains(outcome.error, said)) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_EQ(content_of(folder_ / "stopped/run.log"), log); // nothing was written
+    if (content != "gone") {
+      EXPECT_EQ(content_of(file), content);
+    }
+    put(file, whole);
+  };
+  const auto edited = [](std::string text, std::size_t at) {
+    text[at] = text[at] == '1' ? '2' : '1';
+    return text;
+  };
+  for (const char *name : {"history.csv", "cracks.csv"}) {
+    const fs::path file = folder_ / "stopped" / name;
+    const std::string whole = content_of(file);
+    ASSERT_GT(whole.size(), 300u) << name;
+    refused(file, whole.substr(0, whole.size() - 1), std::string(name) + ": error: has ");
+    for (const std::size_t at : {std::size_t{0}, whole.size() / 2, whole.size() - 2})
+      refused(file, edited(whole, at), std::string(name) + ": error: has been changed");
+  }
+  refused(folder_ / "stopped/cracks.csv", "gone", "cracks.csv: error: is missing; put the file back");
+  const fs::path specimen = folder_ / "stopped/specimen.csv";
+  refused(specimen, "gone", "specimen.csv: error: is missing");
+  refused(specimen, edited(content_of(specimen), 200), "specimen.csv: error: has been changed");
+  refused(folder_ / "aggregate.txt", "1\n2\n4\n", "Phases/File = ");
+  std::ofstream(folder_ / "stopped/history.csv", std::ios::app) << "0.25,torn";
+  std::ofstream(folder_ / "stopped/cracks.csv", std::ios::app) << "0.25,torn\n";
+  const Outcome last = again();
+  EXPECT_EQ(last.status, 0) << last.error;
+  EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "stopped")), "");
+}
+
+// What is done to the file of a run at work, and what it says as it ends.
+TEST_F(Determinism, a_file_taken_from_a_run_at_work_ends_it_and_it_resumes) {
+  crush("whole", "1");
+  const auto meddled = [&](const std::string &name, const std::function<void(const fs::path &)> &meddle,
+                           const std::string &said) {
+    const fs::path folder = folder_ / "taken";
+    fs::remove_all(folder);
+    Program program(
+        compress_command({scene_, "-o", "taken", "--quiet", "-t", "1", "-s", "Checkpoint/Every = 100"}),
+        folder_);
+    ASSERT_TRUE(program.wait_until([&] { return lines_in(folder / name) >= 40; }));
+    program.send(SIGSTOP);
+    meddle(folder / name);
+    program.send(SIGCONT);
+    EXPECT_EQ(program.wait(), 4) << said;
+    const std::string error = content_of(folder_ / "error.txt");
+    EXPECT_TRUE(contains(error, "error: taken/" + name + ": has been " + said)) << error;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_FALSE(fs::exists(folder / "summary.json"));
+  };
+  const auto removed = [](const fs::path &file) { fs::remove(file); };
+  meddled("history.csv", removed, "removed");
+  EXPECT_EQ(
+      run_compress({scene_, "-o", "taken", "--resume", "-t", "1", "-s", "Checkpoint/Every = 100"}, folder_)
+          .status,
+      0);
+  meddled("cracks.csv", removed, "removed");
+  meddled(
+      "history.csv", [](const fs::path &file) { fs::resize_file(file, 1000); }, "changed by another program");
+  meddled(
+      "history.csv",
+      [](const fs::path &file) {
+        fs::rename(file, file.string() + ".old");
+        fs::copy_file(file.string() + ".old", file);
+      },
+      "replaced by another file");
 }
 
 // The first is held still, so that the others meet it.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -125,6 +126,46 @@ TEST_F(Csv, of_a_resumed_run_equals_that_of_an_uninterrupted_one) {
     for (int k = rows_at_checkpoint; k < 20; ++k)
       write_row(csv, k);
     EXPECT_EQ(content_of(path_), whole) << rows_at_checkpoint;
+  }
+}
+
+TEST_F(Csv, knows_the_sum_of_what_it_wrote_across_a_resume) {
+  std::uint64_t length = 0;
+  {
+    CsvWriter csv(path_, columns_);
+    write_row(csv, 1);
+    EXPECT_EQ(csv.sum(), sha256_of(content_of(path_)));
+    length = csv.bytes();
+    write_row(csv, 2);
+  }
+  CsvWriter csv(path_, columns_, length);
+  EXPECT_EQ(csv.sum(), sha256_of(content_of(path_)));
+  write_row(csv, 3);
+  EXPECT_EQ(csv.sum(), sha256_of(content_of(path_)));
+}
+
+TEST_F(Csv, that_another_program_has_changed_takes_no_further_row) {
+  const auto refused = [&](const std::function<void()> &meddle, bool by_sync) {
+    CsvWriter csv(path_, columns_);
+    write_row(csv, 1);
+    meddle();
+    const std::string said =
+        message_of<OutputError>([&] { by_sync ? csv.sync() : static_cast<void>(write_row(csv, 2)); });
+    EXPECT_TRUE(contains(said, path_.string() + ": has been ")) << said;
+    fs::remove(path_);
+    return said;
+  };
+  for (const bool by_sync : {false, true}) {
+    EXPECT_TRUE(contains(refused([&] { fs::remove(path_); }, by_sync), "removed"));
+    EXPECT_TRUE(contains(refused([&] { fs::resize_file(path_, 3); }, by_sync), "(3 bytes, "));
+    EXPECT_TRUE(contains(refused([&] { std::ofstream(path_, std::ios::app) << "0\n"; }, by_sync), "changed"));
+    EXPECT_TRUE(contains(refused(
+                             [&] {
+                               fs::rename(path_, folder_ / "old");
+                               fs::copy_file(folder_ / "old", path_);
+                             },
+                             by_sync),
+                         "replaced"));
   }
 }
 
