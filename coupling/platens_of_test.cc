@@ -105,6 +105,12 @@ fem::BoxPlate plate_of_box(const dem::Shape &shape, const PlatenSettings &p, Sid
           {p.elements_across, p.elements_across, 2}};
 }
 
+// What the strip of a disc leaves of a plate.
+void narrow_to_strip(fem::BoxPlate &plate, const PlatenSettings &p) {
+  plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
+  plate.elements = elements_of_plate(p, plate.high.x, plate.high.y);
+}
+
 fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings, Side side) {
   const PlatenSettings &p = settings.platens;
   const bool high = is_high(side);
@@ -125,10 +131,7 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
                 p.overhang * s.shape.radius);
   else {
     fem::BoxPlate plate = plate_of_box(s.shape, p, side, low);
-    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0) {
-      plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
-      plate.elements = elements_of_plate(p, plate.high.x, plate.high.y);
-    }
+    if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0) narrow_to_strip(plate, p);
     grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
   }
   if (axis_of(side) == 2) return grid;
@@ -136,6 +139,37 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
     return from_upright(side, x) + Vector3{0, 0, middle};
   });
 }
+
+} // namespace
+
+double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settings, Side side) {
+  const PlatenSettings &p = settings.platens;
+  if (p.side(side)->grid) return 0;
+  // As platen_grid has them, layers through the thickness for elements of a rigid plate.
+  const auto counted = [&](double in_plane, double half_width) {
+    if (!p.elastic) return 2 * in_plane;
+    double through = 0;
+    for (const fem::Layer &layer : elements_of_layers(p, side, half_width))
+      through += layer.elements;
+    return through * in_plane;
+  };
+  const auto in_plane = [](const fem::BoxPlate &plate) {
+    return static_cast<double>(plate.elements[0]) * plate.elements[1];
+  };
+  if (p.span > 0) {
+    fem::BoxPlate strip;
+    const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * shape.width_y;
+    strip.elements = elements_of_plate(p, x, y);
+    return (side == Side::top ? 1 : 2) * counted(in_plane(strip), std::max(x, y));
+  }
+  if (shape.kind == dem::ShapeKind::cylinder)
+    return counted(fem::cells_in({1, 1, 0, p.elements_across, 1}), p.overhang * shape.radius);
+  fem::BoxPlate plate = plate_of_box(shape, p, side, 0);
+  if (shape.kind == dem::ShapeKind::disc && p.strip_width > 0) narrow_to_strip(plate, p);
+  return counted(in_plane(plate), 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
+}
+
+namespace {
 
 // What the specimen covers of a platen; of a disc the band that its rim leaves by no more than the depth of
 // seats.

@@ -14,6 +14,10 @@ struct PlatenOfTest {
 PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side,
                          const dem::Model &model);
 
+// Finite elements of the platen that make_platen would make of a specimen of this shape; 0 of a given mesh,
+// which is not counted.
+double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settings, Side side);
+
 // Where a platen's face is at the start, along the axis of its side (m): as packed it meets the outermost
 // sphere, ground it lies in the end plane.
 double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);

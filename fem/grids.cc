@@ -14,12 +14,16 @@
 namespace platen::fem {
 namespace {
 
+// Rings around the core of a disc with so many cells across.
+int rings_of(int across) {
+  return std::max(1, across / 4);
+}
+
 // Square core of n x n cells, surrounded by `rings` rings of 4 n cells that blend from the square to the
 // circle.
 class DiscMesh {
 public:
-  DiscMesh(double radius, int across)
-      : radius_(radius), rings_(std::max(1, across / 4)), n_(across - 2 * rings_) {
+  DiscMesh(double radius, int across) : radius_(radius), rings_(rings_of(across)), n_(across - 2 * rings_) {
     for (int j = 0; j <= n_; ++j)
       for (int i = 0; i <= n_; ++i)
         points_.push_back(core_point(i, j));
@@ -85,6 +89,11 @@ void tag_ends(dealii::Triangulation<3> &grid, double z_low, double thickness) {
 }
 
 } // namespace
+
+double cells_in(const CylinderPlate &plate) {
+  const double rings = rings_of(plate.elements_across), core = plate.elements_across - 2 * rings;
+  return (core * core + 4 * core * rings) * plate.elements_thick;
+}
 
 Grid make_grid(const CylinderPlate &plate) {
   require(plate.radius > 0, "platen grid: radius must be positive");

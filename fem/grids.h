@@ -53,6 +53,9 @@ struct Tube {
   int elements_around = 48, elements_along = 24, elements_through = 1;
 };
 
+// Cells of a round plate, without making it.
+double cells_in(const CylinderPlate &plate);
+
 // All throw std::invalid_argument, naming the entry, where a size is not positive or a count too small.
 Grid make_grid(const CylinderPlate &plate);
 Grid make_grid(const BoxPlate &plate);

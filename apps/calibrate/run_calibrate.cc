@@ -12,7 +12,9 @@
 #include "apps/io/machine.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/app_output.h"
+#include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/specimen_setup.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
 
@@ -121,6 +123,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     fmt::print("{}", said);
     return status_done;
   }
+  require_memory(scene, specimen_shape(scene));
   AppOutput output(command, scene);
   catch_stop_signals();
   output.open();

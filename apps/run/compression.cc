@@ -73,6 +73,10 @@ void CompressionRun::loop() {
 }
 
 int CompressionRun::run() {
+  if (!counted_.empty()) {
+    fmt::print("{}\n{}", title_of(scene_), counted_);
+    return status_done;
+  }
   if (command_.dry_run) {
     fmt::print("{}{}", description(),
                scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));

@@ -32,6 +32,7 @@ public:
   int run(); // the exit status; throws NumericsError
 
 private:
+  void require_memory(const dem::Shape &shape);
   std::string description() const;
   double every(const Interval &interval, double automatic) const;
   bool due(const Interval &interval, double automatic) const;
@@ -72,6 +73,7 @@ private:
   SpecimenState specimen_state_;
   std::optional<CsvWriter> history_, cracks_;
   std::optional<FieldSeries> fields_;
+  std::string counted_;      // of a dry run that is too large to be built
   std::string specimen_sum_; // SHA-256 of specimen.csv
   double setup_seconds_ = 0, earlier_seconds_ = 0;
   double expected_steps_ = 1;

@@ -9,6 +9,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/failure_summary.h"
+#include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_check.h"
@@ -33,6 +34,16 @@ dem::Specimen placed(const Scene &scene, Pressed pressed) {
   if (made.shape.kind == dem::ShapeKind::disc)
     refuse("states a disc that lies on its rim, for platen-brazilian. Allowed: a cylinder, a box.");
   return made;
+}
+
+// The shape of a specimen that is to be packed, as the app presses it.
+dem::Shape as_pressed(const dem::Shape &shape, const Scene &scene, Pressed pressed) {
+  dem::Specimen empty;
+  empty.shape = shape;
+  if (pressed == Pressed::across_axis && shape.kind != dem::ShapeKind::box)
+    return dem::laid_down(empty).shape;
+  const bool lies = scene.loading.bending() && scene.specimen.shape == SpecimenShape::bar;
+  return lies ? dem::laid_along_x(empty).shape : shape;
 }
 
 // Wave transits of the height within which platens without inertia have to follow their loads along their
@@ -74,9 +85,14 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
     : command_(command), scene_(scene), output_(command, scene, true) {
   const bool resumes = command.resume && !command.dry_run;
   if (resumes) require_files_of_checkpoint();
+  const bool packs = !resumes && scene.specimen.packing != PackingKind::file;
+  if (packs) require_memory(as_pressed(specimen_shape(scene), scene, pressed));
+  if (!counted_.empty()) return;
   // A resumed run takes the packing that the first part wrote, to the last bit.
   const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
   require_spheres(scene, specimen);
+  if (!packs) require_memory(specimen.shape);
+  if (!counted_.empty()) return;
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
@@ -100,6 +116,11 @@ void CompressionRun::require_files_of_checkpoint() {
   const FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
   require_same_files(marks, paths_, log_);
   require_same_inputs(marks, scene_, output_.inputs());
+}
+
+void CompressionRun::require_memory(const dem::Shape &shape) {
+  apps::require_memory(scene_, shape);
+  if (command_.dry_run) counted_ = counted_estimate(scene_, shape);
 }
 
 dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {

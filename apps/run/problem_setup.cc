@@ -83,12 +83,10 @@ fem::Grid platen_grid(const Scene &scene, const Face &face) {
   }
 }
 
-// With their meshes; those of sides that stay free are left out.
+// Those of sides that stay free are left out.
 coupling::PlatenSettings platen_settings(const Scene &scene) {
   using coupling::Side;
   Platens all = scene.platens;
-  for (const Side side : coupling::all_sides)
-    if (all.has(side)) all.at(side).grid = platen_grid(scene, all.face(side));
   if (!all.has(Side::left)) all.left.reset(), all.right.reset();
   if (!all.has(Side::front)) all.front.reset(), all.back.reset();
   if (!all.deformable) all.elastic.reset();
@@ -106,6 +104,18 @@ std::vector<std::string> effects_off(const Scene &scene) {
 }
 
 coupling::PlatenTestSettings problem_settings(const Scene &scene) {
+  coupling::PlatenTestSettings to = settings_without_meshes(scene);
+  const auto read = [&](coupling::PlatenSide &side, coupling::Side which) {
+    side.grid = platen_grid(scene, scene.platens.face(which));
+  };
+  using coupling::Side;
+  read(to.platens.top, Side::top), read(to.platens.bottom, Side::bottom);
+  if (to.platens.left) read(*to.platens.left, Side::left), read(*to.platens.right, Side::right);
+  if (to.platens.front) read(*to.platens.front, Side::front), read(*to.platens.back, Side::back);
+  return to;
+}
+
+coupling::PlatenTestSettings settings_without_meshes(const Scene &scene) {
   coupling::PlatenTestSettings to;
   to.model = model_settings(scene);
   to.ends = scene.specimen.ends;

@@ -11,6 +11,7 @@ set(PLATEN_RUN_SOURCES
   run/file_marks.cc
   run/history.cc
   run/model_setup.cc
+  run/needs.cc
   run/pack.cc
   run/peak.cc
   run/pressure_path.cc

@@ -116,6 +116,8 @@ namespace {
 // Both constants are on the safe side: bench/results/step.md has 665 bytes a sphere in columns alone.
 constexpr double least_packing_fraction = 0.5, least_bytes = 500, most_spheres = 2e8;
 
+} // namespace
+
 void check_count(const Scene &scene, const dem::Shape &shape) {
   const double radius = scene.specimen.sphere_radius;
   const double room = least_packing_fraction * shape.volume() / (4.0 / 3.0 * pi);
@@ -129,6 +131,8 @@ void check_count(const Scene &scene, const dem::Shape &shape) {
              "this machine's memory of {:.3g} GB holds.",
              spheres, std::cbrt(room / most), 1e-9 * memory));
 }
+
+namespace {
 
 dem::Specimen place_spheres(const Scene &scene) {
   const SpecimenSection &specimen = scene.specimen;

@@ -10,6 +10,9 @@ namespace platen::apps {
 // given.
 dem::Shape specimen_shape(const Scene &scene);
 
+// Throws InputError where more spheres fill the shape than the memory of this machine holds.
+void check_count(const Scene &scene, const dem::Shape &shape);
+
 // Packs the spheres of a scene, or reads them from Specimen/File; the seed of the scene decides all random
 // numbers.
 // A file's own shape holds; dimensions in the scene must agree with it within 1e-6, and are needed where the

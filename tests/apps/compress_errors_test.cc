@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
@@ -127,6 +128,58 @@ TEST_F(Errors, spheres_without_number_are_refused_before_they_are_packed) {
     refuse(
         {{scene_, "-s", "Specimen/Sphere radius = 2 um", "-s", std::string("Specimen/Packing = ") + packing},
          {"--set 1: error: Specimen/Sphere radius = 2 um is too small: ", "spheres or more", "Allowed: "}});
+}
+
+// Counted before a sphere is packed or an element made: in less time and memory than either would take.
+TEST_F(Errors, elements_without_number_are_refused_before_they_are_made) {
+  const auto refused = [&](const std::vector<std::string> &entries, const std::vector<std::string> &says) {
+    for (const char *way : {"--quiet", "--dry-run"}) {
+      std::vector<std::string> arguments = with(entries);
+      arguments.emplace_back(way);
+      const auto start = std::chrono::steady_clock::now();
+      refuse({arguments, says});
+      EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    }
+  };
+  // 7.5e5 elements a layer, 83 layers in each platen; each 40 kB.
+  refused({"Platens/Kind = deformable", "Platens/Degree = 2", "Platens/Elements across = 1000"},
+          {"--set 3: error: Platens/Elements across = 1000 asks for 1.2e+08 elements of the platens",
+           "GB of memory or more. Allowed: up to ", "as this machine's memory of "});
+  const std::vector<std::string> cell{"Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa",
+                                      "Sleeve/Thickness = 1 mm"};
+  std::vector<std::string> around = cell;
+  around.emplace_back("Sleeve/Elements around = 10000");
+  refused(around, {"--set 4: error: Sleeve/Elements around = 10000 asks for 3.2e+07 elements of the sleeve",
+                   "Allowed: up to "});
+  // A mesh by the count in its file.
+  put(folder_ / "huge.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n900000000\n");
+  put(folder_ / "huge4.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Elements\n3 900000000 1 900000000\n");
+  for (const char *name : {"huge.msh", "huge4.msh"})
+    refused({"Platens/Top/Mesh file = " + (folder_ / name).string()},
+            {"error: Platens/Top/Mesh file = ", "asks for 4.5e+08 elements of a platen", "a coarser mesh"});
+}
+
+// The largest value that is allowed for the elements is taken, and the next is not.
+TEST_F(Errors, the_largest_mesh_that_is_allowed_is_allowed) {
+  const auto asked = [&](int across) {
+    std::vector<std::string> arguments = with({"Platens/Kind = deformable", "Platens/Degree = 2",
+                                               "Platens/Elements across = " + std::to_string(across)});
+    arguments.emplace_back("--dry-run");
+    return run_compress(arguments, folder_);
+  };
+  const std::string error = asked(1000).error, words = "Allowed: up to ";
+  const auto at = error.find(words);
+  ASSERT_NE(at, std::string::npos) << error;
+  const int most = std::stoi(error.substr(at + words.size()));
+  EXPECT_GT(most, 30);
+  EXPECT_EQ(asked(most + 1).status, 2);
+  const Outcome largest = asked(most);
+  EXPECT_EQ(largest.status, 0) << largest.error;
+  // Counted, for it would take all memory to look at it; with time and memory.
+  EXPECT_TRUE(contains(largest.out, "counted, not built: ")) << largest.out;
+  EXPECT_TRUE(contains(largest.out, " or more (")) << largest.out;
+  EXPECT_TRUE(contains(largest.out, "MB or more; a dry run builds no more than an eighth")) << largest.out;
 }
 
 TEST_F(Errors, specimen_files_are_refused_by_line_or_sphere) {
@@ -259,7 +312,7 @@ TEST_F(Errors, output_folders_are_guarded) {
 }
 
 // An id that no sphere has: at the start, and where the list has changed before a run goes on.
-TEST_F(Errors, ids_beyond_the_spheres_are_refused_at_the_start_and_on_resume) {
+TEST_F(Errors, ids_beyond_the_spheres_are_refused_and_on_resume_any_change_of_them) {
   const std::vector<std::string> run{scene_, "-s", "Phases/By = file", "-s",
                                      "Phases/File = " + (folder_ / "ids.txt").string()};
   put(folder_ / "ids.txt", "# large\n0\n1\n99999\n");
@@ -275,7 +328,7 @@ TEST_F(Errors, ids_beyond_the_spheres_are_refused_at_the_start_and_on_resume) {
   put(folder_ / "ids.txt", "0\n1\n\n99999\n");
   std::vector<std::string> again = run;
   again.emplace_back("--resume");
-  refuse({again, {says, "Allowed: 0 ... 1"}});
+  refuse({again, {"--set 2: error: Phases/File = ", "names a file that has changed since the run began"}});
 }
 
 TEST_F(Errors, a_dry_run_tells_what_would_run_and_writes_nothing) {

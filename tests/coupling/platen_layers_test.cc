@@ -7,6 +7,8 @@
 
 #include "coupling/platen_layers.h"
 #include "coupling/platen_test.h"
+#include "coupling/platens_of_test.h"
+#include "fem/grids.h"
 #include "tests/coupling/elastic_problem.h"
 #include "tests/coupling/small_cylinder.h"
 #include "tests/measured.h"
@@ -50,6 +52,30 @@ TEST(platen_layers, begin_at_the_specimen_and_leave_the_rest_to_the_platen) {
   // Thicknesses that add up but for round-off leave nothing.
   p.elastic->layers = {{0.1 * 10e-3, rubber}, {0.7 * 10e-3, lead}, {0.2 * 10e-3, rubber}};
   EXPECT_EQ(layers_of(p, Side::top).size(), 3u);
+}
+
+// Of elastic platens by the nodes of degree 1 that were made: planes of one more node than layers.
+TEST(platen_layers, elements_are_counted_as_they_are_made) {
+  for (const int across : {4, 9, 16}) {
+    PlatenTestSettings s = elastic(6e-3);
+    s.platens.elastic->degree = 1;
+    s.platens.elements_across = across;
+    for (const bool layered : {false, true}) {
+      if (layered) s.platens.elastic->layers = {{1e-3, lead}};
+      const PlatenTest problem(small_cylinder(), s);
+      const double half = s.platens.overhang * problem.shape().radius;
+      double through = 0;
+      for (const fem::Layer &layer : elements_of_layers(s.platens, Side::top, half))
+        through += layer.elements;
+      const double cells = cells_of_platen(problem.shape(), s, Side::top), in_plane = cells / through,
+                   nodes = static_cast<double>(problem.elastic_top()->solid().model().nodes.size());
+      const double on_the_rim = across - across / 4 * 2; // a quarter of the nodes there
+      EXPECT_EQ((in_plane + 2 * on_the_rim + 1) * (through + 1), nodes) << across; // Euler: of a disc
+    }
+    s.platens.elastic.reset();
+    EXPECT_EQ(cells_of_platen(small_cylinder().shape, s, Side::bottom),
+              2 * fem::cells_in({1, 1, 0, across, 1}));
+  }
 }
 
 std::string refused(const PlatenTestSettings &settings) {
