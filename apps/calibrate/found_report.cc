@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/io/csv_writer.h"
@@ -122,6 +123,33 @@ std::string table_of(const Goals &goals, const Judged &judged) {
   return text;
 }
 
+std::vector<std::string> gaps(const Goals &goals, const Judged &judged) {
+  const Measured &by = judged.verified() ? judged.unseen : judged.training;
+  std::vector<std::string> lines;
+  for (const std::size_t k : goals.wanted()) {
+    if (goals.met(k, by)) continue;
+    const Goal &goal = goals.all()[k];
+    const double miss = goals.miss(k, by), got = by.numbers[k].mean(),
+                 wanted = goal.curve ? 0 : goal.target.value;
+    const std::string tolerance = fmt::format("tolerance {:.3g} %", 100 * goal.target.tolerance);
+    if (std::isnan(miss)) {
+      lines.push_back(fmt::format("{}: was not measured, {}", goal.words, tolerance));
+    } else if (goal.curve) {
+      lines.push_back(fmt::format("{}: off by {:.3g} % of its largest stress (root mean square), {}",
+                                  goal.words, 100 * miss, tolerance));
+    } else {
+      const double factor = got / wanted;
+      constexpr double worth_a_factor = 1.5;
+      const bool far = factor > worth_a_factor || (factor > 0 && factor < 1 / worth_a_factor);
+      lines.push_back(fmt::format(
+          "{}: wanted {:.4g}, got {:.4g}, off by {:+.3g} %{}, {}", goal.words, wanted / goal.unit,
+          got / goal.unit, 100 * miss,
+          far ? fmt::format(" (a factor of {:.3g})", std::max(factor, 1 / factor)) : "", tolerance));
+    }
+  }
+  return lines;
+}
+
 std::string findings(const Goals &goals, const Scene &scene, const Judged &judged) {
   const Sensitivities &at = judged.found.sensitivities;
   const Analysis a = analyse(goals, scene.calibrate.tolerance, at);
@@ -172,6 +200,7 @@ void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Js
   s["correlations"] = json_of(at.knobs, knobs, a.correlations);
   s["correlated"] = a.correlated;
   s["undetermined"] = a.undetermined;
+  s["targets_missed"] = gaps(goals, judged);
   s["missed"] = missed(goals, judged.found);
   s["at_bounds"] = judged.found.at_bounds;
 }

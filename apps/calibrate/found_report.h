@@ -18,6 +18,8 @@ struct Judged {
 std::string wishes(const Goals &goals);
 // Wanted, calibrated on, unseen, off; a line a goal.
 std::string table_of(const Goals &goals, const Judged &judged);
+// What each target that is beyond its tolerance lacks: wanted, got, off, tolerance; a line each.
+std::vector<std::string> gaps(const Goals &goals, const Judged &judged);
 // Sensitivities, correlations, what is not determined, what was missed, which bounds hold.
 std::string findings(const Goals &goals, const Scene &scene, const Judged &judged);
 

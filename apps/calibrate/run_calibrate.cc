@@ -132,6 +132,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
   s["mode"] = word_of(calibrate_modes, mode);
   s["threads"] = output.threads();
+  std::vector<std::string> unmet;
   try {
     Trials trials(scene, output.paths, command.resume, output.log);
     tell_bounds(scene, trials, output.log, s);
@@ -139,6 +140,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     if (goals) {
       const Judged judged = find(scene, *goals, trials, output.log);
       tell_found(*goals, scene, judged, s);
+      unmet = gaps(*goals, judged);
       write_curves(*goals, judged, output.paths);
       write_found(command, scene, *goals, judged, output);
       std::string found = "found:";
@@ -156,7 +158,10 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   }
   s["wall_seconds"] = output.seconds();
   s["peak_memory_bytes"] = peak_memory_bytes();
-  return output.finish(s, fmt::format("results are in {}", output.paths.folder.string()));
+  const int status = output.finish(s, fmt::format("results are in {}", output.paths.folder.string()));
+  for (const std::string &gap : unmet)
+    output.log.error("target missed: {}", gap);
+  return unmet.empty() ? status : status_check_failed;
 }
 
 } // namespace platen::apps

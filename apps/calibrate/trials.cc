@@ -8,7 +8,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "apps/io/file.h"
 #include "apps/io/numbers.h"
+#include "apps/io/sha256.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/specimen_setup.h"
@@ -21,9 +23,11 @@ namespace {
 
 constexpr const char *head = "test,seed,", *tail =
                                                "status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
-                                               "poisson_ratio,strength_pa,strain_at_peak,curve_pa";
+                                               "poisson_ratio,strength_pa,strain_at_peak,curve_pa,checksum";
 constexpr std::size_t first_number = 2, status_at = first_number + knob_count, results_at = status_at + 1,
                       curve_at = results_at + 5;
+constexpr const char *packing_sums_name = "packings.sha256";
+constexpr std::size_t sum_digits = 16; // of the SHA-256 of a row before its last comma
 
 std::vector<std::string> columns() {
   std::string all = head;
@@ -45,6 +49,10 @@ std::string key_of(const Trial &t) {
   for (const double number : deciding(t).numbers)
     key += "," + shortest_text(number);
   return key;
+}
+
+std::string sum_of_row(std::string_view line) {
+  return sha256_of(line.substr(0, line.rfind(','))).substr(0, sum_digits);
 }
 
 // Stresses of a curve in one cell, blanks between them.
@@ -106,7 +114,7 @@ std::vector<unsigned long> unseen_seeds(const Scene &scene) {
 Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log)
     : scene_(scene), paths_(paths), log_(log) {
   if (resume)
-    read();
+    read_packing_sums(), read();
   else
     table_.emplace(paths_.folder / "trials.csv", columns());
 }
@@ -123,13 +131,19 @@ void Trials::read() {
   std::getline(lines, line);
   if (cells_of(line) != columns())
     throw InputError(path.string() + ":1: error: has other columns than this version writes");
+  std::string whole = line + '\n';
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
     for (std::size_t k = results_at; k < std::min(curve_at, cells.size()); ++k)
       if (const auto value = number_of(cells[k])) values.push_back(*value);
-    if (cells.size() != columns().size() || values.size() != curve_at - results_at)
-      throw InputError(path.string() + ":" + std::to_string(number) + ": error: is no row of this table");
+    if (cells.size() != columns().size() || values.size() != curve_at - results_at ||
+        cells.back() != sum_of_row(line)) {
+      log_.warning("{}:{}: has been changed since it was written: its trial is made again", path.string(),
+                   number);
+      continue;
+    }
+    whole += line + '\n';
     std::string key = cells[0] + "," + cells[1];
     for (std::size_t k = first_number; k < status_at; ++k)
       key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
@@ -141,7 +155,8 @@ void Trials::read() {
                    values[4],
                    curve_of_text(cells[curve_at])};
   }
-  table_.emplace(path, columns(), end + 1);
+  if (whole.size() < end + 1) write_text_aside(path, whole);
+  table_.emplace(path, columns(), whole.size());
 }
 
 void Trials::keep(const Trial &t, const TrialResult &r) {
@@ -151,6 +166,13 @@ void Trials::keep(const Trial &t, const TrialResult &r) {
     cells.emplace_back(number);
   cells.insert(cells.end(), {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength,
                              r.strain_at_peak, curve});
+  std::string line;
+  for (const CsvCell &cell : cells) {
+    cell.append_to(line);
+    line += ',';
+  }
+  const std::string sum = sum_of_row(line);
+  cells.emplace_back(sum);
   table_->row(cells);
   known_[key_of(t)] = r;
   ++made_;
@@ -169,16 +191,19 @@ void Trials::pack(const std::vector<Trial> &trials) {
                      [&](const Trial &m) { return packing_of(m) == packing_of(t); }))
       missing.push_back(t);
   std::vector<dem::Specimen> made(missing.size());
+  std::vector<char> changed(missing.size(), 0);
   const auto name_of = [](const Trial &t) {
     const std::string form = t.test.form();
     return (form.empty() ? "" : form + "_") + std::to_string(t.seed);
   };
   in_order(missing.size(), [&](std::size_t k) {
     const std::filesystem::path file = paths_.folder / ("packing_" + name_of(missing[k]) + ".csv");
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) {
-      made[k] = read_specimen_csv(file).specimen;
-      return;
+    if (const auto sum = packing_sums_.find(file.filename().string()); sum != packing_sums_.end()) {
+      if (sha256_of_file(file) == sum->second) {
+        made[k] = read_specimen_csv(file).specimen;
+        return;
+      }
+      changed[k] = 1;
     }
     Scene scene = scene_of_form(scene_, missing[k].test);
     scene.general.seed = missing[k].seed;
@@ -186,11 +211,30 @@ void Trials::pack(const std::vector<Trial> &trials) {
     write_specimen_csv(file, made[k]);
   });
   for (std::size_t k = 0; k < missing.size(); ++k) {
-    const std::string form = missing[k].test.form();
+    const std::string form = missing[k].test.form(), name = "packing_" + name_of(missing[k]) + ".csv";
+    if (changed[k] != 0)
+      log_.warning("{}: is not as it was written: packed again", (paths_.folder / name).string());
+    packing_sums_[name] = sha256_of_file(paths_.folder / name).value_or("");
     log_.info("packing of seed {}{}: {} spheres", missing[k].seed, form.empty() ? "" : " (" + form + ")",
               made[k].size());
     packings_[packing_of(missing[k])] = std::move(made[k]);
   }
+  if (!missing.empty()) write_packing_sums();
+}
+
+// As sha256sum has them, which can verify them: `sha256sum -c packings.sha256`.
+void Trials::write_packing_sums() const {
+  std::string text;
+  for (const auto &[name, sum] : packing_sums_)
+    text += sum + "  " + name + '\n';
+  write_text_aside(paths_.folder / packing_sums_name, text);
+}
+
+void Trials::read_packing_sums() {
+  std::ifstream file(paths_.folder / packing_sums_name, std::ios::binary);
+  std::string sum, name;
+  while (file >> sum >> name)
+    packing_sums_[name] = sum;
 }
 
 TrialResult Trials::run(const Trial &t) const {

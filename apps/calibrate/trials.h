@@ -27,8 +27,9 @@ std::vector<unsigned long> unseen_seeds(const Scene &scene);
 
 class Trials {
 public:
-  // `resume`: trials.csv of the folder is read, rows that are whole count. Throws InputError where it is not
-  // such a table.
+  // `resume`: trials.csv of the folder is read; rows that are whole and as they were written count (their
+  // checksum), for the others it is told that they are made again; so it is for packings. Throws InputError
+  // where it is not such a table.
   Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log);
 
   // Results in the order of the trials. What trials.csv knows is taken from there; the rest runs, as many at
@@ -47,12 +48,15 @@ private:
   void pack(const std::vector<Trial> &trials);
   TrialResult run(const Trial &trial) const;
   void read();
+  void read_packing_sums();
+  void write_packing_sums() const;
   void keep(const Trial &trial, const TrialResult &result);
 
   const Scene &scene_;
   OutputPaths paths_;
   RunLog &log_;
   std::map<PackingName, dem::Specimen> packings_;
+  std::map<std::string, std::string> packing_sums_; // file to SHA-256: of those that can be read back
   std::map<std::string, TrialResult> known_;
   std::optional<CsvWriter> table_;
   long made_ = 0, failed_ = 0;

@@ -75,7 +75,8 @@ bool is_output_name(const fs::path &relative) {
   static const std::regex top(
       "((scene|found)(\\.part)?\\.prm"
       "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|costs|accuracy|trials|abacus"
-      "|packing_[0-9]+)(\\.part)?\\.csv"
+      "|packing_([a-z0-9_.]+_)?[0-9]+)(\\.part)?\\.csv"
+      "|packings(\\.part)?\\.sha256"
       "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
       "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
   static const std::regex frame(

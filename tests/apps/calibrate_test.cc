@@ -70,6 +70,7 @@ protected:
   Scene read(const std::vector<std::string> &overrides) const {
     return read_scene((folder / "case.prm").string(), overrides, AppKind::calibrate);
   }
+  // A calibration that does not meet its targets ends with status 1 and says by how much, any other with 0.
   nlohmann::json run(const std::vector<std::string> &overrides, const std::string &to, bool resume = false,
                      int threads = 1) const {
     CommandLine command;
@@ -79,8 +80,15 @@ protected:
     command.quiet = true;
     command.resume = resume;
     command.threads = threads;
-    EXPECT_EQ(run_calibrate(command, read(overrides)), status_done);
-    return nlohmann::json::parse(text_of(folder / to / "summary.json"));
+    const int status = run_calibrate(command, read(overrides));
+    const auto summary = nlohmann::json::parse(text_of(folder / to / "summary.json"));
+    bool met = true;
+    if (summary.contains("targets"))
+      for (const auto &target : summary["targets"])
+        met = met && target.value("met", target.value("met_in_training", false));
+    EXPECT_EQ(status, met ? status_done : status_check_failed);
+    EXPECT_EQ(summary.contains("targets_missed") && !summary["targets_missed"].empty(), !met);
+    return summary;
   }
   std::string fault(const std::vector<std::string> &overrides) const {
     try {
@@ -219,6 +227,56 @@ TEST_F(CalibrateApp, what_is_out_of_reach_is_told_with_the_nearest) {
   EXPECT_NE(s["missed"][0].get<std::string>().find("out of reach"), std::string::npos);
   EXPECT_NEAR(s["found"]["stiffness_ratio"].get<double>(), 0.02, 1e-9);
   ASSERT_EQ(s["at_bounds"].size(), 1u);
+  ASSERT_EQ(s["targets_missed"].size(), 1u);
+  const std::string gap = s["targets_missed"][0].get<std::string>();
+  EXPECT_EQ(gap.rfind("Poisson's ratio: wanted 0.45, got 0.", 0), 0u) << gap;
+  EXPECT_NE(gap.find(", off by -"), std::string::npos) << gap;
+}
+
+// One bond strength that is not free, and a target that is four times what it gives.
+TEST_F(CalibrateApp, a_target_missed_by_a_factor_is_told_as_one) {
+  const std::vector<std::string> asked{"Calibrate/Seeds = 1", "Calibrate/Verification seeds = 1",
+                                       "Calibrate/Free = modulus", "Calibrate/Most trials = 1"};
+  const auto with = [&](const std::string &entry) {
+    std::vector<std::string> all = asked;
+    all.push_back(entry);
+    return all;
+  };
+  const auto first = run(with("Calibrate/Compressive strength = 1 GPa"), "a");
+  const double bears = first["verification"]["compressive_strength_pa"]["mean"].get<double>();
+  const auto s = run(with("Calibrate/Compressive strength = " + std::to_string(4 * bears)), "b");
+  ASSERT_EQ(s["targets_missed"].size(), 1u);
+  const std::string gap = s["targets_missed"][0].get<std::string>();
+  EXPECT_NE(gap.find("off by -75 % (a factor of 4), tolerance 2 %"), std::string::npos) << gap;
+}
+
+// Rows of trials.csv and packings that are believed on --resume are those that were written.
+TEST_F(CalibrateApp, a_resumed_one_makes_again_what_was_edited) {
+  const std::vector<std::string> asked{"Calibrate/Seeds = 2", "Calibrate/Verification seeds = 0",
+                                       "Calibrate/Young modulus = 20 GPa"};
+  const auto whole = run(asked, "a");
+  const fs::path trials = folder / "a/trials.csv", packing = folder / "a/packing_5.csv";
+  const std::string rows = text_of(trials), spheres = text_of(packing);
+  EXPECT_EQ(run(asked, "a", true)["trials"], 0);
+  std::string edited = rows;
+  const auto at = edited.find_first_of("123456789", edited.find('\n') + 20);
+  edited[at] = edited[at] == '1' ? '2' : '1';
+  std::ofstream(trials, std::ios::binary) << edited;
+  edited = spheres;
+  edited[spheres.size() - 3] = edited[spheres.size() - 3] == '1' ? '2' : '1';
+  std::ofstream(packing, std::ios::binary) << edited;
+  const auto again = run(asked, "a", true);
+  EXPECT_GT(again["trials"], 0);
+  EXPECT_EQ(again["training"], whole["training"]);
+  const std::string log = text_of(folder / "a/run.log");
+  EXPECT_NE(log.find("trials.csv:2: has been changed since it was written: its trial is made again"),
+            std::string::npos);
+  EXPECT_EQ(text_of(trials).size(), rows.size());                                 // the other rows stay
+  std::ofstream(trials, std::ios::binary) << rows.substr(0, rows.find('\n') + 1); // no trial left
+  EXPECT_EQ(run(asked, "a", true)["training"], whole["training"]);
+  EXPECT_NE(text_of(folder / "a/run.log").find("packing_5.csv: is not as it was written: packed again"),
+            std::string::npos);
+  EXPECT_EQ(text_of(packing), spheres);
 }
 
 // Every kind of target on one packing, and one more that judges; what they are is measured, not met.
