@@ -4,6 +4,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "apps/io/summary.h"
 #include "apps/report/accuracy_study.h"
 #include "apps/report/calibration.h"
 #include "apps/report/display.h"
@@ -71,7 +72,10 @@ void report_on(const Wishes &wishes, char **argv) {
 
 int fail(const std::exception &error, int status) {
   std::cout.flush();
-  std::cerr << "error: " << error.what() << '\n';
+  std::string text = error.what();
+  for (char &c : text) // names of files may hold what a terminal obeys
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
+  std::cerr << "error: " << text << '\n';
   return status;
 }
 
@@ -108,6 +112,10 @@ int main(int argc, char **argv) {
     report_on(wishes, argv);
   } catch (const InputError &error) {
     return fail(error, status_bad_input);
+  } catch (const Json::exception &error) { // of another kind than the programs write
+    return fail(InputError(wishes.folder +
+                           ": summary.json or study.json holds what no run writes there: " + error.what()),
+                status_bad_input);
   } catch (const std::exception &error) { // OutputError, file system, memory
     return fail(error, status_output);
   }

@@ -8,6 +8,7 @@
 
 #include "apps/io/numbers.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps {
 namespace {
@@ -78,7 +79,7 @@ std::vector<double> TargetCurve::sampled() const {
 }
 
 TargetCurve read_target_curve(const std::filesystem::path &path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_file(path);
   if (!file) fail(path, 0, "cannot be read.");
   std::string all{std::istreambuf_iterator<char>(file), {}};
   if (all.rfind("\xef\xbb\xbf", 0) == 0) all.erase(0, 3);

@@ -15,6 +15,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 #include "apps/scene/units.h"
 #include "base/parallel.h"
 
@@ -121,7 +122,7 @@ Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog
 
 void Trials::read() {
   const std::filesystem::path path = paths_.folder / "trials.csv";
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::size_t end = text.rfind('\n'); // a row that was cut off counts for nothing
   if (!file || end == std::string::npos)
@@ -231,7 +232,7 @@ void Trials::write_packing_sums() const {
 }
 
 void Trials::read_packing_sums() {
-  std::ifstream file(paths_.folder / packing_sums_name, std::ios::binary);
+  std::ifstream file = open_file(paths_.folder / packing_sums_name);
   std::string sum, name;
   while (file >> sum >> name)
     packing_sums_[name] = sum;

@@ -30,9 +30,12 @@ auto uninterrupted(const Call &call) {
 } // namespace
 
 OutputFile::OutputFile(const std::filesystem::path &path, Mode mode) : path_(path) {
-  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : O_APPEND);
+  // Without waiting for the reader of a pipe that stands under the name.
+  const int flags =
+      O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | (mode == Mode::replace ? O_TRUNC : O_APPEND);
   descriptor_ = uninterrupted([&] { return ::open(path.c_str(), flags, 0666); });
   if (descriptor_ < 0) fail("cannot be opened for writing");
+  ::fcntl(descriptor_, F_SETFL, ::fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
 }
 
 OutputFile::~OutputFile() {

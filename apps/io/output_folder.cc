@@ -45,6 +45,9 @@ std::vector<fs::path> outputs_in(const fs::path &folder) {
 void check_writable(const fs::path &folder) {
   std::error_code error;
   fs::path there = fs::absolute(folder);
+  if (!there.lexically_normal().has_relative_path())
+    fail(folder, "is the root of the file system; choose another folder with --output");
+  if (!fs::exists(there, error) && error == std::errc::filename_too_long) fail(folder, error.message());
   while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path())
     there = there.parent_path();
   if (!fs::is_directory(there, error)) fail(folder, fmt::format("{} is not a folder", there.string()));
@@ -146,7 +149,8 @@ FolderLock::~FolderLock() {
 }
 
 std::unique_ptr<FolderLock> lock_of_run(const fs::path &folder, RunLog &log) {
-  if (!fs::is_directory(folder)) return nullptr;
+  std::error_code none;
+  if (!fs::is_directory(folder, none)) return nullptr;
   return std::make_unique<FolderLock>(folder, patience_of_run,
                                       [&] { log.info("waits for a run at work in {}", folder.string()); });
 }

@@ -14,6 +14,7 @@
 #include "apps/io/errors.h"
 #include "apps/io/file.h"
 #include "apps/io/numbers.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps {
 namespace {
@@ -46,10 +47,8 @@ struct Place {
 template <class Take>
 void read_lines(const std::filesystem::path &path, Place &place, const Take &take) {
   place.file = path.string();
-  std::error_code error;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, error))
-    throw InputError(place.file + ": error: cannot be read");
+  std::ifstream stream = open_file(path);
+  if (!stream) throw InputError(place.file + ": error: cannot be read");
   for (std::string whole; std::getline(stream, whole);) {
     ++place.line;
     take(std::string_view(whole));

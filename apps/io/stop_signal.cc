@@ -52,6 +52,10 @@ void catch_stop_signals() {
   install(SIGTERM, on_stop);
   if (!is_ignored(SIGHUP)) install(SIGHUP, on_hang_up); // as nohup leaves it
   install(SIGUSR1, on_checkpoint);
+  sigset_t held; // until now by run_app, so that one that came earlier is not lost
+  sigemptyset(&held);
+  sigaddset(&held, SIGUSR1);
+  pthread_sigmask(SIG_UNBLOCK, &held, nullptr);
   install(SIGXFSZ, SIG_IGN);
   install(SIGPIPE, SIG_IGN);
 }

@@ -1,4 +1,5 @@
 #include "apps/report/bars.h"
+#include "apps/scene/regular_file.h"
 
 #include <fmt/format.h>
 #include <vtkActor2D.h>
@@ -72,7 +73,7 @@ void save_bars(const std::string &title, const std::string &subtitle, const std:
 // The line of the run's log that names the machine; empty where there is none.
 std::string machine_of(const Run &run) {
   const std::string start = "machine ";
-  std::ifstream log(run.folder / "run.log");
+  std::ifstream log = open_file(run.folder / "run.log");
   for (std::string line; std::getline(log, line);)
     if (line.rfind(start, 0) == 0) return line.substr(start.size());
   return "";

@@ -9,6 +9,7 @@
 #include "apps/report/report.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps::report {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Json summary_of(const fs::path &folder) {
-  std::ifstream stream(folder / "summary.json");
+  std::ifstream stream = open_file(folder / "summary.json");
   return Json::parse(stream, nullptr, false);
 }
 

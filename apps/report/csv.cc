@@ -7,6 +7,7 @@
 
 #include "apps/io/numbers.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps::report {
 namespace {
@@ -20,7 +21,7 @@ std::vector<std::string> fields_of(const std::string &line) {
 
 // All whole lines; an unfinished last one is dropped.
 std::vector<std::string> whole_lines(const std::filesystem::path &file) {
-  std::ifstream stream(file);
+  std::ifstream stream = open_file(file);
   if (!stream) throw InputError(file.string() + ": cannot be read");
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) {

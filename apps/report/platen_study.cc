@@ -13,6 +13,7 @@
 #include "apps/report/chart.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps::report {
 namespace {
@@ -125,7 +126,7 @@ bool holds_study(const fs::path &folder) {
 }
 
 std::string title_of_study(const fs::path &folder) {
-  std::ifstream stream(folder / "summary.json");
+  std::ifstream stream = open_file(folder / "summary.json");
   const Json summary = Json::parse(stream, nullptr, false);
   if (summary.is_object()) return summary.value("scene", folder.filename().string());
   return folder.filename().string();
@@ -133,7 +134,7 @@ std::string title_of_study(const fs::path &folder) {
 
 Json finished_study(const fs::path &folder) {
   const fs::path file = folder / "study.json";
-  std::ifstream stream(file);
+  std::ifstream stream = open_file(file);
   Json study = Json::parse(stream, nullptr, false);
   if (!study.is_object()) throw InputError(file.string() + ": cannot be read as JSON");
   if (study.value("status", "") == "running")

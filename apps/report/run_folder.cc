@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 
 namespace platen::apps::report {
 namespace {
@@ -41,6 +42,7 @@ int loaded_axis(const Json &summary) {
 FrameSeries optional_series(Run &run, const char *name, const std::string &consequence) {
   const fs::path file = run.folder / name;
   FrameSeries series;
+  if (is_pipe_or_device(file)) throw InputError(file.string() + ": is a pipe or a device, no file");
   if (fs::exists(file)) series = read_pvd(file);
   if (series.empty())
     run.remarks.push_back(std::string(name) + (fs::exists(file) ? " lists no frame: " : " is not there: ") +
@@ -52,7 +54,7 @@ FrameSeries optional_series(Run &run, const char *name, const std::string &conse
 
 std::string scene_entry(const fs::path &scene, const std::string &path) {
   static const std::regex form(R"(\s*(subsection\b|end\b|set\b)\s*([^#=]*?)\s*(=\s*([^#]*?)\s*)?(#.*)?)");
-  std::ifstream stream(scene);
+  std::ifstream stream = open_file(scene);
   std::vector<std::string> sections;
   std::smatch found;
   for (std::string line; std::getline(stream, line);) {

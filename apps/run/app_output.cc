@@ -96,12 +96,21 @@ double AppOutput::seconds() const {
 }
 
 void AppOutput::open(int working_threads) {
-  if (!command_.resume) {
-    open_locked(lock_, paths.folder, use_, inputs_, log);
-    write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
+  std::error_code none;
+  const bool was_there = std::filesystem::exists(paths.folder, none);
+  try {
+    if (!command_.resume) {
+      open_locked(lock_, paths.folder, use_, inputs_, log);
+      write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
+    }
+    log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
+  } catch (const OutputError &) { // a full disk: no folder is left in which nothing is
+    if (!was_there)
+      for (const std::filesystem::path &made : {paths.log(), paths.scene(), paths.folder})
+        std::filesystem::remove(made, none);
+    throw;
   }
   scene_sum_ = sha256_of_file(paths.scene()).value_or("");
-  log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
 }
 
 void AppOutput::save(Json summary) const {

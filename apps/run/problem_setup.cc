@@ -6,6 +6,7 @@
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 #include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
 
@@ -74,7 +75,7 @@ std::vector<std::string> chosen(const Scene &scene, bool on) {
 fem::Grid platen_grid(const Scene &scene, const Face &face) {
   const std::string &path = face.mesh_file;
   if (path.empty()) return nullptr;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_file(path);
   try {
     if (!file) throw std::invalid_argument(path + ": cannot be read");
     return fem::read_gmsh(file, {scene.platens.mesh_unit, path});

@@ -1,17 +1,16 @@
 #include "apps/scene/checks.h"
 
 #include <filesystem>
-#include <fstream>
 
+#include "apps/scene/regular_file.h"
 #include "apps/scene/scene_check.h"
 
 namespace platen::apps {
 
 void SceneCheck::readable(const std::string &path, const std::string &file, const std::string &why) const {
   if (file.empty()) refuse(path, "is not set: " + why);
-  std::error_code failure;
-  if (std::filesystem::is_directory(file, failure) || !std::ifstream(file))
-    refuse(path, "cannot be read (looked for " + file + ").");
+  if (is_pipe_or_device(file)) refuse(path, "is a pipe or a device, no file (looked for " + file + ").");
+  if (!open_file(file)) refuse(path, "cannot be read (looked for " + file + ").");
 }
 
 void SceneCheck::needed() const {

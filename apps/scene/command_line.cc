@@ -1,8 +1,10 @@
 #include "apps/scene/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <thread>
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
@@ -11,10 +13,22 @@
 namespace platen::apps {
 namespace {
 
-constexpr int most_threads = 4096; // more is a slip
+// More only wait for each other, and a thousand take all day to do so.
+int most_threads() {
+  constexpr unsigned int always = 64, a_core = 4;
+  return static_cast<int>(std::max(always, a_core * std::thread::hardware_concurrency()));
+}
 
 [[noreturn]] void fail(const std::string &what) {
   throw InputError("command line: error: " + what);
+}
+
+// Names that a terminal, or a log of one line an entry, would not show as they are.
+void check_name(const std::string &name, const char *what) {
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      fail(std::string(what) + " = " + name.substr(0, name.find(c)) +
+           "... holds a control character or a line end. Allowed: a name without.");
 }
 
 const std::vector<std::string> option_names = {
@@ -36,8 +50,8 @@ int read_threads(const std::string &text) {
   int threads = 0;
   const char *last = text.data() + text.size();
   const auto [end, failure] = std::from_chars(text.data(), last, threads);
-  if (failure != std::errc() || end != last || threads < 1 || threads > most_threads)
-    fail("--threads = " + text + " is no count of threads. Allowed: 1 ... " + std::to_string(most_threads) +
+  if (failure != std::errc() || end != last || threads < 1 || threads > most_threads())
+    fail("--threads = " + text + " is no count of threads. Allowed: 1 ... " + std::to_string(most_threads()) +
          ".");
   return threads;
 }
@@ -47,6 +61,8 @@ void check(const CommandLine &line, const AppDescription &app) {
     fail("--resume and --overwrite exclude each other. Allowed: one of them.");
   if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
   if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
+  check_name(line.scene, "SCENE");
+  check_name(line.output, "--output");
   if (line.output_given && line.output.empty()) fail("--output is empty. Allowed: the name of a folder.");
   const std::string kind = app.kinds.empty() ? "" : "KIND ";
   if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 #include "apps/scene/scene_files.h"
 
 namespace platen::apps {
@@ -18,6 +19,7 @@ std::string read_text(const std::string &path) {
   constexpr std::size_t largest = 4u << 20; // bytes; a scene is a few thousand, so this is some other file
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("it is a folder.");
+  if (is_pipe_or_device(path)) fail("it is a pipe or a device, no file.");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(std::string(std::strerror(errno)) + ".");

@@ -9,6 +9,7 @@
 #include "apps/scene/checks.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/layers.h"
+#include "apps/scene/regular_file.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/scene_targets.h"
 #include "apps/scene/surfaces.h"
@@ -101,7 +102,7 @@ std::string completed_scene_text(const std::string &path, const std::string &fol
     return scene_text(read(path, {}, nullptr), folder);
   } catch (const InputError &) {
     std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
+    text << open_file(path).rdbuf();
     return text.str();
   }
 }

@@ -1,4 +1,5 @@
 #include "apps/study/run_study.h"
+#include "apps/scene/regular_file.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds patience_of_study{60};
 
 std::string content_of(const fs::path &path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -3,8 +3,10 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
@@ -183,6 +185,44 @@ TEST_F(Determinism, a_file_taken_from_a_run_at_work_ends_it_and_it_resumes) {
 }
 
 // The first is held still, so that the others meet it.
+// Started is a program once it holds SIGUSR1 back; until then the loader reads its libraries.
+bool holds_signals_back(pid_t id) {
+  std::ifstream status("/proc/" + std::to_string(id) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("SigBlk:", 0) == 0)
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGUSR1 - 1) & 1) != 0;
+  return false;
+}
+
+// While libraries initialise, spheres are packed and bonds made nothing is written.
+TEST_F(Determinism, a_signal_before_anything_was_written_ends_at_once_and_leaves_nothing) {
+  const std::vector<std::string> fine{"-t", "1", "-s", "Specimen/Sphere radius = 0.3 mm"};
+  for (const int milliseconds : {0, 60, 300})
+    for (const int number : {SIGTERM, SIGINT}) {
+      std::vector<std::string> options{scene_, "-o", "early", "--quiet"};
+      options.insert(options.end(), fine.begin(), fine.end());
+      Program program(compress_command(options), folder_);
+      ASSERT_TRUE(program.wait_until([&] { return holds_signals_back(program.id()); }));
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      program.send(number);
+      EXPECT_EQ(program.wait(), 128 + number) << milliseconds;
+      EXPECT_EQ(content_of(folder_ / "error.txt"), "");
+      EXPECT_FALSE(fs::exists(folder_ / "early")) << milliseconds;
+    }
+}
+
+TEST_F(Determinism, a_checkpoint_asked_for_while_spheres_are_packed_is_written) {
+  Program program(
+      compress_command({scene_, "-o", "asked", "--quiet", "-t", "1", "-s", "Checkpoint/Every = 1000000"}),
+      folder_);
+  ASSERT_TRUE(program.wait_until([&] { return holds_signals_back(program.id()); }));
+  program.send(SIGUSR1);
+  EXPECT_EQ(program.wait(), 0);
+  ASSERT_TRUE(fs::exists(folder_ / "asked/checkpoint"));
+  const auto first = fs::directory_iterator(folder_ / "asked/checkpoint")->path().filename().string();
+  EXPECT_LT(std::stol(first.substr(5)), 100) << first; // step_000000000016.platen: of the first steps
+}
+
 TEST_F(Determinism, a_second_run_in_its_folder_is_refused_and_changes_nothing) {
   crush("whole", "2");
   Program first(compress_command({scene_, "-o", "taken", "--quiet", "-t", "2"}), folder_);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -120,6 +121,82 @@ TEST_F(Errors, a_time_step_above_the_limit_is_refused_with_the_limit) {
   scene("bad.prm", "subsection Integration\n  set Time step = 1 us\nend\n");
   refuse({{"bad.prm"},
           {"bad.prm:3: error: Integration/Time step = 1 us is above the stability limit of ", "e-07 s"}});
+}
+
+// A pipe that nobody writes into and a device that never ends kept the program waiting, the second with all
+// memory.
+TEST_F(Errors, pipes_and_devices_are_no_files_and_nothing_waits_for_them) {
+  const auto refused = [&](const std::vector<std::string> &arguments, const std::string &says) {
+    std::vector<std::string> command = compress_command(arguments);
+    command.insert(command.end(), {"-o", "results"});
+    Program program(command, folder_);
+    const auto start = std::chrono::steady_clock::now();
+    const bool waits = program.wait_until(
+        [&] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(20); });
+    ASSERT_FALSE(waits) << says;
+    EXPECT_EQ(program.wait(), 2) << says;
+    const std::string error = content_of(folder_ / "error.txt");
+    EXPECT_TRUE(contains(error, says)) << error;
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+  };
+  const std::string pipe = (folder_ / "pipe").string(), scene_pipe = pipe + ".prm";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(scene_pipe.c_str(), 0600), 0);
+  refused({scene_pipe}, "pipe.prm: error: cannot be read: it is a pipe or a device");
+  put(folder_ / "in.prm", "include pipe.prm\n");
+  refused({"in.prm"}, "in.prm:1: error: include pipe.prm: ");
+  put(folder_ / "in.prm", "include /dev/zero\n");
+  refused({"in.prm"}, "in.prm:1: error: include /dev/zero: ");
+  for (const std::string &file : {pipe, std::string("/dev/zero")}) {
+    refused(with({"Specimen/Packing = file", "Specimen/File = " + file}),
+            "--set 2: error: Specimen/File = " + file + " is a pipe or a device, no file");
+    refused(with({"Phases/By = file", "Phases/File = " + file}),
+            "--set 2: error: Phases/File = " + file + " is a pipe or a device, no file");
+    refused(with({"Platens/Top/Mesh file = " + file}),
+            "--set 1: error: Platens/Top/Mesh file = " + file + " is a pipe or a device, no file");
+  }
+}
+
+TEST_F(Errors, output_folders_that_cannot_be_are_refused_by_name) {
+  const std::string longest(300, 'x');
+  refuse({{scene_}, {"output folder " + longest + ": File name too long"}}, longest);
+  put(folder_ / "file", "mine");
+  refuse({{scene_}, {"output folder file: ", "is not a folder"}}, "file");
+  refuse({{scene_}, {"output folder file/below: ", "is not a folder"}}, "file/below");
+  fs::create_symlink("loop", folder_ / "loop");
+  refuse({{scene_}, {"output folder loop: ", "is not a folder"}}, "loop");
+  for (const char *root : {"/", "//", "/tmp/.."})
+    refuse({{scene_}, {"is the root of the file system; choose another folder"}}, root);
+}
+
+// What a terminal obeys does not reach it, whatever the name that it stands in.
+TEST_F(Errors, control_characters_in_names_are_not_sent_to_the_terminal) {
+  put(folder_ / "e\x1b[31m/history.csv", "run");
+  for (const std::vector<std::string> &arguments : {std::vector<std::string>{scene_, "-o", "e\x1b[31m"},
+                                                    {scene_, "-o", "a\nb"},
+                                                    {"a\x1b[2J\n.prm"},
+                                                    {scene_, "--out\x1b[31mput"},
+                                                    {scene_, "-s", "Bond/\x1b[31mModulus = 3"},
+                                                    {scene_, "-s", "Bond/Modulus = \x1b[2J"},
+                                                    {scene_, "\x1b[2J"}}) {
+    const Outcome outcome = run_compress(arguments, folder_);
+    EXPECT_EQ(outcome.status, 2) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(contains(outcome.error, "\x1b")) << outcome.error;
+  }
+}
+
+// What a full disk does before the first file is whole.
+TEST_F(Errors, a_disk_that_is_full_from_the_start_leaves_no_folder) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{4096, before.rlim_max}; // less than scene.prm, more than the message
+  setrlimit(RLIMIT_FSIZE, &small);
+  const Outcome outcome = run_compress({scene_, "-o", "results", "--quiet"}, folder_);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_EQ(outcome.error, "error: results/scene.part.prm: cannot be written: File too large\n");
+  EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
 
 // A slip of a unit: packed for hours, until all memory is gone.

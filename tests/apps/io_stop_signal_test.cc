@@ -35,6 +35,19 @@ TEST(StopSignal, asks_the_run_to_stop_and_gives_its_exit_status) {
   }
 }
 
+TEST(StopSignal, a_request_for_a_checkpoint_that_was_held_back_is_not_lost) {
+  EXPECT_EQ(status_of([] {
+              sigset_t held;
+              sigemptyset(&held);
+              sigaddset(&held, SIGUSR1);
+              sigprocmask(SIG_BLOCK, &held, nullptr);
+              raise(SIGUSR1);
+              catch_stop_signals();
+              return take_checkpoint_request() && !take_checkpoint_request() ? 7 : 1;
+            }),
+            7);
+}
+
 TEST(StopSignal, given_twice_ends_the_process_at_once) {
   EXPECT_EQ(status_of([] {
               catch_stop_signals();

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -129,6 +130,20 @@ TEST(ReportReading, figures_that_were_changed_are_not_to_be_trusted) {
       read_run(folder.path()).remarks[0],
       "summary.json has been changed since it was written: its checksum does not hold, do not trust its "
       "figures");
+}
+
+// A pipe that nobody writes into would keep the program waiting for ever.
+TEST(ReportReading, pipes_and_folders_under_the_names_of_files_are_refused) {
+  for (const char *name : {"history.csv", "summary.json", "cracks.csv", "specimen.pvd", "bonds.pvd"}) {
+    const TestFolder folder;
+    write_example(folder.path(), {});
+    std::filesystem::remove(folder / name);
+    ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+    EXPECT_TRUE(holds(complaint([&] { read_run(folder.path()); }), name)) << name;
+    std::filesystem::remove(folder / name);
+    std::filesystem::create_directory(folder / name);
+    EXPECT_TRUE(holds(complaint([&] { read_run(folder.path()); }), name)) << name;
+  }
 }
 
 TEST(ReportReading, what_is_not_there_is_said_and_only_the_history_is_a_must) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -171,6 +172,60 @@ TEST_F(Study, a_file_that_the_scene_names_has_to_be_the_one_that_was_run) {
     EXPECT_TRUE(contains(
         rest.error, std::string(seed) + ": is made again: the file that Phases/File names has changed\n"))
         << rest.error;
+}
+
+// The run that is under way, by its parent in /proc.
+pid_t child_of(pid_t parent) {
+  std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");
+  pid_t child = -1;
+  children >> child;
+  return children ? child : -1;
+}
+
+TEST_F(Study, a_run_that_is_killed_is_told_by_its_signal_and_made_again) {
+  const std::vector<std::string> two{"-s", "Study/Sphere radius list = 2 mm, 1 mm", "-s", "Study/Seeds = 1"};
+  const std::string finer = "sphere_radius_0.001_seed_3";
+  ASSERT_EQ(run("whole", two).status, 0);
+  Program program(command("killed", two), folder_);
+  const fs::path inner = folder_ / "killed/runs" / finer;
+  ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }));
+  const pid_t child = child_of(program.id());
+  ASSERT_GT(child, 0);
+  kill(child, SIGKILL);
+  EXPECT_EQ(program.wait(), 0);
+  const std::string error = content_of(folder_ / "error.txt");
+  EXPECT_TRUE(contains(error, finer + ": failed, ended by signal 9")) << error;
+  EXPECT_EQ(words_in(folder_ / "killed/study.csv", "status"), (std::vector<std::string>{"done", "failed"}));
+  EXPECT_EQ(run("killed", with(two, "--resume")).status, 0);
+  EXPECT_EQ(table("killed"), table("whole"));
+}
+
+// One that is gone is made again, one under another name is nobody's and stays.
+TEST_F(Study, a_run_whose_folder_is_gone_or_renamed_is_made_again) {
+  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
+  ASSERT_EQ(run("a", small).status, 0);
+  const std::string before = table("a");
+  fs::remove_all(folder_ / "a/runs/sphere_radius_0.002_seed_3");
+  fs::rename(folder_ / "a/runs/sphere_radius_0.002_seed_4", folder_ / "a/runs/mine");
+  EXPECT_EQ(run("a", with(small, "--resume")).status, 0);
+  EXPECT_EQ(table("a"), before);
+  EXPECT_TRUE(fs::exists(folder_ / "a/runs/mine/summary.json"));
+}
+
+TEST_F(Study, pipes_under_the_names_of_its_files_keep_nothing_waiting) {
+  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
+  ASSERT_EQ(run("a", small).status, 0);
+  const std::string before = table("a");
+  const fs::path summary = folder_ / "a/runs/sphere_radius_0.002_seed_3/summary.json";
+  fs::remove(summary);
+  ASSERT_EQ(mkfifo(summary.c_str(), 0600), 0);
+  const Outcome rest = run("a", with(small, "--resume"));
+  EXPECT_EQ(rest.status, 0) << rest.error;
+  EXPECT_TRUE(contains(rest.error, "seed_3: is made again: summary.json is no file")) << rest.error;
+  EXPECT_EQ(table("a"), before);
+  fs::remove(folder_ / "a/study.json");
+  ASSERT_EQ(mkfifo((folder_ / "a/study.json").c_str(), 0600), 0);
+  EXPECT_EQ(run("a", with(small, "--resume")).status, 2);
 }
 
 TEST_F(Study, a_case_that_fails_is_told_and_survived) {
