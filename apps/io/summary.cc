@@ -1,5 +1,6 @@
 #include "apps/io/summary.h"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -7,6 +8,7 @@
 
 #include "apps/io/file.h"
 #include "apps/io/sha256.h"
+#include "dem/measure/acoustic_emission.h"
 
 namespace platen::apps {
 namespace {
@@ -67,6 +69,17 @@ double number_in(const Json &summary, const std::string &key) {
 std::string text_in(const Json &summary, const std::string &key) {
   const auto found = summary.find(key);
   return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+Json json_of_b(const dem::BValue &value, const std::string &key) {
+  const std::string reason = dem::reason_against(value);
+  return {{key, value.b},
+          {key + "_error", value.error},
+          {key + "_events", static_cast<long>(value.events)},
+          {key + "_limit", value.limit},
+          {key + "_upper", std::isfinite(value.upper) ? Json(value.upper) : Json()},
+          {key + "_above", static_cast<long>(value.above)},
+          {key + "_reason", reason.empty() ? Json() : Json(reason)}};
 }
 
 } // namespace platen::apps

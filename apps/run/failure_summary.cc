@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/io/summary.h"
 #include "base/pi.h"
 #include "coupling/program_of_test.h"
 
@@ -69,13 +70,6 @@ Json json_of(const dem::CrackPlanes &planes) {
   return j;
 }
 
-void add_b(Json &to, const std::string &when, const dem::BValue &value) {
-  to["b_" + when] = value.b;
-  to["b_" + when + "_error"] = value.error;
-  to["b_" + when + "_events"] = static_cast<long>(value.events);
-  to["b_" + when + "_limit"] = value.limit;
-}
-
 Json json_of(const Emission &e) {
   int most = 0;
   for (const dem::AcousticEvent &event : e.events)
@@ -84,8 +78,8 @@ Json json_of(const Emission &e) {
          {"events", e.events.size()},
          {"largest_cracks", most},
          {"largest_magnitude", largest_magnitude(e)}};
-  add_b(j, "before", e.before);
-  add_b(j, "after", e.after);
+  j.update(json_of_b(e.before, "b_before"));
+  j.update(json_of_b(e.after, "b_after"));
   return j;
 }
 

@@ -34,7 +34,11 @@ AcousticEvent event_of(const std::vector<CrackPulse> &cracks, const std::vector<
   return e;
 }
 
-// Lower edge of the fullest bin; of several the lowest.
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double nearly = 1e-9;              // of a bin
+constexpr double decade_of_energy = 1 / 1.5; // in magnitudes
+
+// Number of the fullest bin; of several the lowest.
 double mode(const std::vector<double> &sorted, double bin) {
   double best = std::floor(sorted.front() / bin), here = best;
   std::size_t most = 0, count = 0;
@@ -44,7 +48,76 @@ double mode(const std::vector<double> &sorted, double bin) {
     here = at;
     if (count > most) most = count, best = here;
   }
-  return best * bin;
+  return best;
+}
+
+// Of a catalogue by size, those of a range.
+struct Magnitudes {
+  std::vector<double>::const_iterator first, last;
+  double limit, upper;
+  double count() const { return static_cast<double>(last - first); }
+  double length() const { return upper - limit; }
+  double mean_above_limit() const {
+    double sum = 0;
+    for (auto m = first; m != last; ++m)
+      sum += *m - limit;
+    return sum / count();
+  }
+};
+
+// ln(10) b of a range with an upper end, by halving; 0 where the events are not more frequent below.
+double decay_between(double mean, double length) {
+  if (!(mean > 0 && mean < 0.5 * length)) return 0;
+  double low = 0, high = 1 / mean; // without an upper end it would be 1 / mean
+  constexpr int halvings = 60;
+  for (int k = 0; k < halvings; ++k) {
+    const double beta = 0.5 * (low + high);
+    (1 / beta - length / std::expm1(beta * length) > mean ? low : high) = beta;
+  }
+  return 0.5 * (low + high);
+}
+
+BValue fit(const Magnitudes &range) {
+  const double n = range.count(), mean = range.mean_above_limit(), ln10 = std::log(10.0);
+  BValue v;
+  v.limit = range.limit, v.upper = range.upper, v.events = n, v.law = PowerLaw::holds;
+  if (std::isinf(range.upper)) {
+    double square = 0;
+    for (auto m = range.first; m != range.last; ++m)
+      square += (*m - range.limit - mean) * (*m - range.limit - mean);
+    v.b = mean > 0 ? (n - 1) / n / (ln10 * mean) : 0;
+    v.error = ln10 * v.b * v.b * std::sqrt(square / (n * (n - 1)));
+  } else {
+    const double length = range.length(), beta = decay_between(mean, length);
+    v.b = beta / ln10;
+    const double s = 2 * std::sinh(0.5 * beta * length);
+    v.error = 1 / (ln10 * std::sqrt(n * (1 / (beta * beta) - length * length / (s * s))));
+  }
+  return v;
+}
+
+// The largest distance between the shares of events below a magnitude and of the law that is passed by a
+// tenth of samples of the law (Stephens 1974, Table 1.1: exponential, scale unknown).
+double distance_allowed(double n) {
+  const double root = std::sqrt(n);
+  return 0.990 / (root + 0.26 + 0.5 / root) + 0.2 / n;
+}
+
+bool follows(const Magnitudes &range, const BValue &v) {
+  const double n = range.count(), beta = std::log(10.0) * v.b, allowed = distance_allowed(n);
+  const double reach = *(range.last - 1) - range.limit, length = std::min(range.length(), reach);
+  if (!(v.b * length >= 1 && length >= decade_of_energy)) return false;
+  constexpr double most_missing = 3; // -ln(0.05): events expected beyond the largest
+  if (std::isinf(range.upper) && n * std::exp(-beta * reach) > most_missing) return false;
+  const double whole = -std::expm1(-beta * range.length());
+  double before = 0;
+  for (auto m = range.first; m != range.last; ++m) {
+    const double share = -std::expm1(-beta * (*m - range.limit)) / whole;
+    const double after = before + 1 / n;
+    if (std::abs(share - before) > allowed || std::abs(share - after) > allowed) return false;
+    before = after;
+  }
+  return true;
 }
 
 } // namespace
@@ -77,21 +150,60 @@ BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules) 
   std::copy_if(magnitudes.begin(), magnitudes.end(), std::back_inserter(sorted),
                [](double m) { return std::isfinite(m); });
   std::sort(sorted.begin(), sorted.end());
-  BValue v;
-  if (sorted.empty()) return v;
-  v.limit = std::isnan(rules.limit) ? mode(sorted, rules.bin) + rules.above_mode : rules.limit;
-  const auto first = std::lower_bound(sorted.begin(), sorted.end(), v.limit);
-  const double n = v.events = static_cast<double>(sorted.end() - first);
-  if (n < std::max(2, rules.least_events)) return v;
-  double mean = 0, square = 0;
-  for (auto m = first; m != sorted.end(); ++m)
-    mean += *m / n;
-  for (auto m = first; m != sorted.end(); ++m)
-    square += (*m - mean) * (*m - mean);
-  if (!(mean > v.limit)) return v;
-  v.b = (n - 1) / n / (std::log(10.0) * (mean - v.limit));
-  v.error = std::log(10.0) * v.b * v.b * std::sqrt(square / (n * (n - 1)));
-  return v;
+  BValue best;
+  if (sorted.empty()) return best;
+  const bool given = !std::isnan(rules.limit);
+  const double start = given ? rules.limit : rules.bin * mode(sorted, rules.bin) + rules.above_mode;
+  const auto from = [&](double m) { return std::lower_bound(sorted.begin(), sorted.end(), m); };
+  best.limit = start;
+  best.events = static_cast<double>(sorted.end() - from(start));
+  const double wanted = std::max<double>(std::max(2, rules.least_events), rules.least_share * best.events);
+  if (best.events < wanted) return best;
+  best.law = PowerLaw::not_followed;
+  double most = wanted - 1;
+  for (int k = 0; k == 0 || !given; ++k) {
+    const double limit = start + k * rules.bin;
+    const auto first = from(limit);
+    if (static_cast<double>(sorted.end() - first) <= most) break;
+    // Without an end, then up to the largest event, then a bin less at a time.
+    double upper = infinite;
+    for (int step = 0;; ++step) {
+      const auto last = step < 2 ? sorted.end() : from(upper);
+      if (static_cast<double>(last - first) <= most) break;
+      const Magnitudes range{first, last, limit, upper};
+      if (const BValue found = fit(range); follows(range, found)) {
+        best = found;
+        best.above = static_cast<double>(sorted.end() - last);
+        most = best.events;
+        break;
+      }
+      upper = step == 0 ? sorted.back() : rules.bin * (std::ceil(upper / rules.bin - nearly) - 1);
+    }
+  }
+  return best;
+}
+
+double BValue::count(double magnitude) const {
+  const double beta = std::log(10.0) * b, x = magnitude - limit;
+  if (std::isinf(upper)) return events * std::exp(-beta * x);
+  const double length = upper - limit;
+  return above + events * (std::exp(-beta * x) - std::exp(-beta * length)) / -std::expm1(-beta * length);
+}
+
+std::string reason_against(const BValue &value, const BValueRules &rules) {
+  const std::string found =
+      std::to_string(static_cast<long>(value.events)) + " events from the magnitude of completeness on";
+  switch (value.law) {
+    case PowerLaw::holds:
+      break;
+    case PowerLaw::few_events:
+      return found + "; a b-value needs " + std::to_string(rules.least_events);
+    case PowerLaw::not_followed:
+      return found +
+             ": over no range with half of them, a decade of their number and one of energy do they "
+             "follow a power law";
+  }
+  return "";
 }
 
 void describe(Archive &archive, const std::string &name, std::vector<CrackPulse> &pulses) {

@@ -48,22 +48,47 @@ double magnitude_of(double energy);
 std::vector<AcousticEvent> gather_events(std::vector<CrackPulse> cracks, const EventWindow &window);
 
 struct BValueRules {
-  double bin = 0.1;        // of magnitude, to find the limit
-  double above_mode = 0.2; // from the fullest bin to the limit (Woessner and Wiemer 2005)
-  int least_events = 50;   // at and above the limit
+  double bin = 0.1;         // of magnitude: steps of the ends of the range
+  double above_mode = 0.2;  // from the fullest bin to the first limit (Woessner and Wiemer 2005)
+  int least_events = 50;    // in the range
+  double least_share = 0.5; // of the events from the first limit on that the range holds
   double limit = std::numeric_limits<double>::quiet_NaN(); // not a number: found from the fullest bin
 };
 
-// b of log10 N(>= M) = a - b M, from the events at and above the limit M_c, by maximum likelihood (Aki 1965):
-//   b = (n - 1) / n log10(e) / (mean M - M_c).
-// The first factor takes out the bias of few events. Magnitudes are not rounded, so Utsu's half bin below M_c
-// is none. M_c is the lower edge of the fullest bin (Wiemer and Wyss 2000) and `above_mode` on.
-// Standard error by Shi and Bolt (1982): ln(10) b^2 sqrt(sum (M - mean M)^2 / (n (n - 1))).
-// Numbers are NaN where there are fewer events than the rules want.
+enum class PowerLaw {
+  holds,
+  few_events,  // fewer than the rules want
+  not_followed // no range that holds enough events, a decade of their number and one of energy follows it
+};
+
+// b of log10 N(>= M) = a - b M, where that law holds: over a range of magnitudes from M_c on to M_u, by
+// maximum likelihood. Without an upper end (Aki 1965)
+//   b = (n - 1) / n log10(e) / (mean M - M_c),
+// where the first factor takes out the bias of few events, with the standard error of Shi and Bolt (1982),
+// ln(10) b^2 sqrt(sum (M - mean M)^2 / (n (n - 1))). With one (Page 1968) beta = ln(10) b solves
+//   mean M - M_c = 1 / beta - L / (exp(beta L) - 1), L = M_u - M_c,
+// with the error of the likelihood's curvature. Magnitudes are not rounded, so Utsu's half bin below M_c is
+// none.
+//
+// The first M_c is the lower edge of the fullest bin (Wiemer and Wyss 2000) and `above_mode` on. Of all
+// ranges that begin there or a number of bins later, the one with the most events is taken whose law is not
+// refused: its distance from the events (Kolmogorov and Smirnov's, its parameter fitted: Stephens 1974) is
+// one that a tenth of such samples pass; without an upper end also the largest event is as large as 95 % of
+// such catalogues have it. It must hold the rules' share of the events from the first M_c on, and its rate
+// must fall to a tenth while the energy grows tenfold: less is no power law.
 struct BValue {
-  double b = std::numeric_limits<double>::quiet_NaN(), error = b, limit = b;
-  double events = 0; // at and above the limit
+  double b = std::numeric_limits<double>::quiet_NaN(), error = b; // NaN where no law holds
+  double limit = b;                                               // M_c; where no law holds, the first one
+  double upper = b;                                               // M_u; infinite: all from the limit on
+  double events = 0; // of the range; where no law holds, from the first M_c on
+  double above = 0;  // events beyond M_u
+  PowerLaw law = PowerLaw::few_events;
+  // Events of magnitude M and more, by the law; M within the range.
+  double count(double magnitude) const;
 };
 BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules = {});
+
+// "of 12 events from the magnitude of completeness on; 50 are wanted"; empty where the law holds.
+std::string reason_against(const BValue &value, const BValueRules &rules = {});
 
 } // namespace platen::dem
