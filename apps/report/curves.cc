@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "apps/report/chart.h"
 #include "apps/report/stages.h"
@@ -12,11 +13,16 @@
 namespace platen::apps::report {
 namespace {
 
+// A curve from the end of the consolidation on.
+Curve curve_from_zero(const Run &run, const std::string &label, const std::vector<double> &x,
+                      const std::vector<double> &y, Colour colour, Stroke stroke, double width) {
+  return {label, run.from_zero(x), run.from_zero(y), colour, stroke, width};
+}
+
 std::string peak_words(const Run &run) {
-  const std::size_t zero = zero_row(run);
-  return fmt::format("peak {:.1f} MPa at {:.2f} mm/m{}", run.moments.peak_stress / pa_per_mpa,
-                     (run.strain()[run.moments.peak_row] - run.strain()[zero]) * mm_per_m,
-                     zero > 0 ? " since consolidation" : "");
+  return fmt::format("{} {:.1f} MPa at {:.2f} mm/m",
+                     run.peak_reached().value_or(true) ? "peak" : "no peak reached, largest",
+                     run.moments.peak_stress / pa_per_mpa, run.strain()[run.moments.peak_row] * mm_per_m);
 }
 
 // What the platens of the other axes have closed, where those of the sides load.
@@ -25,22 +31,23 @@ void add_strains_across(Chart &chart, const Run &run, const std::vector<double> 
   for (const int axis : {0, 1, 2}) {
     const char *column = columns[static_cast<std::size_t>(axis)];
     if (axis == run.axis || !run.history.has(column)) continue;
-    chart.curves.push_back({fmt::format("along {}, between platens", "xyz"[axis]),
-                            scaled(run.history.column(column), mm_per_m), stress,
-                            axis == 2 ? colours::green : colours::vermilion, Stroke::solid, 3});
+    chart.curves.push_back(curve_from_zero(
+        run, fmt::format("along {}, between platens", "xyz"[axis]), scaled(run.since_zero(column), mm_per_m),
+        stress, axis == 2 ? colours::green : colours::vermilion, Stroke::solid, 3));
   }
 }
 
 // With one run the kinds of strain have colours, with several the runs have; the lateral strain is told apart
 // by its side then.
 void add_stress_curves(Chart &chart, const Run &run, std::size_t k, bool several) {
-  const std::vector<double> stress = scaled(run.stress(), 1 / pa_per_mpa);
+  const std::vector<double> stress = scaled(run.stress(), 1 / pa_per_mpa),
+                            strain = scaled(run.strain(), mm_per_m);
   const std::string along = run.axis == 2 ? "axial" : fmt::format("along {}", "xyz"[run.axis]);
-  chart.curves.push_back({(several ? run.name : along) + ", between platens: " + peak_words(run),
-                          scaled(run.strain(), mm_per_m), stress, several ? run_colour(k) : colours::blue,
-                          Stroke::solid, 5});
-  chart.marks.push_back({run.strain()[run.moments.peak_row] * mm_per_m, run.moments.peak_stress / pa_per_mpa,
-                         "", several ? run_colour(k) : colours::blue});
+  const Colour of_run = several ? run_colour(k) : colours::blue;
+  chart.curves.push_back(
+      curve_from_zero(run, (several ? run.name : along) + ", between platens: " + peak_words(run), strain,
+                      stress, of_run, Stroke::solid, 5));
+  chart.marks.push_back({strain[run.moments.peak_row], run.moments.peak_stress / pa_per_mpa, "", of_run});
   if (run.axis != 2) { // the gauge measures along z
     if (!several) add_strains_across(chart, run, stress);
     return;
@@ -48,8 +55,8 @@ void add_stress_curves(Chart &chart, const Run &run, std::size_t k, bool several
   const auto add = [&](const char *column, const std::string &label, Stroke stroke, Colour colour,
                        double width) {
     if (!run.history.has(column)) return;
-    chart.curves.push_back({label, scaled(run.history.column(column), mm_per_m), stress,
-                            several ? run_colour(k) : colour, stroke, width});
+    chart.curves.push_back(curve_from_zero(run, label, scaled(run.since_zero(column), mm_per_m), stress,
+                                           several ? run_colour(k) : colour, stroke, width));
   };
   add("axial_strain_gauge", several ? run.name + ", gauge" : "axial, gauge (middle half)", Stroke::dashed,
       colours::vermilion, 4);
@@ -75,20 +82,30 @@ void add_broken_bonds(Chart &chart, const Run &run, std::size_t k, bool several)
     if (!run.history.has(column)) continue;
     const std::string words = in_tension ? "broken in tension" : "broken in shear";
     const Colour colour = in_tension ? colours::vermilion : colours::blue;
-    chart.curves.push_back({several ? run.name + ", " + words : words, scaled(run.strain(), mm_per_m),
-                            run.history.column(column), several ? run_colour(k) : colour,
-                            in_tension ? Stroke::solid : Stroke::dashed, 4});
+    chart.curves.push_back(curve_from_zero(run, several ? run.name + ", " + words : words,
+                                           scaled(run.strain(), mm_per_m), run.history.column(column),
+                                           several ? run_colour(k) : colour,
+                                           in_tension ? Stroke::solid : Stroke::dashed, 4));
   }
 }
 
 void add_volume(Chart &chart, const Run &run, std::size_t k, bool several) {
   if (!run.history.has("volumetric_strain")) return;
   const std::vector<double> axial = scaled(run.strain(), mm_per_m),
-                            volume = scaled(run.history.column("volumetric_strain"), mm_per_m);
+                            volume = scaled(run.since_zero("volumetric_strain"), mm_per_m);
   const Colour colour = several ? run_colour(k) : colours::green;
-  chart.curves.push_back(
-      {several ? run.name : "gauge (middle half)", axial, volume, colour, Stroke::solid, 4});
+  chart.curves.push_back(curve_from_zero(run, several ? run.name : "gauge (middle half)", axial, volume,
+                                         colour, Stroke::solid, 4));
   chart.marks.push_back({axial[run.moments.peak_row], volume[run.moments.peak_row], "", colour});
+}
+
+// "" where some runs have a consolidation and others none.
+std::string common_origin(const std::vector<Run> &runs) {
+  const bool any = std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.zero > 0; });
+  const bool all = std::all_of(runs.begin(), runs.end(), [](const Run &run) { return run.zero > 0; });
+  return !any  ? ""
+         : all ? " from the end of consolidation"
+               : " from the end of consolidation, where there is one";
 }
 
 struct LedgerLine {
@@ -120,10 +137,11 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
     add_broken_bonds(broken, runs[k], k, several);
     add_volume(volume, runs[k], k, several);
   }
-  stress.x_title = several ? "Lateral (left) and axial strain (mm/m), compression positive"
-                           : "Strain (mm/m), compression positive";
+  const std::string origin = common_origin(runs);
+  stress.x_title =
+      (several ? "Lateral (left) and axial strain" : "Strain") + origin + " (mm/m), compression positive";
   stress.y_title = runs[0].stress_title();
-  broken.x_title = runs[0].strain_title();
+  broken.x_title = several ? "Strain between platens" + origin + " (mm/m)" : runs[0].strain_title();
   broken.y_title = "Broken bonds";
   stress.x_range = strain_range(stress, runs);
   broken.x_range = stress.x_range; // one above the other, strain under strain
@@ -155,7 +173,7 @@ MagnitudeCount count_of(const Run &run, Stage stage) {
   const std::vector<double> &time = run.events->column("time_s"), &all = run.events->column("magnitude");
   std::vector<double> magnitudes;
   for (std::size_t k = 0; k < time.size(); ++k) {
-    const bool before = time[k] < run.moments.peak_time;
+    const bool before = !(time[k] > run.moments.peak_time);
     if (before == (stage == Stage::before_peak) && !std::isnan(all[k])) magnitudes.push_back(all[k]);
   }
   std::sort(magnitudes.begin(), magnitudes.end());
@@ -168,48 +186,81 @@ MagnitudeCount count_of(const Run &run, Stage stage) {
 }
 
 double FittedLine::log_count(double magnitude) const {
-  return std::log10(events) - b * (magnitude - limit);
+  return std::log10(law.count(magnitude));
 }
 
 FittedLine line_of(const Run &run, Stage stage) {
   FittedLine line;
   const std::string start = stage == Stage::before_peak ? "acoustic/b_before" : "acoustic/b_after";
-  line.b = number_in(run.summary, start);
-  line.error = number_in(run.summary, start + "_error");
-  line.limit = number_in(run.summary, start + "_limit");
-  line.events = number_in(run.summary, start + "_events");
-  line.is_there = !std::isnan(line.b + line.error + line.limit + line.events);
+  line.law.b = number_in(run.summary, start);
+  line.law.error = number_in(run.summary, start + "_error");
+  line.law.limit = number_in(run.summary, start + "_limit");
+  line.law.events = number_in(run.summary, start + "_events");
+  const double above = number_in(run.summary, start + "_above"),
+               upper = number_in(run.summary, start + "_upper");
+  line.law.above = std::isnan(above) ? 0 : above;
+  line.law.upper = std::isnan(upper) ? std::numeric_limits<double>::infinity() : upper;
+  const Json::json_pointer reason("/" + start + "_reason");
+  if (run.summary.contains(reason) && run.summary[reason].is_string()) line.reason = run.summary[reason];
+  line.is_there =
+      !std::isnan(line.law.b + line.law.error + line.law.limit + line.law.events) && line.law.b > 0;
   return line;
+}
+
+Curve FittedLine::curve(const std::string &when, Stroke stroke) const {
+  constexpr int stations = 60;
+  // Where one event is left, or the range ends.
+  const double last = std::min(law.upper, law.limit + std::log10(law.events) / law.b);
+  Curve curve{
+      fmt::format("b = {:.2f} +- {:.2f} {}, M from {:.1f} {}: {:.0f} events", law.b, law.error, when,
+                  law.limit, std::isinf(law.upper) ? "on" : fmt::format("to {:.1f}", law.upper), law.events),
+      {},
+      {},
+      colours::black,
+      stroke,
+      3};
+  for (int k = 0; k <= stations; ++k) {
+    const double m = law.limit + (last - law.limit) * k / stations, count = log_count(m);
+    if (!(count >= 0)) break; // a bounded law falls to nothing at its end
+    curve.x.push_back(m), curve.y.push_back(count);
+  }
+  return curve;
+}
+
+std::string acoustic_caption(const Run &run) {
+  std::string caption =
+      "Cracks near in place and time are one event. b says how their number falls with the "
+      "magnitude, over the range where it follows a power law.";
+  for (const Stage stage : {Stage::before_peak, Stage::after_peak})
+    if (const FittedLine line = line_of(run, stage); !line.reason.empty())
+      caption += fmt::format(" No b-value {} the peak: {}.", stage == Stage::before_peak ? "before" : "after",
+                             line.reason);
+  return caption;
 }
 
 void draw_acoustic(const Run &run, const std::filesystem::path &png) {
   Chart chart;
-  double low = 0, high = -100; // of all magnitudes
   for (const Stage stage : {Stage::before_peak, Stage::after_peak}) {
     const bool before = stage == Stage::before_peak;
     const MagnitudeCount count = count_of(run, stage);
     if (count.magnitude.empty()) continue;
-    low = std::min(low, count.magnitude.front());
-    high = std::max(high, count.magnitude.back());
-    const Colour colour = before ? colours::blue : colours::vermilion;
     const std::string when = before ? "before the peak" : "after the peak";
-    chart.curves.push_back({std::to_string(count.magnitude.size()) + " events " + when, count.magnitude,
-                            count.log_count, colour, Stroke::solid, 4});
     const FittedLine line = line_of(run, stage);
-    if (!line.is_there) continue;
-    const double end = line.limit + std::log10(line.events) / line.b; // where one event is left
-    chart.curves.push_back({fmt::format("b = {:.2f} +- {:.2f} {}", line.b, line.error, when),
-                            {line.limit, end},
-                            {line.log_count(line.limit), 0},
-                            colours::black,
-                            before ? Stroke::solid : Stroke::dashed,
-                            3});
-    high = std::max(high, end);
+    chart.curves.push_back(
+        {fmt::format("{} events {}{}", count.magnitude.size(), when, line.is_there ? "" : ": no b-value"),
+         count.magnitude, count.log_count, before ? colours::blue : colours::vermilion, Stroke::solid, 4});
+    if (line.is_there) chart.curves.push_back(line.curve(when, before ? Stroke::solid : Stroke::dashed));
   }
-  chart.x_range = {std::floor(2 * low) / 2, std::ceil(2 * high) / 2};
+  std::array<double, 2> range{0, 0};
+  for (const auto &[m, count] : points_of(chart))
+    range = range[0] == 0 && range[1] == 0
+                ? std::array<double, 2>{m, m}
+                : std::array<double, 2>{std::min(range[0], m), std::max(range[1], m)};
+  chart.x_range = {std::floor(2 * range[0]) / 2, std::floor(2 * range[1]) / 2 + 0.5};
   chart.x_title = "Magnitude M";
   chart.y_title = "log10 of events of M and more";
-  save_charts(run.title, "Acoustic events by magnitude; black: the fitted b-values", {chart}, {800}, png);
+  save_charts(run.title, "Acoustic events by magnitude; black: the fitted b-values, over their ranges",
+              {chart}, {800}, png);
 }
 
 } // namespace platen::apps::report

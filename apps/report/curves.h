@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/report/chart.h"
 #include "apps/report/run_folder.h"
+#include "dem/measure/acoustic_emission.h"
 
 namespace platen::apps::report {
 
@@ -26,14 +28,18 @@ struct MagnitudeCount {
 // events.
 MagnitudeCount count_of(const Run &run, Stage stage);
 
-// The line log10 N = log10 n - b (M - limit) that the summary's b-value stands for.
+// The law that the summary's b-value stands for, over its range.
 struct FittedLine {
-  bool is_there = false; // too few events have none
-  double b = 0, error = 0, limit = 0, events = 0;
+  bool is_there = false;
+  dem::BValue law;
+  std::string reason; // why it is not there
   double log_count(double magnitude) const;
+  Curve curve(const std::string &when, Stroke stroke) const;
 };
 FittedLine line_of(const Run &run, Stage stage);
 
+// What to see in the picture, and why there is no b-value where there is none.
+std::string acoustic_caption(const Run &run);
 // Both, before and after the peak. The run must have events, at least one.
 void draw_acoustic(const Run &run, const std::filesystem::path &png);
 

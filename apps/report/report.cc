@@ -125,10 +125,7 @@ void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, 
         "alike. Cracks at 90 degrees run along the specimen: it splits.",
         draw_crack_rose, run);
   if (run.events && run.events->rows > 0)
-    album.add("acoustic.png",
-              "Cracks near in place and time are one event. Where a curve leaves its line downwards there "
-              "are fewer great events than a power law has: b says how the small ones fall off.",
-              draw_acoustic, run);
+    album.add("acoustic.png", acoustic_caption(run), draw_acoustic, run);
 }
 
 void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {

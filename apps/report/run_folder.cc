@@ -8,8 +8,10 @@
 #include <fstream>
 #include <regex>
 
+#include "apps/report/stages.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
+#include "dem/measure/acoustic_emission.h"
 
 namespace platen::apps::report {
 namespace {
@@ -48,6 +50,52 @@ FrameSeries optional_series(Run &run, const char *name, const std::string &conse
     run.remarks.push_back(std::string(name) + (fs::exists(file) ? " lists no frame: " : " is not there: ") +
                           consequence);
   return series;
+}
+
+// Rows up to a time, the last of them.
+std::size_t row_at(const CsvTable &history, double end) {
+  constexpr double nearly = 1e-9; // of the time
+  const std::vector<double> &time = history.column("time_s");
+  std::size_t row = 0;
+  while (row + 1 < time.size() && time[row + 1] <= end * (1 + nearly))
+    ++row;
+  return row;
+}
+
+// In summaries that do not say when the consolidation ended: from their strain at the peak, which counts from
+// there.
+std::size_t zero_told_by_strain(const Run &run) {
+  constexpr double nearly = 1e-9; // of a strain, as the summary prints it
+  const double told = number_in(run.summary, "strain_at_peak_platen");
+  if (std::isnan(told) || !run.history.has("axial_strain_platen") || run.axis != 2) return 0;
+  const std::vector<double> &strain = run.history.column("axial_strain_platen");
+  const double sign = run.moments.peak_stress < 0 ? -1 : 1,
+               start = strain[run.moments.peak_row] - sign * told;
+  for (std::size_t row = run.moments.peak_row; row > 0; --row)
+    if (std::abs(strain[row] - start) < nearly) return row;
+  return 0;
+}
+
+std::size_t zero_row(const Run &run) {
+  const double told = number_in(run.summary, "consolidation_end_time_s");
+  if (!std::isnan(told)) return row_at(run.history, told);
+  const std::size_t row = end_of_consolidation(run);
+  return row > 0 || run.summary.contains("consolidation_end_time_s") ? row : zero_told_by_strain(run);
+}
+
+// b-values of older summaries are of all events from a limit on, whether or not they follow a power law.
+void fit_anew(Run &run) {
+  const auto acoustic = run.summary.find("acoustic");
+  if (!run.events || !run.events->has("magnitude") || acoustic == run.summary.end() ||
+      !acoustic->is_object() || acoustic->contains("b_before_reason"))
+    return;
+  const std::vector<double> &time = run.events->column("time_s"), &all = run.events->column("magnitude");
+  std::vector<double> before, after;
+  for (std::size_t k = 0; k < time.size(); ++k)
+    (time[k] > run.moments.peak_time ? after : before).push_back(all[k]);
+  acoustic->update(json_of_b(dem::b_value(before), "b_before"));
+  acoustic->update(json_of_b(dem::b_value(after), "b_after"));
+  run.remarks.push_back("b-values are fitted anew to events.csv: the summary is of an earlier version");
 }
 
 } // namespace
@@ -109,17 +157,40 @@ Moments moments_of(const CsvTable &history, int axis) {
   return moments;
 }
 
-const std::vector<double> &Run::strain() const {
-  return history.column(axis == 0 ? "strain_x" : axis == 1 ? "strain_y" : "axial_strain_platen");
+std::vector<double> Run::strain() const {
+  return since_zero(axis == 0 ? "strain_x" : axis == 1 ? "strain_y" : "axial_strain_platen");
 }
 
 std::string Run::stress_title() const {
   return axis == 2 ? "Axial stress (MPa)" : fmt::format("Stress along {} (MPa)", "xyz"[axis]);
 }
 
+std::string Run::strain_origin() const {
+  return zero > 0 ? " from the end of consolidation" : "";
+}
+
 std::string Run::strain_title() const {
-  return axis == 2 ? "Axial strain between platens (mm/m)"
-                   : fmt::format("Strain along {} between platens (mm/m)", "xyz"[axis]);
+  const std::string along = axis == 2 ? "Axial strain" : fmt::format("Strain along {}", "xyz"[axis]);
+  return along + " between platens" + strain_origin() + " (mm/m)";
+}
+
+std::vector<double> Run::since_zero(const std::string &column) const {
+  std::vector<double> values = history.column(column);
+  const double start = values[zero];
+  for (double &value : values)
+    value -= start;
+  return values;
+}
+
+std::vector<double> Run::from_zero(std::vector<double> values) const {
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(zero));
+  return values;
+}
+
+std::optional<bool> Run::peak_reached() const {
+  const auto told = summary.find("peak_reached");
+  if (told == summary.end() || !told->is_boolean()) return {};
+  return told->get<bool>();
 }
 
 std::string Run::pattern_words() const {
@@ -140,6 +211,7 @@ Run read_run(const fs::path &folder) {
   if (fs::exists(folder / "summary.json")) run.summary = read_summary_of(run);
   run.axis = loaded_axis(run.summary);
   run.moments = moments_of(run.history, run.axis);
+  run.zero = zero_row(run);
   if (!run.moments.post_peak_time)
     run.remarks.push_back("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end");
   if (run.summary.is_null())
@@ -149,6 +221,7 @@ Run read_run(const fs::path &folder) {
   else
     run.remarks.push_back("cracks.csv is not there: no pictures of broken bonds");
   if (fs::exists(folder / "events.csv")) run.events = read_csv(folder / "events.csv");
+  fit_anew(run);
   run.specimen = optional_series(run, "specimen.pvd", "no pictures of the specimen");
   run.bonds =
       optional_series(run, "bonds.pvd", "crack density is given per volume, not as a share of the bonds");

@@ -36,7 +36,8 @@ struct Run {
   CsvTable history;
   int axis = 2; // that the test loads: 0 x, 1 y, 2 z
   Moments moments;
-  Json summary;                                   // null where the run wrote none
+  std::size_t zero = 0; // row at the end of the consolidation, from which strains count; else the first
+  Json summary;         // null where the run wrote none
   std::optional<CsvTable> cracks;                 // "mode" as words
   std::optional<CsvTable> events;                 // acoustic ones
   FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
@@ -44,9 +45,17 @@ struct Run {
 
   // Along the loaded axis, one per row of the history: Pa; of the platens, 1.
   std::vector<double> stress() const { return platen_stress(history, axis); }
-  const std::vector<double> &strain() const;
-  std::string stress_title() const; // "Axial stress (MPa)", "Stress along x (MPa)"
-  std::string strain_title() const; // "Axial strain between platens (mm/m)"
+  std::vector<double> strain() const; // from the end of the consolidation
+  std::string stress_title() const;   // "Axial stress (MPa)", "Stress along x (MPa)"
+  std::string strain_title()
+      const; // "Axial strain between platens (mm/m)", "... from the end of consolidation"
+  std::string strain_origin() const; // " from the end of consolidation"; empty without one
+  // A column less what it was at the end of the consolidation. Throws InputError where there is none.
+  std::vector<double> since_zero(const std::string &column) const;
+  // The rows from the end of the consolidation on.
+  std::vector<double> from_zero(std::vector<double> values) const;
+  // Whether the run went over its peak; nothing where the summary does not say.
+  std::optional<bool> peak_reached() const;
   // Time at which cracks are counted: the fall to 0.8 of the peak, or the end where it did not come.
   double pattern_time() const { return moments.post_peak_time.value_or(moments.end_time); }
   // The same in words, for captions: "the fall to 0.8 of the peak" or "the end".

@@ -30,14 +30,6 @@ Json entry_of(const Run &run, int number) {
   return {};
 }
 
-// Less what they were at the end of the consolidation.
-std::vector<double> since_zero(const Run &run, std::vector<double> strain) {
-  const double zero = strain[zero_row(run)];
-  for (double &value : strain)
-    value -= zero;
-  return strain;
-}
-
 bool is_led_by_width(const Run &run) {
   return run.history.has(circumferential);
 }
@@ -45,19 +37,19 @@ bool is_led_by_width(const Run &run) {
 // Across the loaded axis, negative where the specimen widens: around it, of the gauge, or of the platens
 // there.
 std::vector<double> strain_across(const Run &run) {
-  if (is_led_by_width(run)) return since_zero(run, scaled(run.history.column(circumferential), -1));
-  if (run.axis == 2) return since_zero(run, run.history.column("lateral_strain"));
+  if (is_led_by_width(run)) return scaled(run.since_zero(circumferential), -1);
+  if (run.axis == 2) return run.since_zero("lateral_strain");
   std::vector<double> mean(run.history.rows, 0);
   const std::array<const char *, 3> columns{"strain_x", "strain_y", "axial_strain_platen"};
-  std::vector<const std::vector<double> *> others;
+  std::vector<std::vector<double>> others;
   for (const int axis : {0, 1, 2})
     if (const char *column = columns[static_cast<std::size_t>(axis)];
         axis != run.axis && run.history.has(column))
-      others.push_back(&run.history.column(column));
-  for (const std::vector<double> *strain : others)
+      others.push_back(run.since_zero(column));
+  for (const std::vector<double> &strain : others)
     for (std::size_t k = 0; k < mean.size(); ++k)
-      mean[k] += (*strain)[k] / static_cast<double>(others.size());
-  return since_zero(run, mean);
+      mean[k] += strain[k] / static_cast<double>(others.size());
+  return mean;
 }
 
 // Okabe and Ito's, then three of Tol's (muted); after ten they come again, dashed.
@@ -91,7 +83,7 @@ std::string shortened(const std::string &words) {
 
 Chart stress_strain(const Run &run, const std::vector<StageRows> &stages) {
   Chart chart;
-  const std::vector<double> strain = scaled(since_zero(run, run.strain()), mm_per_m),
+  const std::vector<double> strain = scaled(run.strain(), mm_per_m),
                             stress = scaled(run.stress(), 1 / pa_per_mpa);
   for (std::size_t k = 0; k < stages.size(); ++k) {
     chart.curves.push_back(curve_of(stages[k], k, stages.size(), strain, stress));
@@ -99,7 +91,7 @@ Chart stress_strain(const Run &run, const std::vector<StageRows> &stages) {
     chart.curves.back().label =
         shortened(fmt::format("{}{}{}", stages[k].number, words.empty() ? "" : ": ", words));
   }
-  chart.x_title = run.strain_title() + (zero_row(run) > 0 ? ", since consolidation" : "");
+  chart.x_title = run.strain_title();
   chart.y_title = run.stress_title();
   return chart;
 }
@@ -108,7 +100,7 @@ Chart stress_strain(const Run &run, const std::vector<StageRows> &stages) {
 Chart along_and_across(const Run &run, const std::vector<StageRows> &stages) {
   Chart chart;
   const bool confined = has_stress_path(run), led = is_led_by_width(run);
-  const std::vector<double> along = scaled(since_zero(run, run.strain()), mm_per_m),
+  const std::vector<double> along = scaled(run.strain(), mm_per_m),
                             across = scaled(strain_across(run), mm_per_m),
                             stress = scaled(confined ? stress_path_of(run).deviator : run.stress(),
                                             1 / pa_per_mpa);
@@ -122,8 +114,8 @@ Chart along_and_across(const Run &run, const std::vector<StageRows> &stages) {
   constexpr double most_of_axial = 1.2; // of what opens once it has failed
   if (!led && furthest > 0) chart.x_range[0] = std::max(chart.x_range[0], -most_of_axial * furthest);
   chart.x_title =
-      fmt::format("Strain {} (left) and along {} (mm/m), compression positive", led ? "around" : "across",
-                  run.axis == 2 ? "the axis" : std::string(1, "xyz"[run.axis]));
+      fmt::format("Strain {} (left) and along {}{} (mm/m), compression positive", led ? "around" : "across",
+                  run.axis == 2 ? "the axis" : std::string(1, "xyz"[run.axis]), run.strain_origin());
   chart.y_title = confined ? "Deviator q (MPa)" : run.stress_title();
   return chart;
 }
@@ -172,7 +164,7 @@ std::vector<StageRows> stages_of(const Run &run) {
   return stages;
 }
 
-std::size_t zero_row(const Run &run) {
+std::size_t end_of_consolidation(const Run &run) {
   std::size_t row = 0;
   for (const StageRows &stage : stages_of(run)) {
     const Json entry = entry_of(run, stage.number);
@@ -209,8 +201,7 @@ void draw_stages(const Run &run, const std::filesystem::path &png) {
 
 TableOfFigures table_of_stages(const Run &run) {
   const bool confined = has_stress_path(run);
-  const std::vector<double> strain = since_zero(run, run.strain()), stress = run.stress(),
-                            across = strain_across(run),
+  const std::vector<double> strain = run.strain(), stress = run.stress(), across = strain_across(run),
                             deviator = confined ? stress_path_of(run).deviator : stress,
                             &time = run.history.column("time_s");
   TableOfFigures table;

@@ -19,8 +19,8 @@ struct StageRows {
 };
 // None where the scene wrote no stages.
 std::vector<StageRows> stages_of(const Run &run);
-// The row at the end of the consolidation, from which strains count; the first one without it.
-std::size_t zero_row(const Run &run);
+// The row at the end of stages of consolidation, as the summary tells them; the first one without.
+std::size_t end_of_consolidation(const Run &run);
 // "Lateral pressure 4 MPa, Top stress 4 MPa", as the scene of the run has it.
 std::string stage_words(const Run &run, int number);
 

@@ -170,6 +170,11 @@ const Sample &Results::zero() const {
   return samples_[last];
 }
 
+double Results::consolidation_end() const {
+  const bool consolidated = !samples_.empty() && zero().time > samples_.front().time;
+  return consolidated ? zero().time : not_measured;
+}
+
 double Results::bulk_modulus() const {
   if (samples_.empty()) return not_measured;
   const Sample &end = zero();

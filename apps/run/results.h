@@ -82,6 +82,7 @@ public:
   double deviator_strength() const; // Pa, positive
   // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
   double bulk_modulus() const;
+  double consolidation_end() const; // s; NaN of a test that begins with its axial stage
   double strain_at_peak_platen() const { return gained_at_peak(platen_strain(axis_)); }
   double strain_at_peak_gauge() const { return of_axial(gained_at_peak(&Sample::strain_gauge)); }
   // Pa, secant at 40 % of the strength.

@@ -198,6 +198,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["strength_pa"] = results.strength();
   s["strain_at_peak_platen"] = results.strain_at_peak_platen();
   s["strain_at_peak_gauge"] = results.strain_at_peak_gauge();
+  s["consolidation_end_time_s"] = results.consolidation_end();
   s["youngs_modulus_gauge_pa"] = results.youngs_modulus_gauge();
   s["youngs_modulus_platen_pa"] = results.youngs_modulus_platen();
   s["poisson_ratio"] = results.poisson_ratio();
