@@ -9,6 +9,8 @@
 #include "apps/report/calibration.h"
 #include "apps/report/display.h"
 #include "apps/report/fields.h"
+#include "apps/report/other_results.h"
+#include "apps/report/parameter_study.h"
 #include "apps/report/platen_study.h"
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
@@ -42,7 +44,13 @@ void report_on(const Wishes &wishes, char **argv) {
   if (report::holds_study(wishes.folder)) {
     if (!wishes.others.empty()) throw InputError("--compare is for runs; " + wishes.folder + " is a study");
     if (wishes.fields) throw InputError("--fields is for runs; " + wishes.folder + " is a study");
-    if (report::finished_study(wishes.folder).value("kind", "") == "accuracy") {
+    const std::string kind = report::finished_study(wishes.folder).value("kind", "");
+    if (report::is_parameter_study(kind)) {
+      const report::ParameterStudy study = report::read_parameter_study(wishes.folder);
+      report::ensure_display(argv);
+      return report::write_parameter_report(study, pictures, out);
+    }
+    if (kind == "accuracy") {
       const report::AccuracyResults study = report::read_accuracy(wishes.folder);
       report::ensure_display(argv);
       return report::write_accuracy_report(study, pictures, out);
@@ -54,9 +62,15 @@ void report_on(const Wishes &wishes, char **argv) {
   if (report::holds_calibration(wishes.folder)) {
     if (!wishes.others.empty() || wishes.fields)
       throw InputError("--compare and --fields are for runs; " + wishes.folder + " is a calibration");
-    report::check_calibration(wishes.folder);
     report::ensure_display(argv);
     return report::write_calibration_report(wishes.folder, pictures, out);
+  }
+  if (const auto read = report::reader_of(wishes.folder)) {
+    if (!wishes.others.empty() || wishes.fields)
+      throw InputError("--compare and --fields are for runs; " + wishes.folder + " is of " +
+                       report::app_of(wishes.folder));
+    return read(
+        wishes.folder, pictures, [argv]() { report::ensure_display(argv); }, out);
   }
   std::vector<report::Run> runs{report::read_run(wishes.folder)};
   for (const std::string &other : wishes.others)

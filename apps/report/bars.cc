@@ -16,18 +16,12 @@
 namespace platen::apps::report {
 namespace {
 
-struct Bar {
-  std::string name, words;
-  double value; // not negative
-  Colour colour;
-};
-
 // A filled rectangle; fractions of the canvas.
 void add_rectangle(vtkRenderer *renderer, const Canvas &canvas, const std::array<double, 4> &x0_y0_x1_y1,
                    Colour colour) {
   const double w = oversampling * canvas.width(), h = oversampling * canvas.height();
   const auto &[x0, y0, x1, y1] = x0_y0_x1_y1;
-  if (!(x1 > x0)) return; // VTK complains of a plane without area
+  if (!(x1 > x0 && y1 > y0)) return; // VTK complains of a plane without area
   vtkNew<vtkPlaneSource> rectangle;
   rectangle->SetOrigin(x0 * w, y0 * h, 0);
   rectangle->SetPoint1(x1 * w, y0 * h, 0);
@@ -40,8 +34,17 @@ void add_rectangle(vtkRenderer *renderer, const Canvas &canvas, const std::array
   renderer->AddActor2D(actor);
 }
 
-// From above to below at one scale, the longest over the whole width. `mark`, where it is above 0, draws a
-// line at that value.
+// The line of the run's log that names the machine; empty where there is none.
+std::string machine_of(const Run &run) {
+  const std::string start = "machine ";
+  std::ifstream log(run.folder / "run.log");
+  for (std::string line; std::getline(log, line);)
+    if (line.rfind(start, 0) == 0) return line.substr(start.size());
+  return "";
+}
+
+} // namespace
+
 void save_bars(const std::string &title, const std::string &subtitle, const std::vector<Bar> &bars,
                double mark, const std::filesystem::path &png) {
   constexpr int width = 1640, row = 74, foot = 50;
@@ -69,17 +72,6 @@ void save_bars(const std::string &title, const std::string &subtitle, const std:
   canvas.add_head(title, subtitle);
   canvas.save(png);
 }
-
-// The line of the run's log that names the machine; empty where there is none.
-std::string machine_of(const Run &run) {
-  const std::string start = "machine ";
-  std::ifstream log = open_file(run.folder / "run.log");
-  for (std::string line; std::getline(log, line);)
-    if (line.rfind(start, 0) == 0) return line.substr(start.size());
-  return "";
-}
-
-} // namespace
 
 std::vector<Cost> costs_of(const Run &run) {
   std::vector<Cost> costs;

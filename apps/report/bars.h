@@ -6,9 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "apps/report/canvas.h"
 #include "apps/report/run_folder.h"
 
 namespace platen::apps::report {
+
+struct Bar {
+  std::string name, words;
+  double value = 0; // not negative
+  Colour colour = colours::blue;
+};
+
+// From above to below at one scale, the longest over the whole width. `mark`, where it is above 0, draws a
+// line at that value.
+void save_bars(const std::string &title, const std::string &subtitle, const std::vector<Bar> &bars,
+               double mark, const std::filesystem::path &png);
 
 struct Cost {
   std::string name;

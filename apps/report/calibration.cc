@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
+#include "apps/report/bars.h"
 #include "apps/report/chart.h"
 #include "apps/report/csv.h"
 #include "apps/report/report.h"
@@ -50,6 +53,21 @@ TableOfFigures table_of_targets(const Json &summary) {
   return table;
 }
 
+std::string title_of(const fs::path &folder) {
+  return summary_of(folder).value("scene", folder.filename().string());
+}
+
+bool has_targets(const Json &summary) {
+  const auto found = [](const Json &target, const char *key) {
+    return target.contains(key) && target.at(key).is_object() && target.at(key).contains("mean") &&
+           target.at(key).at("mean").is_number();
+  };
+  if (!summary.contains("targets") || !summary.at("targets").is_array()) return false;
+  return std::any_of(summary.at("targets").begin(), summary.at("targets").end(), [&](const Json &target) {
+    return target.is_object() && (found(target, "training") || found(target, "verification"));
+  });
+}
+
 } // namespace
 
 bool holds_calibration(const fs::path &folder) {
@@ -78,16 +96,42 @@ void draw_calibrated_curve(const fs::path &csv, const fs::path &png) {
               png);
 }
 
-void check_calibration(const fs::path &folder) {
-  if (curves_of(folder).empty())
-    throw InputError(folder.string() +
-                     ": is of a calibration without a curve (Kind = curve): nothing to draw; "
-                     "its figures are in summary.json and found.prm");
+void draw_targets(const fs::path &folder, const fs::path &png) {
+  std::vector<Bar> bars;
+  const Json summary = summary_of(folder);
+  for (const Json &target : summary.at("targets")) {
+    const double wanted = target.at("wanted");
+    for (const bool unseen : {false, true}) {
+      const char *key = unseen ? "verification" : "training";
+      if (!target.contains(key) || !target.at(key).at("mean").is_number() || wanted == 0) continue;
+      const Json &of = target.at(key);
+      const double ratio = of.at("mean").get<double>() / wanted;
+      const std::string scatter =
+          of.at("deviation").is_number()
+              ? fmt::format(" +- {:.3f}", std::abs(of.at("deviation").get<double>() / wanted))
+              : ", one packing: no scatter known";
+      bars.push_back({target.at("key").get<std::string>() + (unseen ? ", unseen" : ""),
+                      fmt::format("{:.3f}{}", ratio, scatter), std::max(ratio, 0.0),
+                      unseen ? colours::vermilion : colours::blue});
+    }
+  }
+  save_bars(title_of(folder), "Found over wanted; blue: packings calibrated on, red: unseen; line: as wanted",
+            bars, 1, png);
 }
 
 void write_calibration_report(const fs::path &folder, const fs::path &pictures, std::ostream &out) {
   const Json summary = summary_of(folder);
   Album album(pictures);
+  std::vector<std::string> remarks;
+  album.begin("Targets");
+  if (has_targets(summary))
+    album.add(
+        "targets.png",
+        "Each target as it was found over what was wanted, mean and deviation of the packings: those that "
+        "were calibrated on, and unseen ones.",
+        draw_targets, folder);
+  else
+    remarks.emplace_back("summary.json tells no target that was found: there is no picture of them");
   album.begin("Curves");
   for (const fs::path &csv : curves_of(folder))
     album.add(
@@ -95,14 +139,13 @@ void write_calibration_report(const fs::path &folder, const fs::path &pictures, 
         "Dashed: the curve that was wanted. Blue: mean of the packings that were calibrated on; red: of "
         "packings that were not.",
         draw_calibrated_curve, csv);
-  std::vector<std::string> remarks;
   try {
     for (const Json &line : summary.at("missed"))
       remarks.push_back("not met together: " + line.get<std::string>());
     add_if_changed(folder / "summary.json", remarks);
     for (const std::string &remark : remarks)
       out << remark << '\n';
-    album.finish(summary.value("scene", folder.filename().string()), table_of_targets(summary), remarks, out);
+    album.finish(title_of(folder), table_of_targets(summary), remarks, out);
   } catch (const Json::exception &error) {
     throw InputError((folder / "summary.json").string() + ": " + error.what());
   }

@@ -13,9 +13,10 @@ bool holds_calibration(const std::filesystem::path &folder);
 // unseen ones. Needs a display; throws InputError where the file is damaged, OutputError.
 void draw_calibrated_curve(const std::filesystem::path &csv, const std::filesystem::path &png);
 
-// Every curve of the folder, and a page with the targets, into `pictures`. Throws InputError where it has no
-// curve, so that there is nothing to draw; that is found before a display is needed.
-void check_calibration(const std::filesystem::path &folder);
+// What was found over what was wanted, a bar for each target.
+void draw_targets(const std::filesystem::path &folder, const std::filesystem::path &png);
+
+// Targets, and every curve of the folder, on a page in `pictures`.
 void write_calibration_report(const std::filesystem::path &folder, const std::filesystem::path &pictures,
                               std::ostream &out);
 

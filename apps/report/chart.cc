@@ -83,15 +83,19 @@ void set_ticks(vtkAxis *axis, std::array<double, 2> range, const std::vector<Tic
   axis->GetGridPen()->SetWidth(oversampling);
 }
 
-void add_curve(vtkChartXY &chart, const Curve &curve) {
-  const auto points = table_of_finite(curve.x, curve.y);
-  if (points->GetNumberOfRows() < 2) return;
+void add_piece(vtkChartXY &chart, const Curve &curve) {
+  const auto points = table_of({curve.x, curve.y});
   vtkPlot *plot = chart.AddPlot(vtkChart::LINE);
   plot->SetInputData(points, 0, 1);
   plot->SetColor(curve.colour[0], curve.colour[1], curve.colour[2], 255);
   plot->SetWidth(static_cast<float>(oversampling * curve.width));
   plot->GetPen()->SetLineType(curve.stroke == Stroke::solid ? vtkPen::SOLID_LINE : vtkPen::DASH_LINE);
   add_label(plot, curve.label);
+}
+
+void add_curve(vtkChartXY &chart, const Curve &curve) {
+  for (const Curve &piece : pieces_of(curve))
+    add_piece(chart, piece);
 }
 
 void add_mark(vtkChartXY &chart, const Mark &mark) {
@@ -170,8 +174,8 @@ void add_span_words(Canvas &canvas, const PlotArea &area, const Chart &chart) {
 }
 
 vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea &area) {
-  const bool decades = given_chart.scale == Scale::logarithmic;
-  const Chart chart = decades ? in_decades(given_chart) : given_chart;
+  const Scale scale = given_chart.scale;
+  const Chart chart = scale == Scale::linear ? given_chart : in_decades(given_chart);
   const std::array<double, 2> x = shown_x(chart),
                               y = given(chart.y_range) ? chart.y_range : range_of(chart, 1);
   const auto [legend_width, legend_height] = legend_size(chart);
@@ -188,7 +192,7 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea 
   for (const Mark &mark : chart.marks)
     add_mark(*item, mark);
   const auto set = [&](int axis, const std::array<double, 2> &range, int intervals) {
-    if (decades)
+    if (scale == Scale::logarithmic || (scale == Scale::logarithmic_x && axis == vtkAxis::BOTTOM))
       set_ticks(item->GetAxis(axis), range, decade_ticks(range[0], range[1]));
     else
       set_axis(item->GetAxis(axis), range, intervals);
@@ -200,6 +204,12 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea 
 }
 
 } // namespace
+
+Chart chart_with_axes(const std::string &x_title, const std::string &y_title) {
+  Chart chart;
+  chart.x_title = x_title, chart.y_title = y_title;
+  return chart;
+}
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double &value : values)
@@ -232,7 +242,39 @@ void add_bar(Chart &chart, double x, double low, double high, double half_cap, C
     chart.curves.push_back({"", {x - half_cap, x + half_cap}, {end, end}, colour, Stroke::solid, width});
 }
 
+std::array<double, 2> snug_range(double low, double high) {
+  constexpr double air = 0.06, alone = 0.1; // of the range; of the value where there is one alone
+  const double beyond = high > low ? air * (high - low) : low == 0 ? 1 : alone * std::abs(low);
+  return {low - beyond, high + beyond};
+}
+
+std::array<double, 2> snug_x_range(const Chart &chart) {
+  const std::vector<std::array<double, 2>> points = points_of(chart);
+  if (points.empty()) return {0, 1};
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(),
+                                               [](const auto &a, const auto &b) { return a[0] < b[0]; });
+  return snug_range((*low)[0], (*high)[0]);
+}
+
+std::vector<Curve> pieces_of(const Curve &curve) {
+  std::vector<Curve> pieces;
+  Curve piece = curve;
+  piece.x.clear(), piece.y.clear();
+  const auto end = [&]() {
+    if (piece.x.size() > 1) pieces.push_back(piece), piece.label.clear();
+    piece.x.clear(), piece.y.clear();
+  };
+  for (std::size_t k = 0; k < curve.x.size(); ++k)
+    if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k]))
+      piece.x.push_back(curve.x[k]), piece.y.push_back(curve.y[k]);
+    else
+      end();
+  end();
+  return pieces;
+}
+
 Chart in_decades(Chart chart) {
+  const bool y_too = chart.scale != Scale::logarithmic_x;
   constexpr double infinite = std::numeric_limits<double>::infinity(), air = 0.06; // of an axis
   std::array<double, 2> x{infinite, -infinite}, y = x;
   const auto take = [](double &value, std::array<double, 2> &range) {
@@ -241,17 +283,22 @@ Chart in_decades(Chart chart) {
     range = {std::min(range[0], value), std::max(range[1], value)};
   };
   for (Curve &curve : chart.curves)
-    for (std::size_t k = 0; k < curve.x.size(); ++k)
-      take(curve.x[k], x), take(curve.y[k], y);
-  for (Mark &mark : chart.marks)
-    take(mark.x, x), take(mark.y, y);
-  take(chart.band_top, y);
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      take(curve.x[k], x);
+      if (y_too) take(curve.y[k], y);
+    }
+  for (Mark &mark : chart.marks) {
+    take(mark.x, x);
+    if (y_too) take(mark.y, y);
+  }
+  if (y_too) take(chart.band_top, y);
   const auto widened = [&](const std::array<double, 2> &range) -> std::array<double, 2> {
     if (!(range[1] >= range[0])) return {-1, 1};
     const double beyond = std::max(0.1, air * (range[1] - range[0]));
     return {range[0] - beyond, range[1] + beyond};
   };
-  chart.x_range = widened(x), chart.y_range = widened(y);
+  chart.x_range = widened(x);
+  if (y_too) chart.y_range = widened(y);
   return chart;
 }
 

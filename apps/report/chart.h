@@ -21,7 +21,7 @@ enum class Stroke { solid, dashed };
 
 struct Curve {
   std::string label;        // empty: not in the legend
-  std::vector<double> x, y; // points with a value that is not finite are left out
+  std::vector<double> x, y; // a point with a value that is not finite leaves a gap
   Colour colour = colours::black;
   Stroke stroke = Stroke::solid;
   double width = 4; // pixels
@@ -43,7 +43,7 @@ struct Span { // of the x axis: lines at its ends, words over the plot where the
   std::string words;
 };
 
-enum class Scale { linear, logarithmic };
+enum class Scale { linear, logarithmic_x, logarithmic };
 
 struct Chart {
   std::string x_title, y_title; // with units
@@ -51,11 +51,15 @@ struct Chart {
   std::vector<Mark> marks;
   std::array<double, 2> x_range{0, 0}; // both 0: from the curves
   std::array<double, 2> y_range{0, 0}; // the same
-  Scale scale = Scale::linear; // of both axes; logarithmic: ranges from the curves, points above 0 alone
-  double band_top = no_band;   // grey from the x axis up to here
-  std::string band_label;      // as above
-  std::vector<Span> spans;     // of a linear scale
+  // Of both axes, or of x alone. Logarithmic: the range from the curves, points above 0 alone.
+  Scale scale = Scale::linear;
+  double band_top = no_band; // grey from the x axis up to here
+  std::string band_label;    // as above
+  std::vector<Span> spans;   // of a linear scale
 };
+
+// An empty one.
+Chart chart_with_axes(const std::string &x_title, const std::string &y_title);
 
 // All values times a factor.
 std::vector<double> scaled(std::vector<double> values, double factor);
@@ -64,9 +68,17 @@ std::vector<double> scaled(std::vector<double> values, double factor);
 // same.
 void add_bar(Chart &chart, double x, double low, double high, double half_cap, Colour colour);
 
-// The same chart with decimal logarithms for values, ranges around all of them, the top of the band among
-// them.
+// The same chart with decimal logarithms for values along its logarithmic axes, ranges around all of them,
+// the top of the band among them.
 Chart in_decades(Chart chart);
+
+// A little beyond both ends: for axes on which nothing stands still at 0, as a size or a slenderness.
+std::array<double, 2> snug_range(double low, double high);
+// The x range of all points of the chart, snug.
+std::array<double, 2> snug_x_range(const Chart &chart);
+
+// The pieces of a curve between its gaps, each of two points or more; the first has the label.
+std::vector<Curve> pieces_of(const Curve &curve);
 
 // Places of ticks between two decimal logarithms, and what stands there: powers of ten, with multiples of
 // them where there are few.

@@ -203,11 +203,10 @@ std::string Album::Section::anchor() const {
 
 std::string Album::Section::html() const {
   std::string html;
-  if (!pictures.empty() && !heading.empty())
+  if (!is_empty() && !heading.empty())
     html = fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(), escaped(heading));
-  if (!pictures.empty())
-    for (const TableOfFigures &table : tables)
-      html += html_table(table);
+  for (const TableOfFigures &table : tables)
+    html += html_table(table);
   for (const Picture &picture : pictures)
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
@@ -220,7 +219,7 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
                    const std::vector<std::string> &remarks, std::ostream &out) const {
   std::string links, sections, list;
   for (const Section &section : sections_) {
-    if (!section.pictures.empty() && !section.heading.empty())
+    if (!section.is_empty() && !section.heading.empty())
       links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "<nav>" : " &middot; ",
                            section.anchor(), escaped(section.heading));
     sections += section.html();

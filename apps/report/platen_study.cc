@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/report/chart.h"
+#include "apps/report/envelope.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
@@ -21,19 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char *effects[] = {"gain over free ends", "strength over that at slenderness 2",
                                    "cube over prism"};
-
-Spread over_seeds(const Json &statistics, double unit) {
-  const double mean = number_or_nan(statistics.at("mean")) / unit,
-               deviation = number_or_nan(statistics.at("deviation")) / unit,
-               half = std::isnan(deviation) ? 0 : deviation;
-  return {mean, mean - half, mean + half};
-}
-
-std::string words(const Spread &s, int digits) {
-  if (std::isnan(s.mean)) return "-";
-  return s.high > s.low ? fmt::format("{:.{}f} +- {:.{}f}", s.mean, digits, s.high - s.mean, digits)
-                        : fmt::format("{:.{}f}", s.mean, digits);
-}
 
 StudiedCase case_of(const Json &from) {
   StudiedCase one;
@@ -71,9 +59,10 @@ std::vector<std::string> sources_in(const Json &comparisons) {
   return lines;
 }
 
-StudyResults results_of(const Json &study, const std::string &title) {
+StudyResults results_of(const Json &study, const fs::path &folder) {
   StudyResults results;
-  results.title = title;
+  results.title = title_of_study(folder);
+  results.folder = folder;
   for (const Json &one : study.at("cases"))
     results.cases.push_back(case_of(one));
   const auto place = [&](const std::string &name) {
@@ -98,6 +87,13 @@ StudyResults results_of(const Json &study, const std::string &title) {
           fmt::format("{}, height/width {:.3g}: {} of {} runs bore ever more up to the target strain: no "
                       "strength is drawn",
                       one.surface, one.slenderness, one.without_peak, one.runs));
+  for (const StudiedCase &one : results.cases) {
+    if (!std::isnan(one.strength.mean) && one.without_peak == 0) continue;
+    if (const std::string reasons = reasons_in_runs(folder, one.name, "strength_pa"); !reasons.empty())
+      results.remarks.push_back(one.name + ": strength, " + reasons);
+    else if (std::isnan(one.strength.mean) && one.without_peak == 0)
+      results.remarks.push_back(one.name + ": no run has a strength; a gap in the picture");
+  }
   for (const std::string &line : sources_in(study.at("comparisons")))
     results.remarks.push_back(line);
   add_failed_runs(study, results.remarks);
@@ -113,6 +109,48 @@ std::map<std::pair<double, double>, std::vector<std::size_t>> groups_of(const St
 }
 
 } // namespace
+
+Spread over_seeds(const Json &statistics, double unit) {
+  const double mean = number_or_nan(statistics.at("mean")) / unit,
+               deviation = number_or_nan(statistics.at("deviation")) / unit,
+               half = std::isnan(deviation) ? 0 : deviation;
+  return {mean, mean - half, mean + half};
+}
+
+std::string words(const Spread &s, int digits) {
+  if (std::isnan(s.mean)) return "-";
+  return s.high > s.low ? fmt::format("{:.{}f} +- {:.{}f}", s.mean, digits, s.high - s.mean, digits)
+                        : fmt::format("{:.{}f}", s.mean, digits);
+}
+
+std::string words_of_scatter(int packings) {
+  return packings > 1 ? "; bars: standard deviation over the packings" : "; one packing: no scatter known";
+}
+
+// Folders of runs are named by case and seed.
+std::string reasons_in_runs(const fs::path &folder, const std::string &name, const std::string &figure) {
+  std::map<std::string, int> reasons;
+  int runs = 0;
+  std::error_code none;
+  const std::string start = name + "_seed_";
+  for (const auto &entry : fs::directory_iterator(folder / "runs", none)) {
+    if (entry.path().filename().string().rfind(start, 0) != 0) continue;
+    std::ifstream stream(entry.path() / "summary.json");
+    const Json summary = Json::parse(stream, nullptr, false);
+    if (!summary.is_object()) continue;
+    ++runs;
+    const auto validity = summary.find("validity");
+    if (validity == summary.end() || !validity->is_object()) continue;
+    const auto verdict = validity->find(figure);
+    if (verdict == validity->end() || !verdict->is_array()) continue;
+    for (const Json &reason : *verdict)
+      if (reason.is_string()) ++reasons[reason.get<std::string>()];
+  }
+  std::string text;
+  for (const auto &[reason, count] : reasons)
+    text += fmt::format("{}{} of {} runs: {}", text.empty() ? "" : "; ", count, runs, reason);
+  return text;
+}
 
 const StudiedRatio *StudyResults::ratio_of(std::size_t of, const std::string &effect) const {
   const auto found = std::find_if(ratios.begin(), ratios.end(), [&](const StudiedRatio &one) {
@@ -158,11 +196,11 @@ StudyResults read_study(const fs::path &folder) {
   const std::string kind = study.value("kind", "");
   if (kind != "friction" && kind != "slenderness")
     throw InputError(file.string() + ": is of a study of " + (kind.empty() ? "nothing" : kind) +
-                     "; pictures are drawn of studies of friction, slenderness and accuracy, and of single "
-                     "runs (" +
+                     "; pictures are drawn of studies of friction, slenderness, size, packing, rate and "
+                     "accuracy, and of single runs (" +
                      (folder / "runs").string() + ")");
   try {
-    StudyResults results = results_of(study, title_of_study(folder));
+    StudyResults results = results_of(study, folder);
     add_if_changed(file, results.remarks);
     return results;
   } catch (const Json::exception &error) {
@@ -220,17 +258,30 @@ void write_study_report(const StudyResults &study, const fs::path &folder, std::
     if (frictions.size() > 1)
       album.add("strength_friction" + number + ".png",
                 "Strength against the friction of the platens, and its gain over free ends; bars: "
-                "standard deviation over the seeds, range of the laboratory." +
+                "standard deviation over the packings, range of the laboratory." +
                     which,
                 draw_friction, study, cases);
     if (slendernesses.size() > 1)
       album.add("strength_slenderness" + number + ".png",
                 "Strength against height over width, and its ratio to that at 2; bars: standard "
-                "deviation over the seeds, range of the laboratory." +
+                "deviation over the packings, range of the laboratory." +
                     which,
                 draw_slenderness, study, cases);
   }
   std::vector<std::string> remarks = study.remarks;
+  std::size_t count = 0;
+  for (const Envelope &envelope : envelopes_of(study, study.folder, remarks)) {
+    if (count == 0) album.begin("Failure under pressure");
+    album.add_table(table_of(envelope));
+    album.add_table(table_of_lines(envelope));
+    album.add(count == 0 ? "failure_envelope.png" : fmt::format("failure_envelope_{}.png", count),
+              envelope.label +
+                  ": above, strength over the pressure on the sides, the line fitted to each packing "
+                  "(mean and deviation), and what EN 1998-3 and Richart give for the same unconfined "
+                  "strength; below, Mohr's circles and the tangent of that line.",
+              draw_envelope, study, envelope);
+    ++count;
+  }
   if (album.size() == 0) remarks.push_back("one friction and one slenderness: there is no curve to draw");
   for (const std::string &remark : remarks)
     out << remark << '\n';

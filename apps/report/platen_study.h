@@ -42,6 +42,7 @@ struct LaboratoryPoint {
 
 struct StudyResults {
   std::string title;
+  std::filesystem::path folder;
   std::vector<StudiedCase> cases;
   std::vector<StudiedRatio> ratios;
   std::vector<LaboratoryPoint> laboratory;
@@ -59,6 +60,17 @@ Json finished_study(const std::filesystem::path &folder);
 std::string title_of_study(const std::filesystem::path &folder);
 // "2 of 9 runs failed and count in no mean", as a remark where any did.
 void add_failed_runs(const Json &study, std::vector<std::string> &remarks);
+// What the bars of a study's picture are: "; bars: standard deviation over the packings", or that there is
+// one packing, whose scatter nobody knows. `packings`: the most of any case.
+std::string words_of_scatter(int packings);
+// The mean and the standard deviation to both sides, in multiples of a unit; none where there is one seed.
+Spread over_seeds(const Json &statistics, double unit);
+// "41.0 +- 0.9"; "-" of nothing.
+std::string words(const Spread &spread, int digits);
+// Why figures of a case do not count, from the summaries of its runs: "3 of 3 runs: no peak reached, ...".
+// Empty where the runs' folders are not there or say nothing.
+std::string reasons_in_runs(const std::filesystem::path &folder, const std::string &name,
+                            const std::string &figure);
 // NaN where it is null.
 double number_or_nan(const Json &value);
 

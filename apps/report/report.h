@@ -55,7 +55,8 @@ private:
   struct Section {
     std::string heading;
     std::vector<TableOfFigures> tables;
-    std::vector<Picture> pictures; // without any the section is left out
+    std::vector<Picture> pictures;
+    bool is_empty() const { return tables.empty() && pictures.empty(); } // then it is left out
     std::string anchor() const;
     std::string html() const;
   };

@@ -6,8 +6,10 @@
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
   report/accuracy_study.cc
+  report/bar_report.cc
   report/bars.cc
   report/biaxial.cc
+  report/bond_report.cc
   report/calibration.cc
   report/canvas.cc
   report/chart.cc
@@ -17,9 +19,13 @@ set(PLATEN_REPORT_SOURCES
   report/csv.cc
   report/curves.cc
   report/display.cc
+  report/envelope.cc
   report/fields.cc
   report/frames.cc
+  report/other_results.cc
+  report/packing_report.cc
   report/page.cc
+  report/parameter_study.cc
   report/platen_study.cc
   report/platens.cc
   report/report.cc

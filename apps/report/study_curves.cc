@@ -23,6 +23,8 @@ std::string height_words(double slenderness) {
   return fmt::format("height/width {:.3g}", slenderness);
 }
 
+constexpr Spread nothing_measured{no_band, no_band, no_band};
+
 struct Point {
   double x;
   Spread y;
@@ -34,7 +36,8 @@ struct Figure {
   const std::vector<std::size_t> &cases;
   double StudiedCase::*x;
   const char *effect;
-  double span; // of the x axis
+  double span;    // of the x axis
+  bool from_zero; // whether a 0 on the x axis says something
   Chart strength, ratio;
 };
 
@@ -44,8 +47,8 @@ void add_points(Chart &chart, std::vector<Point> points, const std::string &labe
   std::sort(points.begin(), points.end(), [](const Point &a, const Point &b) { return a.x < b.x; });
   Curve joined{label, {}, {}, colour};
   for (const Point &p : points) {
+    joined.x.push_back(p.x), joined.y.push_back(p.y.mean); // not a number: a gap
     if (std::isnan(p.y.mean)) continue;
-    joined.x.push_back(p.x), joined.y.push_back(p.y.mean);
     add_bar(chart, p.x, p.y.low, p.y.high, half_cap * span, colour);
     chart.marks.push_back({p.x, p.y.mean, points.size() == 1 ? label : "", colour, MarkShape::circle});
   }
@@ -60,7 +63,12 @@ bool add_curves(Figure &figure, const std::string &label, Colour colour, const M
   const StudiedCase *reference = nullptr;
   for (const std::size_t k : figure.cases) {
     const StudiedCase &one = figure.study.cases[k];
-    if (one.without_peak > 0 || !may(one)) continue;
+    if (!may(one)) continue;
+    if (one.without_peak > 0) { // a gap
+      strengths.push_back({one.*figure.x, nothing_measured});
+      ratios.push_back({one.*figure.x, nothing_measured});
+      continue;
+    }
     strengths.push_back({one.*figure.x, one.strength});
     const StudiedRatio *found = figure.study.ratio_of(k, figure.effect);
     if (found == nullptr) continue;
@@ -88,6 +96,13 @@ void set_ratio_range(Chart &chart) {
                    gain_step * (std::ceil(high / gain_step - nearly) + 1)};
 }
 
+std::string scatter_words(const StudyResults &study) {
+  int most = 0;
+  for (const StudiedCase &one : study.cases)
+    most = std::max(most, one.runs);
+  return words_of_scatter(most);
+}
+
 // At one x axis.
 void save(Figure &figure, const std::string &subtitle, const std::string &x_title,
           const std::string &ratio_title, const std::filesystem::path &png) {
@@ -97,10 +112,15 @@ void save(Figure &figure, const std::string &subtitle, const std::string &x_titl
   std::vector<Chart> charts{figure.strength};
   if (!figure.ratio.curves.empty()) {
     set_ratio_range(figure.ratio);
-    charts.front().x_range = figure.ratio.x_range = x_range_of(figure.ratio);
     charts.push_back(figure.ratio);
   }
-  save_charts(figure.study.title, subtitle, charts, std::vector<int>(charts.size(), 700), png);
+  std::array<double, 2> range = figure.from_zero ? x_range_of(charts.back()) : snug_x_range(charts.back());
+  const auto [low, high] = figure.from_zero ? x_range_of(charts.front()) : snug_x_range(charts.front());
+  range = {std::min(range[0], low), std::max(range[1], high)};
+  for (Chart &chart : charts)
+    chart.x_range = range;
+  save_charts(figure.study.title, subtitle + scatter_words(figure.study), charts,
+              std::vector<int>(charts.size(), 700), png);
 }
 
 std::vector<double> slendernesses_of(const StudyResults &study, const std::vector<std::size_t> &cases) {
@@ -122,7 +142,7 @@ std::vector<std::string> surfaces_of(const StudyResults &study, const std::vecto
 
 void draw_friction(const StudyResults &study, const std::vector<std::size_t> &cases,
                    const std::filesystem::path &png) {
-  Figure figure{study, cases, &StudiedCase::friction, gain, dry_steel, {}, {}};
+  Figure figure{study, cases, &StudiedCase::friction, gain, dry_steel, true, {}, {}};
   for (const std::size_t k : cases)
     if (study.cases[k].plain) figure.span = std::max(figure.span, study.cases[k].friction);
   std::size_t count = 0;
@@ -143,7 +163,7 @@ void draw_slenderness(const StudyResults &study, const std::vector<std::size_t> 
                       const std::filesystem::path &png) {
   const std::vector<double> heights = slendernesses_of(study, cases);
   const double span = heights.back();
-  Figure figure{study, cases, &StudiedCase::slenderness, relative, span, {}, {}};
+  Figure figure{study, cases, &StudiedCase::slenderness, relative, span, false, {}, {}};
   std::size_t count = 0;
   for (const std::string &surface : surfaces_of(study, cases))
     add_curves(figure, surface, run_colour(count++),

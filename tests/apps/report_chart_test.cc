@@ -51,5 +51,39 @@ TEST(ReportChart, a_gap_in_a_column_neither_counts_nor_breaks_the_range) {
   EXPECT_NEAR(range[1], 4.2, 1e-12);
 }
 
+TEST(ReportChart, what_is_not_finite_leaves_a_gap) {
+  const double none = std::nan("");
+  const std::vector<Curve> pieces =
+      pieces_of({"a", {0, 1, 2, 3, 4, 5}, {5, 6, none, 7, none, 8}, colours::blue});
+  ASSERT_EQ(pieces.size(), 1u); // single points are no line
+  EXPECT_EQ(pieces[0].x, (std::vector<double>{0, 1}));
+  const std::vector<Curve> two = pieces_of({"a", {0, 1, 2, 3, 4}, {5, 6, none, 7, 8}, colours::blue});
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[1].y, (std::vector<double>{7, 8}));
+  EXPECT_EQ(two[0].label + "|" + two[1].label, "a|"); // one entry in the legend
+}
+
+TEST(ReportChart, sizes_and_slendernesses_have_axes_around_their_values) {
+  Chart chart;
+  chart.marks = {{1, 5, "", colours::blue}, {2, 4, "", colours::blue}};
+  const std::array<double, 2> range = snug_x_range(chart);
+  EXPECT_GT(range[0], 0.8);
+  EXPECT_LT(range[0], 1);
+  EXPECT_GT(range[1], 2);
+  EXPECT_LT(range[1], 2.2);
+  EXPECT_EQ(snug_range(4, 4), (std::array<double, 2>{3.6, 4.4}));
+  EXPECT_EQ(snug_range(0, 0), (std::array<double, 2>{-1, 1}));
+}
+
+TEST(ReportChart, x_alone_may_be_in_decades) {
+  Chart chart;
+  chart.scale = Scale::logarithmic_x;
+  chart.marks = {{10, 5, "", colours::blue}, {1000, -4, "", colours::blue}};
+  const Chart decades = in_decades(chart);
+  EXPECT_DOUBLE_EQ(decades.marks[1].x, 3);
+  EXPECT_EQ(decades.marks[1].y, -4);
+  EXPECT_EQ(decades.y_range, (std::array<double, 2>{0, 0})); // from the marks
+}
+
 } // namespace
 } // namespace platen::apps::report

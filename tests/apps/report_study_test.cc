@@ -105,7 +105,7 @@ TEST(ReportStudy, what_is_no_finished_study_of_platens_is_refused) {
   };
   refused({{"kind", "friction"}, {"status", "running"}},
           "has not ended; go on with it by platen-study friction");
-  refused({{"kind", "size"}, {"status", "done"}}, "is of a study of size");
+  refused({{"kind", "colour"}, {"status", "done"}}, "is of a study of colour");
   refused(3, "cannot be read as JSON");
   refused({{"kind", "friction"}, {"status", "done"}}, "key 'cases' not found");
   Json lost = example();
