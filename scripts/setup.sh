@@ -13,6 +13,8 @@ packages=(
   libnlopt-dev libnlopt-cxx-dev # the search of platen-calibrate
   libgtest-dev                         # tests; holds GTest's CMake configuration too
   xvfb xauth                           # pictures where there is no display
+  libfontconfig-dev                    # and their letters: Latin, Greek, Cyrillic; Chinese, Japanese, Korean
+  fonts-dejavu-core fonts-wqy-microhei
   "$@"
 )
 

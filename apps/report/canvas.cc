@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "apps/io/file.h"
+#include "apps/report/letters.h"
 
 namespace platen::apps::report {
 
@@ -24,8 +25,13 @@ Colour run_colour(std::size_t k) {
   return order[k % order.size()];
 }
 
-void set_letters(vtkTextProperty *property, int size, bool bold) {
-  property->SetFontFamilyToArial();
+void set_letters(vtkTextProperty *property, int size, bool bold, const std::string &text) {
+  if (const std::string file = font_file_for(text, bold); !file.empty()) {
+    property->SetFontFamily(VTK_FONT_FILE);
+    property->SetFontFile(file.c_str());
+  } else {
+    property->SetFontFamilyToArial();
+  }
   property->SetFontSize(oversampling * size);
   property->SetColor(0, 0, 0);
   property->SetBold(bold);
@@ -121,30 +127,69 @@ vtkTextActor *Canvas::add_centred(const std::string &text, double x, double y) {
   return actor;
 }
 
-void Canvas::add_text(const std::string &text, double x, double y, int size, double widest, bool bold) {
-  vtkTextActor *actor = add_centred(text, x, y);
-  constexpr int smallest = 12; // pixels
+namespace {
+
+// Width and height of the text of an actor in pixels of the written picture.
+std::array<double, 2> size_of(vtkTextActor *actor, vtkRenderer *renderer, const std::string &text,
+                              int letters, bool bold) {
+  actor->SetInput(text.c_str());
+  set_letters(actor->GetTextProperty(), letters, bold, text);
   double extent[2]{};
-  for (int letters = size; letters >= smallest; --letters) {
-    set_letters(actor->GetTextProperty(), letters, bold);
-    actor->GetSize(overlay_, extent);
-    if (extent[0] <= widest * oversampling * width_) break;
+  actor->GetSize(renderer, extent);
+  return {extent[0] / oversampling, extent[1] / oversampling};
+}
+
+} // namespace
+
+void Canvas::add_text(const std::string &text, double x, double y, int size, double widest, bool bold,
+                      double highest) {
+  vtkTextActor *actor = add_centred(text, x, y);
+  constexpr int readable = 24, smallest = 12; // pixels
+  constexpr int step = 2;
+  constexpr double least_shortening = 0.9;
+  const double room = widest * width_;
+  std::array<double, 2> extent = size_of(actor, overlay_, text, size, bold);
+  int letters = size;
+  const int one_line = highest > 0 ? std::min(size, readable) : smallest;
+  while (extent[0] > room && letters > one_line)
+    extent = size_of(actor, overlay_, text, --letters, bold);
+  if (extent[0] > room) { // in lines
+    std::string shown = text;
+    for (bool fits = false; !fits;) {
+      double count = static_cast<double>(code_points(shown).size());
+      double columns = std::max(1.0, count * room / size_of(actor, overlay_, shown, letters, bold)[0]);
+      do {
+        extent = size_of(actor, overlay_, wrapped(shown, static_cast<std::size_t>(columns)), letters, bold);
+        columns -= 1;
+      } while (extent[0] > room && columns > 1);
+      fits = highest <= 0 || extent[1] <= highest;
+      if (fits) break;
+      if (letters - step >= smallest)
+        letters -= step;
+      else if (count < 8)
+        break;
+      else
+        shown = shortened(shown, static_cast<std::size_t>(least_shortening * count));
+    }
   }
-  const double half = 0.5 * extent[0] / (oversampling * width_), edge = 0.01;
+  const double half = 0.5 * extent[0] / width_, edge = 0.01;
   if (half + edge < 0.5)
     actor->SetPosition(std::clamp(x, half + edge, 1 - half - edge) * oversampling * width_,
                        y * oversampling * height_);
 }
 
-void Canvas::add_upright_text(const std::string &text, double x, double y, int size) {
+void Canvas::add_upright_text(const std::string &text, double x, double y, int size, double longest) {
   vtkTextActor *actor = add_centred(text, x, y);
-  set_letters(actor->GetTextProperty(), size);
+  constexpr int smallest = 12; // pixels
+  while (size_of(actor, overlay_, text, size, false)[0] > longest && size > smallest)
+    --size;
   actor->SetOrientation(90);
 }
 
 void Canvas::add_head(const std::string &title, const std::string &subtitle) {
-  add_text(title, 0.5, 1 - 0.33 * head_height / height_, title_size, 0.97, true);
-  add_text(subtitle, 0.5, 1 - 0.74 * head_height / height_, text_size);
+  constexpr double title_lines = 66, subtitle_lines = 48; // pixels
+  add_text(title, 0.5, 1 - 0.33 * head_height / height_, title_size, 0.97, true, title_lines);
+  add_text(subtitle, 0.5, 1 - 0.74 * head_height / height_, text_size, 0.97, false, subtitle_lines);
 }
 
 void Canvas::save(const std::filesystem::path &png) const {

@@ -35,8 +35,8 @@ constexpr int oversampling = 2;
 
 constexpr int title_size = 38, text_size = 32, small_size = 28; // pixels
 
-// Black sans-serif letters of the given size.
-void set_letters(vtkTextProperty *property, int size, bool bold = false);
+// Black sans-serif letters of the given size, of a font that has those of `text`.
+void set_letters(vtkTextProperty *property, int size, bool bold = false, const std::string &text = "");
 
 enum class Ramp {
   displacement, // dark blue over green to yellow (viridis), even steps of lightness
@@ -65,13 +65,15 @@ public:
   double aspect(vtkRenderer *renderer) const;
   // Where a place of its scene is drawn, in fractions of the whole window. The camera has to stand.
   std::array<double, 2> on_window(vtkRenderer *renderer, const std::array<double, 3> &place) const;
-  // Text centred at fractions (x, y) of the whole window, in smaller letters where it would be wider than
-  // `widest` (fraction), and moved where it would reach beyond the window.
+  // Text centred at fractions (x, y) of the whole window, in smaller letters and then in lines where it would
+  // be wider than `widest` (fraction), and moved where it would reach beyond the window. Lines that are
+  // higher than `highest` (pixels) together become smaller still, and at last the text ends in "...".
   void add_text(const std::string &text, double x, double y, int size, double widest = 0.97,
-                bool bold = false);
-  // The same, read from below to above.
-  void add_upright_text(const std::string &text, double x, double y, int size);
-  // The head of a picture, `head_height` pixels at its top: the title in bold, under it what is shown.
+                bool bold = false, double highest = 0);
+  // The same, read from below to above, in smaller letters where it would be longer than `longest` (pixels).
+  void add_upright_text(const std::string &text, double x, double y, int size, double longest = 1e9);
+  // The head of a picture, `head_height` pixels at its top: the title in bold, under it what is shown. Long
+  // titles are in smaller letters, then in lines.
   void add_head(const std::string &title, const std::string &subtitle);
   static constexpr int head_height = 120;
   // Draws and writes. Throws OutputError.

@@ -21,6 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/report/letters.h"
+
 namespace platen::apps::report {
 namespace {
 
@@ -46,7 +48,8 @@ vtkSmartPointer<vtkTable> table_of_finite(const std::vector<double> &x, const st
 }
 
 void add_label(vtkPlot *plot, const std::string &label) {
-  plot->SetLabel(" " + label); // VTK leaves no gap after the stroke
+  constexpr std::size_t longest = 80;
+  plot->SetLabel(" " + shortened(label, longest)); // VTK leaves no gap after the stroke
   plot->SetLegendVisibility(!label.empty());
 }
 
@@ -122,13 +125,23 @@ void add_band(vtkChartXY &item, const Chart &chart, std::array<double, 2> x, dou
   add_label(area, chart.band_label);
 }
 
+// All that stands in the legend.
+std::string legend_words(const Chart &chart) {
+  std::string words = chart.band_label;
+  for (const Curve &curve : chart.curves)
+    words += curve.label;
+  for (const Mark &mark : chart.marks)
+    words += mark.label;
+  return words;
+}
+
 // Width and height of the legend in pixels, from the count and length of its lines; on the large side.
 std::array<double, 2> legend_size(const Chart &chart) {
   double lines = 0, longest = 0;
   const auto count = [&](const std::string &label) {
     if (label.empty()) return;
     ++lines;
-    longest = std::max(longest, static_cast<double>(label.size()));
+    longest = std::max(longest, std::min(80.0, static_cast<double>(code_points(label).size())));
   };
   for (const Curve &curve : chart.curves)
     count(curve.label);
@@ -138,7 +151,7 @@ std::array<double, 2> legend_size(const Chart &chart) {
   return {100 + 0.56 * small_size * longest, 24 + 1.3 * small_size * lines};
 }
 
-void set_legend(vtkChartXY &chart, bool left) {
+void set_legend(vtkChartXY &chart, bool left, const std::string &words) {
   chart.SetShowLegend(true);
   vtkChartLegend *legend = chart.GetLegend();
   legend->SetInline(true);
@@ -146,7 +159,7 @@ void set_legend(vtkChartXY &chart, bool left) {
   legend->SetHorizontalAlignment(left ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(vtkChartLegend::TOP);
   legend->SetLabelSize(oversampling * small_size);
-  set_letters(legend->GetLabelProperties(), small_size);
+  set_letters(legend->GetLabelProperties(), small_size, false, words);
   legend->SetSymbolWidth(60 * oversampling);
   legend->SetPadding(8 * oversampling);
   legend->GetBrush()->SetOpacity(0);
@@ -199,7 +212,7 @@ vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea 
   };
   set(vtkAxis::BOTTOM, x, 8);
   set(vtkAxis::LEFT, y_shown, area.height > 700 ? 8 : 5);
-  set_legend(*item, place.left);
+  set_legend(*item, place.left, legend_words(chart));
   return item;
 }
 
@@ -384,7 +397,7 @@ void add_axis_titles(Canvas &canvas, const PlotArea &area, const std::string &x_
   canvas.add_text(x_title, (area.left + 0.5 * area.width) / canvas.width(),
                   (area.bottom - below) / canvas.height(), text_size);
   canvas.add_upright_text(y_title, (area.left - beside) / canvas.width(),
-                          (area.bottom + 0.5 * area.height) / canvas.height(), text_size);
+                          (area.bottom + 0.5 * area.height) / canvas.height(), text_size, area.height + 60);
 }
 
 void add_chart_scene(Canvas &canvas, const std::vector<vtkSmartPointer<vtkChartXY>> &charts) {

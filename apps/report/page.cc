@@ -28,6 +28,7 @@ struct Figure {
 
 const std::vector<Figure> figures = {
     {"strength (MPa)", {"strength_pa"}, 1e-6, 2, false},
+    {"stress at the end (MPa)", {"stress_at_end_pa"}, 1e-6, 2, true},
     {"strain at peak, platens (mm/m)", {"strain_at_peak_platen"}, 1e3, 3, false},
     {"strain at peak, gauge (mm/m)", {"strain_at_peak_gauge"}, 1e3, 3, false},
     {"Young's modulus, gauge (GPa)", {"youngs_modulus_gauge_pa"}, 1e-9, 2, false},
@@ -70,10 +71,16 @@ std::string fixed(double value, int digits) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits);
 }
 
-std::vector<std::string> row_of(const Figure &figure, const std::vector<double> &values) {
+std::vector<std::string> row_of(const Figure &figure, const std::vector<Run> &runs,
+                                const std::vector<double> &values) {
+  const bool strength = figure.keys.front() == std::string("strength_pa");
   std::vector<std::string> row{figure.title};
-  for (const double value : values)
-    row.push_back(fixed(value, figure.digits));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const bool without_peak = strength && !runs[k].peak_reached().value_or(true);
+    row.push_back(!without_peak           ? fixed(values[k], figure.digits)
+                  : std::isnan(values[k]) ? "no peak reached"
+                                          : fixed(values[k], figure.digits) + ", no peak reached");
+  }
   for (std::size_t k = 1; k < values.size(); ++k)
     row.push_back(values[k] == 0 ? "-" : fixed(values[0] / values[k], 3));
   return row;
@@ -91,6 +98,20 @@ std::vector<std::string> row_of_words(const char *title, const char *key, const 
   }
   row.resize(2 * runs.size(), "-");
   return told ? row : std::vector<std::string>{};
+}
+
+// "valid", the reasons against it, or "-".
+std::string verdict_on(const Run &run, const std::string &key) {
+  const auto validity = run.summary.find("validity");
+  if (validity == run.summary.end() || !validity->is_object()) return "-";
+  const auto verdict = validity->find(key);
+  if (verdict == validity->end()) return "-";
+  if (verdict->is_string()) return verdict->get<std::string>();
+  std::string reasons;
+  if (verdict->is_array())
+    for (const Json &reason : *verdict)
+      if (reason.is_string()) reasons += (reasons.empty() ? "not valid: " : "; ") + reason.get<std::string>();
+  return reasons.empty() ? "-" : reasons;
 }
 
 constexpr const char *style_sheet = R"(<style>
@@ -141,12 +162,31 @@ TableOfFigures table_of_figures(const std::vector<Run> &runs) {
     for (const Run &run : runs)
       values.push_back(value_of(run, figure));
     const bool measured = std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
-    if (measured || !figure.only_if_measured) table.rows.push_back(row_of(figure, values));
+    if (measured || !figure.only_if_measured) table.rows.push_back(row_of(figure, runs, values));
   }
   for (const auto &[title, key] :
        {std::pair{"pattern", "pattern"}, std::pair{"pattern at the end", "final_pattern"}})
     if (std::vector<std::string> row = row_of_words(title, key, runs); !row.empty())
       table.rows.push_back(std::move(row));
+  return table;
+}
+
+TableOfFigures table_of_validity(const std::vector<Run> &runs) {
+  TableOfFigures table;
+  table.header = {"figure"};
+  std::vector<std::string> keys;
+  for (const Run &run : runs) {
+    table.header.push_back(run.name);
+    const auto validity = run.summary.find("validity");
+    if (validity == run.summary.end() || !validity->is_object()) continue;
+    for (const auto &[key, verdict] : validity->items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  }
+  for (const std::string &key : keys) {
+    table.rows.push_back({key});
+    for (const Run &run : runs)
+      table.rows.back().push_back(verdict_on(run, key));
+  }
   return table;
 }
 

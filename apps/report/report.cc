@@ -124,8 +124,12 @@ void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, 
         "Which way cracks face, all of the run: beyond the line there are more than if they faced all ways "
         "alike. Cracks at 90 degrees run along the specimen: it splits.",
         draw_crack_rose, run);
-  if (run.events && run.events->rows > 0)
-    album.add("acoustic.png", acoustic_caption(run), draw_acoustic, run);
+}
+
+void draw_events(const Run &run, Album &album) {
+  if (!run.events || run.events->rows == 0) return;
+  album.begin("Acoustic emission");
+  album.add("acoustic.png", acoustic_caption(run), draw_acoustic, run);
 }
 
 void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent, Album &album) {
@@ -138,7 +142,7 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
         "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
         "ones are grey.",
         draw_stress_flow, run, before_test);
-  if (has_further_sides(run)) {
+  if (has_further_sides(run) || extent.form == Extent::Form::box) {
     album.add("side_pressure.png",
               "Pressure on each platen over the face of the specimen near the peak, over the mean of that "
               "platen: what stays dark is borne "
@@ -147,7 +151,7 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
     album.add("stick_slip.png", "Spheres at each platen near the peak: which stick and which slide.",
               draw_stick_and_slip, run, extent);
   }
-  if (extent.form != Extent::Form::cylinder) return;
+  if (extent.form != Extent::Form::cylinder || has_further_sides(run)) return;
   album.add("platen_pressure.png",
             "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
             "end together by inward shear.",
@@ -158,6 +162,7 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
 
 void draw_one_run(const Run &run, Album &album) {
   draw_curves(run, album);
+  draw_events(run, album);
   if (run.specimen.empty()) return;
   const Spheres before_test = read_spheres(run.specimen.front());
   const Extent extent = extent_of(before_test);
@@ -180,6 +185,13 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
       out << remarks.back() << '\n';
     }
   }
+  if (const TableOfFigures validity = table_of_validity(runs); !validity.rows.empty()) {
+    album.begin("Which figures count");
+    album.add_table(validity);
+  }
+  for (const Run &run : runs)
+    if (!run.peak_reached().value_or(true))
+      remarks.push_back(run.name + ": no peak reached: the largest stress is no strength");
   if (runs.size() > 1) draw_comparison(runs, album);
   if (runs.size() > 1)
     for (const std::string &remark : biaxial_strengths(runs).left_out)

@@ -20,6 +20,10 @@ struct TableOfFigures {
 // divided by theirs).
 TableOfFigures table_of_figures(const std::vector<Run> &runs);
 
+// What the summaries say of each figure: "valid", or the reasons against it, in a column for each run. No
+// rows where none says anything.
+TableOfFigures table_of_validity(const std::vector<Run> &runs);
+
 // The table in columns, one line a row, each line ended.
 std::string as_text(const TableOfFigures &table);
 

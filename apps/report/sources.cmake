@@ -3,6 +3,7 @@
 # (find_package(X11)) and these components of VTK:
 #   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML IOXMLParser
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2
+# fontconfig (find_package(Fontconfig))
 # and vtk_module_autoinit() with them, else nothing is drawn.
 set(PLATEN_REPORT_SOURCES
   report/accuracy_study.cc
@@ -22,6 +23,7 @@ set(PLATEN_REPORT_SOURCES
   report/envelope.cc
   report/fields.cc
   report/frames.cc
+  report/letters.cc
   report/other_results.cc
   report/packing_report.cc
   report/page.cc

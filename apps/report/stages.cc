@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "apps/report/chart.h"
+#include "apps/report/letters.h"
 #include "apps/report/report.h"
 #include "apps/report/sides.h"
 
@@ -76,11 +77,6 @@ Curve curve_of(const StageRows &rows, std::size_t k, std::size_t count, const st
           wide + share * (narrow - wide)};
 }
 
-std::string shortened(const std::string &words) {
-  constexpr std::size_t longest = 64;
-  return words.size() <= longest ? words : words.substr(0, longest - 3) + "...";
-}
-
 Chart stress_strain(const Run &run, const std::vector<StageRows> &stages) {
   Chart chart;
   const std::vector<double> strain = scaled(run.strain(), mm_per_m),
@@ -89,7 +85,7 @@ Chart stress_strain(const Run &run, const std::vector<StageRows> &stages) {
     chart.curves.push_back(curve_of(stages[k], k, stages.size(), strain, stress));
     const std::string words = stage_words(run, stages[k].number);
     chart.curves.back().label =
-        shortened(fmt::format("{}{}{}", stages[k].number, words.empty() ? "" : ": ", words));
+        shortened(fmt::format("{}{}{}", stages[k].number, words.empty() ? "" : ": ", words), 64);
   }
   chart.x_title = run.strain_title();
   chart.y_title = run.stress_title();
