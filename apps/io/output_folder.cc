@@ -80,7 +80,7 @@ bool is_output_name(const fs::path &relative) {
       "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|costs|accuracy|trials|abacus"
       "|packing_([a-z0-9_.]+_)?[0-9]+)(\\.part)?\\.csv"
       "|packings(\\.part)?\\.sha256"
-      "|(summary|study)(\\.part)?\\.json|run\\.log|specimen(\\.part)?\\.vtu"
+      "|(summary|study)(\\.part)?\\.json|run\\.log|(specimen|cracks)(\\.part)?\\.vtu"
       "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
   static const std::regex frame(
       "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu|fields_[0-9]{6,}(\\.part)?\\."

@@ -20,6 +20,7 @@ struct OutputPaths {
   std::filesystem::path scene() const { return folder / "scene.prm"; }
   std::filesystem::path history() const { return folder / "history.csv"; }
   std::filesystem::path cracks() const { return folder / "cracks.csv"; }
+  std::filesystem::path cracks_vtu() const { return folder / "cracks.vtu"; }
   std::filesystem::path events() const { return folder / "events.csv"; }
   std::filesystem::path summary() const { return folder / "summary.json"; }
   std::filesystem::path log() const { return folder / "run.log"; }

@@ -4,6 +4,7 @@ set(PLATEN_IO_SOURCES
   io/file.cc
   io/checkpoint.cc
   io/checkpoint_folder.cc
+  io/crack_discs.cc
   io/csv_writer.cc
   io/vtu.cc
   io/pvd.cc

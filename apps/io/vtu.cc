@@ -14,12 +14,14 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
 #include "apps/io/file.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
@@ -33,7 +35,7 @@ vtkSmartPointer<vtkDataArray> view(const Number *numbers, std::size_t count, int
   return array;
 }
 
-void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t rows) {
+void add_fields(vtkDataSetAttributes *to, const std::vector<Field> &fields, std::size_t rows) {
   for (const Field &field : fields)
     std::visit(
         [&](const auto &values) {
@@ -44,6 +46,7 @@ void add_fields(vtkFieldData *to, const std::vector<Field> &fields, std::size_t 
           const auto array = view(values.data(), values.size(), field.components);
           array->SetName(field.name.c_str());
           to->AddArray(array);
+          if (field.components == 1 && to->GetScalars() == nullptr) to->SetActiveScalars(field.name.c_str());
         },
         field.values);
 }
@@ -89,16 +92,20 @@ void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
 // Cells of one type of VTK.
 void write_cells(const std::filesystem::path &path, double time, const std::vector<Vector3> &points, int type,
                  vtkCellArray *cells, const std::vector<Field> &point_fields,
-                 const std::vector<Field> &cell_fields) {
+                 const std::vector<Field> &cell_fields, const FrameValues &of_frame = {}) {
   vtkNew<vtkUnstructuredGrid> grid;
   set_points(*grid, points);
   grid->SetCells(type, cells);
   add_fields(grid->GetPointData(), point_fields, points.size());
   add_fields(grid->GetCellData(), cell_fields, static_cast<std::size_t>(cells->GetNumberOfCells()));
-  vtkNew<vtkDoubleArray> time_value; // as readers of single frames expect it
-  time_value->SetName("TimeValue");
-  time_value->InsertNextValue(time);
-  grid->GetFieldData()->AddArray(time_value);
+  FrameValues values{{"TimeValue", time}}; // as readers of single frames expect it
+  values.insert(values.end(), of_frame.begin(), of_frame.end());
+  for (const auto &[name, value] : values) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->InsertNextValue(value);
+    grid->GetFieldData()->AddArray(array);
+  }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   write_vtk_aside(path, *writer);
@@ -120,23 +127,45 @@ void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer) {
 }
 
 void write_points(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
-                  const std::vector<Field> &point_fields) {
+                  const std::vector<Field> &point_fields, const FrameValues &of_frame) {
   vtkNew<vtkCellArray> vertices;
   for (vtkIdType k = 0; k < static_cast<vtkIdType>(points.size()); ++k)
     vertices->InsertNextCell(1, &k);
-  write_cells(path, time, points, VTK_VERTEX, vertices, point_fields, {});
+  write_cells(path, time, points, VTK_VERTEX, vertices, point_fields, {}, of_frame);
 }
 
 void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
-                 const std::vector<Field> &line_fields) {
+                 const std::vector<Field> &line_fields, const FrameValues &of_frame) {
   const auto outside = [&](int p) { return p < 0 || static_cast<std::size_t>(p) >= points.size(); };
   vtkNew<vtkCellArray> cells;
   for (const auto &line : lines) {
     if (outside(line[0]) || outside(line[1])) throw std::logic_error("a line ends at no point");
     cells->InsertNextCell({line[0], line[1]});
   }
-  write_cells(path, time, points, VTK_LINE, cells, point_fields, line_fields);
+  write_cells(path, time, points, VTK_LINE, cells, point_fields, line_fields, of_frame);
+}
+
+void write_discs(const std::filesystem::path &path, double time, const std::vector<Disc> &discs,
+                 const std::vector<Field> &disc_fields) {
+  constexpr int corners = 12;
+  // The polygon's area is 1/2 n sin(2 pi / n) of its outer radius squared.
+  const double outer = std::sqrt(pi / (0.5 * corners * std::sin(2 * pi / corners)));
+  std::vector<Vector3> points;
+  points.reserve(corners * discs.size());
+  vtkNew<vtkCellArray> polygons;
+  for (const Disc &disc : discs) {
+    const Vector3 n = disc.normal;
+    const Vector3 aside = std::abs(n.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}; // not along the normal
+    const Vector3 across = cross(n, aside), u = (1 / norm(across)) * across, v = cross(n, u);
+    polygons->InsertNextCell(corners);
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * pi * k / corners, r = outer * disc.radius;
+      polygons->InsertCellPoint(static_cast<vtkIdType>(points.size()));
+      points.push_back(disc.centre + r * std::cos(angle) * u + r * std::sin(angle) * v);
+    }
+  }
+  write_cells(path, time, points, VTK_POLYGON, polygons, {}, disc_fields);
 }
 
 } // namespace platen::apps

@@ -29,17 +29,30 @@ struct Field {
   Field(std::string field_name, const std::vector<Vector3> &v);
 };
 
-// Points, each with a vertex cell, and their fields. `time` (s) is stored with the frame. Throws OutputError
-// where the file cannot be written (a former one stays), std::logic_error where a field has another length
-// than the points.
+// Numbers of a whole frame, stored as field data: what ParaView shows with "Annotate Attribute Data" or in a
+// spreadsheet.
+using FrameValues = std::vector<std::pair<std::string, double>>;
+
+// Points, each with a vertex cell, and their fields. `time` (s) is stored with the frame. Active scalars are
+// the first field of one component. Throws OutputError where the file cannot be written (a former one stays),
+// std::logic_error where a field has another length than the points.
 void write_points(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
-                  const std::vector<Field> &point_fields);
+                  const std::vector<Field> &point_fields, const FrameValues &of_frame = {});
 
 // Lines between two of the points, with fields of the points and of the lines; errors as above, and
 // std::logic_error where a line ends at no point.
 void write_lines(const std::filesystem::path &path, double time, const std::vector<Vector3> &points,
                  const std::vector<std::array<int, 2>> &lines, const std::vector<Field> &point_fields,
-                 const std::vector<Field> &line_fields);
+                 const std::vector<Field> &line_fields, const FrameValues &of_frame = {});
+
+struct Disc {
+  Vector3 centre, normal; // m, unit
+  double radius = 0;      // m
+};
+// Discs as regular polygons of twelve corners and the disc's area, one cell each, with their fields; errors
+// as above.
+void write_discs(const std::filesystem::path &path, double time, const std::vector<Disc> &discs,
+                 const std::vector<Field> &disc_fields);
 
 // What a writer of VTK's has for its input. Throws OutputError; a former file stays.
 void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer);

@@ -1,4 +1,5 @@
 #include "apps/run/compression.h"
+#include "apps/io/crack_discs.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -98,7 +99,13 @@ int CompressionRun::run() {
   results_.finish(*test_, event_window());
   if (test_->model.bonds) write_bond_stress();
   if (scene_.model.crack_log) write_events();
-  if (fields_) fields_->write(*test_, results_.moves_with(*test_));
+  if (fields_) {
+    fields_->write(*test_, results_.moves_with(*test_));
+    if (cracks_) {
+      cracks_->sync();
+      write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());
+    }
+  }
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
   if (ended_by() == "shortened too far")

@@ -2,13 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <ostream>
+#include <sstream>
 #include <string>
 
 #include "apps/io/file.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/vtu.h"
 #include "apps/run/view_script.h"
+#include "coupling/program_of_test.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 #include "dem/measure/stress.h"
@@ -18,6 +19,44 @@ namespace {
 
 std::vector<Vector3> vectors(const Column<Vector3> &column) {
   return {column.begin(), column.end()};
+}
+
+// Of the axis that the test loads; compression positive, as in history.csv.
+FrameValues values_of(const coupling::PlatenTest &problem) {
+  const int axis = coupling::loaded_axis(problem);
+  double stress = 0;
+  for (const coupling::Side side : coupling::all_sides)
+    if (coupling::axis_of(side) == axis) stress += 0.5 * problem.stress(side);
+  return {{"axial_strain", problem.closure_strain(axis)}, {"axial_stress", stress}};
+}
+
+// How many others each particle is bonded to or touches now; bonds that have failed and stay in their rows as
+// contacts count where they press.
+std::vector<int> coordination_of(const dem::Model &model) {
+  const dem::Particles &p = model.particles;
+  std::vector<int> count(p.size(), 0);
+  const auto add = [&](int first, int second) {
+    ++count[static_cast<std::size_t>(first)], ++count[static_cast<std::size_t>(second)];
+  };
+  if (model.bonds) {
+    const dem::Bonds &b = *model.bonds;
+    for (std::size_t k = 0; k < b.size(); ++k)
+      if (b.normal_stiffness[k] != 0.0 && (!b.has_failed(k) || b.response(k, p).normal_force < 0))
+        add(b.first[k], b.second[k]);
+  }
+  if (model.contacts)
+    for (std::size_t k = 0; k < model.contacts->table.size(); ++k)
+      if (model.contacts->touching[k] != 0) add(model.contacts->first[k], model.contacts->second[k]);
+  return count;
+}
+
+// deal.II writes Scalars="scalars" whatever the arrays are called; readers look for an array of that name.
+std::string with_scalars_named(std::string text) {
+  const std::string made_up = "Scalars=\"scalars\"";
+  const auto at = text.find(made_up);
+  if (at == std::string::npos) return text;
+  const bool pressed = text.find("Name=\"contact_pressure\"") != std::string::npos;
+  return text.replace(at, made_up.size(), pressed ? "Scalars=\"contact_pressure\"" : "");
 }
 
 } // namespace
@@ -62,11 +101,16 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem, const std:
   for (const auto &s :
        dem::particle_stress(p, model.bonds.get(), model.contacts.get(), problem.facts().packing_fraction))
     stress.insert(stress.end(), s.begin(), s.end());
+  std::vector<double> diameter(p.radius.begin(), p.radius.end());
+  for (double &d : diameter)
+    d *= 2;
   std::vector<Field> fields{{"radius", std::vector<double>(p.radius.begin(), p.radius.end())},
+                            {"diameter", std::move(diameter)},
                             {"displacement", displacement},
                             {"velocity", vectors(p.velocity)},
                             {"stress", std::move(stress), 9},
-                            {"id", std::vector<int>(p.id.begin(), p.id.end())}};
+                            {"id", std::vector<int>(p.id.begin(), p.id.end())},
+                            {"coordination", coordination_of(model)}};
   if (p.phase != nullptr) fields.push_back({"phase", std::vector<int>(p.phase->begin(), p.phase->end())});
   if (p.has_rotation()) {
     // As a rotation vector, rad.
@@ -92,7 +136,7 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem, const std:
   }
   if (!moves_with.empty()) fields.emplace_back("moves_with", moves_with);
   write_points(folder_ / OutputPaths::frame_name("specimen", count_), problem.time(), vectors(p.position),
-               fields);
+               fields, values_of(problem));
   specimen_.append(problem.time(), OutputPaths::frame_name("specimen", count_));
 }
 
@@ -102,10 +146,14 @@ void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
   const std::size_t n = b.initial_count();
   std::vector<std::array<int, 2>> lines(n);
   std::vector<int> state(b.state.begin(), b.state.end());
+  std::vector<int> first(n), second(n);
+  std::vector<Vector3> force(n);
   std::vector<double> damage(n), normal(n, 0.0), shear(n, 0.0),
       when(b.break_time.begin(), b.break_time.end());
   for (std::size_t k = 0; k < n; ++k) {
     lines[k] = {b.record_first[k], b.record_second[k]};
+    first[k] = p.id[static_cast<std::size_t>(lines[k][0])];
+    second[k] = p.id[static_cast<std::size_t>(lines[k][1])];
     damage[k] = state[k] >= static_cast<int>(dem::BondState::broken_in_tension) ? 1.0 : 0.0;
   }
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -118,6 +166,7 @@ void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
     }
     normal[record] = response.normal_force;
     shear[record] = response.shear_force;
+    force[record] = {response.force.x, response.force.y, response.force.z};
   }
   write_lines(folder_ / OutputPaths::frame_name("bonds", count_), problem.time(), vectors(p.position), lines,
               {},
@@ -125,7 +174,11 @@ void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
                {"damage", std::move(damage)},
                {"normal_force", std::move(normal)},
                {"shear_force", std::move(shear)},
-               {"break_time", std::move(when)}});
+               {"force", force},
+               {"break_time", std::move(when)},
+               {"particle_a", std::move(first)},
+               {"particle_b", std::move(second)}},
+              values_of(problem));
   bonds_.append(problem.time(), OutputPaths::frame_name("bonds", count_));
 }
 
@@ -139,16 +192,16 @@ void FieldSeries::write_boundaries(const coupling::PlatenTest &problem) {
     const int count = static_cast<int>(parts.size());
     for (int part = 0; part < count; ++part) {
       const std::string file = OutputPaths::frame_name(name, count * count_ + part);
-      write_stream_aside(folder_ / file, [&](std::ostream &stream) {
-        parts[static_cast<std::size_t>(part)]->write_vtu(stream);
-      });
+      std::ostringstream text;
+      parts[static_cast<std::size_t>(part)]->write_vtu(text);
+      write_text_aside(folder_ / file, with_scalars_named(text.str()));
       series->append(problem.time(), file);
     }
   }
 }
 
 void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
-  std::vector<Vector3> points, normals, shears;
+  std::vector<Vector3> points, normals, shears, forces;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
   for (const auto &boundary : problem.boundaries())
@@ -156,6 +209,7 @@ void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
       points.push_back(c.point);
       normals.push_back(c.normal);
       shears.push_back(c.shear);
+      forces.push_back(c.normal_force * c.normal + c.shear);
       normal_force.push_back(c.normal_force);
       shear_force.push_back(norm(c.shear));
       slip.push_back(c.slip);
@@ -165,11 +219,13 @@ void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
   write_points(folder_ / OutputPaths::frame_name("contacts", count_), problem.time(), points,
                {{"normal", normals},
                 {"shear", shears},
+                {"force", forces},
                 {"normal_force", std::move(normal_force)},
                 {"shear_force", std::move(shear_force)},
                 {"slip", std::move(slip)},
                 {"sliding", std::move(sliding)},
-                {"particle", std::move(particle)}});
+                {"particle", std::move(particle)}},
+               values_of(problem));
   contacts_.append(problem.time(), OutputPaths::frame_name("contacts", count_));
 }
 
