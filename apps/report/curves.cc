@@ -20,6 +20,7 @@ Curve curve_from_zero(const Run &run, const std::string &label, const std::vecto
 }
 
 std::string peak_words(const Run &run) {
+  if (run.moments.peak_stress == 0) return "no stress";
   return fmt::format("{} {:.1f} MPa at {:.2f} mm/m",
                      run.peak_reached().value_or(true) ? "peak" : "no peak reached, largest",
                      run.moments.peak_stress / pa_per_mpa, run.strain()[run.moments.peak_row] * mm_per_m);
@@ -147,7 +148,8 @@ void draw_stress_strain(const std::vector<Run> &runs, const std::filesystem::pat
   broken.x_range = stress.x_range; // one above the other, strain under strain
   volume.x_title = broken.x_title;
   volume.y_title = "Volumetric strain (mm/m)";
-  std::vector<Chart> charts{stress, broken};
+  std::vector<Chart> charts{stress};
+  if (!broken.curves.empty()) charts.push_back(broken);
   if (!volume.curves.empty()) charts.push_back(volume);
   save_charts(several ? "Runs compared" : runs[0].title,
               "Stress, broken bonds and volume (compression positive) against strain", charts,
@@ -174,7 +176,7 @@ MagnitudeCount count_of(const Run &run, Stage stage) {
   std::vector<double> magnitudes;
   for (std::size_t k = 0; k < time.size(); ++k) {
     const bool before = !(time[k] > run.moments.peak_time);
-    if (before == (stage == Stage::before_peak) && !std::isnan(all[k])) magnitudes.push_back(all[k]);
+    if (before == (stage == Stage::before_peak) && std::isfinite(all[k])) magnitudes.push_back(all[k]);
   }
   std::sort(magnitudes.begin(), magnitudes.end());
   MagnitudeCount count;
@@ -225,6 +227,12 @@ Curve FittedLine::curve(const std::string &when, Stroke stroke) const {
     curve.x.push_back(m), curve.y.push_back(count);
   }
   return curve;
+}
+
+bool tells_magnitudes(const Run &run) {
+  if (!run.events || !run.events->has("magnitude")) return false;
+  const std::vector<double> &all = run.events->column("magnitude");
+  return std::any_of(all.begin(), all.end(), [](double magnitude) { return std::isfinite(magnitude); });
 }
 
 std::string acoustic_caption(const Run &run) {

@@ -40,7 +40,9 @@ FittedLine line_of(const Run &run, Stage stage);
 
 // What to see in the picture, and why there is no b-value where there is none.
 std::string acoustic_caption(const Run &run);
-// Both, before and after the peak. The run must have events, at least one.
+// Whether the run has events with a magnitude.
+bool tells_magnitudes(const Run &run);
+// Both, before and after the peak. The run must have such events.
 void draw_acoustic(const Run &run, const std::filesystem::path &png);
 
 } // namespace platen::apps::report

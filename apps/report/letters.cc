@@ -82,6 +82,16 @@ std::vector<char32_t> code_points(const std::string &text) {
   return points;
 }
 
+std::string valid_utf8(const std::string &text) {
+  std::string valid;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t start = at;
+    const bool bad = next_code_point(text, at) == replacement;
+    valid += bad ? "\xEF\xBF\xBD" : text.substr(start, at - start);
+  }
+  return valid;
+}
+
 std::string font_file_for(const std::string &text, bool bold) {
   constexpr char32_t latin_1 = 0x100;
   const std::vector<char32_t> points = code_points(text);

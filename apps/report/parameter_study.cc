@@ -227,19 +227,31 @@ void draw_parameter_study(const ParameterStudy &study, const fs::path &png) {
   int most = 0;
   for (const ParameterCase &one : study.cases)
     most = std::max(most, one.runs - one.failed);
-  const std::vector<Chart> charts{chart_of(study, &ParameterCase::strength, "Strength (MPa)"),
-                                  chart_of(study, &ParameterCase::modulus, "Young's modulus (GPa)"),
-                                  chart_of(study, &ParameterCase::strain, "Strain at peak (mm/m)")};
+  std::vector<Chart> charts;
+  std::vector<int> heights;
+  for (const auto &[of, y_title] : {std::pair{&ParameterCase::strength, "Strength (MPa)"},
+                                    {&ParameterCase::modulus, "Young's modulus (GPa)"},
+                                    {&ParameterCase::strain, "Strain at peak (mm/m)"}})
+    if (Chart chart = chart_of(study, of, y_title); !chart.marks.empty()) {
+      heights.push_back(charts.empty() ? 700 : 500);
+      charts.push_back(std::move(chart));
+    }
   save_charts(study.title, "Strength, modulus (gauge) and strain at peak (platens)" + words_of_scatter(most),
-              charts, {700, 500, 500}, png);
+              charts, heights, png);
 }
 
 void write_parameter_report(const ParameterStudy &study, const fs::path &folder, std::ostream &out) {
   Album album(folder);
   std::vector<std::string> remarks = study.remarks;
   album.begin("");
+  const bool any = std::any_of(study.cases.begin(), study.cases.end(), [](const ParameterCase &one) {
+    return !std::isnan(one.strength.mean) || !std::isnan(one.modulus.mean) || !std::isnan(one.strain.mean);
+  });
   if (study.columns.empty())
-    remarks.emplace_back("one case: there is no curve to draw");
+    remarks.emplace_back(study.cases.empty() ? "no case: there is no curve to draw"
+                                             : "one case: there is no curve to draw");
+  else if (!any)
+    remarks.emplace_back("no case has a figure: there is no curve to draw");
   else
     album.add(
         "study_" + study.kind + ".png",

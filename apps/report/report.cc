@@ -127,7 +127,7 @@ void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, 
 }
 
 void draw_events(const Run &run, Album &album) {
-  if (!run.events || run.events->rows == 0) return;
+  if (!tells_magnitudes(run)) return;
   album.begin("Acoustic emission");
   album.add("acoustic.png", acoustic_caption(run), draw_acoustic, run);
 }
@@ -171,9 +171,20 @@ void draw_one_run(const Run &run, Album &album) {
   draw_ends(run, before_test, extent, album);
 }
 
+// Throws InputError where a frame that pictures are drawn of is damaged: before the first of them.
+void require_frames(const Run &run) {
+  if (run.specimen.empty()) return;
+  read_spheres(run.specimen.front());
+  for (const double time : {run.moments.peak_time, run.pattern_time(), run.moments.end_time})
+    read_spheres(nearest(run.specimen, time));
+  if (!run.contacts.empty()) contacts_with(Side::top, nearest(run.contacts, run.moments.peak_time));
+}
+
 } // namespace
 
 void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ostream &out) {
+  for (const Run &run : runs)
+    require_frames(run);
   Album album(folder);
   std::vector<std::string> remarks;
   for (const Run &run : runs) {

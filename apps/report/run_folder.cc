@@ -8,6 +8,7 @@
 #include <fstream>
 #include <regex>
 
+#include "apps/report/letters.h"
 #include "apps/report/stages.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
@@ -206,7 +207,7 @@ Run read_run(const fs::path &folder) {
   const fs::path whole = fs::weakly_canonical(folder);
   run.name = whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
   run.title = scene_entry(folder / "scene.prm", "Scene/Title");
-  if (run.title.empty()) run.title = run.name;
+  run.title = valid_utf8(run.title.empty() ? run.name : run.title);
   run.history = read_csv(folder / "history.csv");
   if (fs::exists(folder / "summary.json")) run.summary = read_summary_of(run);
   run.axis = loaded_axis(run.summary);

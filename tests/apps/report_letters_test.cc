@@ -15,6 +15,11 @@ TEST(ReportLetters, code_points_are_read_and_bad_bytes_replaced) {
             (std::vector<char32_t>{0xFFFD, U'a', 0xFFFD}));
 }
 
+TEST(ReportLetters, bytes_that_are_no_text_are_replaced) {
+  EXPECT_EQ(valid_utf8("caf\xE9"), "caf\xEF\xBF\xBD");
+  EXPECT_EQ(valid_utf8("\xCF\x83 = 3"), "\xCF\x83 = 3");
+}
+
 TEST(ReportLetters, latin_has_the_house_font_and_greek_one_that_has_it) {
   EXPECT_EQ(font_file_for("Concrete, 30\xC2\xB0", true), "");
   const std::string greek = font_file_for("\xCF\x83 = 3 MPa", false),
