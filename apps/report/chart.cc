@@ -21,6 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/io/file.h"
+#include "apps/report/chart_svg.h"
 #include "apps/report/letters.h"
 
 namespace platen::apps::report {
@@ -109,6 +111,17 @@ void add_mark(vtkChartXY &chart, const Mark &mark) {
   add_label(plot, mark.label);
 }
 
+std::vector<Tick> axis_ticks(std::array<double, 2> range, int intervals, Sign sign) {
+  const std::vector<double> round = round_ticks(range[0], range[1], intervals);
+  const double step = round.size() > 1 ? round[1] - round[0] : 1;
+  const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  std::vector<Tick> ticks;
+  for (const double tick : round)
+    if (tick >= range[0] - 1e-9 && tick <= range[1] + 1e-9)
+      ticks.push_back({tick, fmt::format("{:.{}f}", sign == Sign::dropped ? std::abs(tick) : tick, digits)});
+  return ticks;
+}
+
 // From the x axis up, over the whole width; before the curves, which then lie on it.
 void add_band(vtkChartXY &item, const Chart &chart, std::array<double, 2> x, double floor) {
   if (!(chart.band_top > floor)) return;
@@ -186,33 +199,20 @@ void add_span_words(Canvas &canvas, const PlotArea &area, const Chart &chart) {
   }
 }
 
-vtkSmartPointer<vtkChartXY> chart_item(const Chart &given_chart, const PlotArea &area) {
-  const Scale scale = given_chart.scale;
-  const Chart chart = scale == Scale::linear ? given_chart : in_decades(given_chart);
-  const std::array<double, 2> x = shown_x(chart),
-                              y = given(chart.y_range) ? chart.y_range : range_of(chart, 1);
-  const auto [legend_width, legend_height] = legend_size(chart);
-  const LegendPlace place = place_legend(chart, x, y, legend_width / area.width, legend_height / area.height);
-
+vtkSmartPointer<vtkChartXY> chart_item(const ChartLayout &layout, const PlotArea &area) {
+  const Chart &chart = layout.chart;
   auto item = frame_chart(area);
-  const std::array<double, 2> y_shown{y[0], place.y_top};
-  add_band(*item, chart, x, y[0]);
+  add_band(*item, chart, layout.x, layout.y[0]);
   for (const Span &span : chart.spans)
     for (const double end : {span.from, span.to})
-      add_curve(*item, {"", {end, end}, {y_shown[0], y_shown[1]}, {190, 190, 190}, Stroke::solid, 2});
+      add_curve(*item, {"", {end, end}, {layout.y[0], layout.y[1]}, {190, 190, 190}, Stroke::solid, 2});
   for (const Curve &curve : chart.curves)
     add_curve(*item, curve);
   for (const Mark &mark : chart.marks)
     add_mark(*item, mark);
-  const auto set = [&](int axis, const std::array<double, 2> &range, int intervals) {
-    if (scale == Scale::logarithmic || (scale == Scale::logarithmic_x && axis == vtkAxis::BOTTOM))
-      set_ticks(item->GetAxis(axis), range, decade_ticks(range[0], range[1]));
-    else
-      set_axis(item->GetAxis(axis), range, intervals);
-  };
-  set(vtkAxis::BOTTOM, x, 8);
-  set(vtkAxis::LEFT, y_shown, area.height > 700 ? 8 : 5);
-  set_legend(*item, place.left, legend_words(chart));
+  set_ticks(item->GetAxis(vtkAxis::BOTTOM), layout.x, layout.x_ticks);
+  set_ticks(item->GetAxis(vtkAxis::LEFT), layout.y, layout.y_ticks);
+  set_legend(*item, layout.legend_left, legend_words(chart));
   return item;
 }
 
@@ -222,6 +222,25 @@ Chart chart_with_axes(const std::string &x_title, const std::string &y_title) {
   Chart chart;
   chart.x_title = x_title, chart.y_title = y_title;
   return chart;
+}
+
+ChartLayout layout_of(const Chart &given_chart, double width, double height) {
+  const Scale scale = given_chart.scale;
+  ChartLayout layout;
+  layout.chart = scale == Scale::linear ? given_chart : in_decades(given_chart);
+  const Chart &chart = layout.chart;
+  layout.x = shown_x(chart);
+  layout.y = given(chart.y_range) ? chart.y_range : range_of(chart, 1);
+  const auto [legend_width, legend_height] = legend_size(chart);
+  const LegendPlace place =
+      place_legend(chart, layout.x, layout.y, legend_width / width, legend_height / height);
+  layout.legend_left = place.left;
+  layout.y[1] = place.y_top;
+  const bool x_decades = scale != Scale::linear, y_decades = scale == Scale::logarithmic;
+  layout.x_ticks = x_decades ? decade_ticks(layout.x[0], layout.x[1]) : axis_ticks(layout.x, 8, Sign::shown);
+  layout.y_ticks = y_decades ? decade_ticks(layout.y[0], layout.y[1])
+                             : axis_ticks(layout.y, height > 700 ? 8 : 5, Sign::shown);
+  return layout;
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
@@ -355,14 +374,7 @@ vtkSmartPointer<vtkChartXY> frame_chart(const PlotArea &area) {
 }
 
 void set_axis(vtkAxis *axis, std::array<double, 2> range, int intervals, Sign sign) {
-  const std::vector<double> round = round_ticks(range[0], range[1], intervals);
-  const double step = round.size() > 1 ? round[1] - round[0] : 1;
-  const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  std::vector<Tick> ticks;
-  for (const double tick : round)
-    if (tick >= range[0] - 1e-9 && tick <= range[1] + 1e-9)
-      ticks.push_back({tick, fmt::format("{:.{}f}", sign == Sign::dropped ? std::abs(tick) : tick, digits)});
-  set_ticks(axis, range, ticks);
+  set_ticks(axis, range, axis_ticks(range, intervals, sign));
 }
 
 vtkPlot *add_dots(vtkChartXY &chart, std::vector<double> x, std::vector<double> y, Colour colour, int marker,
@@ -416,11 +428,14 @@ void save_charts(const std::string &title, const std::string &subtitle, const st
     height += heights[k] + foot;
   Canvas canvas(left_margin + plot_width + right_margin, height);
   std::vector<vtkSmartPointer<vtkChartXY>> items;
+  ChartSvg svg(canvas.width(), height);
   double bottom = height - Canvas::head_height;
   for (std::size_t k = 0; k < charts.size(); ++k) {
     bottom -= heights[k];
     const PlotArea area{left_margin, bottom, plot_width, static_cast<double>(heights[k])};
-    items.push_back(chart_item(charts[k], area));
+    const ChartLayout layout = layout_of(charts[k], area.width, area.height);
+    items.push_back(chart_item(layout, area));
+    svg.add(layout, area);
     add_axis_titles(canvas, area, charts[k].x_title, charts[k].y_title);
     add_span_words(canvas, area, charts[k]);
     bottom -= foot;
@@ -428,6 +443,7 @@ void save_charts(const std::string &title, const std::string &subtitle, const st
   add_chart_scene(canvas, items);
   canvas.add_head(title, subtitle);
   canvas.save(png);
+  write_text_aside(std::filesystem::path(png).replace_extension(".svg"), svg.text(title, subtitle));
 }
 
 } // namespace platen::apps::report

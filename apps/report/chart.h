@@ -104,8 +104,18 @@ struct LegendPlace {
 LegendPlace place_legend(const Chart &chart, std::array<double, 2> x, std::array<double, 2> y, double width,
                          double height);
 
+// A chart as it is drawn: logarithms taken, ranges and ticks chosen, the legend placed.
+struct ChartLayout {
+  Chart chart;
+  std::array<double, 2> x{}, y{}; // ranges of the axes
+  std::vector<Tick> x_ticks, y_ticks;
+  bool legend_left = false;
+};
+// In a plot of the given size in pixels.
+ChartLayout layout_of(const Chart &chart, double width, double height);
+
 // Draws charts one above the other, plots of the given heights (pixels, one a chart or more), with a head
-// over all, and writes them. Throws OutputError.
+// over all, and writes them as `png` and as SVG beside it. Throws OutputError.
 void save_charts(const std::string &title, const std::string &subtitle, const std::vector<Chart> &charts,
                  const std::vector<int> &heights, const std::filesystem::path &png);
 

@@ -275,7 +275,10 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
                                escaped(title), style_sheet, links, html_table(figures), list, sections));
   for (const Section &section : sections_)
     for (const Picture &picture : section.pictures)
-      out << "drawn: " << picture.file.string() << '\n';
+      for (const char *ending : {".png", ".svg"}) // charts have both
+        if (const auto file = std::filesystem::path(picture.file).replace_extension(ending);
+            std::filesystem::exists(file))
+          out << "drawn: " << file.string() << '\n';
   out << "page: " << html.string() << "\n\n" << as_text(figures);
   for (const Section &section : sections_)
     for (const TableOfFigures &table : section.tables)

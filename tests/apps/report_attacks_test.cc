@@ -129,6 +129,9 @@ TEST(ReportAttacks, titles_of_any_kind_stay_within_picture_and_page) {
     EXPECT_EQ(outcome.error, "") << title; // VTK has nothing to complain of
     EXPECT_EQ(outcome.page.find("<script>"), std::string::npos);
     expect_white_edges(folder / "pictures/stress_strain.png");
+    const std::string svg = text_of(folder / "pictures/stress_strain.svg");
+    EXPECT_EQ(svg.find("<script>"), std::string::npos);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
   }
 }
 

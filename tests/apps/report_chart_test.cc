@@ -1,5 +1,7 @@
 #include "apps/report/chart.h"
 
+#include "apps/report/chart_svg.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,6 +85,26 @@ TEST(ReportChart, x_alone_may_be_in_decades) {
   EXPECT_DOUBLE_EQ(decades.marks[1].x, 3);
   EXPECT_EQ(decades.marks[1].y, -4);
   EXPECT_EQ(decades.y_range, (std::array<double, 2>{0, 0})); // from the marks
+}
+
+// Points of the curve stand where the axes say, in pixels from above; a gap parts the line.
+TEST(ReportChart, svg_has_its_lines_where_the_axes_say) {
+  Chart chart = chart_with_axes("x <m>", "y");
+  const double none = std::nan("");
+  chart.curves = {{"a & b", {0, 5, 10, 11, 20, 30}, {0, 10, 20, none, 0, 40}, colours::blue, Stroke::dashed}};
+  chart.marks = {{10, 20, "", colours::black}};
+  chart.x_range = {0, 40}, chart.y_range = {0, 40};
+  ChartSvg svg(1000, 800);
+  svg.add(layout_of(chart, 400, 400), {100, 200, 400, 400});
+  const std::string text = svg.text("Title <b>", "below");
+  EXPECT_NE(text.find("points=\"100.00,600.00 150.00,500.00 200.00,400.00\""), std::string::npos) << text;
+  EXPECT_NE(text.find("points=\"300.00,600.00 400.00,200.00\""), std::string::npos) << text;
+  EXPECT_NE(text.find("<circle cx=\"200.00\" cy=\"400.00\""), std::string::npos);
+  for (const char *words :
+       {"Title &lt;b&gt;", "x &lt;m&gt;", "a &amp; b", "stroke=\"#0072b2\"", "stroke-dasharray"})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_EQ(text, svg.text("Title <b>", "below"));
 }
 
 } // namespace

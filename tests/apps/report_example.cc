@@ -50,7 +50,7 @@ void fill(Example &example) {
       for (int i = -reach; i <= reach; ++i) {
         const double x = (i + 0.5 * (j & 1) + 0.5 * (k & 1)) * s + shake(random);
         const double y = (j + (k & 1) / 3.0) * row + shake(random);
-        if (std::hypot(x, y) > run.radius - r) continue;
+        if ((run.square ? std::max(std::abs(x), std::abs(y)) : std::hypot(x, y)) > run.radius - r) continue;
         example.centres.push_back({x, y, run.first_height + r + k * layer});
         example.radii.push_back(r * (0.85 + 0.1 * (shake(random) / s)));
       }

@@ -12,6 +12,7 @@ struct ExampleRun {
   double peak_stress = 40e6;           // Pa
   bool hourglass = true;   // the middle is destroyed and the ends are sound; else the other way round
   double first_height = 0; // m, where the specimen starts
+  bool square = false;     // a box, `radius` is half its width
 };
 
 // What the example is made of; times in s.

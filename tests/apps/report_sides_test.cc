@@ -201,5 +201,18 @@ TEST(ReportSides, every_picture_of_the_sides_is_drawn_where_there_are_any) {
   EXPECT_EQ(text_of(folder / "one/report.html").find("work of friction (J)"), std::string::npos);
 }
 
+TEST(ReportSides, a_box_between_two_platens_has_its_pressure_and_its_sliding) {
+  const TestFolder folder;
+  ExampleRun box;
+  box.square = true, box.spacing = 0.01;
+  write_example(folder / "box", box);
+  const std::string command = "cd '" + folder.path().string() +
+                              "' && '" PLATEN_REPORT_PROGRAM "' box -o pictures >out.txt 2>error.txt";
+  ASSERT_EQ(std::system(command.c_str()), 0) << text_of(folder / "error.txt");
+  for (const char *name : {"side_pressure.png", "stick_slip.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures" / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures/platen_pressure.png")); // rings are for round ends
+}
+
 } // namespace
 } // namespace platen::apps::report
