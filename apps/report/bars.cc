@@ -37,7 +37,7 @@ void add_rectangle(vtkRenderer *renderer, const Canvas &canvas, const std::array
 // The line of the run's log that names the machine; empty where there is none.
 std::string machine_of(const Run &run) {
   const std::string start = "machine ";
-  std::ifstream log(run.folder / "run.log");
+  std::ifstream log = open_file(run.folder / "run.log");
   for (std::string line; std::getline(log, line);)
     if (line.rfind(start, 0) == 0) return line.substr(start.size());
   return "";
