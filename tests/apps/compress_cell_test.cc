@@ -63,6 +63,13 @@ TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage)
   EXPECT_NEAR(closure.back() - closure[stood], 0.001, 0.0001); // a row closes by a thirtieth
   EXPECT_GT(*std::max_element(deviator.begin(), deviator.end()), 0.001 * 5e9);
   EXPECT_TRUE(s["deviator_strength_pa"].is_null()); // bonds that never break, and unloading is no peak
+  const auto time = column("deep", "time_s");
+  const double end = s["consolidation_end_time_s"].get<double>();
+  std::size_t risen = 0;
+  while (pressure[risen] < 20e6)
+    ++risen;
+  EXPECT_GE(end, time[risen]); // the platens take over once the cell stands
+  EXPECT_LE(end, time[stood + 1]);
   std::size_t turn = stood;
   while (turn + 1 < deviator.size() && deviator[turn + 1] > deviator[turn] - 0.01e6)
     ++turn;
@@ -94,7 +101,7 @@ TEST_F(Cell, a_stress_path_tells_how_well_it_held_and_where_it_ended) {
 }
 
 TEST_F(Cell, unconfined_runs_have_no_column_of_it) {
-  crush("bare", {"Loading/Target strain = 0.001"});
+  EXPECT_TRUE(crush("bare", {"Loading/Target strain = 0.001"})["consolidation_end_time_s"].is_null());
   const std::string header = content_of(folder_ / "bare/history.csv").substr(0, 900);
   EXPECT_FALSE(contains(header, "deviator_pa"));
   EXPECT_FALSE(contains(header, "opening_m"));
