@@ -72,7 +72,7 @@ TEST(ReportAttacks, damaged_tables_and_summaries_end_in_one_line) {
   folder.write("history.csv", crushed);
   for (const char *summary : {"[1, 2]", "3", "\"done\""}) {
     folder.write("summary.json", summary);
-    refused("summary.json: no object of figures");
+    refused("summary.json: is damaged: it is no JSON object");
   }
   for (const char *summary : {"", "{\"strength_pa\": 3"}) {
     folder.write("summary.json", summary);

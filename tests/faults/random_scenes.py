@@ -102,8 +102,7 @@ def small(entries, changes):
     wide, deep = si("Specimen/Width x"), si("Specimen/Width y")
     volume = (math.pi * radius ** 2 if radius else wide * deep) * height
     sphere = (volume * 0.6 / (SPHERES * 4 / 3 * math.pi)) ** (1 / 3)
-    thin = min(x for x in (2 * radius if radius else None, wide, deep, height) if x)
-    sets = [f"Specimen/Sphere radius = {min(sphere, thin / 8):.4g}", "Output/Fields = off"]
+    sets = [f"Specimen/Sphere radius = {sphere:.4g}", "Output/Fields = off"]
     return sets
 
 
