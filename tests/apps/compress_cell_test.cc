@@ -65,11 +65,11 @@ TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage)
   EXPECT_TRUE(s["deviator_strength_pa"].is_null()); // bonds that never break, and unloading is no peak
   const auto time = column("deep", "time_s");
   const double end = s["consolidation_end_time_s"].get<double>();
-  std::size_t risen = 0;
-  while (pressure[risen] < 20e6)
-    ++risen;
-  EXPECT_GE(end, time[risen - 1]); // the last row before the platens take over, once the cell stands
-  EXPECT_LE(end, time[stood + 1]);
+  const auto zero = static_cast<std::size_t>(std::find(time.begin(), time.end(), end) - time.begin());
+  ASSERT_LT(zero + 1, time.size()); // a row of the table, the last before the platens take over
+  EXPECT_GT(pressure[zero], 0.95 * 20e6);
+  EXPECT_EQ(pressure[zero + 1], 20e6);
+  EXPECT_LE(zero, stood);
   std::size_t turn = stood;
   while (turn + 1 < deviator.size() && deviator[turn + 1] > deviator[turn] - 0.01e6)
     ++turn;
