@@ -11,6 +11,7 @@
 #include "apps/io/numbers.h"
 #include "apps/io/vtu.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/regular_file.h"
 #include "base/pi.h"
 #include "dem/bonds.h"
 
@@ -25,7 +26,7 @@ constexpr std::size_t mode_column = 9;
 } // namespace
 
 void write_crack_discs(const std::filesystem::path &csv, double end_time, const std::filesystem::path &vtu) {
-  std::ifstream stream(csv);
+  std::ifstream stream = open_file(csv);
   if (!stream) throw InputError(csv.string() + ": cannot be read");
   std::vector<Disc> discs;
   std::vector<double> time, energy, area, strain;

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <fstream>
 
+#include "apps/scene/regular_file.h"
+
 namespace platen::apps::report {
 
 namespace fs = std::filesystem;
 
 Json summary_of(const fs::path &folder) {
-  std::ifstream stream(folder / "summary.json");
+  std::ifstream stream = open_file(folder / "summary.json");
   Json summary = Json::parse(stream, nullptr, false);
   return summary.is_object() ? summary : Json::object();
 }

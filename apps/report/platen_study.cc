@@ -135,7 +135,7 @@ std::string reasons_in_runs(const fs::path &folder, const std::string &name, con
   const std::string start = name + "_seed_";
   for (const auto &entry : fs::directory_iterator(folder / "runs", none)) {
     if (entry.path().filename().string().rfind(start, 0) != 0) continue;
-    std::ifstream stream(entry.path() / "summary.json");
+    std::ifstream stream = open_file(entry.path() / "summary.json");
     const Json summary = Json::parse(stream, nullptr, false);
     if (!summary.is_object()) continue;
     ++runs;
