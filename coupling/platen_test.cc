@@ -82,6 +82,7 @@ SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &
   const double volume = specimen.shape.volume();
   facts.packing_fraction = solid / volume;
   facts.voigt_modulus = model.bonds ? dem::network_moduli(*model.bonds, volume).young_voigt : 0.0;
+  if (model.bonds) facts.affine_moduli = dem::affine_moduli(*model.bonds, volume);
   facts.grain_density = dem::grain_density(specimen, settings.density, settings.density_of);
   const double density = facts.grain_density * settings.mass_scaling * facts.packing_fraction;
   facts.wave_transit =

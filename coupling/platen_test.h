@@ -18,11 +18,12 @@ namespace platen::coupling {
 
 // What is known of the specimen before it is loaded.
 struct SpecimenFacts {
-  double mean_radius = 0;      // m
-  double packing_fraction = 0; // 1
-  double grain_density = 0;    // kg/m^3, before mass scaling
-  double voigt_modulus = 0;    // Pa; 0 without bonds
-  double wave_transit = 0;     // s, over the height, from the Voigt modulus; 0 without bonds
+  double mean_radius = 0;                // m
+  double packing_fraction = 0;           // 1
+  double grain_density = 0;              // kg/m^3, before mass scaling
+  double voigt_modulus = 0;              // Pa; 0 without bonds
+  std::array<double, 3> affine_moduli{}; // Pa, of what bonds can have along x, y and z; 0 without bonds
+  double wave_transit = 0;               // s, over the height, from the Voigt modulus; 0 without bonds
 };
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
                        const dem::Model &model);

@@ -5,6 +5,8 @@
 namespace platen::dem {
 namespace {
 
+constexpr double round_off_of_determinant = 1e-9; // of the product of its diagonal
+
 struct Moments {
   double weight = 0, x = 0, y = 0, xx = 0, yy = 0;
   void add(double w, double at_x, double at_y, double own = 0) {
@@ -87,6 +89,34 @@ NetworkModuli network_moduli(const Bonds &bonds, double volume) {
   const double stiffness = axial / volume, k = first + difference / axial;
   return {stiffness / 3 * (2 + 3 * k) / (4 + k), (1 - k) / (4 + k), stiffness / 3 * 5 * k / (2 + 3 * k),
           (1 - k) / (2 + 3 * k)};
+}
+
+std::array<double, 3> affine_moduli(const Bonds &bonds, double volume) {
+  // C_aabb = sum of l^2 ((K_n - K_s) n_a^2 n_b^2 + K_s n_a^2 [a = b]) / V: strains along the axes move the
+  // end of a bond by l e_a n_a. Rotations are none: the strain has none.
+  std::array<std::array<double, 3>, 3> c{};
+  for (std::size_t row = 0; row < bonds.size(); ++row) {
+    const BondStiffness s = bonds.stiffness(row);
+    const Vector3 &d = bonds.reference[row];
+    const double inverse = 1 / norm_squared(d);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        c[a][b] += ((s.axial - s.shear) * d[a] * d[a] * d[b] * d[b] * inverse +
+                    (a == b ? s.shear * d[a] * d[a] : 0.0)) /
+                   volume;
+  }
+  std::array<double, 3> moduli{};
+  for (int a = 0; a < 3; ++a) {
+    const int x = (a + 1) % 3, y = (a + 2) % 3;
+    const double across = c[x][x] * c[y][y] - c[x][y] * c[x][y];
+    moduli[a] = c[a][a];
+    // Where nothing resists strains across, they cost and give nothing.
+    if (across > round_off_of_determinant * c[x][x] * c[y][y])
+      moduli[a] -= (c[a][x] * (c[y][y] * c[a][x] - c[x][y] * c[a][y]) +
+                    c[a][y] * (c[x][x] * c[a][y] - c[x][y] * c[a][x])) /
+                   across;
+  }
+  return moduli;
 }
 
 Gyration mass_gyration(const Particles &p, double low, double high) {

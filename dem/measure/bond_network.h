@@ -2,6 +2,7 @@
 // moduli before anything is loaded, and the section of a bar that carries its forces.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "dem/bonds.h"
@@ -47,6 +48,11 @@ struct NetworkModuli {
 // Isotropic network, sum over bonds of l^2 k_n / V = K, k = k_s/k_n: Voigt E = (K/3)(2 + 3k)/(4 + k),
 // nu = (1 - k)/(4 + k); Reuss E = (K/3) 5k/(2 + 3k), nu = (1 - k)/(2 + 3k). `volume` of the specimen, m^3.
 NetworkModuli network_moduli(const Bonds &bonds, double volume);
+
+// Young's modulus along x, y and z where the network follows strains along the three axes and chooses those
+// across for the least energy, Pa: an upper bound of its own modulus in each direction. Of an isotropic
+// network Voigt's; of a lattice along its bonds much more than that. 0 without bonds.
+std::array<double, 3> affine_moduli(const Bonds &bonds, double volume);
 
 // Mean squares of the distance from the centre of the section, m^2.
 struct Gyration {

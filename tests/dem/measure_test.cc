@@ -1,6 +1,8 @@
 // What is read off a specimen: strain, stress, damage, opening, pieces, moduli.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -269,6 +271,57 @@ TEST(measure, the_affine_bound_is_the_energy_of_an_affine_strain) {
   deform(model.particles, {{{e, 0, 0}, {0, -nu * e, 0}, {0, 0, -nu * e}}}, {});
   const double expected = .5 * m.young_voigt * e * e * specimen.shape.volume();
   EXPECT_NEAR(bond_energy(model.particles, *model.bonds), expected, .05 * expected);
+}
+
+// Stiffnesses of affine strains along the axes from the bonds' own energies, and of those Young's moduli: no
+// strain across costs less than the one that the load chooses.
+TEST(measure, affine_moduli_are_those_of_the_energies_of_affine_strains) {
+  const Specimen specimen = packed_box(26, 20, 32);
+  ModelSettings settings = bonded();
+  settings.rotation = false;
+  const double e = 1e-6;
+  const auto energy = [&](double x, double y, double z) {
+    Model model(specimen, settings);
+    deform(model.particles, {{{x * e, 0, 0}, {0, y * e, 0}, {0, 0, z * e}}}, {});
+    return bond_energy(model.particles, *model.bonds) / (.5 * e * e * specimen.shape.volume());
+  };
+  Eigen::Matrix3d c;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const auto of = [&](bool first, bool second) {
+        Eigen::Vector3d s = Eigen::Vector3d::Zero();
+        if (first) s[a] += 1;
+        if (second) s[b] += 1;
+        return energy(s[0], s[1], s[2]);
+      };
+      c(a, b) = a == b ? of(true, false) : .5 * (of(true, true) - of(true, false) - of(false, true));
+    }
+  const Eigen::Matrix3d compliance = c.inverse();
+  const auto found = affine_moduli(*Model(specimen, settings).bonds, specimen.shape.volume());
+  for (int a = 0; a < 3; ++a)
+    EXPECT_NEAR(found[static_cast<std::size_t>(a)] * compliance(a, a), 1, 1e-5) << a; // strains of 1e-6
+  // A packing has nearly the same in every direction: that of Voigt's isotropic network.
+  const double voigt = network_moduli(*Model(specimen, settings).bonds, specimen.shape.volume()).young_voigt;
+  for (const double modulus : found)
+    EXPECT_NEAR(modulus / voigt, 1, .1);
+}
+
+// Bonds along the axes answer to strain along them alone.
+TEST(measure, a_simple_cubic_lattice_is_stiffer_along_its_bonds_than_in_the_mean) {
+  Specimen lattice;
+  lattice.shape = box(6 * radius, 8 * radius, 10 * radius);
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 4; ++y)
+      for (int z = 0; z < 5; ++z)
+        lattice.centre.push_back({(2 * x + 1 - 3) * radius, (2 * y + 1 - 4) * radius, (2 * z + 1) * radius}),
+            lattice.radius.push_back(radius);
+  Model model(lattice, bonded());
+  const auto found = affine_moduli(*model.bonds, lattice.shape.volume());
+  const double of_chain = normal_stiffness * area / (2 * radius); // one bond on each square of 2 R
+  EXPECT_NEAR(found[0] / of_chain, 2. / 3, 1e-12);                // its bonds over its spheres
+  EXPECT_NEAR(found[1] / of_chain, 3. / 4, 1e-12);
+  EXPECT_NEAR(found[2] / of_chain, 4. / 5, 1e-12);
+  EXPECT_GT(found[0], 1.5 * 2. / 3 * network_moduli(*model.bonds, lattice.shape.volume()).young_voigt);
 }
 
 // Bonds broken by hand.
