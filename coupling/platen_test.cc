@@ -15,6 +15,7 @@ namespace {
 // Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
 // hard specimen.
 constexpr double servo_gain = 5;
+constexpr double thickness_over_height = 0.1; // of platens whose thickness is not given
 // A specimen is loaded within this many wave transits, a bar within this many of its own periods, where
 // nothing else is said.
 constexpr double transits_of_ramp = 10, periods_of_ramp = 2;
@@ -92,6 +93,8 @@ SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &
 
 PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &settings)
     : Experiment(specimen, settings.model, settings.time_step), settings_(settings) {
+  if (settings_.platens.thickness == 0)
+    settings_.platens.thickness = thickness_over_height * specimen.shape.height;
   require_in_range();
   add_platens(specimen);
   facts_ = facts_of(specimen, settings.model, model);

@@ -50,6 +50,18 @@ TEST(platen_test, a_density_of_the_solid_is_that_of_the_specimen) {
   EXPECT_NEAR(problem.facts().wave_transit, crossing, 1e-12 * crossing);
 }
 
+TEST(platen_test, platens_without_a_thickness_have_a_tenth_of_the_height) {
+  const dem::Specimen specimen = small_cylinder();
+  PlatenTestSettings settings = crushing();
+  settings.platens.thickness = 0;
+  const PlatenTest problem(specimen, settings);
+  EXPECT_DOUBLE_EQ(problem.settings().platens.thickness, 0.1 * specimen.shape.height);
+  settings.platens.thickness = 0.1 * specimen.shape.height;
+  const PlatenTest given(specimen, settings);
+  EXPECT_DOUBLE_EQ(problem.top().body().mass(), given.top().body().mass());
+  EXPECT_GT(given.top().body().mass(), 0);
+}
+
 TEST(platen_test, a_density_of_the_solid_needs_a_volume) {
   dem::Specimen loose;
   loose.centre = {{0, 0, 0}}, loose.radius = {1e-3};
