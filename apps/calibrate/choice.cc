@@ -77,8 +77,9 @@ std::vector<std::string> overrides_of(const Scene &scene, const Choice &c) {
   add("Bond/Modulus", Knob::modulus, " Pa");
   add("Bond/Stiffness ratio", Knob::stiffness_ratio, "");
   add("Bond/Radius multiplier", Knob::radius_multiplier, "");
-  add("Bond/Tensile strength", Knob::tensile_strength, " Pa");
-  add("Bond/Shear strength", Knob::shear_strength, " Pa");
+  // What is unbreakable, or nobody has asked for, stays so.
+  add("Bond/Tensile strength", Knob::tensile_strength, " Pa", c[Knob::tensile_strength] > 0);
+  add("Bond/Shear strength", Knob::shear_strength, " Pa", c[Knob::shear_strength] > 0);
   add("Bond/Moment contribution", Knob::moment_contribution, "");
   add("Bond/Friction angle", Knob::friction_angle, " rad", false);
   add("Contact/Friction", Knob::contact_friction, "", false);

@@ -33,11 +33,6 @@ bool has_knob(const Scene &scene, Knob knob) {
   return false;
 }
 
-// Static solves tell it; all others need platens that move.
-bool is_elastic(const Target &target) {
-  return target.kind == TargetKind::young_modulus || target.kind == TargetKind::poisson_ratio;
-}
-
 // Slope, height and what follows the peak.
 constexpr std::size_t counts_of_a_curve = 3;
 
@@ -99,12 +94,12 @@ void SceneCheck::calibrate_bounds() const {
 }
 
 void SceneCheck::target(const Target &target) const {
-  if (is_elastic(target)) return;
+  if (target.is_elastic()) return;
   need("Loading/Axial rate", scene_.loading.rate, "the platens have to move.");
   for (const char *strength : {"tensile_strength", "shear_strength"})
     if (scene_.bond.number(strength) == 0)
       refuse(std::string("Bond/") + (strength[0] == 't' ? "Tensile strength" : "Shear strength"),
-             "is infinite: the search for strengths begins with it. Allowed: > 0 Pa.");
+             "is no number that the search for strengths could begin with. Allowed: > 0 Pa.");
   const SpecimenSection &specimen = scene_.specimen;
   const bool cylinder = specimen.shape == SpecimenShape::cylinder,
              other = given(target.slenderness) || target.kind == TargetKind::splitting ||

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/scene/scene.h"
+#include "apps/scene/units.h"
 #include "apps/scene/values.h"
 
 namespace platen::apps {
@@ -67,6 +68,19 @@ Declared &Declared::needed_if(const std::string &path, const std::vector<std::st
 
 Declared &Declared::needed_if(std::function<std::string(const Situation &)> why) {
   entry().needed.push_back(std::move(why));
+  return *this;
+}
+
+Declared &Declared::or_word(const std::string &word, const Range &otherwise) {
+  Entry &of = entry();
+  const std::string standard = of.default_text, unit = of.unit;
+  of.read = [read = std::move(of.read), word, otherwise, standard, unit](const std::string &text) {
+    if (text.empty() || tidy(text) == word) return read(standard);
+    if (!otherwise.holds(to_si(text, unit))) throw ValueError("is out of range");
+    read(text);
+  };
+  of.allowed = word + ", or " + otherwise.text();
+  of.default_text = of.text = "";
   return *this;
 }
 

@@ -43,6 +43,9 @@ public:
   Declared &needed_if(const std::string &path, const std::vector<std::string> &words);
   // It must be given where `why`, a sentence, is not "".
   Declared &needed_if(std::function<std::string(const Situation &)> why);
+  // A word stands for the number that it has beforehand, numbers have to be of the range; where nothing is
+  // given that number holds too, but there is no default.
+  Declared &or_word(const std::string &word, const Range &otherwise);
   // Takes the place of the documentation.
   Declared &says(const std::string &documentation);
   // Ends the documentation with " (text).".

@@ -1,6 +1,7 @@
 // The section Calibrate: what platen-calibrate looks for, and what it may change.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -99,6 +100,9 @@ struct Target {
   double rate = not_given, strain = not_given;   // m/s, 1: speed and largest strain of its tests
   std::string file;                              // of a curve; resolved
   std::string entry = "Calibrate/Target 1/Kind"; // where its faults are told
+
+  // Static solves tell it; all others need platens that move.
+  bool is_elastic() const { return kind == TargetKind::young_modulus || kind == TargetKind::poisson_ratio; }
 };
 
 struct Calibrate { // platen-calibrate
@@ -126,6 +130,11 @@ struct Calibrate { // platen-calibrate
   double friction_low = not_given, friction_high = not_given; // rad, friction angle of the bond
   double limits_low = 0.2, limits_high = 5;                   // factor to the compression limits
   double contact_friction_low = 0, contact_friction_high = 1; // of grains
+
+  bool searches_strengths() const {
+    return mode == CalibrateMode::search &&
+           std::any_of(targets.begin(), targets.end(), [](const Target &t) { return !t.is_elastic(); });
+  }
 };
 
 } // namespace platen::apps

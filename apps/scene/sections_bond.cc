@@ -4,6 +4,18 @@
 #include "apps/scene/sections.h"
 
 namespace platen::apps {
+namespace {
+
+// Bonds that never break are meant, not forgotten. A calibration asks for them where its search begins with
+// them; what it solves at rest breaks nothing.
+std::string strength_is_missing(const Situation &s) {
+  if (!s.scene.bond.bonded() || s.app == AppKind::pack) return "";
+  if (s.app == AppKind::calibrate)
+    return s.scene.calibrate.searches_strengths() ? "the search for strengths begins with it." : "";
+  return std::string("Effects/Bond is ") + s.scene.bond.word() + ".";
+}
+
+} // namespace
 
 void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model) {
   Section section(parameters, "Bond");
@@ -14,12 +26,17 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
     const bool bonds = s.scene.bond.bonded() && s.app != AppKind::pack && !lists;
     return bonds ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
   });
-  for (const char *member : {"stiffness_ratio", "poisson_ratio", "tensile_strength", "shear_strength",
-                             "friction_angle", "moment_contribution"})
+  for (const char *member : {"stiffness_ratio", "poisson_ratio"})
+    law(member);
+  law("tensile_strength").says("Stress at which it breaks in tension.");
+  law("shear_strength").says("Its cohesion: shear stress at which it breaks without compression.");
+  for (const char *key : {"Tensile strength", "Shear strength"})
+    section.at(key).needed_if(strength_is_missing).or_word("unbreakable", between(1e-3, 1e12));
+  for (const char *member : {"friction_angle", "moment_contribution"})
     law(member);
   section.at("Friction angle")
       .only_if([](const Scene &s) { return s.bond.number("shear_strength") > 0; },
-               "Bond/Shear strength is infinite");
+               "Bond/Shear strength = unbreakable");
   section.at("Moment contribution")
       .only_if(
           [](const Scene &s) {
@@ -40,7 +57,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
           [](const Scene &s) {
             return s.bond.number("tensile_strength") > 0 || s.bond.number("shear_strength") > 0;
           },
-          "both strengths are infinite");
+          "both strengths are unbreakable");
   Members(section, bond.scatter)("weibull_modulus")
       .only_if("Bond/Strength scatter", {"weibull"})
       .needed_if("Bond/Strength scatter", {"weibull"});

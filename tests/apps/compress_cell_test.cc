@@ -51,7 +51,7 @@ TEST_F(Cell, the_target_strain_is_counted_from_the_end_of_the_hydrostatic_stage)
   const nlohmann::json s =
       crush("deep", {"Loading/Confinement = particles", "Loading/Confining pressure = 20 MPa",
                      "Loading/Target strain = 0.001", "Loading/Unload at = 0.0005", "Loading/Unload to = 0.5",
-                     "Bond/Tensile strength = 0", "Bond/Shear strength = 0"});
+                     "Bond/Tensile strength = unbreakable", "Bond/Shear strength = unbreakable"});
   const auto closure = column("deep", "axial_strain_platen"), deviator = column("deep", "deviator_pa"),
              pressure = column("deep", "confining_pressure_pa");
   // The last row near the 1 % of the pressure at which the platens take over.
@@ -139,8 +139,8 @@ TEST_F(Cell, a_stopped_run_ends_as_if_it_had_not_been) {
 }
 
 TEST_F(Cell, a_wall_measures_what_it_holds) {
-  const nlohmann::json s = crush("wall", {"Loading/Test = uniaxial strain", "Bond/Tensile strength = 0",
-                                          "Bond/Shear strength = 0", "Loading/Target strain = 0.002"});
+  const nlohmann::json s = crush("wall", {"Loading/Test = uniaxial strain", "Bond/Tensile strength = unbreakable",
+                                          "Bond/Shear strength = unbreakable", "Loading/Target strain = 0.002"});
   EXPECT_EQ(s["test"], "uniaxial strain");
   EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
   EXPECT_GT(s["constrained_modulus_pa"], 0);

@@ -142,6 +142,47 @@ TEST(SceneFaults, elastic_platens_go_with_every_test) {
             std::string::npos);
 }
 
+TEST(SceneFaults, no_bond_is_unbreakable_by_oversight) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  for (const char *key : {"Bond/Tensile strength", "Bond/Shear strength"}) {
+    const std::string missing = std::string(key) + " =", meant = missing + " unbreakable",
+                      says = std::string(key) + " is not set";
+    for (const AppKind app :
+         {AppKind::compress, AppKind::brazilian, AppKind::bar, AppKind::bonds, AppKind::study})
+      for (const char *law : {"parallel bond", "elasto damage plastic", "yielding parallel bond"}) {
+        const std::vector<std::string> scene{
+            "Pair test/Displacement = 1 um", "Integration/Damping = 0", std::string("Effects/Bond = ") + law,
+            "Bond/Compression limits = 10 MPa, 20 MPa, 30 MPa", "Bond/Compression slopes = 2, 3, 4"};
+        std::vector<std::string> without = scene, elastic = scene;
+        without.push_back(missing), elastic.push_back(meant);
+        EXPECT_NE(message_of(good, without, app).find(says), std::string::npos) << law;
+        EXPECT_EQ(message_of(good, elastic, app), "") << law;
+      }
+    EXPECT_EQ(message_of(good, {missing}, AppKind::pack), "");
+    EXPECT_EQ(message_of(good, {missing, "Effects/Bond = none", "Contact/Stiffness = 1e6 N/m",
+                                "Platens/Stiffness = 1e6 N/m"}),
+              "");
+    // What is solved at rest breaks nothing, what is searched begins with it.
+    EXPECT_EQ(message_of(good, {missing, "Calibrate/Young modulus = 20 GPa"}, AppKind::calibrate), "");
+    EXPECT_NE(message_of(good, {missing, "Calibrate/Compressive strength = 20 MPa"}, AppKind::calibrate)
+                  .find(says + ": the search for strengths begins with it."),
+              std::string::npos);
+  }
+}
+
+TEST(SceneFaults, what_is_unbreakable_is_written_so_and_read_again) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  const Scene first = read_scene(good, {"Bond/Tensile strength = unbreakable"}, AppKind::compress);
+  EXPECT_EQ(first.bond.number("tensile_strength"), 0); // never breaks
+  EXPECT_EQ(first.bond.number("shear_strength"), 30e6);
+  const auto written = std::filesystem::temp_directory_path() / "platen unbreakable.prm";
+  std::ofstream(written) << scene_text(first, written.parent_path());
+  const Scene second = read_scene(written.string(), {}, AppKind::compress);
+  EXPECT_EQ(second.bond.number("tensile_strength"), 0);
+  EXPECT_EQ(scene_text(second, written.parent_path()), scene_text(first, written.parent_path()));
+  std::filesystem::remove(written);
+}
+
 TEST(SceneFaults, each_app_asks_for_what_it_needs) {
   const auto good = (folder / "fragment" / "good.prm").string();
   EXPECT_EQ(message_of(good), "");
