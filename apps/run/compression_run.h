@@ -42,6 +42,7 @@ private:
   void reopen_history();
   void loop();
   void start_pressed();
+  void require_length() const;
   dem::InstructionSet instruction_set_of_checkpoint();
   void require_files_of_checkpoint();
   void sample();

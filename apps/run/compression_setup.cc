@@ -1,5 +1,6 @@
 // A test as it begins: the specimen laid as the app presses it, its problem, its folder; anew or resumed.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -104,6 +105,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   sampler_ = std::make_unique<Sampler>(*test_);
   if (scene.loading.start_strain > 0 && !resumes) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());
+  require_length();
   setup_seconds_ = output_.seconds();
   if (command.dry_run) return;
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
@@ -121,6 +123,32 @@ void CompressionRun::require_files_of_checkpoint() {
 void CompressionRun::require_memory(const dem::Shape &shape) {
   apps::require_memory(scene_, shape);
   if (command_.dry_run) counted_ = counted_estimate(scene_, shape);
+}
+
+// What tells the test: steps enough that something happens between them, and rows enough to see a peak.
+void CompressionRun::require_length() const {
+  constexpr double fewest_steps = 100, most_steps = 1e12, fewest_rows = 5;
+  const double step = test_->time_step(), seconds = test_->program().expected_seconds();
+  const Loading &loading = scene_.loading;
+  const bool own_step = scene_.time_step.fixed_step > 0,
+             by_rate = !loading.staged() && !loading.servo && !loading.hydrostatic();
+  const std::string entry = own_step && seconds / step > most_steps ? "Integration/Time step"
+                            : !by_rate                              ? "Loading/Test"
+                            : std::isnan(loading.rate)              ? "Loading/Wave crossings"
+                                                                    : "Loading/Axial rate";
+  if (seconds < fewest_steps * step || seconds > most_steps * step)
+    refuse(scene_, entry,
+           fmt::format(
+               "leaves {:.3g} steps of {:.3g} s ({}) for a test of {:.3g} s. Allowed: {:.0f} ... {:.0e}.",
+               seconds / step, step, test_->time_step_reason(), seconds, fewest_steps, most_steps));
+  const Interval &rows = scene_.output.every;
+  const double between = rows.kind == Interval::Kind::steps ? rows.value * step : rows.value;
+  if (rows.kind != Interval::Kind::none && fewest_rows * between > seconds)
+    refuse(
+        scene_, "Output/Every",
+        fmt::format("leaves {:.2g} rows of history.csv, by which results are told, for a test of {:.3g} s. "
+                    "Allowed: {:.0f} rows or more.",
+                    seconds / between, seconds, fewest_rows));
 }
 
 dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {

@@ -115,6 +115,7 @@ int run_pack(const CommandLine &command, const Scene &scene) {
     throw InputError("command line: --resume: a packing has nothing to resume; leave it out");
   AppOutput output(command, scene);
   if (command.dry_run) {
+    require_room(scene);
     const dem::Shape shape = specimen_shape(scene);
     fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n", title_of(scene), 1e6 * shape.volume(),
                1e3 * scene.specimen.sphere_radius);

@@ -153,8 +153,17 @@ dem::Specimen place_spheres(const Scene &scene) {
 
 } // namespace
 
+void require_room(const Scene &scene) {
+  if (scene.specimen.packing != PackingKind::file) check_count(scene, specimen_shape(scene));
+}
+
 dem::Specimen make_specimen(const Scene &scene) {
   dem::Specimen specimen = place_spheres(scene);
+  const Gap &gap = scene.model.bond_layout.gap;
+  if (scene.bond.bonded() && !gap.relative && gap.value > dem::smallest_radius(specimen))
+    refuse(scene, "Bond/Gap",
+           "is more than the smallest radius, " + shortest_text(dem::smallest_radius(specimen)) +
+               " m: spheres as far apart have others between them. Allowed: up to that.");
   check_phases(scene, specimen);
   return specimen;
 }

@@ -22,6 +22,10 @@ void check_count(const Scene &scene, const dem::Shape &shape);
 // not jam).
 dem::Specimen make_specimen(const Scene &scene);
 
+// Throws InputError where this machine's memory cannot hold the spheres that fill the specimen; make_specimen
+// does so too.
+void require_room(const Scene &scene);
+
 // The phases of the scene fit this specimen: none is empty, and every id of Phases/File is a sphere's.
 // make_specimen sees to it; for specimens that come from elsewhere. Throws InputError, naming the line.
 void check_phases(const Scene &scene, const dem::Specimen &specimen);

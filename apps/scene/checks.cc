@@ -47,6 +47,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.calibrate();
   check.bar_test();
   check.study();
+  check.scale();
   check.notes();
 }
 

@@ -36,9 +36,10 @@ Declared Section::declare(const std::string &key, const std::string &default_tex
 
 Declared Section::entry(const std::string &key, double &to, const std::string &si_unit, const Range &range,
                         const std::string &documentation) {
+  const Allowed allowed = physical(name_ + "/" + key, si_unit, range);
   return declare(
-      key, shortest_text(to), si_unit, range.text(), documentation,
-      [&to, si_unit, range](const std::string &text) { to = read_quantity(text, si_unit, range); });
+      key, shortest_text(to), si_unit, allowed.text(), documentation,
+      [&to, si_unit, allowed](const std::string &text) { to = read_quantity(text, si_unit, allowed); });
 }
 
 Declared Section::entry(const std::string &key, bool &to, const std::string &documentation) {
@@ -61,22 +62,22 @@ Declared Section::entry(const std::string &key, Interval &to, const std::string 
 }
 
 Declared Section::entry(const std::string &key, Gap &to, const std::string &documentation) {
-  return declare(key, text_of(to), "", "\"0.05 R_min\", or a length (m); 0 or more", documentation,
+  return declare(key, text_of(to), "", gap_allowed, documentation,
                  [&to](const std::string &text) { to = read_gap(text); });
 }
 
 Declared Section::stiffness(const std::string &key, Stiffness &to, bool bulk_allowed,
                             const std::string &documentation) {
-  const std::string bulk = bulk_allowed ? ", \"0.01 bulk\"" : "";
-  return declare(key, text_of(to), "", "a multiple of the bond's, or with unit \"4e5 N/m\"" + bulk + "; > 0",
-                 documentation,
+  return declare(key, text_of(to), "", stiffness_allowed(bulk_allowed), documentation,
                  [&to, bulk_allowed](const std::string &text) { to = read_stiffness(text, bulk_allowed); });
 }
 
 Declared Section::entry(const std::string &key, std::vector<double> &to, const std::string &si_unit,
                         const Range &range, const std::string &documentation) {
-  return declare(key, "", si_unit, "numbers with commas between them, each " + range.text(), documentation,
-                 [&to, si_unit, range](const std::string &text) { to = read_list(text, si_unit, range); });
+  const Allowed allowed = physical(name_ + "/" + key, si_unit, range);
+  return declare(
+      key, "", si_unit, "numbers with commas between them, each " + allowed.text(), documentation,
+      [&to, si_unit, allowed](const std::string &text) { to = read_list(text, si_unit, allowed); });
 }
 
 Declared Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,

@@ -39,6 +39,7 @@ public:
   void calibrate_bounds() const;
   void bar_test() const;
   void study() const;
+  void scale() const;
   void notes();
 
 private:
@@ -61,6 +62,15 @@ private:
   void seat() const;
   void friction(coupling::Side of) const;
   void weakening(coupling::Side of) const;
+  std::string set_to(const std::string &path) const;
+  void proportions() const;
+  double wave_speed() const;
+  void waves() const;
+  void stage_rates() const;
+  void step_count() const;
+  void stresses() const;
+  void stiffnesses() const;
+  void pair_scale() const;
   void note(const std::string &path, const std::string &why);
   void notes_of_declarations();
   void bar_notes();

@@ -58,7 +58,11 @@ std::optional<SideGroup> take_side(std::string &text) {
 
 double value_of(const std::string &text, const std::string &unit) {
   if (text.empty()) throw ValueError("has no value");
-  return to_si(text, unit);
+  const double value = to_si(text, unit);
+  const Allowed allowed = physical("", unit, at_least(0));
+  if (!allowed.holds(std::abs(value)))
+    throw ValueError("has a value out of range, " + allowed.text() + (unit == "1" ? "" : " " + unit));
+  return value;
 }
 
 // "0.05 1/s", "5 %/s"; a bare number is per second.

@@ -100,9 +100,8 @@ void declare_study(Parameters &parameters, Study &study) {
   section.value("Domain list", study.domains, "m", "pairs with commas between them, each \"72 mm x 22.5 mm\"",
                 read_domains,
                 "Study of size: further cylinders, height x radius, at Specimen/Sphere radius.");
-  section.value("Gap list", study.gaps, "",
-                "gaps with commas between them, each \"0.05 R_min\", or a length (m); 0 or more", read_gaps,
-                "Study of the packing, in place of Bond/Gap.");
+  section.value("Gap list", study.gaps, "", std::string("gaps with commas between them, each ") + gap_allowed,
+                read_gaps, "Study of the packing, in place of Bond/Gap.");
   section.entry("Radius multiplier list", study.radius_multipliers, "1",
                 range_of<dem::BondLayout>("radius_multiplier"),
                 "Study of the packing, in place of Bond/Radius multiplier; each with every gap and spread.");

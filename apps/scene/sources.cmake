@@ -2,6 +2,7 @@
 set(PLATEN_SCENE_SOURCES
   scene/units.cc
   scene/values.cc
+  scene/physical.cc
   scene/parameters.cc
   scene/declare.cc
   scene/declared.cc
@@ -25,6 +26,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
+  scene/checks_scale.cc
   scene/checks_sides.cc
   scene/checks_specimen.cc
   scene/checks_stages.cc

@@ -9,10 +9,18 @@
 namespace platen::apps {
 namespace {
 
+// Of bonds, over the smaller radius: a second neighbour in a dense packing begins at .83.
+constexpr double most_gap = 1;
+// A stiffness over that of bonds, or of grains, within which a time step still follows both.
+const Range multiples = between(1e-6, 1e6);
 constexpr double largest_whole_number = 9007199254740992.0; // 2^53: beyond it doubles skip whole numbers
 
-void check(double value, const Range &range) {
-  if (!range.holds(value)) throw ValueError("is out of range");
+void check(double value, const Allowed &allowed) {
+  if (!allowed.holds(value)) throw ValueError("is out of range");
+}
+
+Allowed stiffness_range() {
+  return physical("", "N/m", above(0));
 }
 
 // What stands between commas, each piece read by read(piece); "" is no piece.
@@ -36,10 +44,10 @@ std::vector<Value> read_items(const std::string &text, const Read &read) {
 
 } // namespace
 
-double read_quantity(const std::string &text, const std::string &si_unit, const Range &range) {
+double read_quantity(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
   if (text.empty()) return not_given;
   const double value = to_si(text, si_unit);
-  check(value, range);
+  check(value, allowed);
   return value;
 }
 
@@ -63,6 +71,7 @@ Interval read_interval(const std::string &text) {
   const NumberWithUnit number = split_number(text);
   if (number.value < 0) throw ValueError("is negative");
   const bool time = !number.unit.empty();
+  if (time) check(to_si(number, "s"), physical("", "s", at_least(0)));
   const double value = time ? to_si(number, "s") : static_cast<double>(read_integer(text, at_least(0)));
   if (value == 0) return {};
   return {time ? Interval::Kind::time : Interval::Kind::steps, value};
@@ -72,6 +81,9 @@ Gap read_gap(const std::string &text) {
   const NumberWithUnit number = split_number(text);
   const Gap gap{number.unit == "R_min", number.unit == "R_min" ? number.value : to_si(number, "m")};
   if (gap.value < 0) throw ValueError("is negative");
+  if (gap.relative && gap.value > most_gap)
+    throw ValueError("reaches past the neighbours: spheres as far apart have others between them");
+  if (!gap.relative) check(gap.value, physical("", "m", any_number()));
   return gap;
 }
 
@@ -82,13 +94,13 @@ Stiffness read_stiffness(const std::string &text, bool bulk_allowed) {
     stiffness.kind = Stiffness::Kind::of_bulk;
   else if (!number.unit.empty())
     stiffness = {Stiffness::Kind::absolute, to_si(number, "N/m")};
-  check(stiffness.value, above(0));
+  check(stiffness.value, stiffness.kind == Stiffness::Kind::absolute ? stiffness_range() : multiples);
   return stiffness;
 }
 
-std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range) {
+std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
   return read_items<double>(text,
-                            [&](const std::string &item) { return read_quantity(item, si_unit, range); });
+                            [&](const std::string &item) { return read_quantity(item, si_unit, allowed); });
 }
 
 std::vector<Gap> read_gaps(const std::string &text) {
@@ -102,7 +114,8 @@ std::vector<DomainSize> read_domains(const std::string &text) {
     if (sign == std::string::npos) throw ValueError("is no pair: \"height x radius\" is");
     const std::string height = item.substr(0, sign), radius = item.substr(sign + between_both.size());
     if (height.empty() || radius.empty()) throw ValueError("is half a pair");
-    return {read_quantity(height, "m", above(0)), read_quantity(radius, "m", above(0))};
+    const Allowed length = physical("", "m", above(0));
+    return {read_quantity(height, "m", length), read_quantity(radius, "m", length)};
   });
 }
 
@@ -166,6 +179,13 @@ std::size_t read_word(const std::string &text, const std::vector<std::string> &w
     throw ValueError("is not known." + (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?"));
   }
   return static_cast<std::size_t>(position - words.begin());
+}
+
+const char *const gap_allowed = "\"0.05 R_min\", 0 ... 1 of it, or a length (m) below the radius";
+
+std::string stiffness_allowed(bool bulk_allowed) {
+  return "a multiple of the bond's, " + multiples.text() + ", or with unit \"4e5 N/m\"" +
+         (bulk_allowed ? ", \"0.01 bulk\"" : "") + "; > 0";
 }
 
 std::string text_of(const Interval &interval) {

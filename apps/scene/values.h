@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/physical.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/units.h"
 #include "base/range.h"
@@ -12,19 +13,19 @@
 namespace platen::apps {
 
 // A number with its unit, inside the range; "" is NaN.
-double read_quantity(const std::string &text, const std::string &si_unit, const Range &range);
+double read_quantity(const std::string &text, const std::string &si_unit, const Allowed &allowed);
 // A whole number without a unit.
 long read_integer(const std::string &text, const Range &range);
 // on / off, true / false, yes / no.
 bool read_flag(const std::string &text);
 // "200" steps, "0.1 ms", "10 min"; 0 is none.
 Interval read_interval(const std::string &text);
-// "0.05 R_min" or a length; not negative.
+// "0.05 R_min", of less than a radius, or a length; not negative.
 Gap read_gap(const std::string &text);
 // "2" of the bond's, "4e5 N/m", and, where it is allowed, "0.01 bulk".
 Stiffness read_stiffness(const std::string &text, bool bulk_allowed);
 // "1 GPa, 2 GPa"; "" is no number.
-std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Range &range);
+std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Allowed &allowed);
 // "0.05 R_min, 0.1 mm"; "" is no gap.
 std::vector<Gap> read_gaps(const std::string &text);
 // "72 mm x 22.5 mm, 65 mm x 20 mm": heights and radii; "" is none.
@@ -41,6 +42,10 @@ Expectation read_expectation(const std::string &text, const std::string &si_unit
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
 // The place of a word in `words`.
 std::size_t read_word(const std::string &text, const std::vector<std::string> &words);
+
+// What read_gap and read_stiffness take.
+extern const char *const gap_allowed;
+std::string stiffness_allowed(bool bulk_allowed);
 
 std::string text_of(const Interval &interval);
 std::string text_of(const Gap &gap);

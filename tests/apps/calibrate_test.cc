@@ -369,7 +369,8 @@ TEST_F(CalibrateApp, faults_are_refused) {
   EXPECT_NE(fault({"Calibrate/Poisson ratio = 0.2", "Calibrate/Smallest stiffness ratio = 2"})
                 .find("is not below Calibrate/Largest stiffness ratio"),
             std::string::npos);
-  EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Bond/Tensile strength = unbreakable"}).find("is no number that the search"),
+  EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Bond/Tensile strength = unbreakable"})
+                .find("is no number that the search"),
             std::string::npos);
   EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Calibrate/Compressive strength = 2 MPa"})
                 .find("is not below Calibrate/Compressive strength"),

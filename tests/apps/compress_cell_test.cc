@@ -139,8 +139,9 @@ TEST_F(Cell, a_stopped_run_ends_as_if_it_had_not_been) {
 }
 
 TEST_F(Cell, a_wall_measures_what_it_holds) {
-  const nlohmann::json s = crush("wall", {"Loading/Test = uniaxial strain", "Bond/Tensile strength = unbreakable",
-                                          "Bond/Shear strength = unbreakable", "Loading/Target strain = 0.002"});
+  const nlohmann::json s =
+      crush("wall", {"Loading/Test = uniaxial strain", "Bond/Tensile strength = unbreakable",
+                     "Bond/Shear strength = unbreakable", "Loading/Target strain = 0.002"});
   EXPECT_EQ(s["test"], "uniaxial strain");
   EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
   EXPECT_GT(s["constrained_modulus_pa"], 0);

@@ -199,6 +199,25 @@ TEST_F(Errors, a_disk_that_is_full_from_the_start_leaves_no_folder) {
   EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
 
+// What the packed specimen decides: too few steps or rows to see anything happen, or steps without end.
+TEST_F(Errors, a_test_has_steps_and_rows_enough_to_be_told_by) {
+  refuse({with({"Loading/Axial rate = 300", "Loading/Target strain = 0.02", "Loading/Ramp = 1 ns"}),
+          {"--set 1: error: Loading/Axial rate = 300 leaves ", " steps of ", "Allowed: 100 ... 1e+12."}});
+  refuse({with({"Integration/Time step = 1e-17"}),
+          {"--set 1: error: Integration/Time step = 1e-17 leaves ", "(given by the scene)"}});
+  refuse(
+      {with({"Output/Every = 4000"}),
+       {"--set 1: error: Output/Every = 4000 leaves ", " rows of history.csv", "Allowed: 5 rows or more."}});
+  refuse({with({"Output/Every = 1 s"}), {"--set 1: error: Output/Every = 1 s leaves "}});
+  EXPECT_EQ(run_compress({scene_, "--dry-run", "--quiet", "-s", "Output/Every = 500"}, folder_).status, 0);
+}
+
+TEST_F(Errors, a_gap_beyond_the_smallest_sphere_is_refused) {
+  refuse({with({"Bond/Gap = 0.8 mm"}),
+          {"--set 1: error: Bond/Gap = 0.8 mm is more than the smallest radius, 0.00074",
+           "Allowed: up to that."}});
+}
+
 // A slip of a unit: packed for hours, until all memory is gone.
 TEST_F(Errors, spheres_without_number_are_refused_before_they_are_packed) {
   for (const char *packing : {"advancing front", "random close"})
@@ -480,13 +499,16 @@ TEST_F(Errors, a_sleeve_that_would_turn_inside_out_stops_the_run) {
   measured::note_figure(28, "exit_status", outcome.status, "3");
 }
 
+// Contacts by Hertz' law grow stiffer as they close, and a step that is given stays.
 TEST_F(Errors, numerics_that_stop_are_status_three) {
-  const Outcome outcome = run_compress(
-      {scene_, "-o", "results", "--quiet", "-s", "Loading/Axial rate = 20 km/s", "-s", "Loading/Ramp = 1 ns"},
-      folder_);
+  const Outcome outcome =
+      run_compress({scene_, "-o", "results", "--quiet", "-s", "Effects/Contact = hertz", "-s",
+                    "Material/Young modulus = 100 GPa", "-s", "Integration/Time step = 0.1 us", "-s",
+                    "Checkpoint/Every = 0", "-s", "Output/Fields = off"},
+                   folder_);
   EXPECT_EQ(outcome.status, 3);
-  for (const char *part :
-       {"step ", "time ", "in one step", "smaller time step", "no checkpoint had been written"})
+  for (const char *part : {"the time step of 1e-07 s is above the stability limit of ", " at ",
+                           "try a smaller Integration/Time step", "no checkpoint had been written"})
     EXPECT_TRUE(contains(outcome.error, part)) << outcome.error << " not: " << part;
   EXPECT_EQ(summary_in(folder_ / "results")["status"], "failed");
 }

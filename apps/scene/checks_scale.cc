@@ -1,0 +1,189 @@
+// What entries make together: proportions, waves, steps, stresses. Each of them may be in its own range and
+// the whole still be a slip of a unit, or two numbers in each other's place. Orders of magnitude, before
+// anything is packed; a run asks once more when its time step is known (apps/run/compression_setup.cc).
+#include "apps/scene/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/pi.h"
+
+namespace platen::apps {
+namespace {
+
+// Heights over widths: fibres and sheets are within, a height in metres for one in millimetres is not.
+constexpr double most_slender = 200;
+// m/s; of gels, and of what is lighter than aerogels and stiffer than diamond.
+constexpr double slowest_wave = 1e-3, fastest_wave = 1e6;
+constexpr double most_of_wave_speed = 0.1; // of a platen; above it nothing is in equilibrium anywhere
+// Steps of a test that it can be told by, and that a machine can make.
+constexpr double fewest_steps = 100, most_steps = 1e12;
+// Time step over the time that a wave takes across a radius: 0.1 to 0.6 of packings with linear contacts.
+constexpr double smallest_step = 0.03, largest_step = 1;
+// Strength over modulus: strain at which a bond breaks.
+constexpr double least_strain_at_break = 1e-9, most_strain_at_break = 1;
+constexpr double most_pressure = 0.1; // over the modulus: the specimen would lose a tenth of its size
+
+std::string number(double value) {
+  return fmt::format("{:.3g}", value);
+}
+
+} // namespace
+
+// "Specimen/Height = 40 mm"
+std::string SceneCheck::set_to(const std::string &path) const {
+  const Entry &entry = parameters_.at(path);
+  return path + (entry.text.empty() ? "" : " = " + entry.text);
+}
+
+void SceneCheck::proportions() const {
+  const SpecimenSection &s = scene_.specimen;
+  if (app_ == AppKind::bonds || s.packing == PackingKind::file || !given(s.height)) return;
+  const double width = s.round() ? 2 * s.radius : std::fmin(s.width_x, s.width_y);
+  const std::string of =
+      s.round() ? "Specimen/Radius" : "Specimen/Width " + std::string(s.width_x <= s.width_y ? "x" : "y");
+  const auto proportion = [&](const std::string &path, double extent) {
+    const double over = extent / width;
+    if (over > most_slender || over < 1 / most_slender)
+      refuse(path, "is " + number(over) + " times the width that " + set_to(of) +
+                       " gives. Allowed: " + number(1 / most_slender) + " ... " + number(most_slender) + ".");
+  };
+  proportion("Specimen/Height", s.height);
+  if (!s.round() && of != "Specimen/Width x" && given(s.width_x)) proportion("Specimen/Width x", s.width_x);
+  if (!s.round() && of != "Specimen/Width y" && given(s.width_y)) proportion("Specimen/Width y", s.width_y);
+  if (loads() && scene_.loading.sleeved() && s.round() && scene_.loading.cell->sleeve->thickness > s.radius)
+    refuse("Sleeve/Thickness", "is more than " + set_to("Specimen/Radius") + ". Allowed: up to that.");
+  if (loads() && scene_.platens.deformable && scene_.platens.thickness > 100 * std::fmax(s.height, width))
+    refuse("Platens/Thickness", "is more than a hundred times the specimen's size. Allowed: up to that.");
+}
+
+// m/s, along a chain of bonds with what makes masses larger; not a number where the scene does not tell.
+double SceneCheck::wave_speed() const {
+  if (!scene_.bond.bonded()) return not_given;
+  return std::sqrt(scene_.model.bond_layout.modulus / (scene_.model.density * scene_.model.mass_scaling));
+}
+
+void SceneCheck::waves() const {
+  const double speed = wave_speed();
+  const std::string pair = parameters_.at("Material/Density").changed() ? "Material/Density" : "Bond/Modulus",
+                    other = pair == "Bond/Modulus" ? "Material/Density" : "Bond/Modulus";
+  if (speed < slowest_wave || speed > fastest_wave)
+    refuse(pair, "does not go with " + set_to(other) + ": waves would run at " + number(speed) +
+                     " m/s. Allowed: " + number(slowest_wave) + " ... " + number(fastest_wave) + " m/s.");
+  const double rate = scene_.loading.rate * scene_.loading.rate_multiplier;
+  const std::string hurried =
+      scene_.loading.rate_multiplier > 1 ? "with " + set_to("Loading/Hurry") + " " : "";
+  if (loads() && rate > most_of_wave_speed * speed)
+    refuse("Loading/Axial rate", hurried + "is " + number(rate / speed) + " times the speed of waves, " +
+                                     number(speed) + " m/s by " + set_to("Bond/Modulus") + " and " +
+                                     set_to("Material/Density") + ". Allowed: up to " +
+                                     number(most_of_wave_speed) + " times.");
+  if (loads()) stage_rates();
+}
+
+void SceneCheck::stage_rates() const {
+  for (std::size_t k = 0; k < scene_.loading.stage_sections.size(); ++k)
+    for (const coupling::SideGroup group : coupling::all_side_groups) {
+      const auto &ask = scene_.loading.stage_sections[k].asks.at(static_cast<std::size_t>(group));
+      if (ask && ask->ask == coupling::SideAsk::Ask::rate &&
+          std::abs(ask->value) > most_of_wave_speed * wave_speed())
+        refuse(section_of_stage(k + 1) + "/" + key_of(group),
+               "is more than " + number(most_of_wave_speed) + " of the speed of waves, " +
+                   number(wave_speed()) + " m/s by " + set_to("Bond/Modulus") + " and " +
+                   set_to("Material/Density") + ".");
+    }
+}
+
+void SceneCheck::step_count() const {
+  const Loading &l = scene_.loading;
+  const SpecimenSection &s = scene_.specimen;
+  if (!loads() || app_ == AppKind::calibrate || l.servo || l.staged() || l.hydrostatic() || l.bending())
+    return;
+  const double length = app_ == AppKind::brazilian ? 2 * s.radius : s.height,
+               crossing = s.sphere_radius / wave_speed(); // s, of a radius
+  const bool by_transits = Situation{scene_, parameters_, app_}.rate_by_transits();
+  const double seconds = by_transits ? 1e3 * l.target_strain * l.wave_transits * length / wave_speed()
+                                     : l.target_strain * length / l.rate;
+  const std::string rate = by_transits ? "Loading/Wave crossings" : "Loading/Axial rate";
+  const auto refuse_count = [&](double steps, const char *bound) {
+    refuse(rate, "comes to " + set_to("Loading/Target strain") + " in " + number(seconds) + " s, which are " +
+                     bound + number(steps) + " time steps of spheres of " + set_to("Specimen/Sphere radius") +
+                     ". Allowed: " + number(fewest_steps) + " ... " + number(most_steps) + ".");
+  };
+  const double most = seconds / (smallest_step * crossing), least = seconds / (largest_step * crossing);
+  if (most < fewest_steps) refuse_count(most, "at most ");
+  if (least > most_steps) refuse_count(least, "at least ");
+}
+
+void SceneCheck::stresses() const {
+  const double modulus = scene_.model.bond_layout.modulus;
+  if (!scene_.bond.bonded() || !given(modulus)) return;
+  for (const auto &[path, member] :
+       {std::pair<const char *, const char *>{"Bond/Tensile strength", "tensile_strength"},
+        {"Bond/Shear strength", "shear_strength"}}) {
+    const double strain = scene_.bond.number(member) / modulus;
+    if (strain > most_strain_at_break || (strain > 0 && strain < least_strain_at_break))
+      refuse(path, "over " + set_to("Bond/Modulus") + " is a strain at break of " + number(strain) +
+                       ". Allowed: " + number(least_strain_at_break) + " ... " +
+                       number(most_strain_at_break) + ".");
+  }
+  const auto pressed = [&](const char *path, double pressure) {
+    if (pressure > most_pressure * modulus)
+      refuse(path, "is " + number(pressure / modulus) + " of " + set_to("Bond/Modulus") +
+                       ". Allowed: up to " + number(most_pressure) + " of it.");
+  };
+  if (loads() && scene_.loading.confined())
+    pressed("Loading/Confining pressure", scene_.loading.cell->pressure);
+  if (loads() && scene_.loading.servo) pressed("Platens/Top/Stress", scene_.loading.top_stress);
+}
+
+// Absolute ones beside the bond of two mean spheres.
+void SceneCheck::stiffnesses() const {
+  const double radius = scene_.specimen.sphere_radius;
+  if (!scene_.bond.bonded() || !given(radius) || app_ == AppKind::pack) return;
+  const double bond = 0.5 * pi * scene_.model.bond_layout.modulus * radius;
+  constexpr double widest = 1e6; // a time step follows both
+  const auto compare = [&](const char *path, const Stiffness &stiffness) {
+    const double over = stiffness.value / bond;
+    if (stiffness.kind == Stiffness::Kind::absolute && (over > widest || over < 1 / widest))
+      refuse(path, "is " + number(over) + " times that of a bond, which " + set_to("Bond/Modulus") + " and " +
+                       set_to("Specimen/Sphere radius") + " give. Allowed: " + number(1 / widest) + " ... " +
+                       number(widest) + " times.");
+  };
+  if (scene_.effects.contact == dem::NormalContact::linear)
+    compare("Contact/Stiffness", scene_.contact.stiffness);
+  if (loads() && !scene_.hertz_on_platens()) compare("Platens/Stiffness", scene_.platens.stiffness);
+}
+
+void SceneCheck::pair_scale() const {
+  if (app_ != AppKind::bonds || !given(scene_.specimen.sphere_radius)) return;
+  const PairTest &test = scene_.pair_test;
+  const double radius = scene_.specimen.sphere_radius;
+  const auto far = [&](const char *path, double displacement) {
+    if (std::abs(displacement) > 2 * radius)
+      refuse(path, "moves a sphere by more than its size, " + set_to("Specimen/Sphere radius") +
+                       ". Allowed: up to twice that.");
+  };
+  far("Pair test/Displacement", test.displacement);
+  for (const double turn : test.turns)
+    far("Pair test/Turns", turn);
+  if (test.moduli.empty()) return;
+  const double strain =
+      test.force / (pi * radius * radius * *std::max_element(test.moduli.begin(), test.moduli.end()));
+  if (strain > 1)
+    refuse("Pair test/Force", "strains bonds between spheres of " + set_to("Specimen/Sphere radius") +
+                                  " by " + number(strain) + ". Allowed: up to 1.");
+}
+
+void SceneCheck::scale() const {
+  proportions();
+  waves();
+  step_count();
+  stresses();
+  stiffnesses();
+  pair_scale();
+}
+
+} // namespace platen::apps
