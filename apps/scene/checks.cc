@@ -7,9 +7,19 @@
 
 namespace platen::apps {
 
+void SceneCheck::refuse(const std::string &path, const std::string &reason) const {
+  if (found_.concern(path)) return;
+  try {
+    parameters_.refuse(path, reason);
+  } catch (const EntryError &error) {
+    found_.add(error);
+  }
+}
+
 void SceneCheck::readable(const std::string &path, const std::string &file, const std::string &why) const {
-  if (file.empty()) refuse(path, "is not set: " + why);
-  if (is_pipe_or_device(file)) refuse(path, "is a pipe or a device, no file (looked for " + file + ").");
+  if (file.empty()) return refuse(path, "is not set: " + why);
+  if (is_pipe_or_device(file))
+    return refuse(path, "is a pipe or a device, no file (looked for " + file + ").");
   if (!open_file(file)) refuse(path, "cannot be read (looked for " + file + ").");
 }
 
@@ -26,8 +36,9 @@ std::string resolved_path(const Entry &entry) {
   return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
 }
 
-void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
-  SceneCheck check(scene, parameters, app);
+Faults check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
+  Faults found;
+  SceneCheck check(scene, parameters, app, found);
   check.specimen();
   check.effects();
   check.stages();
@@ -49,6 +60,7 @@ void check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.study();
   check.scale();
   check.notes();
+  return found;
 }
 
 } // namespace platen::apps

@@ -6,8 +6,8 @@
 
 namespace platen::apps {
 
-// Throws InputError for the first contradiction, with the place of the entry; adds to scene.notes.
-void check_scene(Scene &scene, const Parameters &parameters, AppKind app);
+// Contradictions and what is missing, with their places; adds to scene.notes.
+Faults check_scene(Scene &scene, const Parameters &parameters, AppKind app);
 
 // The path of a file entry as the program can open it: relative to the folder of the file that sets it, or,
 // from the command line, to the current folder.

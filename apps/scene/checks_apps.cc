@@ -10,7 +10,7 @@ namespace platen::apps {
 
 void SceneCheck::pair_test() const {
   if (app_ != AppKind::bonds) return;
-  if (!scene_.bond.bonded()) refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
+  if (!scene_.bond.bonded()) return refuse("Effects/Bond", "leaves platen-bonds without a bond to test.");
   if (scene_.bond.remembers()) return led_pair();
   if (scene_.pair_test.path == PairPath::combined)
     refuse("Pair test/Path",

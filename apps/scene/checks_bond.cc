@@ -19,7 +19,9 @@ void SceneCheck::bond() const {
   try {
     dem::bond_law(*scene_.bond.parameters());
   } catch (const BadParameter &e) {
-    parameters_.refuse(e);
+    const std::string entry = parameters_.entry_of(e.owner + "." + e.member);
+    if (parameters_.find(entry) == nullptr) throw;
+    refuse(entry, e.reason);
   }
 }
 

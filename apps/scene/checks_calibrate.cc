@@ -41,7 +41,7 @@ constexpr std::size_t counts_of_a_curve = 3;
 void SceneCheck::calibrate() const {
   if (app_ != AppKind::calibrate) return;
   const Calibrate &c = scene_.calibrate;
-  if (!scene_.bond.bonded()) refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
+  if (!scene_.bond.bonded()) return refuse("Effects/Bond", "leaves platen-calibrate without a bond to find.");
   if (scene_.loading.servo)
     refuse("Platens/Top/Control", "is not for calibration: platens are moved. Allowed: motion.");
   calibrate_bounds();
@@ -52,7 +52,7 @@ void SceneCheck::calibrate() const {
     refuse("Calibrate/Poisson ratio list", "is for beams: Effects/Bond = parallel bond has none.");
   if (c.mode != CalibrateMode::search) return;
   if (given(c.triaxial_strength)) triaxial_strength();
-  if (c.targets.empty())
+  if (c.targets.empty() && !parameters_.faults().any_in("Calibrate"))
     refuse("Calibrate/Mode",
            "has nothing to search for. Allowed: bounds, abacus, or a wanted Young modulus, Poisson ratio or "
            "strength, or a Calibrate/Target 1.");

@@ -35,9 +35,9 @@ void SceneCheck::stages() const {
     if (!loading.stage_sections[k].given())
       for (std::size_t later = k; later < most_stages; ++later)
         if (loading.stage_sections[later].given())
-          refuse(first_entry(parameters_, section_of_stage(later + 1)),
-                 "is of a stage without the one before it: " + section_of_stage(k + 1) +
-                     " is empty. Allowed: stages " + "without a gap.");
+          return refuse(first_entry(parameters_, section_of_stage(later + 1)),
+                        "is of a stage without the one before it: " + section_of_stage(k + 1) +
+                            " is empty. Allowed: stages " + "without a gap.");
   const auto refuse_stages = [&](const std::string &path, const std::string &allowed) {
     refuse(path, "does not go with " + section_of_stage(1) + ". Allowed: " + allowed + ".");
   };
@@ -53,7 +53,7 @@ void SceneCheck::stages() const {
   } catch (const coupling::BadSetup &e) {
     const std::string entry = parameters_.entry_of(e.member()), section = entry.substr(0, entry.rfind('/'));
     const std::string reason = parameters_.with_entries(e.reason());
-    if (parameters_.at(entry).changed()) refuse(entry, reason);
+    if (parameters_.at(entry).changed()) return refuse(entry, reason);
     refuse(first_entry(parameters_, section), "is of a stage whose " + entry + " " + reason);
   }
 }

@@ -43,8 +43,10 @@ Declared Section::entry(const std::string &key, double &to, const std::string &s
 }
 
 Declared Section::entry(const std::string &key, bool &to, const std::string &documentation) {
-  return declare(key, to ? "on" : "off", "", "on, off", documentation,
-                 [&to](const std::string &text) { to = read_flag(text); });
+  const Declared declared = declare(key, to ? "on" : "off", "", "on, off", documentation,
+                                    [&to](const std::string &text) { to = read_flag(text); });
+  parameters_.declared(name_ + "/" + key).words = {"on", "off"};
+  return declared;
 }
 
 Declared Section::text(const std::string &key, std::string &to, const std::string &documentation) {

@@ -72,9 +72,11 @@ public:
       names.push_back(name);
       if (value == to && by_default.empty()) by_default = name;
     }
-    return declare(
-        key, by_default, "", joined(names), documentation,
-        [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
+    const Declared declared =
+        declare(key, by_default, "", joined(names), documentation,
+                [&to, words, names](const std::string &text) { to = words[read_word(text, names)].second; });
+    parameters_.declared(name_ + "/" + key).words = names;
+    return declared;
   }
 
   Declared at(const std::string &key) { // throws std::out_of_range for what is not declared

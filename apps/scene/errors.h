@@ -10,7 +10,7 @@ constexpr int status_done = 0, status_check_failed = 1, status_bad_input = 2, st
               status_output = 4;
 
 // Bad command line, scene or file named by them, found before anything was written: exit status 2. The text
-// names file, line, key, value and what is allowed in at most six lines.
+// names file, line, key, value and what is allowed, in at most six lines for each fault.
 class InputError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

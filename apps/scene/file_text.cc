@@ -14,7 +14,7 @@ namespace platen::apps {
 
 std::string read_text(const std::string &path) {
   const auto fail = [&](const std::string &reason) {
-    throw InputError(path + ": error: cannot be read: " + reason);
+    throw EntryError(path + ": error: cannot be read: " + reason, {path, 0, 0, 0}, "");
   };
   constexpr std::size_t largest = 4u << 20; // bytes; a scene is a few thousand, so this is some other file
   std::error_code ignored;
@@ -40,8 +40,9 @@ std::string without_byte_order_mark(const std::string &text) {
 void read_scene_file(const std::string &path, Parameters &parameters) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".prm" && ending != ".json")
-    throw InputError(path +
-                     ": error: is no scene file by its name. Allowed: names that end in .prm or .json.");
+    throw EntryError(
+        path + ": error: is no scene file by its name. Allowed: names that end in .prm or .json.",
+        {path, 0, 0, 0}, "");
   parameters.add_source(path);
   const std::string text = read_text(path);
   if (ending == ".json")

@@ -60,8 +60,8 @@ private:
   }
   std::string where() const { return levels_.empty() ? "the file" : path(levels_.size()); }
   [[noreturn]] void fail(const std::string &what) {
-    const Origin origin = levels_.empty() ? Origin{name_, 1, 0} : levels_.back().origin;
-    throw InputError(origin.text() + ": error: " + what);
+    const Origin origin = levels_.empty() ? Origin{name_, 1, 0, 0} : levels_.back().origin;
+    throw EntryError(origin.text() + ": error: " + what, origin, "");
   }
   bool scalar(const std::string &value);
 
@@ -71,28 +71,32 @@ private:
   int line_ = 1;
   const std::string &name_;
   Parameters &parameters_;
-  std::vector<Level> levels_; // one for each object that is open
-  bool in_entry_ = false;     // inside {"value": ...}
+  std::vector<Level> levels_;    // one for each object that is open
+  std::size_t unknown_from_ = 0; // levels from which on what an unknown section holds is passed over
+  bool in_entry_ = false;        // inside {"value": ...}
 };
 
 bool JsonReader::start_object(std::size_t) {
   if (in_entry_) fail(where() + " is an object inside an entry. Allowed: its \"value\".");
-  if (!levels_.empty()) {
+  if (!levels_.empty() && unknown_from_ == 0) {
     const std::string here = path(levels_.size());
     in_entry_ = parameters_.find(here) != nullptr;
-    if (!in_entry_) parameters_.enter(here, levels_.back().origin);
+    if (!in_entry_ && !parameters_.attempt([&] { parameters_.enter(here, levels_.back().origin); }))
+      unknown_from_ = levels_.size() + 1;
   }
-  levels_.push_back({"", {name_, 0, 0}, {}});
+  levels_.push_back({"", {name_, 0, 0, 0}, {}});
   return true;
 }
 
 bool JsonReader::end_object() {
   if (in_entry_ && levels_.back().keys.count("value") == 0) {
     const Origin origin = levels_[levels_.size() - 2].origin;
-    throw InputError(origin.text() + ": error: " + path(levels_.size() - 1) +
-                     " is an object without \"value\". Allowed: a number, a text, true, false.");
+    throw EntryError(origin.text() + ": error: " + path(levels_.size() - 1) +
+                         " is an object without \"value\". Allowed: a number, a text, true, false.",
+                     origin, path(levels_.size() - 1));
   }
   in_entry_ = false;
+  if (unknown_from_ == levels_.size()) unknown_from_ = 0;
   levels_.pop_back();
   return true;
 }
@@ -112,12 +116,16 @@ bool JsonReader::key(std::string &name) {
 
 bool JsonReader::scalar(const std::string &value) {
   if (levels_.empty()) fail("the file is no object. Allowed: {\"Section\": {\"Key\": value}}.");
-  if (!in_entry_) {
-    if (parameters_.is_section(where())) fail(where() + " = " + value + " is a section. Allowed: an object.");
-    parameters_.set(where(), value, levels_.back().origin);
-  } else if (levels_.back().key == "value") {
-    parameters_.set(path(levels_.size() - 1), value, levels_.back().origin);
-  }
+  if (unknown_from_ > 0) return true;
+  parameters_.attempt([&] {
+    if (!in_entry_) {
+      if (parameters_.is_section(where()))
+        fail(where() + " = " + value + " is a section. Allowed: an object.");
+      parameters_.set(where(), value, levels_.back().origin);
+    } else if (levels_.back().key == "value") {
+      parameters_.set(path(levels_.size() - 1), value, levels_.back().origin);
+    }
+  });
   return true;
 }
 
@@ -130,8 +138,9 @@ bool JsonReader::parse_error(std::size_t position, const std::string &,
   const auto prefix =
       reason.find(": "); // "[json.exception...] parse error at line 3, column 5: syntax error ..."
   if (prefix != std::string::npos) reason = reason.substr(prefix + 2);
-  throw InputError(Origin{name_, at, 0}.text() + ": error: this is not JSON: " + tidy(reason).substr(0, 300) +
-                   ".");
+  const Origin origin{name_, at, 0, 0};
+  throw EntryError(origin.text() + ": error: this is not JSON: " + tidy(reason).substr(0, 300) + ".", origin,
+                   "");
 }
 
 } // namespace

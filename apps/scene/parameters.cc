@@ -157,10 +157,11 @@ void Parameters::enter(const std::string &path, const Origin &origin) const {
   if (is_section(path)) return;
   std::string message = origin.text() + ": error: " + shown(path) + " is not a section.";
   if (path.find('/') != std::string::npos && is_section(last_name(path)))
-    throw InputError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?");
+    throw EntryError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?",
+                     origin, path);
   const std::string nearest = nearest_section(path);
-  if (!nearest.empty()) throw InputError(message + " Did you mean \"" + nearest + "\"?");
-  throw InputError(message + "\n" + contents_of(section_of(path)));
+  if (!nearest.empty()) throw EntryError(message + " Did you mean \"" + nearest + "\"?", origin, nearest);
+  throw EntryError(message + "\n" + contents_of(section_of(path)), origin, "");
 }
 
 std::string Parameters::nearest_section(const std::string &path) const {
@@ -204,19 +205,21 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
   else
     nearest = nearest_word(path, everywhere);
   const std::string message = origin.text() + ": error: " + shown(path) + " is not a parameter.";
-  if (nearest.empty()) throw InputError(message + "\n" + contents_of(section));
+  if (nearest.empty()) throw EntryError(message + "\n" + contents_of(section), origin, "");
   const std::string about = limits(at(nearest));
-  throw InputError(message + " Did you mean \"" + nearest + "\"" + (about.empty() ? "" : " (" + about + ")") +
-                   "?");
+  throw EntryError(
+      message + " Did you mean \"" + nearest + "\"" + (about.empty() ? "" : " (" + about + ")") + "?", origin,
+      nearest);
 }
 
 void Parameters::set(const std::string &path, const std::string &text, const Origin &origin) {
   if (find(path) == nullptr) refuse_unknown(path, origin);
   Entry &entry = declared(path);
   if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
-    throw InputError(origin.text() + ": error: " + path + " = " + shown(trimmed(text)) +
-                     " is set twice: it was set to \"" + shown(entry.text) + "\" in " + entry.origin.text() +
-                     ". Allowed: once.");
+    throw EntryError(origin.text() + ": error: " + path + " = " + shown(trimmed(text)) +
+                         " is set twice: it was set to \"" + shown(entry.text) + "\" in " +
+                         entry.origin.text() + ". Allowed: once.",
+                     origin, path);
   const std::string value = trimmed(text);
   try {
     check_characters(value);
@@ -226,8 +229,9 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
     const std::string about = limits(entry);
     std::string reason = error.what();
     if (reason.back() != '.' && reason.back() != '?') reason += '.';
-    throw InputError(origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") +
-                     reason + (about.empty() ? "" : " Allowed: " + about + "."));
+    throw EntryError(origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") +
+                         reason + (about.empty() ? "" : " Allowed: " + about + "."),
+                     origin, path);
   }
   entry.text = value;
   entry.origin = origin;
@@ -246,11 +250,13 @@ void Parameters::supply(const std::string &path, const std::string &text, const 
 }
 
 void Parameters::override_entry(const std::string &assignment, int number) {
-  const Origin origin{"command line, --set " + std::to_string(number), 0, -1};
+  const Origin origin{"command line, --set " + std::to_string(number), 0, -1, number};
   const auto equals = assignment.find('=');
   if (equals == std::string::npos)
-    throw InputError(origin.text() + ": error: \"" + shown(assignment) +
-                     "\" sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".");
+    throw EntryError(
+        origin.text() + ": error: \"" + shown(assignment) +
+            "\" sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".",
+        origin, "");
   std::string path, part;
   const std::string names = assignment.substr(0, equals) + "/";
   for (const char c : names) {
@@ -267,9 +273,11 @@ void Parameters::override_entry(const std::string &assignment, int number) {
 void Parameters::refuse(const std::string &path, const std::string &reason) const {
   const Entry &entry = at(path);
   const std::string scene = sources_.empty() ? "" : sources_.front();
-  const std::string place = entry.origin.file.empty() ? scene : entry.origin.text();
-  throw InputError((place.empty() ? "" : place + ": ") + "error: " + path +
-                   (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason);
+  const Origin origin = entry.origin.file.empty() ? Origin{scene, 0, 0, 0} : entry.origin;
+  const std::string place = origin.text();
+  throw EntryError((place.empty() ? "" : place + ": ") + "error: " + path +
+                       (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason,
+                   origin, path);
 }
 
 void Parameters::refuse(const BadParameter &error) const {
@@ -294,6 +302,36 @@ std::string Parameters::with_entries(const std::string &message) const {
     at = close + 1;
   }
   return text;
+}
+
+// "Bond/Radius" is not named by "Bond/Radius rule is ...": the longest entry that stands there is.
+bool Parameters::names_a_fault(const std::string &message) const {
+  const auto names = [&](const std::string &faulty) {
+    for (std::size_t at = message.find(faulty); at != std::string::npos; at = message.find(faulty, at + 1)) {
+      const bool longer = std::any_of(entries_.begin(), entries_.end(), [&](const Entry &entry) {
+        return entry.path.size() > faulty.size() && message.compare(at, entry.path.size(), entry.path) == 0;
+      });
+      if (!longer || is_section(faulty)) return true;
+    }
+    return false;
+  };
+  return std::any_of(faults_.all().begin(), faults_.all().end(),
+                     [&](const EntryError &one) { return !one.entry.empty() && names(one.entry); });
+}
+
+void Parameters::add_independent(const Faults &found) {
+  for (const EntryError &one : found.all())
+    if (!faults_.concern(one.entry) && !names_a_fault(one.what())) faults_.add(one);
+}
+
+void Parameters::throw_faults() const {
+  if (!faults_.empty()) throw InputError(faults_.text(sources_));
+}
+
+void Parameters::pretend(const std::string &path, const std::string &word) {
+  Entry &entry = declared(path);
+  entry.text = word.empty() ? entry.default_text : word;
+  entry.read(entry.text);
 }
 
 void Parameters::release() {

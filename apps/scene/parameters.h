@@ -8,27 +8,21 @@
 #include <vector>
 
 #include "apps/scene/errors.h"
+#include "apps/scene/faults.h"
 #include "base/describe.h"
 
 namespace platen::apps {
 
 struct Situation;
 
-// Where a value comes from.
-struct Origin {
-  std::string file; // as given; "command line, --set 2"; empty for a default
-  int line = 0;     // first is 1; 0 where lines mean nothing
-  int depth = 0;    // of `include`: 0 in the scene itself, 1 in a file it includes; -1 on the command line
-  std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
-};
-
 struct Entry {
-  std::string path;          // "Bond/Tensile strength"
-  std::string default_text;  // "" where there is no default
-  std::string unit;          // SI unit of a bare number; "" where there is none
-  std::string allowed;       // in words: "0 ... 5", "none, linear, hertz"
-  std::string documentation; // one sentence or two
-  bool is_file = false;      // the value is a path, relative to the folder of the scene
+  std::string path;               // "Bond/Tensile strength"
+  std::string default_text;       // "" where there is no default
+  std::string unit;               // SI unit of a bare number; "" where there is none
+  std::string allowed;            // in words: "0 ... 5", "none, linear, hertz"
+  std::string documentation;      // one sentence or two
+  bool is_file = false;           // the value is a path, relative to the folder of the scene
+  std::vector<std::string> words; // that it may be; empty where it is none of a few
   // Of sections alike: in the first, or a further one; written only where it is set, the first with what is
   // documented.
   enum class Alike { none, first, further } alike = Alike::none;
@@ -87,6 +81,31 @@ public:
   // With every member in backquotes replaced by its entry.
   std::string with_entries(const std::string &message) const;
 
+  // What attempts refuse is kept from now on, and told together; before it each refusal is thrown.
+  void collect() { collects_ = true; }
+  // Whether f() was not refused. What it throws beside EntryError passes.
+  template <class F>
+  bool attempt(const F &f) {
+    try {
+      f();
+      return true;
+    } catch (const EntryError &error) {
+      if (!collects_) throw;
+      faults_.add(error);
+      return false;
+    }
+  }
+  // A part of the scene cannot be read: what it lacks cannot be told.
+  void lose_part() { whole_ = false; }
+  bool whole() const { return whole_; }
+  const Faults &faults() const { return faults_; }
+  // Adds what was found by checks, but for what follows from another fault: of an entry that has one, or with
+  // such an entry in its words.
+  void add_independent(const Faults &found);
+  void throw_faults() const; // InputError, where there is one
+  // Reads another word, as if it stood in the scene; "" its default.
+  void pretend(const std::string &path, const std::string &word);
+
   // A file that is read, the scene itself first; included ones follow.
   void add_source(const std::string &path) { sources_.push_back(path); }
   const std::vector<std::string> &sources() const { return sources_; }
@@ -98,11 +117,14 @@ private:
   [[noreturn]] void refuse_unknown(const std::string &path, const Origin &origin) const;
   std::string nearest_section(const std::string &path) const; // "" where none is near
   std::string contents_of(const std::string &section) const;
+  bool names_a_fault(const std::string &message) const;
   std::size_t position(const std::string &path) const; // entries_.size() for an unknown path
 
   std::vector<Entry> entries_;
   std::vector<std::string> sections_;
   std::vector<std::string> sources_;
+  Faults faults_;
+  bool collects_ = false, whole_ = true;
 };
 
 // Throws ValueError for a text that a .prm cannot hold and give back.

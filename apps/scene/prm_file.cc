@@ -15,6 +15,7 @@ constexpr int deepest_include = 16; // more is a file that includes itself
 struct OpenSection {
   std::string name;
   Origin origin;
+  bool unknown; // it, or one around it: what it holds is passed over
 };
 
 class PrmReader {
@@ -29,14 +30,16 @@ private:
   void set(const std::string &assignment, const Origin &origin);
   void include(const std::string &file, const Origin &origin);
   std::string path(const std::string &name) const;
+  bool passes_over() const { return !open_.empty() && open_.back().unknown; }
+  std::string begun(const std::string &assignment) const;
 
   Parameters &parameters_;
   std::vector<OpenSection> open_;
   std::size_t opened_before_ = 0; // sections that an including file has open: not ours to close
 };
 
-[[noreturn]] void fail(const Origin &origin, const std::string &what) {
-  throw InputError(origin.text() + ": error: " + what);
+[[noreturn]] void fail(const Origin &origin, const std::string &what, const std::string &entry = "") {
+  throw EntryError(origin.text() + ": error: " + what, origin, entry);
 }
 
 std::string PrmReader::path(const std::string &name) const {
@@ -76,42 +79,74 @@ void PrmReader::statement(const std::string &line, const Origin &origin) {
   if (line.empty()) return;
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string word = line.substr(0, blank), rest = trimmed(line.substr(blank));
-  if (word == "set" || word == "SET") return set(rest, origin);
+  if (word == "set" || word == "SET")
+    return static_cast<void>(parameters_.attempt([&] { set(rest, origin); }));
   if (word == "subsection" || word == "SUBSECTION") return enter(tidy(rest), origin);
   if (word == "end" || word == "END") return leave(rest, origin);
-  if (word == "include" || word == "INCLUDE") return include(rest, origin);
+  if (word == "include" || word == "INCLUDE") {
+    const std::vector<OpenSection> open = open_;
+    const std::size_t opened_before = opened_before_;
+    if (parameters_.attempt([&] { include(rest, origin); })) return;
+    parameters_.lose_part();
+    open_ = open, opened_before_ = opened_before;
+    return;
+  }
   const std::string nearest = nearest_word(word, {"set", "subsection", "end", "include"});
-  fail(origin, "\"" + line.substr(0, 80) + "\" is no statement." +
-                   (nearest.empty() ? " Allowed: set, subsection, end, include."
-                                    : " Did you mean \"" + nearest + "\"?"));
+  const auto refuse = [&] {
+    fail(origin,
+         "\"" + line.substr(0, 80) + "\" is no statement." +
+             (nearest.empty() ? " Allowed: set, subsection, end, include."
+                              : " Did you mean \"" + nearest + "\"?"),
+         nearest == "set" ? begun(rest) : "");
+  };
+  if (nearest != "set") refuse(); // what follows may stand in another section, or be no scene at all
+  parameters_.attempt(refuse);
+}
+
+// The entry of the open section whose key stands in front.
+std::string PrmReader::begun(const std::string &assignment) const {
+  std::string longest;
+  for (const Entry &entry : parameters_.entries()) {
+    const std::string key = entry.path.substr(entry.path.rfind('/') + 1);
+    if (entry.path == path(key) && assignment.rfind(key, 0) == 0 && entry.path.size() > longest.size())
+      longest = entry.path;
+  }
+  return longest;
 }
 
 void PrmReader::enter(const std::string &name, const Origin &origin) {
   if (name.empty()) fail(origin, "\"subsection\" needs the name of a section.");
   const std::string entered = path(name);
-  if (!parameters_.is_section(entered) && !open_.empty() && parameters_.is_section(name))
+  if (!passes_over() && !parameters_.is_section(entered) && !open_.empty() && parameters_.is_section(name))
     fail(origin, entered + " is not a section. Is the \"end\" of section " + open_.back().name + " (" +
                      open_.back().origin.text() + ") missing before it?");
-  parameters_.enter(entered, origin);
-  open_.push_back({name, origin});
+  const bool known = passes_over() || parameters_.attempt([&] { parameters_.enter(entered, origin); });
+  open_.push_back({name, origin, passes_over() || !known});
 }
 
 void PrmReader::leave(const std::string &rest, const Origin &origin) {
-  if (!rest.empty()) fail(origin, "\"end\" is followed by \"" + rest.substr(0, 80) + "\". Allowed: nothing.");
+  parameters_.attempt([&] {
+    if (!rest.empty())
+      fail(origin, "\"end\" is followed by \"" + rest.substr(0, 80) + "\". Allowed: nothing.");
+  });
   if (open_.size() == opened_before_) fail(origin, "\"end\" without a subsection to close.");
   open_.pop_back();
 }
 
 void PrmReader::set(const std::string &assignment, const Origin &origin) {
+  if (passes_over()) return;
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos)
-    fail(origin, "\"set " + assignment.substr(0, 80) + "\" has no \"=\". Allowed: set Key = value.");
+    fail(origin, "\"set " + assignment.substr(0, 80) + "\" has no \"=\". Allowed: set Key = value.",
+         begun(assignment));
   const std::string key = tidy(assignment.substr(0, equals));
   if (key.empty())
     fail(origin, "\"set " + assignment.substr(0, 80) + "\" names no key. Allowed: set Key = value.");
   if (key.find('/') != std::string::npos && parameters_.find(key) != nullptr)
-    fail(origin, "\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, key.rfind('/')) +
-                     ", set " + key.substr(key.rfind('/') + 1) + " = ..., end.");
+    fail(origin,
+         "\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, key.rfind('/')) + ", set " +
+             key.substr(key.rfind('/') + 1) + " = ..., end.",
+         key);
   parameters_.set(path(key), assignment.substr(equals + 1), origin);
 }
 

@@ -35,7 +35,7 @@ void inherit(Scene &scene, Parameters &parameters) {
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
-  supply_layers(parameters, platens);
+  parameters.attempt([&] { supply_layers(parameters, platens); });
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   scene.loading.stages = stages_of(scene.loading.stage_sections);
@@ -66,6 +66,21 @@ void keep(Scene &scene, Parameters &parameters) {
   scene.parameters = std::make_shared<const Parameters>(std::move(parameters));
 }
 
+// What holds whatever a word was meant to be that could not be read: it decides what else is needed.
+Faults found_in(Scene &scene, Parameters &parameters, AppKind app) {
+  Faults found = check_scene(scene, parameters, app);
+  for (const EntryError &fault : parameters.faults().all()) {
+    const Entry *entry = parameters.find(fault.entry);
+    if (entry == nullptr || found.empty()) continue;
+    for (const std::string &word : std::vector<std::string>(entry->words)) {
+      parameters.pretend(fault.entry, word);
+      found.keep_common(check_scene(scene, parameters, app));
+    }
+    if (!entry->words.empty()) parameters.pretend(fault.entry, "");
+  }
+  return found;
+}
+
 // A null `app` leaves contradictions be.
 Scene read(const std::string &path, const std::vector<std::string> &overrides, const AppKind *app) {
   Scene scene;
@@ -73,11 +88,13 @@ Scene read(const std::string &path, const std::vector<std::string> &overrides, c
   declare_scene(parameters, scene);
   scene.path = path;
   scene.name = std::filesystem::path(path).stem().string();
-  read_scene_file(path, parameters);
+  parameters.collect();
+  if (!parameters.attempt([&] { read_scene_file(path, parameters); })) parameters.lose_part();
   for (std::size_t k = 0; k < overrides.size(); ++k)
-    parameters.override_entry(overrides[k], static_cast<int>(k) + 1);
-  inherit(scene, parameters);
-  if (app != nullptr) check_scene(scene, parameters, *app);
+    parameters.attempt([&] { parameters.override_entry(overrides[k], static_cast<int>(k) + 1); });
+  if (parameters.whole()) inherit(scene, parameters);
+  if (parameters.whole() && app != nullptr) parameters.add_independent(found_in(scene, parameters, *app));
+  parameters.throw_faults();
   keep(scene, parameters);
   return scene;
 }

@@ -90,7 +90,7 @@ struct Scene {
 Scene default_scene();
 
 // Reads `path` (.prm or .json), applies overrides ("Section/Key = value", in order), converts and checks all.
-// Throws InputError with one message: file, line, key, value, what is allowed.
+// Throws InputError with all that is wrong: file, line, key, value, what is allowed of each.
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app);
 
 // Throws InputError on behalf of an entry, with the place where it was set: "case.prm:14: error: ...".

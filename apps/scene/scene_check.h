@@ -1,4 +1,4 @@
-// The checks of a scene, section by section; each throws InputError for the first contradiction.
+// The checks of a scene, section by section; each adds what it finds, one fault of an entry.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace platen::apps {
 
 class SceneCheck {
 public:
-  SceneCheck(Scene &scene, const Parameters &parameters, AppKind app)
-      : scene_(scene), parameters_(parameters), app_(app) {}
+  SceneCheck(Scene &scene, const Parameters &parameters, AppKind app, Faults &found)
+      : scene_(scene), parameters_(parameters), app_(app), found_(found) {}
 
   void specimen() const;
   void effects() const;
@@ -44,9 +44,8 @@ public:
 
 private:
   bool loads() const { return Situation{scene_, parameters_, app_}.loads(); }
-  [[noreturn]] void refuse(const std::string &path, const std::string &reason) const {
-    parameters_.refuse(path, reason);
-  }
+  // Goes on: what comes after it has to hold without it.
+  void refuse(const std::string &path, const std::string &reason) const;
   void need(const std::string &path, double value, const std::string &why) const {
     if (!given(value)) refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
   }
@@ -79,6 +78,7 @@ private:
   Scene &scene_;
   const Parameters &parameters_;
   AppKind app_;
+  Faults &found_;
 };
 
 } // namespace platen::apps

@@ -103,7 +103,7 @@ std::string unit_of(TargetKind kind) {
   }
 }
 
-std::vector<Target> targets_of(const Parameters &parameters, const Calibrate &c) {
+std::vector<Target> targets_of(Parameters &parameters, const Calibrate &c) {
   std::vector<Target> all;
   const auto add = [&](TargetKind kind, double value, const char *key) {
     if (std::isnan(value)) return;
@@ -120,12 +120,14 @@ std::vector<Target> targets_of(const Parameters &parameters, const Calibrate &c)
   for (std::size_t k = 0; k < c.target_sections.size(); ++k) {
     const std::string section = section_of_target(k + 1);
     if (c.target_sections[k].kind != TargetKind::none) {
-      all.push_back(target_of(parameters, section, c.target_sections[k], c));
+      parameters.attempt([&] { all.push_back(target_of(parameters, section, c.target_sections[k], c)); });
       continue;
     }
     for (const Entry &entry : parameters.entries())
-      if (entry.path.rfind(section + "/", 0) == 0 && entry.changed())
-        parameters.refuse(entry.path, "is of a target without a kind: " + section + "/Kind is not set.");
+      if (entry.path.rfind(section + "/", 0) == 0 && entry.changed() && !parameters.faults().any_in(section))
+        parameters.attempt([&] {
+          parameters.refuse(entry.path, "is of a target without a kind: " + section + "/Kind is not set.");
+        });
   }
   return all;
 }

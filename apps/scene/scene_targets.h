@@ -23,6 +23,6 @@ std::string unit_of(TargetKind kind);
 
 // The keys of Calibrate as targets, then the sections in their order. Throws InputError where one gives no
 // value, or not such a one, or gives numbers without a kind.
-std::vector<Target> targets_of(const Parameters &parameters, const Calibrate &calibrate);
+std::vector<Target> targets_of(Parameters &parameters, const Calibrate &calibrate);
 
 } // namespace platen::apps

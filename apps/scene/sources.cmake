@@ -4,6 +4,7 @@ set(PLATEN_SCENE_SOURCES
   scene/values.cc
   scene/physical.cc
   scene/parameters.cc
+  scene/faults.cc
   scene/declare.cc
   scene/declared.cc
   scene/members.cc
