@@ -109,15 +109,6 @@ Json impact_part(const BarResults &r) {
   return s;
 }
 
-std::vector<std::string> effects_of(const Scene &scene) {
-  std::vector<std::string> words; // a bar meets no platens
-  for (const std::string &word : effects_on(scene))
-    if (word.find("platen") == std::string::npos && word != "glued ends" && word != "seats" &&
-        word != "fields" && word != "crack log")
-      words.push_back(word);
-  return words;
-}
-
 std::string percent(double part) {
   return std::isfinite(part) ? fmt::format("{:+.2f} %", 100 * part) : "-";
 }
@@ -157,7 +148,7 @@ std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults 
 }
 
 Json summary_of(const Scene &scene, const BarResults &r, const std::string &status) {
-  Json s = summary_head(scene, "platen-bar", status, effects_of(scene));
+  Json s = summary_head(scene, "platen-bar", status, effects_on(scene, AppKind::bar));
   add_figures(s, r);
   s["mean_radius_m"] = r.bar.mean_radius;
   s["length_m"] = r.bar.length();

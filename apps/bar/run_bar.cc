@@ -37,7 +37,7 @@ public:
   BarRun(const Scene &scene, AppOutput &output)
       : scene_(scene),
         output_(output),
-        specimen_(make_specimen(scene)),
+        specimen_(make_bonded_specimen(scene)),
         settings_(model_settings(scene)),
         model_(specimen_, settings_) {}
 

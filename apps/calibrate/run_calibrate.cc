@@ -129,7 +129,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   output.open();
   output.log.info("{}", said);
   const CalibrateMode mode = scene.calibrate.mode;
-  Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
+  Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene, AppKind::calibrate));
   s["mode"] = word_of(calibrate_modes, mode);
   s["threads"] = output.threads();
   std::vector<std::string> unmet;

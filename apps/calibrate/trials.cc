@@ -208,7 +208,7 @@ void Trials::pack(const std::vector<Trial> &trials) {
     }
     Scene scene = scene_of_form(scene_, missing[k].test);
     scene.general.seed = missing[k].seed;
-    made[k] = make_specimen(scene);
+    made[k] = make_bonded_specimen(scene);
     write_specimen_csv(file, made[k]);
   });
   for (std::size_t k = 0; k < missing.size(); ++k) {

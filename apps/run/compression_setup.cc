@@ -24,7 +24,7 @@ namespace {
 
 // The specimen as the app presses it.
 dem::Specimen placed(const Scene &scene, Pressed pressed) {
-  const dem::Specimen made = make_specimen(scene);
+  const dem::Specimen made = make_bonded_specimen(scene);
   const auto refuse = [&](const std::string &reason) { apps::refuse(scene, "Specimen/File", reason); };
   if (pressed == Pressed::across_axis) {
     if (made.shape.kind == dem::ShapeKind::box)

@@ -6,6 +6,7 @@
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/readers.h"
 #include "apps/scene/regular_file.h"
 #include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
@@ -15,7 +16,7 @@ namespace {
 
 struct Effect {
   bool on;
-  std::string word;
+  std::string word, entry; // that switches it
 };
 
 // Every effect that a scene may have: its laws by their words, then the rest.
@@ -25,50 +26,53 @@ std::vector<Effect> effects(const Scene &s) {
   const std::optional<dem::ContactSettings> contact = contact_settings(s);
   const bool bonded = bond.has_value(), touching = contact.has_value();
   const dem::TangentialContact tangential = s.contact.tangential;
-  std::vector<Effect> all{{bonded, bonded ? s.bond.word() : dem::BondLaws::words.front()}};
+  std::vector<Effect> all{{bonded, bonded ? s.bond.word() : dem::BondLaws::words.front(), "Effects/Bond"}};
   for (const auto &[word, law] : dem::NormalContacts::words())
-    all.push_back({s.effects.contact == law, word + " contact"});
+    all.push_back({s.effects.contact == law, word + " contact", "Effects/Contact"});
   const std::vector<Effect> others{
-      {touching && tangential != dem::TangentialContact::none, "coulomb friction"},
-      {touching && tangential == dem::TangentialContact::coulomb_with_rolling, "rolling resistance"},
-      {m.rotation, "rotation"},
-      {bonded && m.rotation && dem::bends(dem::bond_law(*bond)), "bond moments"},
-      {s.effects.gravity, "gravity"},
+      {touching && tangential != dem::TangentialContact::none, "coulomb friction", "Effects/Tangential"},
+      {touching && tangential == dem::TangentialContact::coulomb_with_rolling, "rolling resistance",
+       "Effects/Tangential"},
+      {m.rotation, "rotation", "Effects/Rotation"},
+      {bonded && m.rotation && dem::bends(dem::bond_law(*bond)), "bond moments", "Effects/Rotation"},
+      {s.effects.gravity, "gravity", "Effects/Gravity"},
       {m.local_damping > 0,
-       m.damping_form == dem::DampingForm::vector ? "local damping along the velocity" : "local damping"},
-      {m.phi() > 1, "dissipative scheme"},
-      {bonded && m.bond_dashpot > 0, "bond dashpots"},
-      {bonded && s.phases.by != PhasesBy::none, "phases"},
-      {bonded && s.bond.scattered, "scattered strengths"},
-      {touching && contact->dashpot() > 0, "contact dashpots"},
-      {s.platens.deformable, "elastic platens"},
-      {s.platens.spherical_seat, "spherical seat"},
-      {s.platens.damping > 0, "platen dashpots"},
+       m.damping_form == dem::DampingForm::vector ? "local damping along the velocity" : "local damping",
+       "Integration/Damping"},
+      {m.phi() > 1, "dissipative scheme", "Integration/Scheme"},
+      {bonded && m.bond_dashpot > 0, "bond dashpots", "Bond/Damping"},
+      {bonded && s.phases.by != PhasesBy::none, "phases", "Phases/By"},
+      {bonded && s.bond.scattered, "scattered strengths", "Bond/Strength scatter"},
+      {touching && contact->dashpot() > 0, "contact dashpots", "Contact/Damping"},
+      {s.platens.deformable, "elastic platens", "Platens/Kind"},
+      {s.platens.spherical_seat, "spherical seat", "Platens/Top/Seat"},
+      {s.platens.damping > 0, "platen dashpots", "Platens/Damping"},
       {s.platens.any_of([&](coupling::Side side) { return s.platens.at(side).friction_static > 0; }),
-       "platen friction"},
+       "platen friction", "Platens/Friction static"},
       {s.platens.any_of([&](coupling::Side side) {
          return s.platens.at(side).weakening.by != dem::Weakening::By::nothing;
        }),
-       "weakening friction"},
-      {s.platens.glued, "glued ends"},
-      {s.loading.confinement == ConfinementKind::particles, "confinement on particles"},
-      {s.loading.sleeved(), "sleeve"},
-      {s.loading.walled(), "lateral wall"},
-      {!s.loading.unload_at.empty(), "unloading"},
-      {s.specimen.seat, "seats"},
-      {m.mass_scaling > 1, "mass scaling"},
-      {m.energy_ledger, "energy ledger"},
-      {bonded && m.crack_log, "crack log"},
-      {s.output.fields, "fields"}};
+       "weakening friction", "Platens/Friction law"},
+      {s.platens.glued, "glued ends", "Platens/Attachment"},
+      {s.loading.confinement == ConfinementKind::particles, "confinement on particles",
+       "Loading/Confinement"},
+      {s.loading.sleeved(), "sleeve", "Loading/Confinement"},
+      {s.loading.walled(), "lateral wall", "Loading/Test"},
+      {!s.loading.unload_at.empty(), "unloading", "Loading/Unload at"},
+      {s.specimen.seat, "seats", "Specimen/Seat"},
+      {m.mass_scaling > 1, "mass scaling", "Integration/Mass scaling"},
+      {m.energy_ledger, "energy ledger", "Effects/Energy ledger"},
+      {bonded && m.crack_log, "crack log", "Effects/Crack log"},
+      {s.output.fields, "fields", "Output/Fields"}};
   all.insert(all.end(), others.begin(), others.end());
-  if (s.platens.machine.yields()) all.push_back({true, "machine spring"});
+  if (s.platens.machine.yields()) all.push_back({true, "machine spring", "Platens/Machine stiffness"});
   return all;
 }
 
-std::vector<std::string> chosen(const Scene &scene, bool on) {
+std::vector<std::string> chosen(const Scene &scene, AppKind app, bool on) {
   std::vector<std::string> words;
   for (const Effect &e : effects(scene))
-    if (e.on == on) words.push_back(e.word);
+    if (e.on == on && reads(app, e.entry)) words.push_back(e.word);
   return words;
 }
 
@@ -97,11 +101,11 @@ coupling::PlatenSettings platen_settings(const Scene &scene) {
 
 } // namespace
 
-std::vector<std::string> effects_on(const Scene &scene) {
-  return chosen(scene, true);
+std::vector<std::string> effects_on(const Scene &scene, AppKind app) {
+  return chosen(scene, app, true);
 }
-std::vector<std::string> effects_off(const Scene &scene) {
-  return chosen(scene, false);
+std::vector<std::string> effects_off(const Scene &scene, AppKind app) {
+  return chosen(scene, app, false);
 }
 
 coupling::PlatenTestSettings problem_settings(const Scene &scene) {

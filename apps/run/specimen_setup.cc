@@ -159,12 +159,17 @@ void require_room(const Scene &scene) {
 
 dem::Specimen make_specimen(const Scene &scene) {
   dem::Specimen specimen = place_spheres(scene);
+  check_phases(scene, specimen);
+  return specimen;
+}
+
+dem::Specimen make_bonded_specimen(const Scene &scene) {
+  dem::Specimen specimen = make_specimen(scene);
   const Gap &gap = scene.model.bond_layout.gap;
   if (scene.bond.bonded() && !gap.relative && gap.value > dem::smallest_radius(specimen))
     refuse(scene, "Bond/Gap",
            "is more than the smallest radius, " + shortest_text(dem::smallest_radius(specimen)) +
                " m: spheres as far apart have others between them. Allowed: up to that.");
-  check_phases(scene, specimen);
   return specimen;
 }
 

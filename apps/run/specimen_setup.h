@@ -22,6 +22,9 @@ void check_count(const Scene &scene, const dem::Shape &shape);
 // not jam).
 dem::Specimen make_specimen(const Scene &scene);
 
+// The same for bonds between the spheres. Throws InputError too where Bond/Gap reaches past neighbours.
+dem::Specimen make_bonded_specimen(const Scene &scene);
+
 // Throws InputError where this machine's memory cannot hold the spheres that fill the specimen; make_specimen
 // does so too.
 void require_room(const Scene &scene);

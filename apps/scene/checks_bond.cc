@@ -8,7 +8,7 @@ namespace platen::apps {
 void SceneCheck::bond() const {
   const Gap &gap = scene_.model.bond_layout.gap;
   const double radius = scene_.specimen.sphere_radius;
-  if (!gap.relative && given(radius) && gap.value >= radius)
+  if (app_ != AppKind::pack && !gap.relative && given(radius) && gap.value >= radius)
     refuse("Bond/Gap",
            "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
                ": a bare number is metres. Did you mean \"" + shortest_text(gap.value) + " R_min\"?");

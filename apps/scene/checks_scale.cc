@@ -179,6 +179,7 @@ void SceneCheck::pair_scale() const {
 
 void SceneCheck::scale() const {
   proportions();
+  if (app_ == AppKind::pack) return;
   waves();
   step_count();
   stresses();

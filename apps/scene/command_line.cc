@@ -56,6 +56,34 @@ int read_threads(const std::string &text) {
   return threads;
 }
 
+// What stands after --print-parameters, where it is neither an option nor a scene: a section or an entry.
+bool is_part(const std::string &after, const AppDescription &app) {
+  const std::filesystem::path path(after);
+  std::error_code ignored;
+  return !after.empty() && after[0] != '-' && path.extension() != ".prm" && path.extension() != ".json" &&
+         std::find(app.kinds.begin(), app.kinds.end(), after) == app.kinds.end() &&
+         !std::filesystem::is_regular_file(path, ignored);
+}
+
+// The arguments without that part, which goes to `part`.
+std::vector<const char *> without_part(int argc, const char *const *argv, const AppDescription &app,
+                                       std::string &part) {
+  const std::string option = "--print-parameters";
+  std::vector<const char *> left;
+  for (int k = 0; k < argc; ++k) {
+    const std::string argument = argv[k];
+    if (argument.rfind(option + "=", 0) == 0) {
+      part = argument.substr(option.size() + 1);
+      if (part.empty()) fail(option + "= is followed by nothing. Allowed: a section, or SECTION/KEY.");
+      left.push_back("--print-parameters");
+      continue;
+    }
+    left.push_back(argv[k]);
+    if (argument == option && k + 1 < argc && is_part(argv[k + 1], app)) part = argv[++k];
+  }
+  return left;
+}
+
 void check(const CommandLine &line, const AppDescription &app) {
   if (line.resume && line.overwrite)
     fail("--resume and --overwrite exclude each other. Allowed: one of them.");
@@ -96,14 +124,17 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   parser.add_option("-t,--threads", threads, "Threads [all]; results do not depend on it")->type_name("N");
   parser.add_flag("--resume", line.resume, "Go on from the newest whole checkpoint");
   parser.add_flag("--dry-run", line.dry_run, "Check and tell what would run");
-  parser.add_flag("--print-parameters", line.print_parameters, "Print every parameter and exit");
+  parser.add_flag("--print-parameters", line.print_parameters,
+                  "Print every parameter that this program reads and exit; followed by SECTION or "
+                  "SECTION/KEY: these alone");
   parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
   parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
   parser.add_flag("--quiet", line.quiet, "Print errors only");
   parser.add_flag("--verbose", line.verbose, "Print more");
   parser.add_flag("--version", version, "Print version and libraries and exit");
   try {
-    parser.parse(argc, argv);
+    const std::vector<const char *> arguments = without_part(argc, argv, app, line.part);
+    parser.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::CallForHelp &) {
     throw PrintAndExit{parser.help()};
   } catch (const CLI::ParseError &error) {

@@ -25,6 +25,7 @@ struct CommandLine {
   std::vector<std::string> overrides; // "Section/Key = value", in order
   int threads = 0;                    // 0: all that the machine has
   bool resume = false, overwrite = false, dry_run = false, print_parameters = false, json = false;
+  std::string part; // what of the parameters is printed, "Bond" or "Bond/Gap"; "": all
   bool quiet = false, verbose = false;
   std::string text; // the whole line as typed, for the log
 };

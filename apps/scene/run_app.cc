@@ -65,7 +65,7 @@ __attribute__((section(".preinit_array"), used)) void (*const before_libraries)(
 int run(const CommandLine &line, const AppDescription &app, const AppBody &body) {
   const Scene scene = line.scene.empty() ? default_scene() : read_scene(line.scene, line.overrides, app.kind);
   if (line.print_parameters) {
-    print_parameters(scene, line.json, std::cout);
+    print_parameters(scene, app, line.part, line.json, std::cout);
     return status_done;
   }
   if (!line.quiet)

@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "apps/scene/checks.h"
+#include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/layers.h"
+#include "apps/scene/readers.h"
 #include "apps/scene/regular_file.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/scene_targets.h"
@@ -59,6 +61,36 @@ std::vector<Entry> written(const Parameters &parameters, bool documented) {
   };
   entries.erase(std::remove_if(entries.begin(), entries.end(), is_left_out), entries.end());
   return entries;
+}
+
+// The nearest section or entry of any section; "" where none is near.
+std::string nearest_part(const Parameters &parameters, const std::string &part) {
+  std::vector<std::string> names = parameters.sections();
+  for (const Entry &entry : parameters.entries())
+    names.push_back(entry.path);
+  const std::string nearest = nearest_word(part, names);
+  if (!nearest.empty()) return nearest;
+  const std::string key = part.substr(part.rfind('/') + 1);
+  for (const std::string &name : names) // the right name in another place, or in none
+    if (edit_distance(name.substr(name.rfind('/') + 1), key) <= 1) return name;
+  return "";
+}
+
+// A section, with what is in it, or one entry.
+std::vector<Entry> part_of(const Parameters &parameters, const std::string &part) {
+  std::vector<Entry> entries;
+  for (const Entry &entry : parameters.entries()) {
+    const bool inside = entry.path.rfind(part + "/", 0) == 0,
+               itself = entry.path.substr(0, entry.path.rfind('/')) == part;
+    const bool told = entry.changed() || entry.alike != Entry::Alike::further || itself;
+    if (entry.path == part || (inside && told)) entries.push_back(entry);
+  }
+  if (!entries.empty()) return entries;
+  const std::string nearest = nearest_part(parameters, part);
+  throw InputError("command line: error: --print-parameters " + part + ": no such section or entry." +
+                   (nearest.empty()
+                        ? " Allowed: SECTION or SECTION/KEY, as --print-parameters alone tells them."
+                        : " Did you mean \"" + nearest + "\"?"));
 }
 
 void keep(Scene &scene, Parameters &parameters) {
@@ -150,11 +182,20 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
   return text.str();
 }
 
-void print_parameters(const Scene &scene, bool as_json, std::ostream &out) {
+void print_parameters(const Scene &scene, const AppDescription &app, const std::string &part, bool as_json,
+                      std::ostream &out) {
+  const std::vector<Entry> entries =
+      part.empty() ? written(*scene.parameters, true) : part_of(*scene.parameters, part);
+  std::vector<Entry> read;
+  std::copy_if(entries.begin(), entries.end(), std::back_inserter(read),
+               [&](const Entry &entry) { return reads(app.kind, entry.path); });
+  if (read.empty())
+    throw InputError("command line: error: --print-parameters: " + app.name + " reads nothing of " + part +
+                     ".");
   if (as_json)
-    write_json(written(*scene.parameters, true), out);
+    write_json(read, out);
   else
-    write_prm(written(*scene.parameters, true), true, out);
+    write_prm(read, true, out);
 }
 
 } // namespace platen::apps

@@ -20,6 +20,7 @@
 namespace platen::apps {
 
 class Parameters;
+struct AppDescription;
 
 // Which app reads the scene: it decides which entries must be given (a compression test needs an axial rate,
 // a test of one bond needs no specimen).
@@ -100,8 +101,10 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 // of files are written so that they hold from `folder`, where the text will lie.
 std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
 
-// Every parameter with value, default, unit, range and meaning: as .prm, or as JSON (readable as a scene
-// too).
-void print_parameters(const Scene &scene, bool as_json, std::ostream &out);
+// Every parameter that a program reads with value, default, unit, range and meaning: as .prm, or as JSON
+// (readable as a scene too). `part` is a section or an entry that is printed alone, "" all. Throws InputError
+// for one that is not known, or that the program does not read.
+void print_parameters(const Scene &scene, const AppDescription &app, const std::string &part, bool as_json,
+                      std::ostream &out);
 
 } // namespace platen::apps

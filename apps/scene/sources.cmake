@@ -32,6 +32,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_specimen.cc
   scene/checks_stages.cc
   scene/quality.cc
+  scene/readers.cc
   scene/scene.cc
   scene/scene_bond.cc
   scene/scene_stages.cc

@@ -201,7 +201,7 @@ int StudyApp::finish(const StudyTables &tables) {
   study["cases"] = tables.cases();
   const std::string compared = compare(tables, study);
   write_summary(paths_.study_json(), study);
-  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_));
+  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
   s.update(study);
   s["missed"] = missed_;
   s["threads"] = threads();

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/scene_files.h"
@@ -13,6 +14,8 @@
 
 namespace platen::apps {
 namespace {
+
+const AppDescription compress{AppKind::compress, "platen-compress", ""};
 
 namespace fs = std::filesystem;
 
@@ -215,14 +218,14 @@ TEST_F(SceneFiles, the_last_override_holds) {
 TEST_F(SceneFiles, printed_json_can_be_read_as_a_scene) {
   const Scene scene = read("a.prm", concrete);
   std::ostringstream text;
-  print_parameters(scene, true, text);
+  print_parameters(scene, compress, "", true, text);
   EXPECT_EQ(values_of(read("b.json", text.str())), values_of(scene));
 }
 
 TEST_F(SceneFiles, every_entry_tells_its_meaning) {
   const Scene scene = default_scene();
   std::ostringstream text;
-  print_parameters(scene, false, text);
+  write_prm(scene.parameters->entries(), true, text);
   std::set<std::string> paths;
   for (const Entry &entry : scene.parameters->entries()) {
     EXPECT_GT(entry.documentation.size(), 10u) << entry.path;

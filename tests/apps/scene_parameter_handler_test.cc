@@ -77,7 +77,7 @@ TEST(ParameterHandler, reads_what_we_write) {
   const std::string text = scene_text(default_scene(), ".");
   EXPECT_EQ(values_by_deal_ii(text), values_by_us(text));
   std::ostringstream documented;
-  print_parameters(default_scene(), false, documented);
+  write_prm(default_scene().parameters->entries(), true, documented);
   EXPECT_EQ(values_by_deal_ii(documented.str()), values_by_us(text));
 }
 

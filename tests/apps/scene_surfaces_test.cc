@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/io_folder.h"
+#include "apps/scene/command_line.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/surfaces.h"
@@ -40,7 +41,7 @@ TEST(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_ba
     for (const auto &[key, text] : one.entries)
       EXPECT_EQ(scene.parameters->at("Platens/" + key).text, text) << one.word << ", " << key;
     std::ostringstream told;
-    print_parameters(scene, true, told);
+    print_parameters(scene, {AppKind::compress, "platen-compress", ""}, "", true, told);
     EXPECT_NE(told.str().find(one.source), std::string::npos) << one.word;
     EXPECT_NE(text_of(scene.platens).find(one.word), std::string::npos);
 
