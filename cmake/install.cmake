@@ -1,5 +1,6 @@
-# cmake --install puts programs into bin, libraries into lib, headers into include/platen, and what find_package(Platen)
-# reads into lib/cmake/Platen.
+# cmake --install puts programs into bin, libraries into lib, headers into include/platen, what find_package(Platen)
+# reads into lib/cmake/Platen, and into share/platen scenes, examples, documentation with the measurements that it cites,
+# and the scripts that go with them, at the same places as in the sources: what one names by its path is there.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -22,3 +23,13 @@ configure_package_config_file(cmake/PlatenConfig.cmake.in ${CMAKE_BINARY_DIR}/Pl
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/PlatenConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/PlatenConfig.cmake ${CMAKE_BINARY_DIR}/PlatenConfigVersion.cmake
   DESTINATION ${platen_cmake})
+
+set(platen_share ${CMAKE_INSTALL_DATADIR}/platen)
+install(DIRECTORY examples DESTINATION ${platen_share})
+install(DIRECTORY docs DESTINATION ${platen_share})
+install(DIRECTORY bench/results DESTINATION ${platen_share}/bench)
+install(FILES README.md LICENSE DESTINATION ${platen_share})
+if(PLATEN_APPS)
+  install(DIRECTORY scenes DESTINATION ${platen_share})
+  install(PROGRAMS scripts/demo.sh scripts/brush_platen.py DESTINATION ${platen_share}/scripts)
+endif()

@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
 # Crushes the same specimen twice, between dry and between lubricated platens, and shows what friction does; then asks how
 # much of the strength is the platen's, short and slender, from dry steel to grease.
-# Results: results/demo/dry, results/demo/lubricated and results/demo/friction.
+# Results: results/demo/dry, results/demo/lubricated and results/demo/friction; of an installed demo where it is called.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
-scripts/build.sh platen-compress platen-study platen-report
+if [ -f "$root/scripts/build.sh" ]; then
+  cd "$root"
+  scripts/build.sh platen-compress platen-study platen-report
+  apps=build/apps
+else
+  apps="$root/../../bin"
+fi
 
 # One thread each, side by side; every line says whose it is.
 mkdir -p results/demo
 crush() {
-  build/apps/platen-compress "scenes/demo_$1.prm" -o "results/demo/$1" --overwrite -t 1 \
+  "$apps"/platen-compress "$root/scenes/demo_$1.prm" -o "results/demo/$1" --overwrite -t 1 \
     > >(sed -u "s/^/$1: /") 2>&1 &
 }
 crush dry
@@ -38,14 +44,14 @@ finish dry "$dry"
 finish lubricated "$lubricated"
 trap - INT TERM
 
-build/apps/platen-report results/demo/lubricated
-build/apps/platen-report results/demo/dry --compare results/demo/lubricated
+"$apps"/platen-report results/demo/lubricated
+"$apps"/platen-report results/demo/dry --compare results/demo/lubricated
 
 status=0
-build/apps/platen-study friction scenes/study_friction_quick.prm -o results/demo/friction --overwrite || status=$?
+"$apps"/platen-study friction "$root/scenes/study_friction_quick.prm" -o results/demo/friction --overwrite || status=$?
 [ "$status" -le 1 ] || exit "$status"
 [ "$status" -eq 0 ] || worst=1
-build/apps/platen-report results/demo/friction
+"$apps"/platen-report results/demo/friction
 
 cat <<'END'
 

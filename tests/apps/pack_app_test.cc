@@ -157,6 +157,20 @@ TEST_F(PackApp, tells_how_heavy_grains_make_a_solid) {
               2201, 2201e-12);
 }
 
+TEST_F(PackApp, a_dry_run_refuses_spheres_without_number) {
+  CommandLine command;
+  command.output = (folder / "dry").string();
+  command.dry_run = true;
+  try {
+    run_pack(command, scene("small.prm", {"Specimen/Sphere radius = 1 nm"}));
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError &error) {
+    EXPECT_NE(std::string(error.what()).find("Specimen/Sphere radius = 1 nm is too small: "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(PackApp, phases_have_to_fit_the_spheres) {
   const auto refusal = [&](const Words &overrides) -> std::string {
     try {
