@@ -65,6 +65,8 @@ public:
 
   const std::vector<std::unique_ptr<Boundary>> &boundaries() const { return boundaries_; }
   const Program &program() const { return *program_; }
+  // After a state was read that had been finished by an earlier end: goes on.
+  void go_on() { program_->go_on(); }
   const dem::Shape &shape() const { return shape_; }
   double time() const { return model.time; } // s
   long steps() const { return steps_; }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <sstream>
 
 #include "apps/io/file.h"
 #include "apps/io/machine.h"
@@ -11,7 +10,6 @@
 #include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {
@@ -40,31 +38,6 @@ std::vector<std::filesystem::path> input_files(const Scene &scene) {
   return files;
 }
 
-std::optional<SceneChange> change_of_scene(const Scene &scene, const OutputPaths &paths) {
-  const std::string path = paths.scene().string();
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(path + ": error: is missing: the folder holds nothing to resume; leave out --resume");
-  std::istringstream before(completed_scene_text(path, paths.folder.string())),
-      now(scene_text(scene, paths.folder));
-  std::string a, b;
-  while (true) {
-    const bool more_before = static_cast<bool>(std::getline(before, a)),
-               more = static_cast<bool>(std::getline(now, b));
-    if (!more_before && !more) return std::nullopt;
-    if (!more_before) a.clear();
-    if (!more) b.clear();
-    if (a != b) return SceneChange{a, b};
-  }
-}
-
-void require_same_scene(const Scene &scene, const OutputPaths &paths) {
-  if (const std::optional<SceneChange> change = change_of_scene(scene, paths))
-    throw InputError(
-        fmt::format("{}: the scene has changed since the run that is to be resumed\n  was: {}\n  now: {}\n"
-                    "start it anew in another folder, or resume with the scene as it was",
-                    paths.scene().string(), change->was, change->now));
-}
-
 Json input_sums(const Scene &scene) {
   Json sums = Json::object();
   for (const Entry &entry : scene.parameters->entries())
@@ -88,7 +61,11 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_c
   input_sums_ = input_sums(scene);
   if (!command.resume || from_checkpoint) check_output_folder(paths.folder, use_, inputs_);
   lock_ = lock_of_run(paths.folder, log);
-  if (command.resume) require_same_scene(scene, paths);
+  if (!command.resume) return;
+  if (from_checkpoint)
+    changes_ = require_same_physics(scene, paths);
+  else
+    require_same_scene(scene, paths);
 }
 
 double AppOutput::seconds() const {
@@ -110,6 +87,15 @@ void AppOutput::open(int working_threads) {
         std::filesystem::remove(made, none);
     throw;
   }
+  scene_sum_ = sha256_of_file(paths.scene()).value_or("");
+}
+
+void AppOutput::lead_on() {
+  if (changes_.empty()) return;
+  for (const SceneChange &change : changes_)
+    log.info("led on with another {}: {}, it was {}", change.entry, change.now.empty() ? "none" : change.now,
+             change.was.empty() ? "none" : change.was);
+  write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
   scene_sum_ = sha256_of_file(paths.scene()).value_or("");
 }
 

@@ -11,6 +11,7 @@
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
 #include "apps/io/summary.h"
+#include "apps/run/changed_scene.h"
 #include "apps/scene/command_line.h"
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -24,14 +25,6 @@ Loudness loudness_of(const CommandLine &command);
 std::string title_of(const Scene &scene);
 // The scene, what it includes and all files that it names: what a run must not write over.
 std::vector<std::filesystem::path> input_files(const Scene &scene);
-// The first line in which a scene differs from that of the folder.
-struct SceneChange {
-  std::string was, now;
-};
-// Nothing where they are the same. Throws InputError where the folder has no scene.prm.
-std::optional<SceneChange> change_of_scene(const Scene &scene, const OutputPaths &paths);
-// Throws InputError, naming the first line that differs, where the folder was begun with another scene.
-void require_same_scene(const Scene &scene, const OutputPaths &paths);
 // Of the files that the scene names, by entry: "Specimen/File" to the SHA-256 of what it holds now.
 Json input_sums(const Scene &scene);
 
@@ -39,12 +32,15 @@ class AppOutput {
 public:
   // Takes the time, the threads and, but for a dry run, the folder where it is there; nothing is written yet.
   // Throws FolderError where the run must not write there, or where one that goes on `from_checkpoint` has
-  // none, and InputError where the folder of a resumed run was begun with another scene.
+  // none, and InputError where the folder of a resumed run was begun with another scene; one that goes on
+  // from a checkpoint may be led on with some changes (require_same_physics).
   AppOutput(const CommandLine &command, const Scene &scene, bool from_checkpoint = false);
 
   // Opens the folder, and leaves scene.prm and the head of run.log with the threads that work. A resumed run
   // only goes on with its log.
   void open(int working_threads = loop_threads());
+  // Of a resumed run, once its checkpoint is read: what has changed is said, and scene.prm is the scene now.
+  void lead_on();
   // Writes summary.json, with the SHA-256 of the scene as run and of the files that it names.
   void save(Json summary) const;
   // Does so, says `report`, and checks what the scene expects; returns the exit status.
@@ -70,7 +66,8 @@ private:
   Clock::time_point start_ = Clock::now();
   ThreadLimit limit_;
   Json input_sums_ = Json::object();
-  std::string scene_sum_; // of scene.prm, once the folder is open
+  std::string scene_sum_;            // of scene.prm, once the folder is open
+  std::vector<SceneChange> changes_; // of a run that is led on
   std::unique_ptr<FolderLock> lock_;
 };
 

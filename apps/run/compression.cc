@@ -48,6 +48,14 @@ void CompressionRun::tell_path() const {
         path.ended_at_strain);
 }
 
+// As it was called, but for an entry that is to be another.
+std::string CompressionRun::resuming_command(const std::string &but) const {
+  std::string text = fmt::format("{} {} -o {} --resume", app_of(*test_), command_.scene, command_.output);
+  for (const std::string &assignment : command_.overrides)
+    if (but.empty() || trimmed(assignment).rfind(but, 0) != 0) text += fmt::format(" -s \"{}\"", assignment);
+  return text;
+}
+
 void CompressionRun::loop() {
   Progress progress(log_);
   loop_start_ = Clock::now();
@@ -63,7 +71,9 @@ void CompressionRun::loop() {
       fields_->write(*test_, results_.moves_with(*test_));
     }
     signal_ = stop_requested();
-    if (signal_ != 0 || checkpoint_due() || take_checkpoint_request()) {
+    // The last state too: a test that has not shown its peak is led on from there.
+    if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_due() ||
+        take_checkpoint_request()) {
       dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
       checkpoint();
     }
@@ -128,10 +138,13 @@ int CompressionRun::run() {
         "Platens/Motion = explicit, or fewer Platens/Steps per solve",
         100 * share, 100 * most_unbalanced);
   if (signal_ != 0) {
-    log_.info("stopped by a signal; go on with: {} {} -o {} --resume", app_of(*test_), command_.scene,
-              command_.output);
+    log_.info("stopped by a signal; go on with: {}", resuming_command());
     return exit_status_of_signal(signal_);
   }
+  if (results_.peak().kind == PeakKind::none && ended_by() == "target" && keeps_checkpoints() &&
+      !scene_.loading.staged() && !scene_.loading.hydrostatic())
+    log_.info("it goes on from here with: {} -s \"{} = {:.3g}\"", resuming_command(target_entry),
+              target_entry, 2 * scene_.loading.target_strain);
   log_.info("results are in {}", paths_.folder.string());
   return output_.tell_expectations(summary_of_run("done", scene_, *test_, results_, costs()));
 }

@@ -114,6 +114,8 @@ void CompressionRun::open_files() {
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
   const FileMarks marks = load_state(CheckpointReader(found.path), *test_, results_);
+  if (marks.target_strain != scene_.loading.target_strain) test_->go_on();
+  output_.lead_on();
   reopen_history();
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
@@ -168,6 +170,7 @@ void CompressionRun::checkpoint() {
   marks.last_frame = fields_ ? fields_->last_time() : -1.0;
   marks.frames = fields_ ? fields_->count() : 0;
   marks.wall_seconds = costs().wall_seconds;
+  marks.target_strain = scene_.loading.target_strain;
   write_checkpoint(paths_.checkpoints(), static_cast<std::uint64_t>(test_->steps()),
                    [&](CheckpointWriter &to) { save_state(to, *test_, results_, marks); });
   last_checkpoint_ = Clock::now();

@@ -47,9 +47,11 @@ private:
   void require_files_of_checkpoint();
   void sample();
   void keep(const Sample &s);
+  std::string resuming_command(const std::string &but = "") const;
   void write_cracks();
   void checkpoint();
   bool checkpoint_due() const;
+  bool keeps_checkpoints() const { return scene_.checkpoint.every.kind != Interval::Kind::none; }
   ProgressSample where() const;
   bool finished() const { return !ended_by().empty(); }
   std::string ended_by() const; // empty: it goes on

@@ -40,6 +40,7 @@ void FileMarks::describe(Archive &archive) {
   archive("last_frame", last_frame, "s");
   archive("frames", frames);
   archive("wall_seconds", wall_seconds, "s");
+  archive("target_strain", target_strain, "1", unknown_target);
 }
 
 void require_same_files(const FileMarks &marks, const OutputPaths &paths, RunLog &log) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct FileMarks {
   double last_frame = -1;              // s
   std::int64_t frames = 0;
   double wall_seconds = 0; // of all runs so far
+  // That the test was to reach: with another one now, what had finished goes on.
+  static constexpr double unknown_target = std::numeric_limits<double>::quiet_NaN();
+  double target_strain = unknown_target;
   void describe(Archive &archive);
 };
 

@@ -49,8 +49,8 @@ void report_peak(Report &report, const Results &results) {
   const PeakOfCurve peak = results.peak();
   if (!(peak.largest > 0)) return;
   if (peak.kind == PeakKind::none)
-    report.line("largest stress, which is no strength", "{:.2f} MPa at the strain of {:.5f}",
-                results.strength() / 1e6, peak.strain_of_largest);
+    report.line("largest stress, no strength", "{:.2f} MPa at the strain of {:.5f}", results.strength() / 1e6,
+                peak.strain_of_largest);
   if (peak.kind == PeakKind::plateau)
     report.line("the peak is a plateau", "{:.2f} % gained in the last fifth of the strain",
                 100 * peak.gained);

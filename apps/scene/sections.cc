@@ -60,8 +60,9 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
   section.number("Event time", output.event_time, between(0, 1000),
                  "And this soon after each other, in times that a wave takes over the reach.");
   Section checkpoints(parameters, "Checkpoint");
-  checkpoints.entry("Every", checkpoint.every,
-                    "Steps, or time of wall clock (\"10 min\"); 0: no checkpoints.");
+  checkpoints.entry(
+      "Every", checkpoint.every,
+      "Steps, or time of wall clock (\"10 min\"), and at the end of the run; 0: no checkpoints.");
 }
 
 } // namespace

@@ -38,9 +38,9 @@ std::string other_run(const Json &summary, const StudyRun &run) {
   if (text_in(summary, "scene_sha256") != sha256_of_file(paths.scene()).value_or("missing"))
     return "scene.prm is not the scene that summary.json was made with";
   const Scene scene = read_scene(run.scene, run.overrides, AppKind::compress);
-  if (const std::optional<SceneChange> change = change_of_scene(scene, paths))
-    return fmt::format("it is of another scene: \"{}\", now \"{}\"", trimmed(change->was),
-                       trimmed(change->now));
+  if (const std::vector<SceneChange> changes = changes_of_scene(scene, paths); !changes.empty())
+    return fmt::format("it is of another scene: {} was \"{}\", now \"{}\"", changes[0].entry, changes[0].was,
+                       changes[0].now);
   const Json now = input_sums(scene);
   if (summary.value("inputs_sha256", Json()) == now) return "";
   for (const auto &[entry, sum] : now.items())

@@ -39,6 +39,12 @@ void LoadingStage::end(const Measures &m) {
     task->end(m);
 }
 
+void LoadingStage::go_on() {
+  ended_by_ = 0;
+  for (const auto &task : tasks_)
+    task->go_on();
+}
+
 std::string LoadingStage::ended_by() const {
   if (ended_by_ == StageEnd::too_late) return not_settled;
   return ended_by_ > 0 ? name_of(end_.parameters().any[static_cast<std::size_t>(ended_by_) - 1].what) : "";

@@ -24,6 +24,7 @@ public:
   void update(const Measures &m) override;
   bool has_ended(const Measures &m) const override { return reached(m) != 0; }
   void end(const Measures &m) override;
+  void go_on() override;
   std::string ended_by() const override;
   std::vector<AskedStress> stresses_at_end() const override;
   double expected_seconds() const override { return parameters_.expected_seconds; }

@@ -57,6 +57,12 @@ void Program::update() {
   }
 }
 
+void Program::go_on() {
+  if (!finished_ || stage().has_ended(measures_)) return;
+  finished_ = false;
+  stages_[now_]->go_on();
+}
+
 double Program::fastest() const {
   double speed = 0;
   for (const auto &stage : stages_)

@@ -72,6 +72,8 @@ public:
   virtual bool has_ended(const Measures &m) const = 0;
   // Once, when it has ended.
   virtual void end(const Measures &) {}
+  // Of one that had ended, by an earlier end than it has now: forgets that.
+  virtual void go_on() {}
   // Of one that has ended, where it says so: by what, "strain", "settled" or `not_settled`: its time was over
   // and its stresses were not all borne; these stresses.
   static constexpr const char *not_settled = "not settled";
@@ -110,6 +112,9 @@ public:
   void command(Commands &asked);
   // After forces: goes on to the next stage where one is over. The last one goes on asking when it is over.
   void update();
+  // A program that had finished, and was read with another end of its last stage, goes on where that is not
+  // yet met. It is asked nothing else than if it had not finished in between.
+  void go_on();
 
   bool finished() const { return finished_; }
   const Stage &stage() const { return *stages_[now_]; }

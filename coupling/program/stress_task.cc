@@ -104,6 +104,10 @@ void StressTask::end(const Measures &m) {
   asked_at_end_ = asked(m), borne_at_end_ = farthest(m);
 }
 
+void StressTask::go_on() {
+  asked_at_end_ = borne_at_end_ = not_yet;
+}
+
 void StressTask::describe(Archive &archive) {
   archive.version(1);
   archive("begun", begun_, "s");

@@ -40,6 +40,7 @@ public:
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override;
   void end(const Measures &m) override;
+  void go_on() override;
   std::optional<AskedStress> stress_at_end() const override {
     return AskedStress{parameters_.side, asked_at_end_, borne_at_end_};
   }

@@ -45,6 +45,7 @@ public:
   virtual bool has_settled(const Measures &) const { return true; }
   // Once, when its stage has ended; what it asked of platens then, and what they bore.
   virtual void end(const Measures &) {}
+  virtual void go_on() {} // forgets that
   virtual std::optional<AskedStress> stress_at_end() const { return std::nullopt; }
   virtual double fastest() const { return 0; } // m/s, closure speed that it may ask for
   virtual void describe(Archive &archive) = 0;

@@ -438,17 +438,5 @@ TEST_F(Determinism, a_resumed_run_keeps_the_instruction_set_that_it_began_with) 
   EXPECT_EQ(difference(whole, stopped), "");
 }
 
-TEST_F(Determinism, only_the_same_scene_is_resumed) {
-  EXPECT_EQ(stop_at("stopped", 10, SIGINT, {}), 130);
-  const auto before = results_in(folder_ / "stopped");
-  const Outcome changed =
-      run_compress({scene_, "-o", "stopped", "--resume", "-s", "Bond/Tensile strength = 9 MPa"}, folder_);
-  EXPECT_EQ(changed.status, 2);
-  EXPECT_TRUE(contains(changed.error, "was:   set Tensile strength")) << changed.error;
-  EXPECT_TRUE(contains(changed.error, "9.5 MPa")) << changed.error;
-  EXPECT_TRUE(contains(changed.error, "now:   set Tensile strength")) << changed.error;
-  EXPECT_EQ(difference(before, results_in(folder_ / "stopped")), "");
-}
-
 } // namespace
 } // namespace platen::apps::testing

@@ -100,6 +100,8 @@ TEST(AbsurdScenes, entries_that_make_no_whole_are_told_together) {
        {{"Material/Density = 0.002"},
         {"Material/Density = 0.002 does not go with Bond/Modulus = 40 GPa: waves would run at 4.47e+06 "
          "m/s."}},
+       {{"Material/Density = 2.4"},
+        {"waves would run at 1.29e+05 m/s. Allowed: 0.001 ... 4e+04 m/s."}}, // g/cm3
        {{"Bond/Modulus = 40", "Material/Density = 1e8", "Bond/Tensile strength = 1",
          "Bond/Shear strength = 1"},
         {"Material/Density = 1e8 does not go with Bond/Modulus = 40: waves would run at 0.000632 m/s"}},

@@ -71,7 +71,7 @@ protected:
     all.erase("scene.prm");
     nlohmann::json summary = summary_in(folder_ / in);
     for (const char *cost : {"wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds",
-                             "peak_memory_bytes", "cores", "seconds"})
+                             "peak_memory_bytes", "cores", "seconds", "checksum", "scene_sha256"})
       summary.erase(cost);
     all["summary.json"] = summary.dump(1);
     return all;

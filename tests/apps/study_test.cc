@@ -153,7 +153,7 @@ TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) 
   made_again("scene.prm is not the scene that summary.json was made with");
   fs::copy_file(other / "summary.json", summary, fs::copy_options::overwrite_existing);
   fs::copy_file(other / "scene.prm", one / "scene.prm", fs::copy_options::overwrite_existing);
-  made_again("it is of another scene: \"set Seed    = 3\", now \"set Seed    = 4\"");
+  made_again("it is of another scene: Scene/Seed was \"3\", now \"4\"");
   EXPECT_EQ(summary_in(one)["strength_pa"], nlohmann::json::parse(whole)["strength_pa"]);
 }
 
@@ -342,7 +342,7 @@ TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
   EXPECT_TRUE(contains(kind.error, "is of a study of size")) << kind.error;
   const Outcome scene = run("a", {"--resume"});
   EXPECT_EQ(scene.status, 2);
-  EXPECT_TRUE(contains(scene.error, "the scene has changed")) << scene.error;
+  EXPECT_TRUE(contains(scene.error, "Study/Seeds = 2 was 1 when the run began")) << scene.error;
   EXPECT_EQ(run("a", quick).status, 2);
   EXPECT_EQ(table("a"), before);
   fs::remove_all(folder_ / "b");

@@ -49,6 +49,41 @@ TEST(axial_rate, ends_at_its_strain_and_goes_on_asking) {
   EXPECT_NEAR(program.expected_seconds(), 1e-3 * 0.1 / 0.08, 1e-15);
 }
 
+// As one that was read with a larger strain than it had finished at.
+TEST(axial_rate, goes_on_to_a_later_end_as_if_there_had_been_none_before) {
+  const auto told = [](double at, double closure, Program &program, Seen &seen) {
+    seen.now = at, seen.closure = closure;
+    const Commands asked = ask(program);
+    program.update();
+    return asked[0].velocity[2];
+  };
+  Seen one, other;
+  const auto first = drive_of_both(), second = drive_of_both();
+  const double ramp = 10 * dt;
+  Program early(one, list_of(at_rate(first, 0.08, ramp, until(Until::Reached::strain, 1e-3))), {first}),
+      late(other, list_of(at_rate(second, 0.08, ramp, until(Until::Reached::strain, 2e-3))), {second});
+  for (int k = 1; k <= 5; ++k)
+    told(k * dt, 2.1e-4 * k, early, one);
+  ASSERT_TRUE(early.finished());
+  EXPECT_EQ(early.stage().ended_by(), "strain");
+  early.go_on();
+  EXPECT_TRUE(early.finished()) << "nothing has changed";
+
+  set_state(late, state_of(early));
+  ASSERT_TRUE(late.finished()) << "as it was kept";
+  other.now = 5 * dt, other.closure = 1.05e-3;
+  late.go_on();
+  EXPECT_FALSE(late.finished());
+  EXPECT_EQ(late.stage().ended_by(), "");
+  EXPECT_EQ(late.stages_ended(), 0u);
+  for (int k = 6; k <= 9; ++k)
+    EXPECT_EQ(told(k * dt, 2.1e-4 * k, late, other), told(k * dt, 2.1e-4 * k, early, one)) << k;
+  EXPECT_FALSE(late.finished());
+  told(10 * dt, 2.1e-3, late, other);
+  EXPECT_TRUE(late.finished());
+  EXPECT_EQ(late.stage().ended_by(), "strain");
+}
+
 // Load to a strain, unload to a quarter of the stress there, load on.
 Program turning(const Seen &seen, const std::shared_ptr<Drive> &drive, double ramp) {
   Stages stages;
