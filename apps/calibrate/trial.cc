@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/run/peak.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/parameters.h"
 #include "coupling/static_press.h"
@@ -15,15 +16,15 @@ namespace {
 constexpr double readings = 600;
 // A run is over when the stress has fallen to this share of its peak; moduli are secants at that of 40 %.
 constexpr double fallen = 0.8, modulus_share = 0.4;
-// A specimen may flow on: its peak counts if it lies before this share of the largest strain.
-constexpr double before_the_end = 0.8;
 // A fall before this share of the largest strain is none: what a cell leaves shakes about zero at first.
 constexpr double begun = 0.02;
 
 struct Reading {
   double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
+  bool damaged = false;                                         // a bond has broken
   Reading minus(const Reading &o) const {
-    return {stress - o.stress, strain_platen - o.strain_platen, axial - o.axial, lateral - o.lateral};
+    return {stress - o.stress, strain_platen - o.strain_platen, axial - o.axial, lateral - o.lateral,
+            damaged};
   }
 };
 
@@ -63,6 +64,14 @@ void add_curve(const std::vector<Reading> &all, const SpecimenTest &test, TrialR
   }
 }
 
+// As platen-compress judges it.
+bool reached_peak(const std::vector<Reading> &all) {
+  std::vector<CurvePoint> curve;
+  for (const Reading &one : all)
+    curve.push_back({one.strain_platen, one.stress, one.damaged});
+  return judge_peak(curve, false).reached();
+}
+
 std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, const SpecimenTest &test,
                           TrialResult &result) {
   const double sign = test.kind == TestKind::tension ? -1 : 1, target = scene.loading.target_strain;
@@ -72,7 +81,8 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
   const auto read = [&]() -> Reading {
     const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
     return {sign * 0.5 * (problem.stress_top() + problem.stress_bottom()), sign * problem.closure_strain(),
-            -sign * strain.axial, sign * strain.lateral()};
+            -sign * strain.axial, sign * strain.lateral(),
+            problem.model.broken_tension + problem.model.broken_shear > 0};
   };
   while (!problem.axial_stage())
     problem.advance(steps);
@@ -86,10 +96,9 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     all.push_back(read().minus(start));
     const Reading &now = all.back();
     if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
-    const bool broken = problem.model.broken_tension + problem.model.broken_shear > 0;
-    fell = fell || (broken && now.strain_platen > begun * target && now.stress < fallen * peak);
+    fell = fell || (now.damaged && now.strain_platen > begun * target && now.stress < fallen * peak);
   }
-  if (fell || result.strain_at_peak < before_the_end * target) {
+  if (reached_peak(all)) {
     result.strength = peak + start.stress;
     add_moduli(all, peak, result);
   } else {

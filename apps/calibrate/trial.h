@@ -24,9 +24,9 @@ dem::Specimen placed(const dem::Specimen &specimen, const SpecimenTest &test);
 
 // Elastic: moduli of the middle half, between the platens of the scene, at Calibrate/Strain. Others: to four
 // fifths of the peak, or the last strain of the curve that is kept: compression between platens, tension
-// between glued ends, splitting between strips, under pressure counted from where it stands on all sides; a
-// peak that holds to the largest strain counts too. The strength is the largest mean of both platens'
-// stresses, the pressure included. Moduli are secants at 40 % of what the platens add.
+// between glued ends, splitting between strips, under pressure counted from where it stands on all sides. A
+// peak counts as in platen-compress (judge_peak): a fall by 2 %, or a plateau. The strength is the largest
+// mean of both platens' stresses, the pressure included. Moduli are secants at 40 % of what the platens add.
 TrialResult run_test(const Scene &scene, const dem::Specimen &specimen, const Choice &choice,
                      const SpecimenTest &test);
 // Without a solve.

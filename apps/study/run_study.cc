@@ -164,10 +164,8 @@ void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcom
             number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
   const bool compared = of_platens(plan_.kind) || plan_.kind == StudyKind::accuracy;
   if (compared && !StudyTables::peaked(outcome.summary))
-    log_.warning(
-        "{}: its stress did not fall to 0.8 of the largest up to Loading/Target strain: it has no strength "
-        "to compare",
-        run.name);
+    log_.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
+                 run.name);
   for (const std::string &line : check_expectations(scene_, outcome.summary).failed) {
     missed_.push_back(run.name + ": " + line);
     log_.error("expected: {}", missed_.back());

@@ -146,7 +146,7 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
 }
 
 bool StudyTables::peaked(const Json &summary) {
-  return !std::isnan(number_in(summary, "middle_damage"));
+  return summary.is_object() && summary.value("peak_reached", Json()) == true;
 }
 
 int StudyTables::failed() const {

@@ -180,8 +180,9 @@ TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {
   };
   asked.front() = "Calibrate/Poisson ratio = 0.13";
   const std::string another_scene = refused("a");
-  EXPECT_NE(another_scene.find("the scene has changed"), std::string::npos) << another_scene;
-  EXPECT_LT(another_scene.find("was:   set Poisson ratio"), another_scene.find("= 0.12\n")) << another_scene;
+  EXPECT_NE(another_scene.find("Calibrate/Poisson ratio = 0.13 was 0.12 when the run began"),
+            std::string::npos)
+      << another_scene;
   EXPECT_NE(refused("b").find("b/scene.prm: error: is missing: the folder holds nothing to resume"),
             std::string::npos)
       << refused("b");

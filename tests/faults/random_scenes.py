@@ -1,6 +1,7 @@
 """Scenes that ship, made small, with one to three entries changed at random within their ranges: each is refused, or stops
 with a reason, or ends with figures that are valid or null with their reasons. None takes 2 GB, and none goes on for longer
-than its dry run told: those that would are left out and counted.
+than its dry run told. Scenes that would take longer than --seconds by their own estimate (a thousandth of the speed) are
+counted and told, and others drawn for them.
 
     random_scenes.py APPS [--count 200] [--seed 1] [--table FILE] [--seconds 600] [--jobs 1]
 
@@ -122,9 +123,10 @@ def changed(entries, chance):
     """One to three assignments."""
     names = [name for name in entries if not name.startswith(OTHER_SECTIONS) and "ile" not in name.rsplit("/", 1)[-1] and name != "Specimen/Sphere radius"
              and not re.search(r"/Stage (\d\d|[2-9])/", name)]
+    own = [name for name in names if entries[name]["value"] != entries[name]["default_value"]]  # of the scene
     wanted, sets = chance.choice((1, 2, 3)), []
     while len(sets) < wanted:
-        name = chance.choice(names)
+        name = chance.choice(own if own and chance.random() < 0.7 else names)
         value = random_value(entries[name], chance)
         if value is not None and not any(one.startswith(name + " =") for one in sets):
             sets.append(f"{name} = {value}")
@@ -202,10 +204,13 @@ def main():
     a = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        for row in pool.map(lambda n: run_one(n, a.seed, a.apps.resolve(), pathlib.Path(scratch), a.seconds),
-                            range(1, a.count + 1)):
-            rows.append(row)
-            print(" | ".join(str(cell) for cell in row), flush=True)
+        drawn = 0
+        while (missing := a.count - sum(row[3] != "long" for row in rows)) > 0:
+            numbers = range(drawn + 1, drawn + missing + 1)
+            drawn += missing
+            for row in pool.map(lambda n: run_one(n, a.seed, a.apps.resolve(), pathlib.Path(scratch), a.seconds), numbers):
+                rows.append(row)
+                print(" | ".join(str(cell) for cell in row), flush=True)
     if a.table:
         lines = ["| scene | changed | ended | by |", "| --- | --- | --- | --- |"]
         lines += [f"| {name} | {sets} | {kind} | {(wrong + ': ' if wrong else '') + rests_on} |"
