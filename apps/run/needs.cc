@@ -63,6 +63,10 @@ double bytes_of_cell(const coupling::PlatenSettings &p) {
                                                                   : bytes_of_quasi_static)[degree];
 }
 
+double width_of(const dem::Shape &shape) {
+  return shape.kind == dem::ShapeKind::box ? std::max(shape.width_x, shape.width_y) : 2 * shape.radius;
+}
+
 double cells_of_mesh(const Scene &scene, coupling::Side side) {
   const std::string &file = scene.platens.face(side).mesh_file;
   return file.empty() ? 0 : share_of_hexahedra * elements_in(file);
@@ -157,6 +161,27 @@ void refuse_sleeve(const Scene &scene, const dem::Shape &shape, const coupling::
                   needs.sleeve_cells, needs.sleeve_bytes, memory, given ? allowed(most) : "fewer");
 }
 
+// Elements far below the spheres have nothing between their nodes that differs: memory and time for nothing.
+void require_useful_elements(const Scene &scene, const dem::Shape &shape,
+                             const coupling::PlatenTestSettings &settings) {
+  constexpr double finest = 1.0 / 30; // over the mean radius
+  const double radius = scene.specimen.sphere_radius;
+  if (!(radius > 0)) return; // of a specimen from a file
+  const coupling::PlatenSettings &p = settings.platens;
+  const bool meshed =
+      std::any_of(coupling::all_sides.begin(), coupling::all_sides.end(), [&](coupling::Side side) {
+        return p.side(side) != nullptr && scene.platens.face(side).mesh_file.empty();
+      });
+  if (!meshed) return;
+  const double width = p.overhang * width_of(shape), edge = width / p.elements_across;
+  if (edge < finest * radius)
+    refuse(scene, "Platens/Elements across",
+           fmt::format(
+               "makes elements of {:.3g} m, {:.2g} of the radius of the spheres, which feel nothing of them. "
+               "Allowed: up to {:.0f}.",
+               edge, edge / radius, std::floor(width / (finest * radius))));
+}
+
 // s, from nothing to the target strain, as far as the scene says; NaN where stages or a stress lead.
 double duration(const Scene &scene, double height) {
   const Loading &loading = scene.loading;
@@ -174,9 +199,7 @@ double longest_step(const Scene &scene, const dem::Shape &shape, const coupling:
   double step = 2 * scene.specimen.sphere_radius *
                 std::sqrt(scene.model.mass_scaling * scene.model.density / scene.model.bond_layout.modulus);
   if (p.elastic && p.elastic->motion == fem::ElasticMotion::explicit_steps) {
-    const double width =
-        shape.kind == dem::ShapeKind::cylinder ? 2 * shape.radius : std::max(shape.width_x, shape.width_y);
-    const double edge = p.overhang * width / p.elements_across;
+    const double edge = p.overhang * width_of(shape) / p.elements_across;
     step = std::min(step, edge * std::sqrt(p.material.density / p.material.young_modulus));
   }
   return step;
@@ -193,7 +216,7 @@ void require_memory(const Scene &scene, const dem::Shape &shape) {
   const auto memory = static_cast<double>(this_machine().memory_bytes);
   const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
   const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
-  if (memory == 0 || needs.bytes() <= memory) return;
+  if (memory == 0 || needs.bytes() <= memory) return require_useful_elements(scene, shape, settings);
   if (needs.platen_bytes >= std::max(needs.sphere_bytes, needs.sleeve_bytes))
     refuse_platens(scene, shape, settings, needs, memory);
   if (needs.sleeve_bytes >= needs.sphere_bytes) refuse_sleeve(scene, shape, settings, needs, memory);

@@ -256,6 +256,16 @@ TEST_F(Errors, elements_without_number_are_refused_before_they_are_made) {
             {"error: Platens/Top/Mesh file = ", "asks for 4.5e+08 elements of a platen", "a coarser mesh"});
 }
 
+// Which cost memory and time for nothing; with more spheres across the same elements are taken.
+TEST_F(Errors, elements_that_feel_nothing_of_the_spheres_are_refused) {
+  refuse({with({"Platens/Elements across = 835", "Specimen/Sphere radius = 2 mm"}),
+          {"--set 1: error: Platens/Elements across = 835 makes elements of ", "of the radius of the spheres",
+           "Allowed: up to 3"}});
+  std::vector<std::string> fine = with({"Platens/Elements across = 300", "Specimen/Sphere radius = 2 mm"});
+  fine.insert(fine.end(), {"--dry-run", "--quiet"});
+  EXPECT_EQ(run_compress(fine, folder_).status, 0);
+}
+
 // The largest value that is allowed for the elements is taken, and the next is not.
 TEST_F(Errors, the_largest_mesh_that_is_allowed_is_allowed) {
   const auto asked = [&](int across) {
