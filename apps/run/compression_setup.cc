@@ -128,6 +128,13 @@ void CompressionRun::require_memory(const dem::Shape &shape) {
 // What tells the test: steps enough that something happens between them, and rows enough to see a peak.
 void CompressionRun::require_length() const {
   constexpr double fewest_steps = 100, most_steps = 1e12, fewest_rows = 5;
+  const double transit = test_->facts().wave_transit;
+  if (test_->cell() && test_->cell_ramp() < transit)
+    refuse(scene_, "Loading/Confining ramp",
+           fmt::format(
+               "raises the pressure in {:.3g} s, while a wave needs {:.3g} s across the specimen: that is a "
+               "shock. Allowed: {:.3g} s or more.",
+               test_->cell_ramp(), transit, transit));
   const double step = test_->time_step(), seconds = test_->program().expected_seconds();
   const Loading &loading = scene_.loading;
   const bool own_step = scene_.time_step.fixed_step > 0,
@@ -136,6 +143,8 @@ void CompressionRun::require_length() const {
                             : !by_rate                              ? "Loading/Test"
                             : std::isnan(loading.rate)              ? "Loading/Wave crossings"
                                                                     : "Loading/Axial rate";
+  // Of a stage that waits for a stress nobody knows how long it takes: nothing is told of it then.
+  if (!(seconds > 0)) return;
   if (seconds < fewest_steps * step || seconds > most_steps * step)
     refuse(scene_, entry,
            fmt::format(

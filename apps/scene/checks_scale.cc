@@ -18,6 +18,8 @@ constexpr double most_slender = 200;
 // m/s; of gels with masses scaled up; twice diamond's, whose 18 km/s are the fastest that there is, for bonds
 // are stiffer than what they make. A density in g/cm3 for one in kg/m3 is beyond.
 constexpr double slowest_wave = 1e-3, fastest_wave = 4e4;
+constexpr double softest_body = 1e-6;      // modulus over that of bonds: rubber beside concrete has 1e-4
+constexpr double widest_strip = 0.3;       // of a disc's diameter
 constexpr double most_of_wave_speed = 0.1; // of a platen; above it nothing is in equilibrium anywhere
 // Steps of a test that it can be told by, and that a machine can make.
 constexpr double fewest_steps = 100, most_steps = 1e12;
@@ -82,6 +84,36 @@ void SceneCheck::waves() const {
                                      set_to("Material/Density") + ". Allowed: up to " +
                                      number(most_of_wave_speed) + " times.");
   if (loads()) stage_rates();
+}
+
+// Of deformable platens and a sleeve: beside bonds they may be soft, but not nothing.
+void SceneCheck::bodies() const {
+  const double bond = scene_.model.bond_layout.modulus;
+  const auto soft = [&](const char *path, double modulus) {
+    if (scene_.bond.bonded() && modulus < softest_body * bond)
+      refuse(path, "is " + number(modulus / bond) + " of " + set_to("Bond/Modulus") +
+                       ": it bears nothing. Allowed: " + number(softest_body) + " of it or more.");
+  };
+  if (!loads()) return;
+  if (scene_.loading.sleeved()) soft("Sleeve/Modulus", scene_.loading.cell->sleeve->young_modulus);
+  if (!scene_.platens.deformable) return;
+  const fem::Material &body = scene_.platens.material;
+  soft("Platens/Young modulus", body.young_modulus);
+  const double speed = std::sqrt(body.young_modulus / body.density);
+  if (speed > fastest_wave)
+    refuse("Platens/Density", "does not go with " + set_to("Platens/Young modulus") +
+                                  ": waves would run at " + number(speed) + " m/s. Allowed: up to " +
+                                  number(fastest_wave) + " m/s.");
+}
+
+// Strips stand for lines: 0.05 to 0.1 of the diameter in standards.
+void SceneCheck::strips() const {
+  const double diameter = 2 * scene_.specimen.radius, strip = scene_.platens.strip_width;
+  if (app_ == AppKind::brazilian && given(diameter) && strip > widest_strip * diameter)
+    refuse("Platens/Strip width", "is " + number(strip / diameter) + " of the diameter that " +
+                                      set_to("Specimen/Radius") +
+                                      " gives: such a disc is crushed, not split. Allowed: up to " +
+                                      number(widest_strip) + " of it.");
 }
 
 void SceneCheck::stage_rates() const {
@@ -182,6 +214,8 @@ void SceneCheck::scale() const {
   proportions();
   if (app_ == AppKind::pack) return;
   waves();
+  bodies();
+  strips();
   step_count();
   stresses();
   stiffnesses();

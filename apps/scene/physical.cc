@@ -29,12 +29,12 @@ struct OfKey {
 };
 
 const std::vector<OfKey> &by_key() {
-  static const std::vector<OfKey> all{
-      {"Modulus", "Pa", 1, 1e13},           {"Young modulus", "Pa", 1, 1e13},
-      {"Contact modulus", "Pa", 1, 1e13},   {"Pad modulus", "Pa", 1, 1e13},
-      {"Slip length", "m", 1e-15, 1e3},     {"Displacement", "m", 1e-15, 1e3},
-      {"Turns", "m", 1e-15, 1e3},           {"Edge gap", "m", 1e-15, 1e3},
-      {"Radius multiplier", "1", 0.01, 10}, {"Wave crossings", "1", 0.01, 1e6}};
+  static const std::vector<OfKey> all{{"Modulus", "Pa", 1, 1e13},         {"Young modulus", "Pa", 1, 1e13},
+                                      {"Contact modulus", "Pa", 1, 1e13}, {"Pad modulus", "Pa", 1, 1e13},
+                                      {"Slip length", "m", 1e-15, 1e3},   {"Displacement", "m", 1e-15, 1e3},
+                                      {"Turns", "m", 1e-15, 1e3},         {"Edge gap", "m", 1e-15, 1e3},
+                                      {"Radius multiplier", "1", 0.1, 3}, {"Wave crossings", "1", 0.01, 1e6},
+                                      {"Wall stiffness", "1", 0.1, 1e3}};
   return all;
 }
 
@@ -58,7 +58,8 @@ Allowed physical(const std::string &path, const std::string &unit, const Range &
   const OfUnit *of = bounds(path, unit, own);
   if (of == nullptr) return declared;
   Range range = declared;
-  if (!std::isfinite(range.high)) range.high = of->high, range.high_included = true;
+  if (!std::isfinite(range.high) || (of == &own && own.high < range.high))
+    range.high = of->high, range.high_included = true;
   if (!std::isfinite(range.low)) return {{-of->high, range.high, true, range.high_included}, false};
   const bool from_zero = range.low == 0 && of->low < range.high;
   // Of plain numbers a small one is as good as a large one, but for those that have no end above.

@@ -65,6 +65,8 @@ private:
   void proportions() const;
   double wave_speed() const;
   void waves() const;
+  void bodies() const;
+  void strips() const;
   void stage_rates() const;
   void step_count() const;
   void stresses() const;

@@ -212,6 +212,22 @@ TEST_F(Errors, a_test_has_steps_and_rows_enough_to_be_told_by) {
   EXPECT_EQ(run_compress({scene_, "--dry-run", "--quiet", "-s", "Output/Every = 500"}, folder_).status, 0);
 }
 
+TEST_F(Errors, a_pressure_faster_than_a_wave_is_a_shock) {
+  refuse({with({"Loading/Confinement = particles", "Loading/Confining pressure = 5 MPa",
+                "Loading/Confining ramp = 1 ns"}),
+          {"--set 3: error: Loading/Confining ramp = 1 ns raises the pressure in 1e-09 s", "that is a shock",
+           "Allowed: 5"}});
+}
+
+// How long such a stage takes nobody knows before.
+TEST_F(Errors, a_stage_that_waits_for_a_stress_is_no_test_of_no_length) {
+  std::vector<std::string> stage =
+      with({"Loading/Stage 1/Axial = rate", "Loading/Stage 1/Until = stress 5 MPa"});
+  stage.emplace_back("--quiet");
+  const Outcome outcome = run_compress(stage, folder_);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+}
+
 TEST_F(Errors, a_gap_beyond_the_smallest_sphere_is_refused) {
   refuse({with({"Bond/Gap = 0.8 mm"}),
           {"--set 1: error: Bond/Gap = 0.8 mm is more than the smallest radius, 0.00074",
