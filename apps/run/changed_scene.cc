@@ -43,10 +43,10 @@ constexpr std::array<const char *, 5> free_entries{"Scene/Title", "Loading/Stop 
                                                    "Output/Fields every", "Checkpoint/Every"};
 constexpr const char *expectations = "Expect/";
 
-bool is_larger_target(const SceneChange &change) {
+bool is_no_smaller_target(const SceneChange &change) {
   if (change.entry != target_entry) return false;
   try {
-    return read_quantity(change.now, "1", any_number()) > read_quantity(change.was, "1", any_number());
+    return read_quantity(change.now, "1", any_number()) >= read_quantity(change.was, "1", any_number());
   } catch (const ValueError &) {
     return false;
   }
@@ -93,7 +93,7 @@ void require_same_scene(const Scene &scene, const OutputPaths &paths) {
 std::vector<SceneChange> require_same_physics(const Scene &scene, const OutputPaths &paths) {
   std::vector<SceneChange> changes = changes_of_scene(scene, paths);
   for (const SceneChange &change : changes) {
-    if (is_free(change) || is_larger_target(change)) continue;
+    if (is_free(change) || is_no_smaller_target(change)) continue;
     if (change.entry == target_entry)
       refuse_change(scene, change, "that or more with --resume, or a new run in another folder");
     refuse_change(

@@ -226,6 +226,13 @@ TEST_F(Errors, a_stage_that_waits_for_a_stress_is_no_test_of_no_length) {
   stage.emplace_back("--quiet");
   const Outcome outcome = run_compress(stage, folder_);
   EXPECT_EQ(outcome.status, 0) << outcome.error;
+  // Nor of a test with such a stage, however short the others are.
+  std::vector<std::string> two =
+      with({"Loading/Stage 1/Axial = rate", "Loading/Stage 1/Until = stress 5 MPa",
+            "Loading/Stage 2/Axial = rate", "Loading/Stage 2/Until = strain change 1e-5"});
+  two.emplace_back("--dry-run");
+  const Outcome planned = run_compress(two, folder_);
+  EXPECT_EQ(planned.status, 0) << planned.error;
 }
 
 TEST_F(Errors, a_gap_beyond_the_smallest_sphere_is_refused) {

@@ -168,6 +168,10 @@ TEST_F(LedOn, what_would_change_the_physics_is_refused_by_name) {
   refused("Output/Sound share = 0.4", "0.7 when");
   refused("Output/Fields = off", "on when");
   refused("Scene/Seed = 4", "3 when");
+  // The same strain in other words is no other.
+  const Outcome same =
+      run("led", {"Loading/Target strain = 0.2 %", "Loading/Unload at = 0.001"}, {"--resume"});
+  EXPECT_EQ(same.status, 0) << same.error;
 }
 
 // Where no checkpoints are wanted none is kept, and there is nothing to lead on from.
