@@ -7,6 +7,7 @@ set -euo pipefail
 packages=(
   git g++ cmake ninja-build pkg-config # tools
   libdeal.ii-dev                       # finite elements; brings Trilinos, MPI and UMFPACK
+  libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev # specimens over MPI ranks
   libvtk9-dev                          # VTU files, pictures
   libeigen3-dev voro++-dev             # particle library
   libcli11-dev nlohmann-json3-dev libfmt-dev libudunits2-dev libxxhash-dev # apps

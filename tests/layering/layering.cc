@@ -13,14 +13,17 @@ namespace {
 // Paths as they stand between <> or "", matched at their beginning.
 const std::map<std::string, std::regex> &forbidden_includes() {
   static const std::string files = R"(fstream|filesystem|stdio\.h|fcntl\.h|experimental/filesystem)";
-  static const std::string trilinos =
-      R"(Epetra|EpetraExt|Teuchos|Tpetra|AztecOO|Amesos|Ifpack|ml_|ML_|Zoltan|zoltan|Sacado|ROL_|Kokkos|NOX)";
+  static const std::string solvers =
+      R"(Epetra|EpetraExt|Teuchos|Tpetra|AztecOO|Amesos|Ifpack|ml_|ML_|Sacado|ROL_|Kokkos|NOX)";
+  static const std::string trilinos = solvers + "|Zoltan|zoltan";
   static const std::map<std::string, std::regex> rules = {
-      {"base", std::regex("^((\\.\\./)*(dem|fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
-                          files + ")$)")},
-      {"dem", std::regex("^((\\.\\./)*(fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
+      {"base", std::regex("^((\\.\\./)*(dem|dist|fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos +
+                          ")|(" + files + ")$)")},
+      {"dem", std::regex("^((\\.\\./)*(dist|fem|coupling|apps)/|deal\\.II/|vtk|mpi\\.h|(" + trilinos + ")|(" +
                          files + ")$)")},
-      {"fem", std::regex("^((\\.\\./)*(dem|coupling|apps)/|vtk|(" + files + ")$)")},
+      {"dist",
+       std::regex("^((\\.\\./)*(fem|coupling|apps)/|deal\\.II/|vtk|(" + solvers + ")|(" + files + ")$)")},
+      {"fem", std::regex("^((\\.\\./)*(dem|dist|coupling|apps)/|vtk|(" + files + ")$)")},
       {"coupling", std::regex("^((\\.\\./)*apps/|vtk|(" + files + ")$)")}};
   return rules;
 }
@@ -32,6 +35,16 @@ const std::regex &file_opening() {
       R"(\b(fopen|freopen|fdopen|tmpfile|mkstemp|openat|creat|(i|o)?fstream|basic_(i|o)?fstream|filebuf)\b)"
       R"(|(^|[^\w.>])(::)?open\s*\(|\bwrite_vtu_(in_parallel|with_pvtu_record)\b|\bfilesystem\s*::)");
   return words;
+}
+
+// Callers of dist/ need MPI alone to compile.
+const std::regex &of_partitioner() {
+  static const std::regex words("^(Zoltan|zoltan)");
+  return words;
+}
+
+bool is_header(const std::string &file) {
+  return file.size() > 2 && file.compare(file.size() - 2, 2, ".h") == 0;
 }
 
 // "Loading/Axial rate": a user of the library has no scene file; messages name members.
@@ -92,6 +105,8 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
       const std::string path = match[1];
       if (std::regex_search(path, rule->second))
         violations.push_back({file, number, folder + "/ must not include " + path});
+      else if (folder == "dist" && is_header(file) && std::regex_search(path, of_partitioner()))
+        violations.push_back({file, number, "a header of dist/ must not include " + path});
     } else if (std::regex_search(line, match, file_opening())) {
       violations.push_back({file, number, folder + "/ must not open files: " + line});
     }

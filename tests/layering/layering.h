@@ -14,9 +14,9 @@ struct Violation {
   std::string what;
 };
 
-// Checks one source file. `folder` is the layer it belongs to: "base", "dem", "fem" or "coupling" (others
-// may do anything); `file` is only repeated in the result. Comments are not looked at, string literals for
-// entries of scenes alone.
+// Checks one source file. `folder` is the layer it belongs to: "base", "dem", "dist", "fem" or "coupling"
+// (others may do anything); `file` is only repeated in the result. Comments are not looked at, string
+// literals for entries of scenes alone.
 std::vector<Violation> check_source(const std::string &folder, const std::string &file,
                                     const std::string &text);
 

@@ -28,6 +28,25 @@ TEST(Layering, particles_may_not_include_elements_coupling_apps_or_big_libraries
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 0u) << path;
 }
 
+TEST(Layering, ranks_know_particles_and_mpi_and_nobody_below_knows_ranks) {
+  const std::string ranks = "#include \"dist/partition.h\"\n";
+  for (const char *folder : {"base", "dem", "fem"})
+    EXPECT_EQ(faults(folder, ranks), 1u) << folder;
+  for (const char *folder : {"base", "dem"})
+    EXPECT_EQ(faults(folder, "#include <mpi.h>\n#include <zoltan.h>\n"), 2u) << folder;
+  EXPECT_EQ(faults("coupling", ranks), 0u);
+  for (const char *path : {"\"base/vector3.h\"", "\"dem/pair_blocks.h\"", "<mpi.h>", "<zoltan.h>"})
+    EXPECT_EQ(faults("dist", std::string("#include ") + path + "\n"), 0u) << path;
+  for (const char *path : {"\"fem/body.h\"", "\"coupling/experiment.h\"", "\"apps/io/file.h\"",
+                           "<deal.II/base/mpi.h>", "<vtkPoints.h>", "<Tpetra_Map.hpp>", "<fstream>"})
+    EXPECT_EQ(faults("dist", std::string("#include ") + path + "\n"), 1u) << path;
+}
+
+TEST(Layering, a_header_of_ranks_asks_for_no_partitioner) {
+  EXPECT_EQ(check_source("dist", "dist/cut.h", "#include <zoltan.h>\n").size(), 1u);
+  EXPECT_EQ(check_source("dist", "dist/cut.h", "#include <mpi.h>\n").size(), 0u);
+}
+
 TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both) {
   const std::string particles = "#include \"dem/bonds.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
   const std::string coupling = "#include \"coupling/problem.h\"\n", apps = "#include \"apps/io/output.h\"\n";
@@ -50,12 +69,12 @@ TEST(Layering, numerics_may_not_open_a_file) {
        {"std::ofstream out(name);", "std::ifstream in(name);", "std::fopen(name, \"r\");",
         "FILE *f = fopen(name, m);", "int fd = ::open(name, O_RDONLY);", "int fd = open(name, O_RDONLY);",
         "std::filesystem::remove(name);", "data_out.write_vtu_in_parallel(name, comm);"})
-    for (const char *folder : {"base", "dem", "fem", "coupling"})
+    for (const char *folder : {"base", "dem", "dist", "fem", "coupling"})
       EXPECT_EQ(faults(folder, std::string(statement) + "\n"), 1u) << folder << ": " << statement;
 }
 
 TEST(Layering, the_library_names_no_entry_of_a_scene) {
-  for (const char *folder : {"base", "dem", "fem", "coupling"}) {
+  for (const char *folder : {"base", "dem", "dist", "fem", "coupling"}) {
     EXPECT_EQ(faults(folder, "throw Bad(\"try a smaller Loading/Axial rate\");\n"), 1u) << folder;
     EXPECT_EQ(faults(folder, "throw Bad(\"Sleeve/Elements around\" + why);\n"), 1u) << folder;
   }
