@@ -33,6 +33,20 @@ void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = 
   run_loops(loop_of(number_of_blocks(rows, per_block), part), beside);
 }
 
+// Blocks that are listed, ascending, or all of them.
+using BlockList = std::vector<int>;
+
+// The same for the blocks that are listed, where a list is given.
+template <class Body>
+void for_listed_blocks(const BlockList *listed, std::size_t rows, const Body &body, const Loop &beside = {}) {
+  if (listed == nullptr) return for_each_block(rows, body, block_rows, beside);
+  const auto part = [&](std::size_t k) {
+    const std::size_t b = static_cast<std::size_t>((*listed)[k]);
+    body(b * block_rows, std::min(rows, (b + 1) * block_rows), b);
+  };
+  run_loops(loop_of(listed->size(), part), beside);
+}
+
 // body(row) for every row. Rows that cost much are worth a thread in smaller blocks.
 template <class Body>
 void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {

@@ -4,6 +4,7 @@
 
 #include <iosfwd>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -95,6 +96,15 @@ public:
   virtual const std::vector<int> *listed_particles() const { return nullptr; }
   virtual long lists_made() const { return 0; }
 
+  // Where a specimen is cut over ranks, of which each computes the boundaries, only some particles are known
+  // to all in each step: the rows that it reads, ascending; none: any. Whether it will go through all
+  // particles in this step, asked when boundaries have drifted.
+  virtual std::optional<std::vector<int>> rows_read() const {
+    const std::vector<int> *listed = listed_particles();
+    return listed != nullptr ? std::optional(*listed) : std::nullopt;
+  }
+  virtual bool reads_all(const Step &) const { return false; }
+
   // Springs of the particles near it, listed anew, for the stable step; fraction of critical damping of its
   // dashpots; its own limit, once they are listed; the same as far as it is known without work.
   virtual void add_springs(const dem::Particles &, std::vector<dem::GroundSpring> &) {}
@@ -146,6 +156,9 @@ public:
   }
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }
+  bool reads_all(const Step &step) const override {
+    return layer().search().stale_after(step.farthest + farthest(step));
+  }
   void add_springs(const dem::Particles &particles, std::vector<dem::GroundSpring> &springs) override {
     layer().make_list(particles, surface());
     layer().allow_for_depth();

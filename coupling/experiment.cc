@@ -52,13 +52,14 @@ void Experiment::begin(std::unique_ptr<Program> program) {
 
 long Experiment::advance(long most) {
   if (steps_ == 0) given_energy_ = dem::kinetic_energy(model.particles);
+  begin_sharing();
   const bool was_finished = program_->finished();
   for (long made = 1; made <= most; ++made) {
     make_step(made == 1);
     const bool ends = program_->finished() && !was_finished;
-    if (made < most && !ends && !(model.breaks > 0 && model.settings().crack_log)) continue;
+    if (made < most && !ends) continue;
     model.end_step(time_step_);
-    if (!std::isfinite(model.last_sums().unbalanced)) stop_not_finite();
+    if (any_rank(!std::isfinite(model.last_sums().unbalanced))) stop_not_finite();
     return made;
   }
   return 0;
@@ -66,19 +67,28 @@ long Experiment::advance(long most) {
 
 // All of a step but its end, which the next one makes in one pass with its own start.
 void Experiment::make_step(bool first_of_call) {
-  const double before = time_step_;
-  check_step();
+  if (choice_is_due()) {
+    if (!first_of_call) model.end_step(time_step_);
+    first_of_call = true;
+    model.gather();
+    {
+      dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
+      choose_step(false);
+    }
+    begin_sharing();
+  }
+  if (first_of_call)
+    model.begin_step(time_step_);
+  else
+    model.end_and_begin_step(time_step_, time_step_);
+  if (!std::isfinite(model.last_motion().speed_squares)) stop_not_finite();
+  program_->command(commands_);
   try {
-    if (first_of_call)
-      model.begin_step(time_step_);
-    else
-      model.end_and_begin_step(before, time_step_);
+    compute_forces();
   } catch (const dem::NotFinite &) {
     stop_not_finite();
   }
-  if (!std::isfinite(model.last_motion().speed_squares)) stop_not_finite();
-  program_->command(commands_);
-  compute_forces();
+  if (model.breaks > 0) model.set_strain_of_cracks(strain_of_cracks());
   program_->update();
   ++steps_;
   require_boundaries_finite();
@@ -91,6 +101,7 @@ void Experiment::make_step(bool first_of_call) {
 void Experiment::compute_forces() {
   const Step step{time_step_, model.time, steps_, model.last_motion().fastest * time_step_};
   drift_boundaries(step);
+  gather_for_boundaries(step);
   prepare_contacts(step);
   const auto part = [&](std::size_t p) {
     const auto after = std::upper_bound(first_part_.begin(), first_part_.end(), p);
@@ -100,6 +111,7 @@ void Experiment::compute_forces() {
   model.compute_forces(time_step_, loop_of(first_part_.back(), part));
   apply_boundary_forces(step);
   finish_boundaries(step);
+  share_rows_of_boundaries();
 }
 
 void Experiment::drift_boundaries(const Step &step) {
@@ -132,9 +144,7 @@ void Experiment::apply_boundary_forces(const Step &step) {
 }
 
 void Experiment::group_boundaries() {
-  long lists = 0;
-  for (const auto &boundary : boundaries_)
-    lists += boundary->lists_made();
+  const long lists = lists_made();
   if (lists == lists_grouped_) return;
   lists_grouped_ = lists;
   groups_.clear();
@@ -174,7 +184,8 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
   }
   for (std::size_t b = 0; b < boundaries_.size(); ++b)
     commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
-  const double chosen = time_step_, damped = model.works.damping;
+  const double chosen = time_step_;
+  const ExactSum damped = model.works.damping;
   time_step_ = pseudo_step;
   model.begin_step(pseudo_step);
   compute_forces();

@@ -46,8 +46,8 @@ public:
   // BadSetup.
   void begin(std::unique_ptr<Program> program);
 
-  // Up to `most` steps, to the same bits as one by one and faster; ends early after a step that leaves
-  // cracks to be written, and after the one that finishes the program. Returns how many were made. Throws
+  // Up to `most` steps, to the same bits as one by one and faster; ends early after the one that finishes the
+  // program. Returns how many were made. Throws
   // NumericsStopped, naming particles and columns, where numbers are not finite: within a step or two where
   // they reach a force, else within a hundred.
   long advance(long most);
@@ -59,7 +59,7 @@ public:
   void carry(const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn,
              const std::vector<Vector3> &of_boundaries);
   // Throws NumericsStopped where a particle's motion is not finite: to be asked before a state is kept.
-  void require_finite() const;
+  void require_finite();
 
   dem::Model model; // the specimen
 
@@ -76,10 +76,30 @@ public:
   std::size_t bytes() const; // of all columns and of the search lists
   virtual void describe(Archive &archive);
 
+  // Cuts the specimen over ranks, which all hold this same experiment and call the same from now on. Between
+  // calls of advance() each knows its own part of the specimen, and all of it from gather() on until the next
+  // step: before energies, measures of the specimen or a state are asked for. settle() makes cracks and their
+  // number known to all.
+  void share(std::unique_ptr<dem::Exchange> exchange) { model.share(std::move(exchange)); }
+  void gather() { model.gather(); }
+  void settle() { model.settle(); }
+
+protected:
+  // Of cracks: the strain of the test. Rows that the program's measures read in each step, ascending.
+  virtual double strain_of_cracks() const { return 0; }
+  virtual std::vector<int> rows_measured() const { return {}; }
+
 private:
   void make_step(bool first_of_call);
   void compute_forces();
   void drift_boundaries(const Step &step);
+  // On ranks (experiment_ranks.cc).
+  void begin_sharing();
+  void gather_for_boundaries(const Step &step);
+  void share_rows_of_boundaries();
+  bool any_rank(bool here) const;
+  long lists_made() const;
+  double work_from_outside() const;
   void prepare_contacts(const Step &step);
   void apply_boundary_forces(const Step &step);
   void group_boundaries();
@@ -88,11 +108,11 @@ private:
   dem::StableStep limit_now();
   std::size_t contacts_closed() const;
   void choose_step(bool first);
-  void check_step();
+  bool choice_is_due();
   // What stops a run (experiment_limits.cc).
-  [[noreturn]] void stop_not_finite() const;
-  [[noreturn]] void stop_unseen(const std::string &reason) const;
-  void require_boundaries_finite() const;
+  [[noreturn]] void stop_not_finite();
+  [[noreturn]] void stop_unseen(const std::string &reason);
+  void require_boundaries_finite();
   void check_energy();
 
   dem::Shape shape_;
@@ -104,6 +124,7 @@ private:
   std::vector<std::size_t> at_once_, in_turn_;   // boundaries whose drift is worth a thread; the others
   std::vector<std::vector<std::size_t>> groups_; // of boundaries of which no two push the same particle
   long lists_grouped_ = -1;                      // search lists made when that was found
+  long lists_shared_ = -1;                       // the same of rows that all ranks see
   double time_step_ = 0;
   std::string reason_;
   long steps_ = 0;

@@ -26,16 +26,17 @@ std::size_t near_pairs(const dem::Model &model) {
 
 } // namespace
 
-void Experiment::require_finite() const {
-  if (!dem::motion_is_finite(model.particles)) stop_not_finite();
+void Experiment::require_finite() {
+  if (any_rank(!dem::motion_is_finite(model.particles))) stop_not_finite();
 }
 
-void Experiment::require_boundaries_finite() const {
+void Experiment::require_boundaries_finite() {
   for (const auto &boundary : boundaries_)
     if (!boundary->is_finite()) stop_not_finite();
 }
 
-void Experiment::stop_not_finite() const {
+void Experiment::stop_not_finite() {
+  model.gather();
   std::string where = dem::not_finite(model.particles);
   for (const auto &boundary : boundaries_)
     if (where.empty() && !boundary->is_finite()) where = "the force on the " + boundary->name();
@@ -45,7 +46,8 @@ void Experiment::stop_not_finite() const {
 }
 
 // A contact layer refuses a motion that could carry a particle through a face unseen.
-void Experiment::stop_unseen(const std::string &reason) const {
+void Experiment::stop_unseen(const std::string &reason) {
+  model.gather();
   const auto slower = [](const Vector3 &a, const Vector3 &b) { return norm(a) < norm(b); };
   const dem::Particles &p = model.particles;
   const auto fastest = std::max_element(p.velocity.begin(), p.velocity.end(), slower) - p.velocity.begin();
@@ -63,7 +65,7 @@ void Experiment::stop_unseen(const std::string &reason) const {
 void Experiment::check_energy() {
   const double moving = half_lightest_ * model.last_motion().speed_squares;
   if (moving <= energy_allowed_ || !model.settings().energy_ledger) return;
-  const double came_in = std::abs(energy().boundary) + given_energy_;
+  const double came_in = std::abs(work_from_outside()) + given_energy_;
   // What goes along with the platens, and may be ahead of a balance that is closed to the step.
   double speed = program_->fastest();
   for (const auto &boundary : boundaries_)
@@ -71,6 +73,7 @@ void Experiment::check_energy() {
   const double mass = std::accumulate(model.particles.mass.begin(), model.particles.mass.end(), 0.0);
   energy_allowed_ = most_of_work_in_motion * (came_in + 0.5 * mass * speed * speed);
   if (moving <= energy_allowed_) return;
+  model.gather();
   const dem::StableStep limit = limit_now();
   const std::string step = "the time step of " + text_of(time_step_) + " s is ";
   const std::string cause =
@@ -85,6 +88,7 @@ void Experiment::check_energy() {
 
 std::size_t Experiment::contacts_closed() const {
   std::size_t sum = near_pairs(model);
+  if (model.is_cut()) sum = static_cast<std::size_t>(model.exchange()->all(static_cast<long>(sum)));
   for (const auto &boundary : boundaries_)
     sum += boundary->closed();
   return sum;
@@ -137,16 +141,15 @@ void Experiment::choose_step(bool first) {
 }
 
 // A boundary that knows its limit after each of its intervals may be stiffer than one step as contacts close.
-void Experiment::check_step() {
-  if (steps_ == 0) return;
+bool Experiment::choice_is_due() {
+  if (steps_ == 0) return false;
   const bool stiffer = std::any_of(boundaries_.begin(), boundaries_.end(), [&](const auto &boundary) {
     return time_step_ > boundary->known_limit() || boundary->stiffened();
   });
-  if (!stiffer && steps_ % steps_between_choices != 0) return;
+  if (!stiffer && steps_ % steps_between_choices != 0) return false;
+  if (model.contacts) model.contacts->renew_close(model.particles);
   const double grown = static_cast<double>(contacts_closed()) - static_cast<double>(near_at_choice_);
-  if (!stiffer && grown <= growth_of_contacts * static_cast<double>(model.particles.size())) return;
-  dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
-  choose_step(false);
+  return stiffer || grown > growth_of_contacts * static_cast<double>(model.particles.size());
 }
 
 } // namespace platen::coupling

@@ -125,6 +125,10 @@ public:
     return boundaries()[boundary]->servo_load(model.particles);
   }
 
+protected:
+  double strain_of_cracks() const override { return closure_strain(); }
+  std::vector<int> rows_measured() const override;
+
 private:
   void require_in_range() const;
   void add_platens(const dem::Specimen &specimen);

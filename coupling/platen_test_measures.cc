@@ -1,4 +1,5 @@
 // What is read off a test between two platens: strains, stresses, sizes.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +59,13 @@ double PlatenTest::circumferential_strain() const {
   return circumference_->strain(model.particles);
 }
 
+std::vector<int> PlatenTest::rows_measured() const {
+  const auto &stages = settings_.loading.stages;
+  if (std::none_of(stages.begin(), stages.end(), needs_circumferential_strain)) return {};
+  circumferential_strain();
+  return circumference_->rows();
+}
+
 double PlatenTest::confining_pressure() const {
   double sum = 0; // at most one of a test's boundaries presses its sides
   for (const auto &boundary : boundaries())
@@ -85,7 +93,7 @@ double PlatenTest::midspan_moment() const {
 }
 
 double PlatenTest::broken_bonds() const {
-  return static_cast<double>(model.broken_tension + model.broken_shear);
+  return static_cast<double>(model.known_breaks());
 }
 
 double PlatenTest::unbalanced_ratio() const {

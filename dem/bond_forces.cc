@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 #include "base/parallel.h"
 #include "dem/bonds.h"
@@ -45,19 +44,33 @@ kernels::InterfaceColumns interface_columns_of(const Particles &p, const Bonds &
   return columns;
 }
 
+// Rows whose first particle lies in a block of particles, some at a time: body(sum, first, last).
+template <class Body>
+BondTotals totals_by_blocks(const Particles &p, const Bonds &b, const Body &body) {
+  return ordered_sum<BondTotals>(p.size(), [&](std::size_t first_particle, std::size_t end_particle) {
+    const auto row_of = [&](std::size_t particle) {
+      const auto at = std::lower_bound(b.first.begin(), b.first.end(), static_cast<int>(particle));
+      return static_cast<std::size_t>(at - b.first.begin());
+    };
+    const std::size_t end = row_of(end_particle);
+    BondTotals sum;
+    for (std::size_t row = row_of(first_particle); row < end; row += block_rows)
+      body(sum, row, std::min(end, row + block_rows));
+    return sum;
+  });
+}
+
 BondTotals interface_totals(const Particles &p, const Bonds &b, InstructionSet set) {
   const kernels::InterfaceColumns columns = interface_columns_of(p, b);
-  return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
+  return totals_by_blocks(p, b, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows], dissipated[block_rows], damage[block_rows],
         plastic[block_rows];
     interface_kernel_of(set).measure(columns, b.law, {energy, force, dissipated, damage, plastic}, first,
                                      last);
-    BondTotals sum;
     for (std::size_t k = 0; k < last - first; ++k) {
       const bool failed = damage[k] >= 1;
       sum += {energy[k], force[k], failed ? 0 : dissipated[k], failed ? dissipated[k] : 0, plastic[k]};
     }
-    return sum;
   });
 }
 
@@ -104,16 +117,16 @@ bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
 } // namespace
 
 void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks, const Loop &beside) {
+                         std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
   const kernels::BondKernels &kernels = kernels_of(set);
   const kernels::BondColumns columns = columns_of(p, b);
   std::vector<unsigned char> reached(b.blocks.blocks(), 0);
-  for_each_block(
-      p.size(),
+  for_listed_blocks(
+      listed, p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
         reached[block] = compute_block(p, b, kernels, columns, gravity, block);
       },
-      block_rows, beside);
+      beside);
   // Rare: the ratios themselves decide.
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < reached.size(); ++block) {
@@ -143,21 +156,21 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
 }
 
 void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
-                              std::vector<BondBreak> &breaks, const Loop &beside) {
+                              std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
   const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
   kernels::InterfaceColumns columns = interface_columns_of(p, b);
   columns.bonds.velocity = p.velocity.data();
   if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
   std::vector<unsigned char> failed(b.blocks.blocks(), 0);
-  for_each_block(
-      p.size(),
+  for_listed_blocks(
+      listed, p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
         const kernels::BlockColumns rows = block_of(p, b.blocks, block);
         failed[block] = kernel.compute_forces(columns, rows, b.law, dt, b.blocks.first_pair[block],
                                               b.blocks.first_pair[block + 1]);
         add_weight(p, rows, gravity);
       },
-      block_rows, beside);
+      beside);
   for (std::size_t block = 0; block < failed.size(); ++block) {
     if (!failed[block]) continue;
     for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
@@ -167,10 +180,11 @@ void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const 
   }
 }
 
-double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) {
+ExactSum add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt, const BlockList *listed) {
   const kernels::BondKernels &kernels = kernels_of(set);
   kernels::BondColumns columns = columns_of(p, b);
   columns.velocity = p.velocity.data();
+  columns.record = b.record.data();
   columns.dashpot = b.dashpot->data();
   columns.dashpot_force = b.dashpot_force->data();
   columns.dashpot_shear_ratio = b.dashpot_shear_ratio;
@@ -181,23 +195,24 @@ double add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt) 
     columns.dashpot_moment = b.dashpot_moment->data();
   }
   std::vector<double> power(b.blocks.blocks());
-  for_each_block(p.size(), [&](std::size_t, std::size_t, std::size_t block) {
+  for_listed_blocks(listed, p.size(), [&](std::size_t, std::size_t, std::size_t block) {
     power[block] = kernels.add_dashpots(columns, block_of(p, b.blocks, block), b.blocks.first_pair[block],
                                         b.blocks.first_pair[block + 1]);
   });
-  return 0.5 * dt * std::accumulate(power.begin(), power.end(), 0.0);
+  ExactSum work;
+  for (const double of_block : power)
+    work += 0.5 * dt * of_block;
+  return work;
 }
 
 BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
   if (has_history(b.law)) return interface_totals(p, b, set);
   const kernels::BondColumns columns = columns_of(p, b);
-  return ordered_sum<BondTotals>(b.size(), [&](std::size_t first, std::size_t last) {
+  return totals_by_blocks(p, b, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];
     kernels_of(set).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
-    BondTotals sum;
     for (std::size_t k = 0; k < last - first; ++k)
       sum += {energy[k], force[k], 0, 0, 0};
-    return sum;
   });
 }
 

@@ -147,8 +147,10 @@ std::size_t Bonds::bytes() const {
   return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
 }
 
+// Without broken rows: when they are dropped is no part of the state.
 void Bonds::describe(Archive &archive) {
   archive.version(1);
+  if (!archive.reads() && broken_rows > 0) compact();
   archive.table("rows", table);
   archive.table("records", records);
   if (archive.reads()) count_and_cut();
@@ -164,11 +166,15 @@ auto Bonds::with_memory(std::size_t k, const F &f) const {
 
 // What is derived from the rows.
 void Bonds::count_and_cut() {
+  count_rows();
+  cut_blocks();
+}
+
+void Bonds::count_rows() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
   failed_rows = 0;
   for (std::size_t k = 0; has_history(law) && k < size(); ++k)
     failed_rows += has_failed(k);
-  cut_blocks();
 }
 
 void Bonds::compact() {
@@ -179,6 +185,14 @@ void Bonds::compact() {
   table.permute(intact);
   broken_rows = 0;
   cut_blocks();
+}
+
+void Bonds::keep_blocks(const std::vector<char> &marked) {
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < size(); ++k)
+    if (marked[static_cast<std::size_t>(first[k]) / block_rows]) kept.push_back(static_cast<int>(k));
+  table.permute(kept);
+  count_and_cut();
 }
 
 BrokenBond Bonds::marked(const BondBreak &b, const Particles &particles, double time) {

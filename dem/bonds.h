@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/exact_sum.h"
 #include "base/loop.h"
+#include "base/parallel.h"
 #include "base/table.h"
 #include "dem/instruction_set.h"
 #include "dem/laws/bond_law.h"
@@ -134,8 +136,13 @@ struct Bonds {
   void add_strength_factor();
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
-  // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit.
+  // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit, nor does any sum.
   void compact();
+  // Keeps the rows of the blocks of particles that are marked, and drops the others; the records stay.
+  void keep_blocks(const std::vector<char> &marked);
+  // After rows were put into `table` from elsewhere: counts the broken ones; and cuts the blocks.
+  void count_rows();
+  void count_and_cut();
   void describe(Archive &archive);
   // Takes the stiffness from these rows, marks their records and tells what they held.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
@@ -166,7 +173,6 @@ private:
   void add_history();
   std::size_t particles_ = 0;
   bool rotation_ = false;
-  void count_and_cut();
   void cut_blocks();
 };
 
@@ -215,8 +221,10 @@ struct BrokenBond {
 // Sets force and torque of every particle to its weight and the bonds of its own block; what bonds bring from
 // other blocks waits in the ghosts, for return_ghosts. On any number of threads. Rows at or above their
 // strength are appended to `breaks`, in row order; nothing is broken here. `beside` is done at the same time.
+// This and what follows go through the blocks that are listed, where a list is given, and through all else.
 void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks, const Loop &beside = {});
+                         std::vector<BondBreak> &breaks, const Loop &beside = {},
+                         const BlockList *listed = nullptr);
 // The same again for the blocks of rows that have just been broken.
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                                const std::vector<BondBreak> &breaks);
@@ -224,12 +232,14 @@ void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSe
 // The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
 // have failed in this step are appended to `breaks`, in row order; they are not marked here.
 void compute_interface_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {});
+                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
+                              const BlockList *listed = nullptr);
 
 // Adds the dashpots to the particles and ghosts, from the velocities of the last drift, which took dt.
 // Returns the energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog
 // sees it. Needs Bonds::add_dashpots, and each row that broke once more before it is compacted away.
-double add_bond_dashpots(Particles &particles, Bonds &bonds, InstructionSet set, double dt);
+ExactSum add_bond_dashpots(Particles &particles, Bonds &bonds, InstructionSet set, double dt,
+                           const BlockList *listed = nullptr);
 
 struct BondTotals {
   double energy = 0; // J
@@ -243,6 +253,7 @@ struct BondTotals {
     return *this;
   }
 };
+// Added up block by block of particles, so that rows that are broken do not show in the last bit.
 BondTotals bond_totals(const Particles &particles, const Bonds &bonds,
                        InstructionSet set = best_instruction_set());
 

@@ -95,7 +95,7 @@ std::vector<int> size_classes(const double *radii, std::size_t count, double mar
 } // namespace
 
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
-                                  double margin, std::size_t *measured) {
+                                  double margin, std::size_t *measured, const BlockList *listed) {
   if (measured != nullptr) *measured = 0;
   if (count < 2) return {};
   const std::vector<int> class_of = size_classes(radii, count, margin);
@@ -110,7 +110,9 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
   }
   std::vector<std::vector<IndexPair>> found(number_of_blocks(count));
   std::vector<std::size_t> checked(found.size(), 0);
-  for_each_block(count, [&](std::size_t first, std::size_t last, std::size_t block) {
+  // In one grid a pair is found by its first sphere; in several by its larger one.
+  const BlockList *searched = grids.size() == 1 ? listed : nullptr;
+  for_listed_blocks(searched, count, [&](std::size_t first, std::size_t last, std::size_t block) {
     std::vector<int> partners;
     for (std::size_t i = first; i < last; ++i) {
       partners.clear();
@@ -138,6 +140,15 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
   for (const auto &f : found)
     pairs.insert(pairs.end(), f.begin(), f.end());
   if (grids.size() > 1) std::sort(pairs.begin(), pairs.end());
+  if (listed != nullptr && searched == nullptr) {
+    std::vector<char> marked(number_of_blocks(count), 0);
+    for (const int block : *listed)
+      marked[static_cast<std::size_t>(block)] = 1;
+    const auto elsewhere = [&](const IndexPair &p) {
+      return !marked[static_cast<std::size_t>(p.first) / block_rows];
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), elsewhere), pairs.end());
+  }
   if (measured != nullptr) *measured = std::accumulate(checked.begin(), checked.end(), std::size_t{0});
   return pairs;
 }

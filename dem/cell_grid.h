@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/vector3.h"
 
 namespace platen::dem {
@@ -19,9 +20,10 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
 
 // All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs,
 // whatever the radii. Throws NotFinite where a centre is not finite. `measured`, where given, is told of how
-// many pairs the distance was checked.
+// many pairs the distance was checked. With a list of blocks: the pairs whose first sphere lies in them.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
-                                  double margin, std::size_t *measured = nullptr);
+                                  double margin, std::size_t *measured = nullptr,
+                                  const BlockList *listed = nullptr);
 
 } // namespace platen::dem
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "base/pi.h"
+#include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 
 namespace platen::dem {
@@ -26,8 +27,7 @@ std::vector<char> body_of(const Particles &p, const Bonds *bonds) {
 
 double broken_bonds(const Bonds *bonds) {
   if (bonds == nullptr) return 0;
-  return static_cast<double>(bonds->initial_count()) -
-         static_cast<double>(bonds->size() - bonds->broken_rows);
+  return static_cast<double>(std::count_if(bonds->state.begin(), bonds->state.end(), is_broken));
 }
 
 // From the lateral surface inwards, m.
@@ -111,6 +111,7 @@ void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &
     area_[k] = factor_ * skin.area[k];
   }
   moved_ = 0;
+  ++lists_made_;
   broken_ = broken_bonds(bonds);
 }
 

@@ -43,6 +43,9 @@ public:
   // surface is pressed once.
   double coverage(const Particles &particles, const EndPlanes &planes) const;
   std::size_t size() const { return particle_.size(); }
+  // Rows that it presses, ascending, and how often they were found.
+  std::vector<int> particles() const { return {particle_.begin(), particle_.end()}; }
+  long lists_made() const { return lists_made_; }
   int particle(std::size_t k) const { return particle_[k]; }
   const Vector3 &area(std::size_t k) const { return area_[k]; } // m^2, outward
 
@@ -58,6 +61,7 @@ private:
   ConfinementArea kind_;
   double mean_radius_ = 0, factor_ = 1;
   double pressure_ = 0, work_ = 0;
+  long lists_made_ = 0;
   double moved_ = 0, broken_ = 0; // m and bonds, when and since the areas were found
   Table table_;
   Column<int> &particle_ = table_.add<int>("particle", "1");

@@ -28,13 +28,13 @@ struct Contacts::Touch {
   Vector3 force, drag;      // N, on the first; drag: the dashpots' part
 };
 
-void Contacts::compute(Particles &particles, double dt) {
+void Contacts::compute(Particles &particles, double dt, const BlockList *listed) {
   if (!blocks_current_)
     blocks_.rebuild(first.data(), second.data(), table.size(), particles.size(), particles.has_rotation());
   blocks_current_ = true;
   if (table.size() == 0) return;
   std::vector<Dissipation> lost(blocks_.blocks());
-  for_each_block(particles.size(), [&](std::size_t, std::size_t, std::size_t block) {
+  for_listed_blocks(listed, particles.size(), [&](std::size_t, std::size_t, std::size_t block) {
     if (blocks_.first_pair[block] < blocks_.first_pair[block + 1])
       lost[block] = (this->*loop_)(particles, dt, block);
   });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace platen::dem {
 namespace {
 
@@ -32,18 +34,23 @@ void ContactSearch::moved(double distance) {
   moved_since_close_ += distance;
 }
 
-bool ContactSearch::update(const Particles &particles, const Bonds *bonds) {
-  // Both partners may have moved towards each other.
-  if (!wide_valid_ || 2 * moved_since_wide_ + close_skin_ >= wide_skin_)
-    rebuild_wide(particles, bonds);
+// Both partners may have moved towards each other.
+bool ContactSearch::wide_due() const {
+  return !wide_valid_ || 2 * moved_since_wide_ + close_skin_ >= wide_skin_;
+}
+
+bool ContactSearch::update(const Particles &particles, const Bonds *bonds, const BlockList *listed) {
+  if (wide_due())
+    rebuild_wide(particles, bonds, listed);
   else if (close_valid_ && 2 * moved_since_close_ < close_skin_)
     return false;
   rebuild_close(particles);
   return true;
 }
 
-void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds) {
-  wide_ = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_);
+void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds, const BlockList *listed) {
+  wide_ = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_,
+                     nullptr, listed);
   if (bonds != nullptr) drop_bonded(wide_, *bonds);
   wide_.shrink_to_fit();
   moved_since_wide_ = 0;
@@ -63,9 +70,20 @@ void ContactSearch::rebuild_close(const Particles &particles) {
 
 void ContactSearch::add_pair(IndexPair pair) {
   if (!wide_valid_) return; // the next build finds it
-  const auto at = std::lower_bound(wide_.begin(), wide_.end(), pair);
-  if (at == wide_.end() || !(*at == pair)) wide_.insert(at, pair);
-  close_valid_ = false;
+  for (std::vector<IndexPair> *list : {&wide_, &close_}) {
+    const auto at = std::lower_bound(list->begin(), list->end(), pair);
+    if (at == list->end() || !(*at == pair)) list->insert(at, pair);
+  }
+}
+
+void ContactSearch::keep_blocks(const std::vector<char> &marked) {
+  visit_lists([&](auto &list) {
+    const auto elsewhere = [&](IndexPair p) {
+      return !marked[static_cast<std::size_t>(p.first) / block_rows];
+    };
+    list.erase(std::remove_if(list.begin(), list.end(), elsewhere), list.end());
+    list.shrink_to_fit();
+  });
 }
 
 void ContactSearch::set_rest_distance(IndexPair pair, double distance) {

@@ -18,27 +18,45 @@ public:
 
   // No particle has moved by more than `distance` (m) since the last call.
   void moved(double distance);
-  // Brings the lists up to date; true where close_pairs() changed. `bonds` may be null.
-  bool update(const Particles &particles, const Bonds *bonds);
-  // A pair that was bonded and is no longer.
+  // Whether update() will go through all particles.
+  bool wide_due() const;
+  // Brings the lists up to date; true where close_pairs() changed. `bonds` may be null. With a list of
+  // blocks: of pairs whose first particle lies in them.
+  bool update(const Particles &particles, const Bonds *bonds, const BlockList *listed = nullptr);
+  // The second list from the first by the places as they are now; nothing before the first update().
+  void renew_close(const Particles &particles) {
+    if (made()) rebuild_close(particles);
+  }
+  // A pair that was bonded and is no longer: it is in both lists from now on. Nothing before the first
+  // update(), which finds it.
   void add_pair(IndexPair pair);
   // Distance at which a pair starts to touch, where it is less than R_i + R_j (m).
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
   const std::vector<IndexPair> &close_pairs() const { return close_; }
+  bool made() const { return wide_valid_ && close_valid_; } // by an update()
+  const std::vector<IndexPair> &wide_pairs() const { return wide_; }
   std::size_t bytes() const;
+  // Drops what does not begin in the blocks that are marked.
+  void keep_blocks(const std::vector<char> &marked);
+  // visit(list) for every list, whose entries have the pair that they are sorted by.
+  template <class Visit>
+  void visit_lists(const Visit &visit) {
+    visit(wide_), visit(close_), visit(rest_);
+  }
+  struct RestDistance {
+    IndexPair pair;
+    double distance; // m
+    operator IndexPair() const { return pair; }
+  };
 
   // Everything that decides when lists are rebuilt and what they hold, so that sums over rows are grouped as
   // they would have been without a stop.
   void describe(Archive &archive);
 
 private:
-  struct RestDistance {
-    IndexPair pair;
-    double distance; // m
-  };
-  void rebuild_wide(const Particles &particles, const Bonds *bonds);
+  void rebuild_wide(const Particles &particles, const Bonds *bonds, const BlockList *listed);
   void rebuild_close(const Particles &particles);
 
   double wide_skin_, close_skin_;

@@ -67,9 +67,23 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
     search_.set_rest_distance(p, norm(particles.position[p.second] - particles.position[p.first]));
 }
 
-void Contacts::search(const Particles &particles, const Bonds *bonds, double distance) {
-  search_.moved(distance);
-  if (search_.update(particles, bonds)) carry_rows(particles);
+void Contacts::update(const Particles &particles, const Bonds *bonds, const BlockList *listed) {
+  if (search_.update(particles, bonds, listed)) carry_rows(particles);
+}
+
+void Contacts::renew_close(const Particles &particles) {
+  if (!search_.made()) return;
+  search_.renew_close(particles);
+  carry_rows(particles);
+}
+
+void Contacts::keep_blocks(const std::vector<char> &marked) {
+  search_.keep_blocks(marked);
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < table.size(); ++k)
+    if (marked[static_cast<std::size_t>(first[k]) / block_rows]) kept.push_back(static_cast<int>(k));
+  table.permute(kept);
+  rows_changed();
 }
 
 void Contacts::carry_rows(const Particles &particles) {
@@ -111,7 +125,8 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
     search_.set_rest_distance({b.first, b.second}, rest);
     search_.add_pair({b.first, b.second});
   }
-  if (search_.update(p, &bonds)) carry_rows(p);
+  if (!search_.made()) search_.update(p, &bonds);
+  carry_rows(p);
   const std::vector<IndexPair> &pairs = search_.close_pairs(); // one row each
   for (BrokenBond &b : broken) {
     b.released = b.last.energy;
@@ -204,8 +219,8 @@ std::size_t Contacts::touching_count() const {
 
 void Contacts::describe(Archive &archive) {
   archive.version(1);
-  archive("friction_work", friction_work, "J");
-  archive("damping_work", damping_work, "J");
+  platen::describe(archive, "friction_work", friction_work, "J");
+  platen::describe(archive, "damping_work", damping_work, "J");
   archive.table("rows", table);
   archive.part("search", search_);
   if (archive.reads()) blocks_current_ = false;

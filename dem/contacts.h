@@ -41,14 +41,30 @@ public:
   Column<Vector3> *rolling = nullptr;          // moment on first, N m
   Column<double> *rolling_stiffness = nullptr; // N m
 
-  double friction_work = 0, damping_work = 0; // J, dissipated so far
+  ExactSum friction_work, damping_work; // J, dissipated so far
 
   // Brings the rows up to date after a motion of at most `distance` (m) per particle.
-  void search(const Particles &particles, const Bonds *bonds, double distance);
+  void search(const Particles &particles, const Bonds *bonds, double distance) {
+    moved(distance);
+    update(particles, bonds);
+  }
+  // The same in two pieces, with what lies between: whether all particles will be gone through. With a list
+  // of blocks, rows are those of pairs whose first particle lies in them.
+  void moved(double distance) { search_.moved(distance); }
+  bool search_is_wide() const { return search_.wide_due(); }
+  void update(const Particles &particles, const Bonds *bonds, const BlockList *listed = nullptr);
+  // Rows of the pairs that are close now, so that their number does not depend on when the lists were made.
+  void renew_close(const Particles &particles);
   // Forces of all rows from positions and half-step velocities, added to the particles; what leaves a block
   // of particles waits in the ghosts of blocks(). History advances by dt.
-  void compute(Particles &particles, double dt);
+  void compute(Particles &particles, double dt, const BlockList *listed = nullptr);
   const PairBlocks &blocks() const { return blocks_; }
+  PairBlocks &blocks() { return blocks_; }
+  // Of rows and search lists: drops what does not begin in the blocks of particles that are marked.
+  void keep_blocks(const std::vector<char> &marked);
+  ContactSearch &search_state() { return search_; }
+  // After rows were put into `table` from elsewhere.
+  void rows_changed() { blocks_current_ = false; }
   // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
   // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
   // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end

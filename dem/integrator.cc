@@ -50,55 +50,69 @@ kernels::MotionColumns columns_of(Particles &p) {
   return c;
 }
 
-struct Sums : MotionSums {
-  Sums() = default;
-  Sums(const MotionSums &s) : MotionSums(s) {}
-  Sums &operator+=(const Sums &b) {
-    damping_work += b.damping_work, weight_work += b.weight_work;
-    unbalanced += b.unbalanced, kinetic_energy += b.kinetic_energy;
-    speed_squares += b.speed_squares;
-    fastest_square = std::max(fastest_square, b.fastest_square);
-    return *this;
-  }
-};
-
-Sums pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghosts, double finished,
-          double next) {
+// Of the blocks that it went through, in their order.
+std::vector<MotionSums> pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghosts,
+                             double finished, double next, const BlockList *listed) {
   const kernels::MotionKernel kernel = kernel_of(how, halves);
   const kernels::MotionColumns columns = columns_of(p);
   const kernels::MotionStep step = step_of(how, finished, next);
-  return ordered_sum<Sums>(p.size(), [&](std::size_t first, std::size_t last) {
+  std::vector<MotionSums> sums(number_of_blocks(p.size()));
+  for_listed_blocks(listed, p.size(), [&](std::size_t first, std::size_t last, std::size_t block) {
     if (halves != Halves::begin) {
-      if (ghosts.bonds != nullptr) return_ghosts(p, *ghosts.bonds, first / block_rows);
-      if (ghosts.contacts != nullptr) return_ghosts(p, *ghosts.contacts, first / block_rows);
+      if (ghosts.bonds != nullptr) return_ghosts(p, *ghosts.bonds, block);
+      if (ghosts.contacts != nullptr) return_ghosts(p, *ghosts.contacts, block);
     }
-    return Sums(kernel(columns, step, first, last));
+    sums[block] = kernel(columns, step, first, last);
   });
+  return sums;
+}
+
+Motion motion_of(const std::vector<MotionSums> &blocks) {
+  Motion motion;
+  double fastest_square = 0;
+  for (const MotionSums &b : blocks) {
+    fastest_square = std::max(fastest_square, b.fastest_square);
+    motion.speed_squares += b.speed_squares;
+  }
+  motion.fastest = std::sqrt(fastest_square);
+  return motion;
+}
+
+void add_works(const std::vector<MotionSums> &blocks, KickSums &sums) {
+  for (const MotionSums &b : blocks)
+    sums.damping_work += b.damping_work, sums.weight_work += b.weight_work;
 }
 
 } // namespace
 
-Motion Integrator::begin(Particles &p, double dt) const {
-  const Sums s = pass(*this, Halves::begin, p, {}, 0, dt);
-  return {std::sqrt(s.fastest_square), s.speed_squares};
+Motion Integrator::begin(Particles &p, double dt, const BlockList *listed) const {
+  return motion_of(pass(*this, Halves::begin, p, {}, 0, dt, listed));
 }
 
-KickSums Integrator::end(Particles &p, const Ghosts &ghosts, double dt) const {
-  const Sums s = pass(*this, Halves::end, p, ghosts, dt, 0);
-  return {s.damping_work, s.weight_work, s.kinetic_energy, s.unbalanced};
+KickSums Integrator::end(Particles &p, const Ghosts &ghosts, double dt, const BlockList *listed) const {
+  const std::vector<MotionSums> blocks = pass(*this, Halves::end, p, ghosts, dt, 0, listed);
+  KickSums sums;
+  add_works(blocks, sums);
+  for (const MotionSums &b : blocks)
+    sums.kinetic_energy += b.kinetic_energy, sums.unbalanced += b.unbalanced;
+  return sums;
 }
 
 Motion Integrator::end_and_begin(Particles &p, const Ghosts &ghosts, double finished, double next,
-                                 KickSums &sums) const {
-  const Sums s = pass(*this, Halves::end_and_begin, p, ghosts, finished, next);
-  sums = {s.damping_work, s.weight_work, 0, 0};
-  return {std::sqrt(s.fastest_square), s.speed_squares};
+                                 KickSums &sums, const BlockList *listed) const {
+  const std::vector<MotionSums> blocks =
+      pass(*this, Halves::end_and_begin, p, ghosts, finished, next, listed);
+  sums = {};
+  add_works(blocks, sums);
+  return motion_of(blocks);
 }
 
-void set_weight(Particles &p, const Vector3 &gravity) {
-  for_each(p.size(), [&](std::size_t i) {
-    p.force[i] = p.mass[i] * gravity;
-    if (p.has_rotation()) (*p.torque)[i] = {};
+void set_weight(Particles &p, const Vector3 &gravity, const BlockList *listed) {
+  for_listed_blocks(listed, p.size(), [&](std::size_t first, std::size_t last, std::size_t) {
+    for (std::size_t i = first; i < last; ++i) {
+      p.force[i] = p.mass[i] * gravity;
+      if (p.has_rotation()) (*p.torque)[i] = {};
+    }
   });
 }
 

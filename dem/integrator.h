@@ -2,21 +2,23 @@
 // particles.
 #pragma once
 
+#include "base/exact_sum.h"
+#include "base/parallel.h"
 #include "dem/bonds.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
 
 struct Motion {
-  double fastest = 0;       // m/s, largest half-step speed
-  double speed_squares = 0; // m^2/s^2, sum of all; not finite where a velocity is not
+  double fastest = 0;     // m/s, largest half-step speed
+  ExactSum speed_squares; // m^2/s^2, sum of all; not finite where a velocity is not
 };
 
 struct KickSums {
-  double damping_work = 0;   // J, lost to local damping and to the scheme in this step
-  double weight_work = 0;    // J, done by gravity in this step
-  double kinetic_energy = 0; // J, at full-step velocities
-  double unbalanced = 0;     // N, sum of |net force| before damping
+  ExactSum damping_work;   // J, lost to local damping and to the scheme in this step
+  ExactSum weight_work;    // J, done by gravity in this step
+  ExactSum kinetic_energy; // J, at full-step velocities
+  ExactSum unbalanced;     // N, sum of |net force| before damping
 };
 
 // Whose ghosts the end of a step returns; null: none.
@@ -43,21 +45,23 @@ struct Integrator {
   double dissipation = 1;
   DampingForm damping_form = DampingForm::component;
 
+  // All for the blocks that are listed, where a list is given, and for all particles else.
   // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. With a dissipation phi the velocity
   // of the drift, which `velocity` holds until `end`, is larger by (phi - 1) dt F/m. Returns the largest
   // speed.
-  Motion begin(Particles &particles, double dt) const;
+  Motion begin(Particles &particles, double dt, const BlockList *listed = nullptr) const;
   // Returns ghosts, damps, makes the second half kick. Forces and torques are then
   // complete and damped. Without a ledger all sums but that of unbalanced forces are 0.
-  KickSums end(Particles &particles, const Ghosts &ghosts, double dt) const;
+  KickSums end(Particles &particles, const Ghosts &ghosts, double dt,
+               const BlockList *listed = nullptr) const;
   // end(finished), then begin(next), in one pass, to the same bits; forces are left incomplete, and kinetic
   // energy and unbalanced force are not summed.
   Motion end_and_begin(Particles &particles, const Ghosts &ghosts, double finished, double next,
-                       KickSums &sums) const;
+                       KickSums &sums, const BlockList *listed = nullptr) const;
 };
 
 // Sets force to the weight and torque to zero, where no bonds do.
-void set_weight(Particles &particles, const Vector3 &gravity);
+void set_weight(Particles &particles, const Vector3 &gravity, const BlockList *listed = nullptr);
 
 double kinetic_energy(const Particles &particles);
 

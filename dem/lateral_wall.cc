@@ -40,11 +40,20 @@ void LateralWall::make_list(const Particles &p) {
     }
   moved_ = 0;
   valid_ = true;
+  ++lists_made_;
+}
+
+std::vector<int> LateralWall::particles() const {
+  std::vector<int> rows;
+  for (const Row &row : rows_)
+    if (rows.empty() || rows.back() != row.particle) rows.push_back(row.particle);
+  return rows;
 }
 
 void LateralWall::add_forces(Particles &p, double distance) {
+  const bool anew = lists_anew(distance);
   moved_ += distance;
-  if (!valid_ || moved_ > skin_) make_list(p);
+  if (anew) make_list(p);
   force_ = elastic_energy_ = 0;
   for (const Row &row : rows_) {
     const int i = row.particle;

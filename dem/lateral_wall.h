@@ -25,6 +25,10 @@ public:
   double force() const { return force_; }                   // N, sum of the normal forces of the last step
   double elastic_energy() const { return elastic_energy_; } // J, of the last step
   std::size_t seats() const;
+  // Whether add_forces() will list them anew; rows of those that are listed, ascending; how often they were.
+  bool lists_anew(double distance) const { return !valid_ || moved_ + distance > skin_; }
+  std::vector<int> particles() const;
+  long lists_made() const { return lists_made_; }
   std::size_t near() const { return rows_.size(); }
   double pressure(double height) const { return force_ / (perimeter_ * height); } // Pa; height in m
   std::vector<GroundSpring> ground_springs(const Particles &particles) const;
@@ -46,6 +50,7 @@ private:
   double moved_ = 0, force_ = 0, elastic_energy_ = 0;
   bool valid_ = false;
   std::vector<Row> rows_; // ascending
+  long lists_made_ = 0;
 };
 
 } // namespace platen::dem

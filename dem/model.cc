@@ -70,50 +70,117 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
 }
 
 void Model::begin_step(double dt) {
+  if (exchange_ && !cut_) scatter();
   {
     StageClock::Lap lap(clock, Stage::motion);
-    motion_ = integrator_.begin(particles, dt);
+    motion_ = integrator_.begin(particles, dt, own_blocks());
   }
   begun(dt);
 }
 
+// Broken rows are dropped before forces, not after: ghosts wait for the end of the step in blocks as they are
+// cut now.
 void Model::begun(double dt) {
   time += dt;
-  if (contacts) {
-    StageClock::Lap lap(clock, Stage::search);
-    contacts->search(particles, bonds.get(), motion_.fastest * dt);
+  last_step_ = dt;
+  breaks = 0;
+  breaks_.clear();
+  if (bonds &&
+      static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size())) {
+    StageClock::Lap lap(clock, Stage::bonds);
+    bonds->compact();
   }
+  known_breaks_ = broken_tension + broken_shear;
+  if (exchange_) start_exchange(dt);
+}
+
+// Messages are on their way while inner blocks are computed.
+void Model::start_exchange(double dt) {
+  exchange_->send_motion(particles);
+  exchange_->start_sums({motion_.fastest, motion_.speed_squares, own_breaks_});
+  compute_bonds(dt, &exchange_->blocks().first_inner);
+  exchange_->receive_motion(particles);
+  const StepSums sums = exchange_->finish_sums();
+  motion_ = {sums.fastest, sums.speed_squares};
+  known_breaks_ = breaks_before_sharing_ + sums.breaks;
+}
+
+void Model::search_contacts() {
+  if (!contacts) return;
+  StageClock::Lap lap(clock, Stage::search);
+  contacts->moved(motion_.fastest * last_step_);
+  const bool wide = exchange_ && contacts->search_is_wide();
+  if (wide) exchange_->gather_motion(particles);
+  contacts->update(particles, bonds.get(), own_blocks());
+  if (wide) exchange_->renew_contacts(*this);
 }
 
 void Model::compute_forces(double dt, const Loop &beside) {
-  if (bonds) {
+  search_contacts();
+  if (exchange_) return compute_shared(dt, beside);
+  compute_bonds(dt, nullptr, beside);
+  finish_breaks(dt);
+  if (bonds && settings_.bond_dashpot > 0) {
     StageClock::Lap lap(clock, Stage::bonds);
-    // Before the forces, not after: ghosts wait for the end of the step in blocks as they are cut now.
-    if (static_cast<double>(bonds->broken_rows) > compaction_share * static_cast<double>(bonds->size()))
-      bonds->compact();
-    breaks_.clear();
-    if (has_history(bonds->law)) {
-      compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt, breaks_,
-                               beside);
-      note_breaks(bonds->fail_rows(breaks_, particles, time));
-    } else {
-      compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside);
-      if (!breaks_.empty()) {
-        break_bonds(dt);
-        compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
-      }
-    }
-    breaks = static_cast<long>(breaks_.size());
-    if (settings_.bond_dashpot > 0)
-      works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
-  } else {
-    set_weight(particles, settings_.gravity);
-    run_loops(beside);
+    works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
   }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);
     contacts->compute(particles, dt);
   }
+}
+
+// Outer blocks come first, so that what they exert on particles of other ranks is under way while the rest of
+// the inner ones is computed.
+void Model::compute_shared(double dt, const Loop &beside) {
+  const OwnBlocks &blocks = exchange_->blocks();
+  const auto add_dashpots = [&](std::initializer_list<const BlockList *> lists) {
+    if (!bonds || !(settings_.bond_dashpot > 0)) return;
+    StageClock::Lap lap(clock, Stage::bonds);
+    for (const BlockList *listed : lists)
+      works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt, listed);
+  };
+  compute_bonds(dt, &blocks.outer);
+  finish_breaks(dt);
+  add_dashpots({&blocks.first_inner, &blocks.outer});
+  if (bonds) exchange_->send_bond_ghosts(bonds->blocks);
+  compute_bonds(dt, &blocks.last_inner, beside);
+  finish_breaks(dt);
+  add_dashpots({&blocks.last_inner});
+  if (!contacts) return;
+  {
+    StageClock::Lap lap(clock, Stage::contacts);
+    contacts->compute(particles, dt, &blocks.all);
+  }
+  exchange_->send_contact_ghosts(contacts->blocks());
+}
+
+void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside) {
+  if (!bonds) {
+    set_weight(particles, settings_.gravity, listed);
+    run_loops(beside);
+    return;
+  }
+  StageClock::Lap lap(clock, Stage::bonds);
+  if (has_history(bonds->law))
+    compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt, breaks_,
+                             beside, listed);
+  else
+    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside,
+                        listed);
+}
+
+void Model::finish_breaks(double dt) {
+  if (breaks_.empty()) return;
+  StageClock::Lap lap(clock, Stage::bonds);
+  if (has_history(bonds->law)) {
+    note_breaks(bonds->fail_rows(breaks_, particles, time));
+  } else {
+    break_bonds(dt);
+    compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+  }
+  breaks += static_cast<long>(breaks_.size());
+  breaks_.clear();
 }
 
 void Model::break_bonds(double dt) {
@@ -128,39 +195,92 @@ void Model::break_bonds(double dt) {
 
 void Model::note_breaks(const std::vector<BrokenBond> &broken) {
   for (const BrokenBond &b : broken) {
-    works.fracture += b.released;
-    (b.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
-    if (!settings_.crack_log) continue;
     const Vector3 xi = particles.position[b.first], xj = particles.position[b.second];
     const double ri = particles.radius[b.first], lever = ri / (ri + particles.radius[b.second]);
-    cracks.push_back({time, xi + lever * (xj - xi), (xj - xi) / norm(xj - xi), b.area, b.mode, b.released,
-                      particles.id[b.first], particles.id[b.second]});
+    const Crack crack{time,       xi + lever * (xj - xi), (xj - xi) / norm(xj - xi), b.area,   b.mode,
+                      b.released, particles.id[b.first],  particles.id[b.second],    b.record, 0};
+    if (exchange_)
+      unsettled_.push_back(crack), ++own_breaks_;
+    else
+      count(crack);
   }
+}
+
+void Model::count(const Crack &crack) {
+  works.fracture += crack.energy;
+  (crack.mode == BondState::broken_in_tension ? broken_tension : broken_shear) += 1;
+  if (settings_.crack_log) cracks.push_back(crack);
+}
+
+void Model::set_strain_of_cracks(double strain) {
+  for (std::vector<Crack> *list : {&cracks, &unsettled_})
+    for (std::size_t k = list->size(); k-- > 0 && (*list)[k].time == time;)
+      (*list)[k].strain = strain;
+}
+
+void Model::share(std::unique_ptr<Exchange> exchange) {
+  exchange_ = std::move(exchange);
+}
+
+void Model::settle() {
+  if (!exchange_) return;
+  for (const Crack &crack : exchange_->all_cracks(std::exchange(unsettled_, {}))) {
+    count(crack);
+    bonds->state[crack.record] = static_cast<int>(crack.mode);
+    bonds->break_time[crack.record] = crack.time;
+  }
+}
+
+void Model::gather() {
+  if (!exchange_ || !cut_) return;
+  settle();
+  if (bonds) bonds->compact();
+  exchange_->gather(*this);
+  cut_ = false;
+}
+
+void Model::scatter() {
+  if (!exchange_ || cut_) return;
+  exchange_->scatter(*this);
+  own_breaks_ = 0;
+  breaks_before_sharing_ = broken_tension + broken_shear;
+  cut_ = true;
 }
 
 Ghosts Model::ghosts() const {
   return {bonds ? &bonds->blocks : nullptr, contacts ? &contacts->blocks() : nullptr};
 }
 
-void Model::end_step(double dt) {
-  StageClock::Lap lap(clock, Stage::motion);
-  sums_ = integrator_.end(particles, ghosts(), dt);
+void Model::receive_ghosts() {
+  if (exchange_)
+    exchange_->receive_ghosts(bonds ? &bonds->blocks : nullptr, contacts ? &contacts->blocks() : nullptr);
+}
+
+void Model::add_sums() {
   works.damping += sums_.damping_work;
   works.weight += sums_.weight_work;
+}
+
+void Model::end_step(double dt) {
+  StageClock::Lap lap(clock, Stage::motion);
+  receive_ghosts();
+  sums_ = integrator_.end(particles, ghosts(), dt, own_blocks());
+  add_sums();
 }
 
 void Model::end_and_begin_step(double finished, double next) {
   {
     StageClock::Lap lap(clock, Stage::motion);
-    motion_ = integrator_.end_and_begin(particles, ghosts(), finished, next, sums_);
-    works.damping += sums_.damping_work;
-    works.weight += sums_.weight_work;
+    receive_ghosts();
+    motion_ = integrator_.end_and_begin(particles, ghosts(), finished, next, sums_, own_blocks());
+    add_sums();
   }
   begun(next);
 }
 
 EnergyLedger Model::energy() const {
   EnergyLedger e;
+  if (cut_) throw std::logic_error("energies are asked of a part of a specimen");
   if (!settings_.energy_ledger) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     return {none, none, none, none, none, none, none, none, none};
@@ -218,9 +338,9 @@ void Model::describe(Archive &archive) {
   std::string set = name(settings_.instruction_set); // told; a state of another one is taken as it is
   archive.text("instruction_set", set);
   archive("time", time, "s");
-  archive("damping_work", works.damping, "J");
-  archive("fracture_work", works.fracture, "J");
-  archive("weight_work", works.weight, "J");
+  platen::describe(archive, "damping_work", works.damping, "J");
+  platen::describe(archive, "fracture_work", works.fracture, "J");
+  platen::describe(archive, "weight_work", works.weight, "J");
   archive("broken_tension", broken_tension);
   archive("broken_shear", broken_shear);
   archive.table("particles", particles.table);

@@ -10,6 +10,7 @@
 #include "dem/bonds.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
+#include "dem/exchange.h"
 #include "dem/heterogeneity.h"
 #include "dem/integrator.h"
 #include "dem/particles.h"
@@ -83,6 +84,8 @@ struct Crack {
   BondState mode = BondState::broken_in_tension;
   double energy = 0;                  // J, released
   int particle_a = 0, particle_b = 0; // input ids
+  int record = 0;                     // of the bond
+  double strain = 0;                  // of the test that the specimen is in, where it tells one
 };
 
 // One step: begin_step, forces, then surfaces add to particles, then end_step. Between steps whose end nobody
@@ -100,11 +103,11 @@ public:
   long breaks = 0;           // in the last step
   std::vector<Crack> cracks; // since the last call of take_cracks
 
-  // First half kick, drift, contact search; time becomes that of the new positions.
+  // First half kick and drift; time becomes that of the new positions.
   void begin_step(double dt);
-  // Bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them and the weight,
-  // but for what waits in the bonds' ghosts. `beside` is done too, while threads have hands free: it may read
-  // particles but write nothing of theirs.
+  // Contact search, bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them
+  // and the weight, but for what waits in the ghosts. `beside` is done too, while threads have hands free: it
+  // may read particles but write nothing of theirs. Throws NotFinite where the search meets such a place.
   void compute_forces(double dt, const Loop &beside = {});
   // Ghosts of bonds, damping, second half kick; forces are complete then.
   void end_step(double dt);
@@ -124,20 +127,56 @@ public:
 
   // Sums since the start.
   struct Works {
-    double damping = 0, fracture = 0, weight = 0; // J
+    ExactSum damping, fracture, weight; // J
   };
   Works works;
   long broken_tension = 0, broken_shear = 0;
+  // Up to the step before, where a step is being made: what decides in a step must not wait for other ranks.
+  long known_breaks() const { return known_breaks_; }
+  // Of the bonds that broke in this step.
+  void set_strain_of_cracks(double strain);
+
+  // Cut over ranks: from the next step on this one computes the blocks that the exchange gives it. Between
+  // steps the model is whole again after gather(); a step cuts it by itself. settle() makes counts, cracks
+  // and records known to all. All ranks call these together.
+  void share(std::unique_ptr<Exchange> exchange);
+  Exchange *exchange() const { return exchange_.get(); } // null: alone
+  bool is_cut() const { return cut_; }
+  // Of sums to which each rank has added its own part since the specimen was cut.
+  template <class Visit>
+  void visit_sums(const Visit &visit) {
+    visit(works.damping), visit(works.weight);
+    visit(sums_.damping_work), visit(sums_.weight_work), visit(sums_.kinetic_energy), visit(sums_.unbalanced);
+    if (contacts) visit(contacts->friction_work), visit(contacts->damping_work);
+  }
+  void gather();
+  void scatter();
+  void settle();
 
 private:
   ModelSettings settings_;
   Integrator integrator_;
   KickSums sums_;
   Motion motion_;
-  std::vector<BondBreak> breaks_;
+  std::vector<BondBreak> breaks_; // of the blocks that were computed since the last finish_breaks()
+  std::unique_ptr<Exchange> exchange_;
+  bool cut_ = false;             // only own rows are up to date
+  std::vector<Crack> unsettled_; // of own rows, while the specimen is cut
+  long own_breaks_ = 0;          // since it is shared
+  long known_breaks_ = 0, breaks_before_sharing_ = 0;
+  void finish_breaks(double dt);
   void break_bonds(double dt);
   void note_breaks(const std::vector<BrokenBond> &broken);
+  void count(const Crack &crack);
   void begun(double dt);
+  void start_exchange(double dt);
+  void search_contacts();
+  void compute_bonds(double dt, const BlockList *listed, const Loop &beside = {});
+  void compute_shared(double dt, const Loop &beside);
+  void receive_ghosts();
+  void add_sums();
+  const BlockList *own_blocks() const { return exchange_ ? &exchange_->blocks().all : nullptr; }
+  double last_step_ = 0; // s
   Ghosts ghosts() const;
 };
 

@@ -45,14 +45,30 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
     first_pair.push_back(k);
     first_ghost.push_back(ghost_particle.size());
   }
-  ghost_force.assign(ghost_particle.size(), Vector3{});
-  ghost_torque.assign(rotation ? ghost_particle.size() : 0, Vector3{});
-  returns.resize(ghost_particle.size());
-  for (std::size_t g = 0; g < returns.size(); ++g)
-    returns[g] = {ghost_particle[g], static_cast<int>(g)};
-  std::sort(returns.begin(), returns.end(), [](const Return &a, const Return &b) {
-    return a.particle != b.particle ? a.particle < b.particle : a.ghost < b.ghost;
+  ++cut_number_;
+  const std::size_t ghosts = own_ghosts() + remote.size();
+  ghost_force.assign(ghosts, Vector3{});
+  ghost_torque.assign(rotation ? ghosts : 0, Vector3{});
+  order_returns(count);
+}
+
+void PairBlocks::order_returns(std::size_t count) {
+  struct From {
+    int particle, block, ghost;
+  };
+  std::vector<From> all;
+  all.reserve(own_ghosts() + remote.size());
+  for (std::size_t b = 0; b < count; ++b)
+    for (std::size_t g = first_ghost[b]; g < first_ghost[b + 1]; ++g)
+      all.push_back({ghost_particle[g], static_cast<int>(b), static_cast<int>(g)});
+  for (std::size_t k = 0; k < remote.size(); ++k)
+    all.push_back({remote[k].particle, remote[k].block, static_cast<int>(own_ghosts() + k)});
+  std::sort(all.begin(), all.end(), [](const From &a, const From &b) {
+    return a.particle != b.particle ? a.particle < b.particle : a.block < b.block;
   });
+  returns.resize(all.size());
+  for (std::size_t r = 0; r < all.size(); ++r)
+    returns[r] = {all[r].particle, all[r].ghost};
   first_return.assign(1, 0);
   std::size_t r = 0;
   for (std::size_t b = 0; b < count; ++b) {
@@ -60,6 +76,14 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
       ++r;
     first_return.push_back(r);
   }
+}
+
+int PairBlocks::ghost_of(int block, int particle) const {
+  const auto at = [&](std::size_t k) { return ghost_particle.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto first = at(first_ghost[static_cast<std::size_t>(block)]),
+             end = at(first_ghost[static_cast<std::size_t>(block) + 1]);
+  const auto found = std::lower_bound(first, end, particle);
+  return found != end && *found == particle ? static_cast<int>(found - ghost_particle.begin()) : -1;
 }
 
 void return_ghosts(Particles &p, const PairBlocks &blocks, std::size_t block) {

@@ -10,8 +10,8 @@
 namespace platen::dem {
 
 // A pair that leaves its block adds to a ghost, a copy of the particle that it reaches; ghosts are returned
-// to their particles in a fixed order. So blocks can be computed by any number of threads, without locks, to
-// the same last bit.
+// to their particles in the order of the blocks that they come from. So blocks can be computed by any number
+// of threads, without locks, to the same last bit.
 struct PairBlocks {
   struct Return {
     int particle = 0; // row
@@ -21,11 +21,17 @@ struct PairBlocks {
   struct Ends {
     int first = 0, second = 0;
   };
+  // A ghost of a block that is computed elsewhere, on another rank: what comes from there is put behind the
+  // own ghosts' forces, in this order.
+  struct Remote {
+    int particle = 0, block = 0; // row, and where it comes from
+  };
   std::vector<std::size_t> first_pair;            // of each block, and the end
   std::vector<Ends> ends;                         // of each pair
   std::vector<std::size_t> first_ghost;           // of each block, and the end
   std::vector<int> ghost_particle;                // row of each ghost's particle
   std::vector<Vector3> ghost_force, ghost_torque; // N, N m; torque only with rotation
+  std::vector<Remote> remote;                     // kept by rebuild()
   std::vector<std::size_t> first_return;          // of each block, and the end
   std::vector<Return> returns;                    // to the particles of each block, ascending
 
@@ -33,7 +39,15 @@ struct PairBlocks {
   void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation,
                int row_size = 1);
   std::size_t blocks() const { return first_pair.empty() ? 0 : first_pair.size() - 1; }
+  std::size_t own_ghosts() const { return ghost_particle.size(); }
+  // Index of the ghost of a particle in a block; -1 where there is none.
+  int ghost_of(int block, int particle) const;
+  unsigned cut_number() const { return cut_number_; } // another one after each rebuild(), never 0
   std::size_t bytes() const;
+
+private:
+  void order_returns(std::size_t blocks);
+  unsigned cut_number_ = 0;
 };
 
 struct Particles;

@@ -25,6 +25,9 @@ public:
   }
   void add_energy(dem::EnergyLedger &energy) const override { energy.boundary += skin_.work(); }
   double pressure() const override { return skin_.pressure(); }
+  std::optional<std::vector<int>> rows_read() const override { return skin_.particles(); }
+  bool reads_all(const Step &step) const override { return step.number % steps_between_skins == 0; }
+  long lists_made() const override { return skin_.lists_made(); }
   void describe(Archive &archive) override {
     archive.version(1);
     archive.part("skin", skin_);
@@ -62,6 +65,9 @@ public:
     const dem::EndPlanes planes = ends_.planes();
     return wall_.pressure(planes.high - planes.low);
   }
+  std::optional<std::vector<int>> rows_read() const override { return wall_.particles(); }
+  bool reads_all(const Step &step) const override { return wall_.lists_anew(step.farthest); }
+  long lists_made() const override { return wall_.lists_made(); }
   void describe(Archive &archive) override { archive.part("springs", wall_); }
   std::size_t seats() const { return wall_.seats(); }
 

@@ -88,7 +88,8 @@ public:
     looked_ = false;
   }
   void forget() { travelled_ = std::numeric_limits<double>::infinity(); }
-  bool stale() const { return !(travelled_ <= skin_); }
+  bool stale() const { return stale_after(0); }
+  bool stale_after(double distance) const { return !(travelled_ + distance <= skin_); }
 
   // Lists all particles whose centre is within reach[row] + skin of the surface, and those in `always`
   // (ascending rows) at any distance. Visits every particle once.

@@ -40,6 +40,7 @@ struct BondColumns {
   const Vector3 *position;       // columns of particles can be read one row beyond their end
   const Quaternion *orientation; // null: no rotation
   // Only for dashpots.
+  const int *record;
   const Vector3 *velocity, *angular_velocity;
   const double *dashpot, *dashpot_bending;
   double dashpot_shear_ratio, dashpot_twist_ratio;

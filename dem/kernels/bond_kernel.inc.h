@@ -173,27 +173,41 @@ PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const E
   return power;
 }
 
+// Powers by the number of the bond, so that their sum does not depend on which rows were dropped.
+struct PowerSums {
+  static constexpr int slots = 8;
+  double slot[slots] = {};
+  void add(const Pack &power, const int *record, std::size_t count) {
+    for (std::size_t l = 0; l < count; ++l)
+      slot[record[l] % slots] += power.v[l];
+  }
+  double sum() const {
+    double all = 0;
+    for (const double s : slot)
+      all += s;
+    return all;
+  }
+};
+
 template <Turning turning>
 double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
   constexpr bool rotation = turning != Turning::none;
   gather<rotation>(c, block);
-  Pack power = Pack(0.0);
+  PowerSums power;
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    power = power + add_dashpot_pack<turning>(c, k, ends_of(c, block, k));
+    power.add(add_dashpot_pack<turning>(c, k, ends_of(c, block, k)), c.record + k, lanes);
   if (k < last) {
     Tail tail(c, k, last);
-    power = power + add_dashpot_pack<turning>(tail.columns(c), 0, tail_ends<rotation>(c, block, k, last));
+    power.add(add_dashpot_pack<turning>(tail.columns(c), 0, tail_ends<rotation>(c, block, k, last)),
+              c.record + k, last - k);
     for (std::size_t l = 0; k + l < last; ++l) {
       c.dashpot_force[k + l] = tail.dashpot_force[l];
       if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
     }
   }
   scatter<rotation, true>(block);
-  double sum = 0;
-  for (int l = 0; l < lanes; ++l)
-    sum += power.v[l];
-  return sum;
+  return power.sum();
 }
 
 double add_dashpots_of(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {

@@ -19,6 +19,7 @@ public:
   Circumference(const Particles &particles, const Shape &shape, const Bonds *bonds);
   double strain(const Particles &particles) const; // positive where it widens; NaN without a sphere
   std::size_t size() const { return rows_.size(); }
+  const std::vector<int> &rows() const { return rows_; } // ascending
 
 private:
   std::vector<int> rows_;

@@ -55,8 +55,8 @@ Fragments find_fragments(const Particles &p, const Bonds *bonds) {
   const int n = static_cast<int>(p.size());
   DisjointSets sets(p.size());
   if (bonds != nullptr)
-    for (std::size_t k = 0; k < bonds->size(); ++k)
-      if (!bonds->has_failed(k)) sets.join(bonds->first[k], bonds->second[k]);
+    for (std::size_t k = 0; k < bonds->initial_count(); ++k)
+      if (!is_broken(bonds->state[k])) sets.join(bonds->record_first[k], bonds->record_second[k]);
   std::vector<double> mass(p.size(), 0.0);
   std::vector<int> particles(p.size(), 0), roots;
   for (int i = 0; i < n; ++i) {

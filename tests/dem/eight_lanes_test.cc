@@ -50,6 +50,7 @@ protected:
     Bonds &b = *model.bonds;
     kernels::BondColumns c{};
     c.first = b.first.data(), c.second = b.second.data(), c.ends = b.blocks.ends.data();
+    c.record = b.record.data();
     c.reference = b.reference.data();
     c.rest_length = b.rest_length.data(), c.lever = b.lever.data();
     c.normal_stiffness = b.normal_stiffness.data(), c.bond_radius = b.bond_radius.data();

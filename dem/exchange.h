@@ -1,0 +1,65 @@
+// One specimen cut over several processes (ranks), as a model sees it: who computes which blocks, and what is
+// asked of the others in a step. The particle library knows no more of them; dist/ answers by MPI.
+#pragma once
+
+#include <vector>
+
+#include "base/exact_sum.h"
+#include "base/parallel.h"
+
+namespace platen::dem {
+
+class Model;
+struct Crack;
+struct Particles;
+struct PairBlocks;
+
+// Blocks of 512 rows that this rank computes, ascending. Outer ones reach particles of other ranks; of the
+// others, those that are worked out while positions, and while forces, are under way.
+struct OwnBlocks {
+  BlockList all, outer, first_inner, last_inner;
+};
+
+// What every rank knows of a step once its particles have drifted.
+struct StepSums {
+  double fastest = 0;     // m/s
+  ExactSum speed_squares; // m^2/s^2
+  long breaks = 0;        // of bonds since ranks share the specimen, up to the step before
+};
+
+class Exchange {
+public:
+  virtual ~Exchange() = default;
+  virtual const OwnBlocks &blocks() const = 0;
+
+  // A step, in this order. Position and motion of particles that other ranks need, after the drift.
+  virtual void send_motion(const Particles &particles) = 0;
+  virtual void start_sums(const StepSums &own) = 0;
+  virtual void receive_motion(Particles &particles) = 0;
+  virtual StepSums finish_sums() = 0;
+  // What pairs of own blocks exert on particles of other ranks: of bonds once outer blocks are done; of
+  // contacts once all are.
+  virtual void send_bond_ghosts(const PairBlocks &blocks) = 0;
+  virtual void send_contact_ghosts(const PairBlocks &blocks) = 0;
+  // Puts what others have sent behind the own ghosts. Null: there are none of that kind.
+  virtual void receive_ghosts(PairBlocks *bonds, PairBlocks *contacts) = 0;
+
+  // Motion of all particles on all ranks, as it is now.
+  virtual void gather_motion(Particles &particles) = 0;
+  // After contacts were searched anew: whose particles are needed from now on.
+  virtual void renew_contacts(Model &model) = 0;
+  // Rows that all ranks see in every step from now on, ascending; null: all rows.
+  virtual void share_rows(const std::vector<int> *rows) = 0;
+
+  // Breaks of all ranks, by time and number of the bond.
+  virtual std::vector<Crack> all_cracks(const std::vector<Crack> &own) = 0;
+  virtual ExactSum all(ExactSum own) = 0;
+  virtual long all(long own) = 0;     // their sum
+  virtual long largest(long own) = 0; // of all ranks
+
+  // Tables as they were on one rank: every rank has all rows; and back to the own ones.
+  virtual void gather(Model &model) = 0;
+  virtual void scatter(Model &model) = 0;
+};
+
+} // namespace platen::dem
