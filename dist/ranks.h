@@ -1,0 +1,135 @@
+// One specimen cut over the ranks of an MPI communicator (docs/clusters.md). Every rank keeps the row numbers
+// of the whole specimen and computes its own blocks of 512 rows; what a pair of its blocks exerts on a
+// particle of another rank is sent there and added in the order of blocks, as on one rank. So results are the
+// same bytes.
+//
+// A step has three messages to each neighbour: position and motion of the particles that it needs (104 bytes
+// a particle with rotation, 48 without), what bonds exert (48, 24), what contacts that touch exert (56, 32);
+// and one reduction over all ranks, of some 600 bytes.
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dem/exchange.h"
+#include "dist/partition.h"
+
+namespace platen {
+class Table;
+}
+
+namespace platen::dist {
+
+// What was sent in steps, by this rank.
+struct Traffic {
+  long steps = 0, messages = 0;
+  double bytes = 0;
+  double waited = 0; // s, for messages and reductions
+};
+
+class Ranks : public dem::Exchange {
+public:
+  // Collective. MPI must have been initialised, with MPI_THREAD_FUNNELED or more where there are threads.
+  explicit Ranks(MPI_Comm ranks);
+  ~Ranks() override;
+  Ranks(const Ranks &) = delete;
+  Ranks &operator=(const Ranks &) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  const Partition &partition() const { return partition_; } // from the first scatter() on
+  const Traffic &traffic() const { return traffic_; }
+  std::size_t halo_rows() const; // of other ranks, sent here in every step
+
+  const dem::OwnBlocks &blocks() const override { return blocks_; }
+  void send_motion(const dem::Particles &particles) override;
+  void start_sums(const dem::StepSums &own) override;
+  void receive_motion(dem::Particles &particles) override;
+  dem::StepSums finish_sums() override;
+  void send_bond_ghosts(const dem::PairBlocks &blocks) override;
+  void send_contact_ghosts(const dem::PairBlocks &blocks) override;
+  void receive_ghosts(dem::PairBlocks *bonds, dem::PairBlocks *contacts) override;
+  void gather_motion(dem::Particles &particles) override;
+  void renew_contacts(dem::Model &model) override;
+  void share_rows(const std::vector<int> *rows) override;
+  std::vector<dem::Crack> all_cracks(const std::vector<dem::Crack> &own) override;
+  ExactSum all(ExactSum own) override;
+  long all(long own) override;
+  long largest(long own) override;
+  void gather(dem::Model &model) override;
+  void scatter(dem::Model &model) override;
+
+private:
+  // A ghost of an own block whose particle is another rank's.
+  struct Ghost {
+    int block = 0, particle = 0;
+  };
+  // Messages of one kind: what goes to each rank and comes from each.
+  struct Messages {
+    int tag = 0;
+    std::vector<std::vector<double>> out, in; // of each rank
+    std::vector<MPI_Request> sending, receiving;
+    std::vector<int> from; // rank of each receive
+  };
+  struct Sums {
+    double fastest, not_finite;
+    std::int64_t breaks;
+    ExactSum::Limbs limbs;
+  };
+
+  int owner_of(int row) const;
+  bool is_own(int row) const { return owner_of(row) == rank_; }
+  void cut(const dem::Model &model);
+  void list_blocks(const dem::PairBlocks &bonds);
+  void plan_bonds(dem::PairBlocks &blocks);
+  void plan_contacts(dem::Model &model);
+  void plan_halo(const dem::Model &model);
+  void plan_motion();
+  void find_ghosts(const dem::PairBlocks &blocks);
+
+  void post(Messages &messages, const std::vector<std::size_t> &most);
+  void send(Messages &messages, int to);
+  void finish_sends(Messages &messages);
+  void finish_receives(Messages &messages);
+  std::size_t doubles_of_motion() const { return rotation_ ? 13 : 6; }
+  std::size_t doubles_of_ghost() const { return rotation_ ? 6 : 3; }
+
+  // Rows of all ranks, block by block in their order.
+  void gather_columns(Table &table, const std::vector<std::int64_t> &rows_of_block);
+  void gather_table(Table &table, const int *first, std::size_t rows);
+  void gather_particles(dem::Particles &particles);
+  template <class Row>
+  void gather_list(std::vector<Row> &list);
+  std::vector<char> gather_bytes(const void *own, std::size_t width,
+                                 const std::vector<std::int64_t> &rows_of_block) const;
+
+  MPI_Comm ranks_;
+  int rank_ = 0, size_ = 1;
+  Partition partition_;
+  dem::OwnBlocks blocks_;
+  bool rotation_ = false, is_cut_ = false;
+  std::size_t rows_ = 0; // of the specimen
+
+  std::vector<std::vector<Ghost>> bond_ghosts_, contact_ghosts_; // to each rank, by block and particle
+  std::vector<std::vector<Ghost>> bonds_from_, contacts_from_;   // and from each
+  std::vector<std::vector<int>> index_of_ghost_;                 // of bonds, in the blocks as they were cut
+  unsigned cut_number_ = 0;                                      // of the blocks when that was found
+  std::vector<std::vector<int>> halo_to_, halo_from_;            // rows, ascending
+  std::vector<int> shared_;
+  bool share_all_ = false;
+  std::vector<std::vector<int>> motion_to_, motion_from_; // both of these
+  Messages motion_, bonds_, contacts_;
+
+  MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
+  MPI_Op add_sums_ = MPI_OP_NULL;
+  Sums own_sums_{}, all_sums_{};
+  MPI_Request summing_ = MPI_REQUEST_NULL;
+  Traffic traffic_;
+};
+
+} // namespace platen::dist

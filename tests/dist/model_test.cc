@@ -1,0 +1,147 @@
+// A model that is cut over ranks gives the same bytes as one that is not: a free block that cracks, with
+// everything that a step may have. Every rank runs both.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "dem/model.h"
+#include "dist/ranks.h"
+#include "tests/dem/examples.h"
+#include "tests/same_state.h"
+
+namespace platen::dist {
+namespace {
+
+using namespace dem::examples;
+using dem::Model;
+using dem::ModelSettings;
+
+constexpr double side = 26; // of the block, in radii
+
+std::unique_ptr<Model> block_of(const ModelSettings &settings) {
+  auto model = std::make_unique<Model>(packed_box(side, side, side), settings);
+  dem::Particles &p = model->particles;
+  Random random(9);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = .1 * (p.position[i] / radius) + 2 * random.direction();
+    if (p.has_rotation()) (*p.angular_velocity)[i] = (.1 / radius) * random.direction();
+  }
+  if (model->contacts) model->contacts->search(p, model->bonds.get(), 0);
+  return model;
+}
+
+// Ten steps in one go now and then.
+void run(Model &model, int steps, double dt) {
+  for (int s = 0; s < steps; ++s) {
+    if (s % 10 == 0)
+      model.begin_step(dt);
+    else
+      model.end_and_begin_step(dt, dt);
+    model.compute_forces(dt);
+    if (s % 10 == 9) model.end_step(dt);
+  }
+}
+
+void expect_the_same_bytes(const ModelSettings &settings, long least_broken, int steps = 200) {
+  const std::unique_ptr<Model> alone = block_of(settings), cut = block_of(settings);
+  const double dt = .5 * alone->stable_step({}, 0).limit;
+  auto ranks = std::make_unique<Ranks>(MPI_COMM_WORLD);
+  const Ranks &over = *ranks;
+  cut->share(std::move(ranks));
+  for (int part = 0; part < 2; ++part) { // gathered in between
+    run(*alone, steps / 2, dt);
+    run(*cut, steps / 2, dt);
+    cut->gather();
+    ASSERT_TRUE(same_state(state_of(*alone), state_of(*cut))) << "part " << part;
+    if (settings.energy_ledger) {
+      EXPECT_EQ(alone->energy().residual(), cut->energy().residual());
+      EXPECT_EQ(alone->energy().friction, cut->energy().friction);
+    }
+    EXPECT_EQ(alone->last_sums().unbalanced.value(), cut->last_sums().unbalanced.value());
+  }
+  EXPECT_GE(alone->broken_tension + alone->broken_shear, least_broken);
+  const std::vector<dem::Crack> cracks = alone->take_cracks(), others = cut->take_cracks();
+  ASSERT_EQ(cracks.size(), others.size());
+  for (std::size_t k = 0; k < cracks.size(); ++k) {
+    EXPECT_EQ(cracks[k].record, others[k].record) << "crack " << k;
+    EXPECT_EQ(cracks[k].time, others[k].time) << "crack " << k;
+    EXPECT_EQ(cracks[k].energy, others[k].energy) << "crack " << k;
+  }
+  // Or nothing was put to the test.
+  const long messages = cut->exchange()->all(over.traffic().messages),
+             rows = cut->exchange()->all(static_cast<long>(over.halo_rows())),
+             outer = cut->exchange()->all(static_cast<long>(over.blocks().outer.size()));
+  if (over.size() == 1) return;
+  EXPECT_GE(messages, 2 * steps);
+  EXPECT_GE(rows, 5);
+  EXPECT_GE(outer, settings.bond ? 1 : 0);
+}
+
+ModelSettings with_all() {
+  ModelSettings settings = breakable();
+  settings.contact->damping = .2;
+  settings.local_damping = .1;
+  settings.bond_dashpot = .05;
+  settings.gravity = {0, 0, -9.81};
+  settings.scheme = dem::Scheme::tchamwa_wielgosz;
+  settings.dissipation = 1.1;
+  settings.strength_scatter = dem::StrengthScatter{4, 2};
+  return settings;
+}
+
+TEST(model_on_ranks, a_cracking_block_with_all_effects_is_the_same_bytes) {
+  expect_the_same_bytes(with_all(), 300);
+}
+
+TEST(model_on_ranks, and_on_two_threads_each) {
+  const ThreadLimit limit(2);
+  expect_the_same_bytes(with_all(), 300);
+}
+
+TEST(model_on_ranks, interfaces_that_remember_are_the_same_bytes) {
+  ModelSettings settings = interfaces();
+  settings.bond_dashpot = .1;
+  expect_the_same_bytes(settings, 50);
+}
+
+TEST(model_on_ranks, beams_are_the_same_bytes) {
+  ModelSettings settings = bonded_by_beams(30e9, .2, 1);
+  auto &beam = std::get<dem::CohesiveBeam::Parameters>(*settings.bond);
+  beam.tensile_strength = 20e6;
+  settings.contact = dem::ContactSettings{};
+  expect_the_same_bytes(settings, 50);
+}
+
+TEST(model_on_ranks, hertz_and_rolling_are_the_same_bytes) {
+  ModelSettings settings = breakable();
+  settings.contact->normal = dem::NormalContact::hertz;
+  settings.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
+  settings.contact->rolling_friction = .2;
+  expect_the_same_bytes(settings, 300);
+}
+
+TEST(model_on_ranks, bonds_alone_that_break_hand_nothing_over) {
+  ModelSettings settings = breakable();
+  settings.contact.reset();
+  expect_the_same_bytes(settings, 300);
+}
+
+TEST(model_on_ranks, spheres_without_bonds_collide) {
+  ModelSettings settings = breakable();
+  settings.bond.reset();
+  expect_the_same_bytes(settings, 0);
+}
+
+TEST(model_on_ranks, what_does_not_turn_has_shorter_messages) {
+  ModelSettings settings = breakable();
+  settings.rotation = false;
+  settings.contact->tangential = dem::TangentialContact::none;
+  expect_the_same_bytes(settings, 300);
+}
+
+} // namespace
+} // namespace platen::dist
