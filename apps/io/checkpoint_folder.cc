@@ -6,6 +6,8 @@
 #include <optional>
 #include <regex>
 
+#include "apps/scene/rank.h"
+
 namespace platen::apps {
 namespace {
 
@@ -40,6 +42,7 @@ bool is_checkpoint_name(const std::string &name) {
 
 std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
                                        const std::function<void(CheckpointWriter &)> &fill) {
+  if (this_rank().is_silent()) return folder;
   create_folder(folder);
   const std::filesystem::path path = folder / fmt::format("step_{:012}.platen", step);
   write_aside(path, [&](const std::filesystem::path &part) {

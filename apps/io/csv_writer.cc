@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/io/errors.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -100,11 +101,12 @@ CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string>
 CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string> columns,
                      std::uint64_t length)
     : columns_(std::move(columns)) {
+  bytes_ = length;
+  if (this_rank().is_silent()) return;
   check_resumable(path, header_line(columns_), length);
   sum_ = sum_of_begin(path, length);
   file_ = OutputFile(path, OutputFile::Mode::append);
   file_.truncate(length);
-  bytes_ = length;
 }
 
 void CsvWriter::sync() {
@@ -132,6 +134,7 @@ void CsvWriter::write(const std::string &line) {
 }
 
 WholeTable::~WholeTable() {
+  if (this_rank().is_silent()) return;
   std::error_code ignored; // a finished one has another name
   std::filesystem::remove(path(), ignored);
 }

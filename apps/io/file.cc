@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/io/errors.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -30,6 +31,7 @@ auto uninterrupted(const Call &call) {
 } // namespace
 
 OutputFile::OutputFile(const std::filesystem::path &path, Mode mode) : path_(path) {
+  if (this_rank().is_silent()) return;
   // Without waiting for the reader of a pipe that stands under the name.
   const int flags =
       O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | (mode == Mode::replace ? O_TRUNC : O_APPEND);
@@ -56,6 +58,7 @@ void OutputFile::fail(const char *what) const {
 }
 
 void OutputFile::write(const void *bytes, std::size_t count) {
+  if (this_rank().is_silent()) return;
   const char *next = static_cast<const char *>(bytes);
   while (count > 0) { // a disk that fills up takes a part first
     const ssize_t written = uninterrupted([&] { return ::write(descriptor_, next, count); });
@@ -66,6 +69,7 @@ void OutputFile::write(const void *bytes, std::size_t count) {
 }
 
 void OutputFile::require_alone(std::uint64_t length) const {
+  if (this_rank().is_silent()) return;
   struct stat open {
   }, there{};
   if (::fstat(descriptor_, &open) != 0 || !S_ISREG(open.st_mode)) return;
@@ -82,6 +86,7 @@ void OutputFile::require_alone(std::uint64_t length) const {
 }
 
 bool OutputFile::try_truncate(std::uint64_t new_length) noexcept {
+  if (this_rank().is_silent()) return true;
   const auto end = static_cast<off_t>(new_length);
   return uninterrupted([&] { return ::ftruncate(descriptor_, end); }) == 0 &&
          ::lseek(descriptor_, end, SEEK_SET) == end;
@@ -92,6 +97,7 @@ void OutputFile::truncate(std::uint64_t new_length) {
 }
 
 void OutputFile::sync() {
+  if (this_rank().is_silent()) return;
   // EINVAL: a pipe or a device, which has nothing to wait for.
   if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0 && errno != EINVAL) fail("cannot be written");
 }
@@ -108,6 +114,7 @@ std::filesystem::path part_path(const std::filesystem::path &path) {
 }
 
 void sync_folder(const std::filesystem::path &folder) {
+  if (this_rank().is_silent()) return;
   const std::filesystem::path path = folder.empty() ? "." : folder;
   const int descriptor =
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
@@ -120,6 +127,7 @@ void sync_folder(const std::filesystem::path &folder) {
 }
 
 void make_current(const std::filesystem::path &part, const std::filesystem::path &path) {
+  if (this_rank().is_silent()) return;
   {
     OutputFile whole(part, OutputFile::Mode::append);
     whole.sync();
@@ -133,6 +141,7 @@ void make_current(const std::filesystem::path &part, const std::filesystem::path
 
 void write_aside(const std::filesystem::path &path,
                  const std::function<void(const std::filesystem::path &)> &write) {
+  if (this_rank().is_silent()) return;
   const std::filesystem::path part = part_path(path);
   try {
     write(part);
@@ -159,6 +168,7 @@ void write_stream_aside(const std::filesystem::path &path, const std::function<v
 }
 
 void create_folder(const std::filesystem::path &folder) {
+  if (this_rank().is_silent()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!error && std::filesystem::is_directory(folder)) return;

@@ -1,4 +1,5 @@
-// Files that are written: every call is checked, and a file appears under its name whole or not at all.
+// Files that are written: every call is checked, and a file appears under its name whole or not at all. On a
+// silent rank (apps/scene/rank.h) the calls do nothing.
 #pragma once
 
 #include <cstddef>

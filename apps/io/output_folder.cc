@@ -13,6 +13,7 @@
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/io/run_log.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -93,6 +94,7 @@ bool is_output_name(const fs::path &relative) {
 }
 
 void check_output_folder(const fs::path &folder, FolderUse use, const std::vector<fs::path> &inputs) {
+  if (this_rank().is_silent()) return;
   check_writable(folder);
   const std::vector<fs::path> earlier = outputs_in(folder);
   if (use == FolderUse::resume) {
@@ -111,6 +113,7 @@ void check_output_folder(const fs::path &folder, FolderUse use, const std::vecto
 }
 
 void open_output_folder(const fs::path &folder, FolderUse use, const std::vector<fs::path> &inputs) {
+  if (this_rank().is_silent()) return;
   check_output_folder(folder, use, inputs);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -149,6 +152,7 @@ FolderLock::~FolderLock() {
 }
 
 std::unique_ptr<FolderLock> lock_of_run(const fs::path &folder, RunLog &log) {
+  if (this_rank().is_silent()) return nullptr;
   std::error_code none;
   if (!fs::is_directory(folder, none)) return nullptr;
   return std::make_unique<FolderLock>(folder, patience_of_run,
@@ -157,6 +161,7 @@ std::unique_ptr<FolderLock> lock_of_run(const fs::path &folder, RunLog &log) {
 
 void open_locked(std::unique_ptr<FolderLock> &lock, const fs::path &folder, FolderUse use,
                  const std::vector<fs::path> &inputs, RunLog &log) {
+  if (this_rank().is_silent()) return;
   check_output_folder(folder, use, inputs);
   std::error_code told_below;
   fs::create_directories(folder, told_below);

@@ -13,6 +13,7 @@
 #include "apps/io/errors.h"
 #include "apps/io/file.h"
 #include "apps/io/numbers.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -46,6 +47,7 @@ void PvdSeries::append(double time, const std::string &file) {
 
 void PvdSeries::resume(double up_to_time) {
   frames_.clear();
+  if (this_rank().is_silent()) return;
   if (!std::filesystem::exists(path_)) return;
   const auto root = read_xml(path_);
   vtkXMLDataElement *collection = root ? root->FindNestedElementWithName("Collection") : nullptr;

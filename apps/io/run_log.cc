@@ -7,6 +7,7 @@
 
 #include "apps/io/errors.h"
 #include "apps/io/machine.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -33,7 +34,8 @@ RunLog::RunLog(Loudness loudness, std::ostream &output, std::ostream &errors)
 void RunLog::open(const std::filesystem::path &path, bool append, const RunHeader &header) {
   file_ = OutputFile(path, append ? OutputFile::Mode::append : OutputFile::Mode::replace);
   opened_ = true;
-  const std::string gap = append && std::filesystem::file_size(path) > 0 ? "\n" : "";
+  std::error_code none;
+  const std::string gap = append && std::filesystem::file_size(path, none) > 0 ? "\n" : "";
   write(gap + head(header) + std::exchange(early_, {}));
 }
 
@@ -51,6 +53,7 @@ void RunLog::say(Level level, const std::string &text) {
 }
 
 void RunLog::print(Level level, const std::string &line) {
+  if (this_rank().is_silent()) return;
   const bool shown = level == Level::error    ? true
                      : level == Level::detail ? loudness_ == Loudness::verbose
                                               : loudness_ != Loudness::quiet;

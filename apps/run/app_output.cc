@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "apps/io/file.h"
@@ -10,6 +11,7 @@
 #include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/rank.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {
@@ -21,6 +23,11 @@ void clear(Json &summary, std::initializer_list<const char *> keys) {
 }
 
 } // namespace
+
+int threads_of(const CommandLine &command) {
+  if (command.threads > 0 || this_rank().here == 1) return command.threads;
+  return std::max(1, hardware_threads() / this_rank().here);
+}
 
 Loudness loudness_of(const CommandLine &command) {
   return command.quiet ? Loudness::quiet : (command.verbose ? Loudness::verbose : Loudness::normal);
@@ -56,7 +63,7 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_c
       use_(command.resume      ? FolderUse::resume
            : command.overwrite ? FolderUse::overwrite
                                : FolderUse::fresh),
-      limit_(command.threads) {
+      limit_(threads_of(command)) {
   if (command.dry_run) return;
   input_sums_ = input_sums(scene);
   if (!command.resume || from_checkpoint) check_output_folder(paths.folder, use_, inputs_);

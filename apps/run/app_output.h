@@ -21,6 +21,8 @@ namespace platen::apps {
 
 // As loud as the command line wants it.
 Loudness loudness_of(const CommandLine &command);
+// That a run works with; 0: all that the machine has. Ranks on one machine share its cores.
+int threads_of(const CommandLine &command);
 // The scene's title, or its file's name.
 std::string title_of(const Scene &scene);
 // The scene, what it includes and all files that it names: what a run must not write over.

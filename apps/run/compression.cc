@@ -5,15 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <utility>
 
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/estimate.h"
 #include "apps/run/pressure_path.h"
 #include "apps/run/quasi_static.h"
+#include "apps/run/ranks.h"
 #include "apps/run/stages_of_run.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 
@@ -56,24 +59,46 @@ std::string CompressionRun::resuming_command(const std::string &but) const {
   return text;
 }
 
+void CompressionRun::tell_cut() {
+  log_.info("{}", words_of_cut(*ranks_));
+  if (const std::string idle = words_of_idle_ranks(*ranks_); !idle.empty()) log_.warning("{}", idle);
+}
+
+// Signals and clocks: what one rank is asked, and what the first one's clock says, holds for all.
+void CompressionRun::look_around() {
+  signal_ = stop_requested();
+  const bool by_clock = scene_.checkpoint.every.kind == Interval::Kind::time && this_rank().is_silent();
+  checkpoint_asked_ = take_checkpoint_request() || (!by_clock && checkpoint_due());
+  if (ranks_ == nullptr) return;
+  signal_ = static_cast<int>(ranks_->largest(signal_));
+  checkpoint_asked_ = ranks_->largest(checkpoint_asked_) > 0;
+}
+
 void CompressionRun::loop() {
   Progress progress(log_);
   loop_start_ = Clock::now();
+  bool tells_cut = ranks_ != nullptr;
   while (!finished()) {
     const std::size_t ended = test_->program().stages_ended();
     test_->advance(steps_unobserved());
     tell_unsettled(ended);
+    if (std::exchange(tells_cut, false)) tell_cut();
+    look_around();
+    const bool row = due(scene_.output.every, automatic_rows);
+    const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
+    if (row || frame || checkpoint_asked_ || signal_ != 0 || finished())
+      test_->gather();
+    else
+      test_->settle();
     if (!test_->model.cracks.empty()) write_cracks();
-    if (due(scene_.output.every, automatic_rows)) sample();
+    if (row) sample();
     // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
-    if (fields_ && (finished() || due(scene_.output.fields_every, automatic_frames))) {
+    if (fields_ && (finished() || frame)) {
       dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
       fields_->write(*test_, results_.moves_with(*test_));
     }
-    signal_ = stop_requested();
     // The last state too: a test that has not shown its peak is led on from there.
-    if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_due() ||
-        take_checkpoint_request()) {
+    if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_asked_) {
       dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
       checkpoint();
     }
@@ -85,10 +110,11 @@ void CompressionRun::loop() {
 
 int CompressionRun::run() {
   if (!counted_.empty()) {
-    fmt::print("{}\n{}", title_of(scene_), counted_);
+    if (!this_rank().is_silent()) fmt::print("{}\n{}", title_of(scene_), counted_);
     return status_done;
   }
   if (command_.dry_run) {
+    if (this_rank().is_silent()) return status_done;
     fmt::print("{}{}", description(),
                scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
     return status_done;
@@ -99,6 +125,7 @@ int CompressionRun::run() {
     loop();
   } catch (const coupling::NumericsStopped &e) {
     failed_ = true;
+    test_->gather(); // all ranks have the same program and boundaries: all stop here
     save_summary("failed");
     std::error_code ignored;
     const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);

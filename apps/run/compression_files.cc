@@ -15,8 +15,8 @@
 namespace platen::apps {
 namespace {
 
-std::vector<CsvCell> crack_row(const dem::Crack &c, double strain) {
-  return {c.time,      strain,
+std::vector<CsvCell> crack_row(const dem::Crack &c) {
+  return {c.time,      c.strain,
           c.point.x,   c.point.y,
           c.point.z,   c.normal.x,
           c.normal.y,  c.normal.z,
@@ -133,8 +133,7 @@ void CompressionRun::reopen_history() {
   for (const Sample &s : results_.samples())
     rows.row(history_row(s, test_.get()));
   rows.finish();
-  history_.emplace(paths_.history(), history_names(test_.get()),
-                   std::filesystem::file_size(paths_.history()));
+  history_.emplace(paths_.history(), history_names(test_.get()), rows.bytes());
 }
 
 void CompressionRun::sample() {
@@ -151,7 +150,7 @@ void CompressionRun::keep(const Sample &s) {
 
 void CompressionRun::write_cracks() {
   for (const dem::Crack &c : test_->model.take_cracks()) {
-    cracks_->row(crack_row(c, test_->closure_strain()));
+    cracks_->row(crack_row(c));
     results_.listen(c);
   }
 }

@@ -51,6 +51,8 @@ private:
   void write_cracks();
   void checkpoint();
   bool checkpoint_due() const;
+  void look_around();
+  void tell_cut();
   bool keeps_checkpoints() const { return scene_.checkpoint.every.kind != Interval::Kind::none; }
   ProgressSample where() const;
   bool finished() const { return !ended_by().empty(); }
@@ -69,6 +71,7 @@ private:
   AppOutput output_;
   const OutputPaths &paths_ = output_.paths;
   RunLog &log_ = output_.log;
+  dem::Exchange *ranks_ = nullptr; // of the test; null: alone
   std::unique_ptr<coupling::PlatenTest> test_;
   std::unique_ptr<Sampler> sampler_;
   std::optional<Sample> as_packed_; // where the run does not begin there
@@ -82,7 +85,7 @@ private:
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
-  bool failed_ = false;
+  bool checkpoint_asked_ = false, failed_ = false;
 };
 
 } // namespace platen::apps

@@ -12,6 +12,7 @@
 #include "apps/run/failure_summary.h"
 #include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/ranks.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_check.h"
 #include "apps/run/specimen_setup.h"
@@ -96,6 +97,9 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (!counted_.empty()) return;
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
+  std::unique_ptr<dem::Exchange> exchange = command.dry_run ? nullptr : exchange_of_ranks();
+  require_one_scene(scene_text(scene, paths_.folder), exchange.get());
+  settings.model.instruction_set = common_instruction_set(settings.model.instruction_set, exchange.get());
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   require_prompt_platens(*test_);
   specimen_state_ = state_of(specimen, *test_);
@@ -108,6 +112,11 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   require_length();
   setup_seconds_ = output_.seconds();
   if (command.dry_run) return;
+  if (exchange) {
+    ranks_ = exchange.get();
+    ranks_->largest(0); // nothing is written while another rank still reads what an earlier part has left
+    test_->share(std::move(exchange));
+  }
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
   output_.open();
   if (!resumes) write_specimen_csv(paths_.specimen_csv(), specimen);

@@ -17,6 +17,7 @@ set(PLATEN_RUN_SOURCES
   run/peak.cc
   run/pressure_path.cc
   run/problem_setup.cc
+  run/$<IF:$<BOOL:${PLATEN_RANKS}>,ranks,no_ranks>.cc
   run/quasi_static.cc
   run/report_of_run.cc
   run/results.cc

@@ -15,6 +15,7 @@ struct AppDescription {
   std::string name;                    // "platen-compress"
   std::string purpose;                 // one sentence for --help
   std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
+  bool runs_on_ranks = false;          // of mpirun
 };
 
 struct CommandLine {

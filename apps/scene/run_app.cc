@@ -1,6 +1,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -8,6 +11,7 @@
 
 #include "apps/scene/command_line.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
@@ -32,9 +36,25 @@ std::string printable(std::string text) {
 }
 
 int tell(const std::string &message, int status) {
+  before_telling_a_failure();
   std::cout.flush();
   std::cerr << printable(plain(message)) << '\n';
+  after_telling_a_failure(status);
   return status;
+}
+
+// Processes that a launcher says to have started; 1 without one.
+int launched() {
+  const char *text = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return text == nullptr ? 1 : std::atoi(text);
+}
+
+void require_one_process(const AppDescription &app) {
+  if (app.runs_on_ranks || launched() < 2) return;
+  throw InputError(
+      fmt::format("error: mpirun has started {} processes of {}, which runs in one. Allowed: without "
+                  "mpirun; platen-compress and platen-brazilian run on several ranks.",
+                  launched(), app.name));
 }
 
 extern "C" void end_at_once(int number) {
@@ -65,10 +85,11 @@ __attribute__((section(".preinit_array"), used)) void (*const before_libraries)(
 int run(const CommandLine &line, const AppDescription &app, const AppBody &body) {
   const Scene scene = line.scene.empty() ? default_scene() : read_scene(line.scene, line.overrides, app.kind);
   if (line.print_parameters) {
+    if (this_rank().is_silent()) return status_done;
     print_parameters(scene, app, line.part, line.json, std::cout);
     return status_done;
   }
-  if (!line.quiet)
+  if (!line.quiet && !this_rank().is_silent())
     for (const std::string &note : scene.notes)
       std::cerr << note << '\n';
   try {
@@ -85,9 +106,10 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
 int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
   obey_early_signals();
   try {
+    require_one_process(app);
     return run(read_command_line(argc, argv, app), app, body);
   } catch (const PrintAndExit &asked) {
-    std::cout << asked.text;
+    if (!this_rank().is_silent()) std::cout << asked.text;
     return status_done;
   } catch (const InputError &error) {
     return tell(error.what(), status_bad_input);

@@ -1,0 +1,22 @@
+// Which of several processes of one run this is. One unless mpirun has started more, and the app runs on
+// them: then all do the same, and the first alone speaks and writes.
+#pragma once
+
+namespace platen::apps {
+
+struct Rank {
+  int number = 0, of = 1;
+  int here = 1;                          // on this machine
+  void (*end_all)(int status) = nullptr; // ends all of them
+  bool is_silent() const { return number > 0; }
+};
+
+// Of this process; set once, at the start of main.
+Rank &this_rank();
+
+// A failure of this rank alone, or of all of them: the first tells it, another one waits a moment for that;
+// then all are ended with this status, for they may be waiting for each other. Nothing on one rank.
+void before_telling_a_failure();
+void after_telling_a_failure(int status);
+
+} // namespace platen::apps
