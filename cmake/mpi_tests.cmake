@@ -29,6 +29,9 @@ function(platen_add_mpi_test)
     platen_mpi_command(run ${ranks})
     platen_register_mpi_test(${arg_NAME}.on_${ranks}_ranks ${ranks} ${arg_TIMEOUT} ${run} $<TARGET_FILE:${program}>)
   endforeach()
+  if(PLATEN_SANITIZE) # its library must be loaded before any other
+    set(arg_DELAYED "")
+  endif()
   foreach(ranks IN LISTS arg_DELAYED)
     platen_mpi_command(run ${ranks})
     platen_register_mpi_test(${arg_NAME}.delayed_on_${ranks}_ranks ${ranks} ${arg_TIMEOUT} ${run}
