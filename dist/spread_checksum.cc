@@ -1,0 +1,146 @@
+#include "dist/spread_checksum.h"
+
+#define XXH_STATIC_LINKING_ONLY // the state's layout, to send it
+#include <xxhash.h>
+
+#include <algorithm>
+#include <numeric>
+#include <type_traits>
+
+namespace platen::dist {
+namespace {
+
+constexpr int tag = 6464;
+constexpr std::uint64_t least_share = 1 << 16; // below it a message costs more than the bytes
+static_assert(std::is_trivially_copyable_v<XXH64_state_t>, "is sent as bytes");
+
+struct Range {
+  std::uint64_t first, last; // bytes of the text
+  std::uint64_t length() const { return last - first; }
+};
+
+Range common(const Range &a, std::uint64_t offset, std::uint64_t length) {
+  const std::uint64_t first = std::max(a.first, offset);
+  return {first, std::max(first, std::min(a.last, offset + length))};
+}
+
+// A stretch of a text that is dealt with in one go: a share to each rank.
+struct Window {
+  std::uint64_t first, share, end; // of the text
+  int ranks;
+
+  Range share_of(int rank) const {
+    const std::uint64_t from = std::min(end, first + share * static_cast<std::uint64_t>(rank));
+    return {from, std::min(end, from + share)};
+  }
+  // Ranks with a share, the first so many.
+  int in_use() const {
+    return static_cast<int>(std::min<std::uint64_t>(ranks, (end - first + share - 1) / share));
+  }
+  bool is_last() const { return end - first <= share * static_cast<std::uint64_t>(ranks); }
+};
+
+// Counts by rank, and where each begins.
+struct Counts {
+  std::vector<int> count, first;
+  explicit Counts(int ranks) : count(static_cast<std::size_t>(ranks)), first(count.size()) {}
+  int sum() { // sets first
+    std::exclusive_scan(count.begin(), count.end(), first.begin(), 0);
+    return first.back() + count.back();
+  }
+};
+
+// Who hashes a text: a rank and what it knows.
+struct Hasher {
+  MPI_Comm comm;
+  int rank = 0, ranks = 1;
+  const std::vector<FileRun> &runs;      // of all ranks
+  const std::vector<FilePiece> &own;     // of this one, ascending
+  XXH64_state_t state = XXH64_state_t{}; // where this rank has it
+};
+
+// What this rank holds of the shares of all, by rank, and what it gets for its own, by rank.
+std::vector<char> exchange(const Hasher &h, const Window &window, Counts &in) {
+  Counts out(h.ranks);
+  std::vector<char> give;
+  for (int r = 0; r < h.ranks; ++r)
+    for (const FilePiece &piece : h.own) {
+      const Range part = common(window.share_of(r), piece.offset, piece.length);
+      const char *bytes = static_cast<const char *>(piece.bytes) + (part.first - piece.offset);
+      if (part.length() == 0) continue;
+      give.insert(give.end(), bytes, bytes + part.length());
+      out.count[static_cast<std::size_t>(r)] += static_cast<int>(part.length());
+    }
+  out.sum();
+  for (const FileRun &run : h.runs)
+    in.count[static_cast<std::size_t>(run.rank)] +=
+        static_cast<int>(common(window.share_of(h.rank), run.offset, run.length).length());
+  std::vector<char> got(static_cast<std::size_t>(in.sum()));
+  MPI_Alltoallv(give.data(), out.count.data(), out.first.data(), MPI_BYTE, got.data(), in.count.data(),
+                in.first.data(), MPI_BYTE, h.comm);
+  return got;
+}
+
+// Goes on with the hash over this rank's share: bytes of each rank stand one after the other in `got`.
+void add_share(Hasher &h, const Window &window, const std::vector<char> &got, Counts &in) {
+  for (const FileRun &run : h.runs) {
+    const Range part = common(window.share_of(h.rank), run.offset, run.length);
+    if (part.length() == 0) continue;
+    int &next = in.first[static_cast<std::size_t>(run.rank)];
+    XXH64_update(&h.state, got.data() + next, static_cast<std::size_t>(part.length()));
+    next += static_cast<int>(part.length());
+  }
+}
+
+void hash_window(Hasher &h, const Window &window) {
+  Counts in(h.ranks);
+  const std::vector<char> got = exchange(h, window, in);
+  if (h.rank >= window.in_use()) return;
+  const bool begins = window.first == 0 && h.rank == 0, ends = h.rank + 1 == window.in_use();
+  if (!begins && h.ranks > 1)
+    MPI_Recv(&h.state, sizeof h.state, MPI_BYTE, (h.rank + h.ranks - 1) % h.ranks, tag, h.comm,
+             MPI_STATUS_IGNORE);
+  add_share(h, window, got, in);
+  if (!(ends && window.is_last()) && h.ranks > 1)
+    MPI_Send(&h.state, sizeof h.state, MPI_BYTE, (h.rank + 1) % h.ranks, tag, h.comm);
+}
+
+// The hash on the rank that has the end of the text, 0 elsewhere; of no bytes on rank 0.
+std::uint64_t hash_text(Hasher &h, std::uint64_t largest) {
+  const std::uint64_t total = h.runs.empty() ? 0 : h.runs.back().offset + h.runs.back().length,
+                      ranks = static_cast<std::uint64_t>(h.ranks);
+  const std::uint64_t share = std::min(largest, std::max(least_share, (total + ranks - 1) / ranks));
+  int holder = 0;
+  XXH64_reset(&h.state, 0);
+  for (std::uint64_t first = 0; first < total; first += share * ranks) {
+    const Window window{first, share, total, h.ranks};
+    hash_window(h, window);
+    holder = window.in_use() - 1;
+  }
+  return h.rank == holder ? XXH64_digest(&h.state) : 0;
+}
+
+std::vector<FilePiece> ascending(std::vector<FilePiece> pieces) {
+  std::sort(pieces.begin(), pieces.end(),
+            [](const FilePiece &a, const FilePiece &b) { return a.offset < b.offset; });
+  return pieces;
+}
+
+} // namespace
+
+std::vector<std::uint64_t> xxh64_of(MPI_Comm ranks, const std::vector<std::vector<FilePiece>> &texts,
+                                    std::uint64_t share) {
+  std::vector<std::uint64_t> hashes;
+  for (const auto &text : texts) {
+    const std::vector<FileRun> runs = runs_of_file(ranks, text);
+    const std::vector<FilePiece> own = ascending(text);
+    Hasher hasher{ranks, 0, 1, runs, own};
+    MPI_Comm_rank(ranks, &hasher.rank);
+    MPI_Comm_size(ranks, &hasher.ranks);
+    hashes.push_back(hash_text(hasher, share));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, hashes.data(), static_cast<int>(hashes.size()), MPI_UINT64_T, MPI_BOR, ranks);
+  return hashes;
+}
+
+} // namespace platen::dist

@@ -1,0 +1,97 @@
+#include "dist/spread_checksum.h"
+
+#include <gtest/gtest.h>
+#include <xxhash.h>
+
+#include <stdexcept>
+#include <string>
+
+using namespace platen::dist;
+
+namespace {
+
+int rank_of_this() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int number_of_ranks() {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
+std::string text_of(std::size_t length) {
+  std::string text(length, ' ');
+  unsigned state = static_cast<unsigned>(length) + 3;
+  for (char &c : text)
+    c = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
+  return text;
+}
+
+// Pieces of `length` bytes in turn to the ranks, the first to rank `from`.
+std::vector<FilePiece> in_turn(const std::string &text, std::size_t length, int from) {
+  std::vector<FilePiece> pieces;
+  for (std::size_t k = 0; k * length < text.size(); ++k)
+    if ((static_cast<int>(k) + from) % number_of_ranks() == rank_of_this())
+      pieces.insert(pieces.begin(),
+                    {k * length, text.data() + k * length, std::min(length, text.size() - k * length)});
+  return pieces;
+}
+
+TEST(SpreadChecksum, is_that_of_one_rank_that_has_all) {
+  for (const std::size_t length : {1, 31, 32, 33, 1000, 4096})
+    for (const std::size_t piece : {1, 5, 32, 700, 5000})
+      for (const std::size_t share :
+           {1, 7, 300, 100000}) {          // smaller than a piece, than a lane, than the text
+        if (length / share > 40) continue; // many messages, nothing new
+        const std::string text = text_of(length);
+        const auto hashes = xxh64_of(MPI_COMM_WORLD, {in_turn(text, piece, 0)}, share);
+        ASSERT_EQ(hashes.size(), 1u);
+        EXPECT_EQ(hashes[0], XXH64(text.data(), text.size(), 0))
+            << length << " bytes in pieces of " << piece << ", shares of " << share;
+      }
+}
+
+TEST(SpreadChecksum, of_a_long_text_is_shared_out) {
+  const std::string text = text_of(3000001); // shares above the least
+  const auto hashes = xxh64_of(MPI_COMM_WORLD, {in_turn(text, 12288, 1)});
+  EXPECT_EQ(hashes[0], XXH64(text.data(), text.size(), 0));
+}
+
+TEST(SpreadChecksum, of_the_empty_text_is_the_known_one) {
+  EXPECT_EQ(xxh64_of(MPI_COMM_WORLD, {{}})[0], 0xef46db3751d8e999u); // xxHash specification
+  EXPECT_TRUE(xxh64_of(MPI_COMM_WORLD, {}).empty());
+}
+
+TEST(SpreadChecksum, of_several_texts_are_told_apart) {
+  const std::string one = text_of(500), two = text_of(900), three = text_of(64);
+  const auto hashes =
+      xxh64_of(MPI_COMM_WORLD, {in_turn(one, 20, 1), in_turn(two, 33, 0), {}, in_turn(three, 64, 2)});
+  ASSERT_EQ(hashes.size(), 4u);
+  EXPECT_EQ(hashes[0], XXH64(one.data(), one.size(), 0));
+  EXPECT_EQ(hashes[1], XXH64(two.data(), two.size(), 0));
+  EXPECT_EQ(hashes[2], XXH64("", 0, 0));
+  EXPECT_EQ(hashes[3], XXH64(three.data(), three.size(), 0));
+}
+
+TEST(SpreadChecksum, changes_with_a_byte_of_any_rank) {
+  std::string text = text_of(300);
+  const auto before = xxh64_of(MPI_COMM_WORLD, {in_turn(text, 17, 0)});
+  for (const std::size_t byte : {0, 20, 299}) {
+    text[byte] = static_cast<char>(text[byte] ^ 1);
+    const auto after = xxh64_of(MPI_COMM_WORLD, {in_turn(text, 17, 0)});
+    EXPECT_NE(after, before) << "byte " << byte;
+    text[byte] = static_cast<char>(text[byte] ^ 1);
+  }
+}
+
+TEST(SpreadChecksum, of_a_text_with_a_gap_is_refused_on_all_ranks) {
+  const std::string text = text_of(100);
+  std::vector<FilePiece> pieces = in_turn(text, 10, 0);
+  if (rank_of_this() == 0) pieces.back().length -= 1; // its first one
+  EXPECT_THROW(xxh64_of(MPI_COMM_WORLD, {pieces}), std::invalid_argument);
+}
+
+} // namespace
