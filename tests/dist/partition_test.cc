@@ -8,6 +8,7 @@
 #include <set>
 
 #include "block_graphs.h"
+#include "dist/zoltan_cut.h"
 
 using namespace platen;
 using namespace platen::dist;
@@ -177,15 +178,51 @@ TEST(Partition, by_the_graph_goes_where_few_ghosts_are) {
   EXPECT_LE(found.cut_edges, 4u) << describe(found);
 }
 
-TEST(Partition, goes_by_the_weight_of_edges) {
-  // Across a bar all cuts are one edge; a light one is a little off the middle.
-  if (ranks() != 2) GTEST_SKIP() << "a cut in two";
-  BlockGraph bar = box_of_blocks(41, 1, 1, 100);
-  for (std::size_t b : {std::size_t{20}, std::size_t{21}}) // between blocks 20 and 21: 21 and 20 blocks
+TEST(Partition, prefers_balance_up_to_the_limit_and_few_ghosts_below_it) {
+  // Block 1 has as much work as the two others, which lie side by side: 0 2 | 1 is even and has 11 ghosts, in
+  // order it is 0 1 | 2 with 15 of 20 and one ghost.
+  BlockGraph graph = graph_from({{0, 0, 0}, {5, 0, 0}, {.1, 0, 0}}, {{{1, 10}}, {{0, 10}, {2, 1}}, {{1, 1}}});
+  graph.weight = {5, 10, 5};
+  PartitionLimits limits;
+  limits.methods = {Method::bisection};
+  const Partition even = partition(graph, 2, limits);
+  EXPECT_EQ(even.rank, (std::vector<int>{0, 1, 0})) << describe(even);
+  EXPECT_DOUBLE_EQ(even.imbalance, 1);
+  EXPECT_DOUBLE_EQ(even.cut_weight, 11);
+  EXPECT_EQ(even.method, Method::bisection);
+  limits.imbalance = 1.6;
+  const Partition few = partition(graph, 2, limits);
+  EXPECT_EQ(few.rank, (std::vector<int>{0, 0, 1})) << describe(few);
+  EXPECT_DOUBLE_EQ(few.imbalance, 1.5);
+  EXPECT_DOUBLE_EQ(few.cut_weight, 1);
+  EXPECT_EQ(few.method, Method::curve);
+}
+
+// Zoltan alone, for a cut of its own that is worse than another method's is not seen above.
+TEST(ZoltanCut, shares_the_work_out) {
+  BlockGraph bar = box_of_blocks(64, 1, 1);
+  for (std::size_t b = 0; b < 16; ++b)
+    bar.weight[b] = 5; // of 128 in all: 64 of them in the first 13 blocks
+  for (const Method method : {Method::graph, Method::bisection}) {
+    const auto part = cut_by_zoltan(bar, 2, method);
+    ASSERT_TRUE(part);
+    double work[2] = {};
+    for (std::size_t b = 0; b < 64; ++b)
+      work[(*part)[b]] += bar.weight[b];
+    EXPECT_LE(std::max(work[0], work[1]), 67) << "method " << static_cast<int>(method);
+  }
+}
+
+TEST(ZoltanCut, goes_by_the_weight_of_edges) {
+  // Across a bar all cuts are one edge; a light one is a little off the middle, within 3 % of balance.
+  BlockGraph bar = box_of_blocks(101, 1, 1, 100);
+  for (const std::size_t b : {std::size_t{48}, std::size_t{49}})
     for (std::size_t e = bar.first_edge[b]; e < bar.first_edge[b + 1]; ++e)
-      if (static_cast<std::size_t>(bar.neighbour[e]) + b == 41) bar.edge_weight[e] = 3;
-  const Partition p = cut(bar, {Method::graph});
-  EXPECT_EQ(p.cut_weight, 3) << describe(p);
+      if (static_cast<std::size_t>(bar.neighbour[e]) + b == 97) bar.edge_weight[e] = 3;
+  const auto part = cut_by_zoltan(bar, 2, Method::graph);
+  ASSERT_TRUE(part);
+  EXPECT_NE((*part)[48], (*part)[49]);
+  EXPECT_EQ(std::count(part->begin(), part->end(), (*part)[48]), 49);
 }
 
 TEST(Partition, gives_every_rank_a_block_while_there_are_enough) {
