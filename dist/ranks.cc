@@ -70,6 +70,21 @@ std::size_t Ranks::halo_rows() const {
   return sum;
 }
 
+double Ranks::expected_bytes() const {
+  std::size_t rows = 0, ghosts = 0;
+  for (std::size_t r = 0; r < motion_to_.size(); ++r)
+    rows += motion_to_[r].size(), ghosts += bond_ghosts_[r].size();
+  return static_cast<double>(rows) * (rotation_ ? 104 : 48) +
+         static_cast<double>(ghosts) * (rotation_ ? 48 : 24);
+}
+
+long Ranks::expected_messages() const {
+  long messages = 0;
+  for (std::size_t r = 0; r < motion_to_.size(); ++r)
+    messages += !motion_to_[r].empty() + !bond_ghosts_[r].empty() + !contact_ghosts_[r].empty();
+  return messages;
+}
+
 // Once: no rank gives blocks away during a run.
 void Ranks::cut(const dem::Model &model) {
   const dem::Particles &p = model.particles;

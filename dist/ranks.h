@@ -45,6 +45,10 @@ public:
   const Partition &partition() const { return partition_; } // from the first scatter() on
   const Traffic &traffic() const { return traffic_; }
   std::size_t halo_rows() const; // of other ranks, sent here in every step
+  // Of this rank in a step, by what is planned: rows that go elsewhere, times 104 (48 without rotation),
+  // ghosts of bonds times 48 (24); up to three messages to each neighbour. Contacts that touch come on top.
+  double expected_bytes() const;
+  long expected_messages() const;
 
   const dem::OwnBlocks &blocks() const override { return blocks_; }
   void send_motion(const dem::Particles &particles) override;

@@ -1,0 +1,156 @@
+// Speed of one step on several ranks beside one process, in turn and in one run: mpirun -n 2 bench_ranks.
+// Prints what N ranks of one thread gain over one thread, and over N threads; what one rank costs beside the
+// plain program; messages and bytes of a step beside the formula; and how much of the exchange is hidden.
+#include <mpi.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "dist/ranks.h"
+#include "step_scene.h"
+
+namespace {
+
+using namespace platen;
+
+struct Options {
+  int particles = 22500, steps = 200, repeats = 21;
+};
+
+int rank = 0, ranks = 1;
+
+// Ranks that have nothing to do sleep, so that the others have the machine.
+void wait_for_all() {
+  constexpr useconds_t glance = 200;
+  MPI_Request all = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all);
+  int done = 0;
+  while (MPI_Test(&all, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done)
+    ::usleep(glance);
+}
+
+double seconds_of(coupling::PlatenTest &test, long steps, int threads) {
+  const ThreadLimit limit(threads);
+  bench::run(test, steps / 10 + 1);
+  const auto start = Clock::now();
+  bench::run(test, steps);
+  return seconds_since(start);
+}
+
+struct Problem {
+  std::unique_ptr<coupling::PlatenTest> test;
+  const dist::Ranks *ranks = nullptr;
+};
+
+Problem problem_of(const dem::Specimen &specimen, MPI_Comm over) {
+  Problem p{std::make_unique<coupling::PlatenTest>(specimen, bench::elastic_press()), nullptr};
+  if (over == MPI_COMM_NULL) return p;
+  auto exchange = std::make_unique<dist::Ranks>(over);
+  p.ranks = exchange.get();
+  p.test->share(std::move(exchange));
+  return p;
+}
+
+// Seconds a step of the exchange by itself: all messages and the reduction, with nothing beside them.
+double exchange_alone(coupling::PlatenTest &test, int times) {
+  dem::Model &model = test.model;
+  dem::Exchange &exchange = *model.exchange();
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto start = Clock::now();
+  for (int k = 0; k < times; ++k) {
+    exchange.send_motion(model.particles);
+    exchange.start_sums({});
+    exchange.receive_motion(model.particles);
+    exchange.finish_sums();
+    exchange.send_bond_ghosts(model.bonds->blocks);
+    if (model.contacts) exchange.send_contact_ghosts(model.contacts->blocks());
+    exchange.receive_ghosts(&model.bonds->blocks, model.contacts ? &model.contacts->blocks() : nullptr);
+  }
+  return seconds_since(start) / times;
+}
+
+void print_spread(const char *what, std::vector<double> values) {
+  const bench::Spread s = bench::spread(std::move(values));
+  std::printf("%-52s %.3f (%.3f ... %.3f)\n", what, s.median, s.smallest, s.largest);
+}
+
+void print_traffic(const Problem &p, const dist::Traffic &before, double seconds, double alone) {
+  const dist::Traffic now = p.ranks->traffic();
+  const double steps = static_cast<double>(now.steps - before.steps);
+  double own[3] = {(now.bytes - before.bytes) / steps,
+                   static_cast<double>(now.messages - before.messages) / steps,
+                   (now.waited - before.waited) / steps};
+  double formula[2] = {p.ranks->expected_bytes(), static_cast<double>(p.ranks->expected_messages())};
+  double most_waited = own[2];
+  MPI_Allreduce(MPI_IN_PLACE, own, 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, formula, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &most_waited, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  if (rank != 0) return;
+  std::printf("a step of all ranks: %.1f messages, %.0f bytes; formula: %.1f messages, %.0f bytes\n", own[1],
+              own[0], formula[1], formula[0]);
+  std::printf(
+      "a step takes %.4f ms; its exchange alone %.4f ms; waited %.4f ms on the mean, %.4f at most: "
+      "hidden %.2f of the exchange\n",
+      1e3 * seconds, 1e3 * alone, 1e3 * own[2] / ranks, 1e3 * most_waited, 1 - own[2] / ranks / alone);
+}
+
+void measure(const Options &o, const dem::Specimen &specimen) {
+  Problem alone, one, all = problem_of(specimen, MPI_COMM_WORLD);
+  if (rank == 0) {
+    alone = problem_of(specimen, MPI_COMM_NULL);
+    one = problem_of(specimen, MPI_COMM_SELF);
+    std::printf("%zu particles, %zu bonds, %d ranks\n", specimen.size(), alone.test->model.bonds->size(),
+                ranks);
+  }
+  seconds_of(*all.test, o.steps, 1);
+  if (rank == 0) std::printf("%s\n", dist::describe(all.ranks->partition()).c_str());
+  std::vector<double> over_one, over_threads, cost_of_one, on_ranks;
+  const dist::Traffic before = all.ranks->traffic();
+  for (int r = 0; r < o.repeats; ++r) {
+    double on_one = 0, on_threads = 0, by_one_rank = 0;
+    if (rank == 0) {
+      on_one = seconds_of(*alone.test, o.steps, 1);
+      by_one_rank = seconds_of(*one.test, o.steps, 1);
+      on_threads = seconds_of(*alone.test, o.steps, ranks);
+    }
+    wait_for_all();
+    const double seconds = seconds_of(*all.test, o.steps, 1);
+    wait_for_all();
+    over_one.push_back(on_one / seconds);
+    over_threads.push_back(on_threads / seconds);
+    cost_of_one.push_back(by_one_rank / on_one);
+    on_ranks.push_back(seconds / o.steps);
+  }
+  const double step = bench::spread(on_ranks).median, exchange = exchange_alone(*all.test, 200);
+  if (rank == 0) {
+    print_spread("ranks over one thread of one process", over_one);
+    print_spread("ranks over as many threads of one process", over_threads);
+    print_spread("one rank: seconds over those of the plain program", cost_of_one);
+  }
+  print_traffic(all, before, step, exchange);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  Options o;
+  CLI::App app("Steps of a bonded specimen on several ranks, beside one process.");
+  app.add_option("--particles", o.particles, "spheres of 1 mm radius")->check(CLI::Range(1000, 20000000));
+  app.add_option("--steps", o.steps, "steps per repeat")->check(CLI::Range(10, 1000000));
+  app.add_option("--repeats", o.repeats, "repeats; medians are printed")->check(CLI::Range(1, 1000));
+  CLI11_PARSE(app, argc, argv);
+  int level = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  measure(o, bench::close_packed(o.particles));
+  MPI_Finalize();
+  return 0;
+}
