@@ -76,6 +76,17 @@ double exchange_alone(coupling::PlatenTest &test, int times) {
   return seconds_since(start) / times;
 }
 
+// Of each rank, and of the plain program on rank 0.
+void print_stages(const dem::StageClock &of, long steps, const char *whose) {
+  std::printf("%s, ms a step:", whose);
+  for (int k = 0; k < dem::stage_count; ++k)
+    if (const double s = of.seconds(static_cast<dem::Stage>(k)); s > 0)
+      std::printf(" %s %.4f", dem::stage_names[static_cast<std::size_t>(k)],
+                  1e3 * s / static_cast<double>(steps));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 void print_spread(const char *what, std::vector<double> values) {
   const bench::Spread s = bench::spread(std::move(values));
   std::printf("%-52s %.3f (%.3f ... %.3f)\n", what, s.median, s.smallest, s.largest);
@@ -135,6 +146,12 @@ void measure(const Options &o, const dem::Specimen &specimen) {
     print_spread("one rank: seconds over those of the plain program", cost_of_one);
   }
   print_traffic(all, before, step, exchange);
+  if (rank == 0) print_stages(one.test->model.clock, one.test->steps(), "one rank");
+  for (int r = 0; r < ranks; ++r) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (r == rank)
+      print_stages(all.test->model.clock, all.test->steps(), ("rank " + std::to_string(rank)).c_str());
+  }
 }
 
 } // namespace

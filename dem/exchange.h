@@ -16,6 +16,7 @@ struct PairBlocks;
 
 // Blocks of 512 rows that this rank computes, ascending. Outer ones reach particles of other ranks; of the
 // others, those that are worked out while positions, and while forces, are under way.
+// These lists are worked through in portions, between which messages may go on.
 struct OwnBlocks {
   BlockList all, outer, first_inner, last_inner;
 };
@@ -37,6 +38,8 @@ public:
   virtual void start_sums(const StepSums &own) = 0;
   virtual void receive_motion(Particles &particles) = 0;
   virtual StepSums finish_sums() = 0;
+  // Gives what is under way a chance to go on: large messages do only while both sides ask.
+  virtual void progress() = 0;
   // What pairs of own blocks exert on particles of other ranks: of bonds once outer blocks are done; of
   // contacts once all are.
   virtual void send_bond_ghosts(const PairBlocks &blocks) = 0;

@@ -172,6 +172,7 @@ private:
   void start_exchange(double dt);
   void search_contacts();
   void compute_bonds(double dt, const BlockList *listed, const Loop &beside = {});
+  void compute_portions(double dt, const BlockList &listed, const Loop &beside = {});
   void compute_shared(double dt, const Loop &beside);
   void receive_ghosts();
   void add_sums();

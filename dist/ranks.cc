@@ -110,6 +110,11 @@ dem::StepSums Ranks::finish_sums() {
           static_cast<long>(all_sums_.breaks)};
 }
 
+void Ranks::progress() {
+  int any = 0;
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, ranks_, &any, MPI_STATUS_IGNORE);
+}
+
 std::vector<dem::Crack> Ranks::all_cracks(const std::vector<dem::Crack> &own) {
   std::vector<dem::Crack> all = gather_list_of_all(ranks_, own);
   std::sort(all.begin(), all.end(), [](const dem::Crack &a, const dem::Crack &b) {

@@ -55,6 +55,7 @@ public:
   void start_sums(const dem::StepSums &own) override;
   void receive_motion(dem::Particles &particles) override;
   dem::StepSums finish_sums() override;
+  void progress() override;
   void send_bond_ghosts(const dem::PairBlocks &blocks) override;
   void send_contact_ghosts(const dem::PairBlocks &blocks) override;
   void receive_ghosts(dem::PairBlocks *bonds, dem::PairBlocks *contacts) override;
