@@ -99,6 +99,13 @@ void print_traffic(const Problem &p, const dist::Traffic &before, double seconds
                    static_cast<double>(now.messages - before.messages) / steps,
                    (now.waited - before.waited) / steps};
   double formula[2] = {p.ranks->expected_bytes(), static_cast<double>(p.ranks->expected_messages())};
+  std::size_t closed = 0; // contacts of platens, whose loads go to all
+  for (const auto &boundary : p.test->boundaries())
+    closed += boundary->closed();
+  constexpr double bytes_of_load = 152;
+  const double counts = 8 * static_cast<double>(p.test->boundaries().size());
+  if (rank == 0) formula[0] += (ranks - 1) * (bytes_of_load * static_cast<double>(closed) + ranks * counts);
+  formula[1] += ranks - 1;
   double most_waited = own[2];
   MPI_Allreduce(MPI_IN_PLACE, own, 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   MPI_Allreduce(MPI_IN_PLACE, formula, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

@@ -104,6 +104,15 @@ public:
     return listed != nullptr ? std::optional(*listed) : std::nullopt;
   }
   virtual bool reads_all(const Step &) const { return false; }
+  // The contact work of a boundary that is shared out: each rank prepares and computes what belongs to the
+  // marked blocks of particles, appends what comes of it, and takes what all have appended, in any order.
+  // Then the same of all that is told of rows and kept, between steps.
+  virtual void compute_only(const std::vector<char> & /*own_blocks*/) {}
+  virtual std::size_t most_bytes() const { return 0; } // that a rank appends
+  virtual void put_loads(std::vector<char> &) const {}
+  virtual void take_loads(const std::vector<char> & /*of_all*/) {}
+  virtual void put_rows(std::vector<char> &) const {}
+  virtual void take_rows(const std::vector<char> & /*of_all*/) {}
 
   // Springs of the particles near it, listed anew, for the stable step; fraction of critical damping of its
   // dashpots; its own limit, once they are listed; the same as far as it is known without work.
@@ -156,6 +165,13 @@ public:
   }
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }
+  std::optional<std::vector<int>> rows_read() const override { return std::vector<int>{}; }
+  void compute_only(const std::vector<char> &own_blocks) override { layer().compute_only(own_blocks); }
+  std::size_t most_bytes() const override { return layer().most_bytes(); }
+  void put_loads(std::vector<char> &bytes) const override { layer().put_loads(bytes); }
+  void take_loads(const std::vector<char> &of_all) override { layer().take_loads(of_all); }
+  void put_rows(std::vector<char> &bytes) const override { layer().put_rows(bytes); }
+  void take_rows(const std::vector<char> &of_all) override { layer().take_rows(of_all); }
   bool reads_all(const Step &step) const override {
     return layer().search().stale_after(step.farthest + farthest(step));
   }

@@ -70,7 +70,7 @@ void Experiment::make_step(bool first_of_call) {
   if (choice_is_due()) {
     if (!first_of_call) model.end_step(time_step_);
     first_of_call = true;
-    model.gather();
+    gather();
     {
       dem::StageClock::Lap lap(model.clock, dem::Stage::stable_step);
       choose_step(false);
@@ -108,7 +108,12 @@ void Experiment::compute_forces() {
     const std::size_t b = static_cast<std::size_t>(after - first_part_.begin()) - 1;
     boundaries_[b]->compute_part(model.particles, step, p - first_part_[b]);
   };
-  model.compute_forces(time_step_, loop_of(first_part_.back(), part));
+  if (model.is_cut()) {
+    model.compute_forces(time_step_, loop_of(first_part_.back(), part), [this] { send_loads(); });
+    receive_loads();
+  } else {
+    model.compute_forces(time_step_, loop_of(first_part_.back(), part));
+  }
   apply_boundary_forces(step);
   finish_boundaries(step);
   share_rows_of_boundaries();

@@ -81,7 +81,7 @@ public:
   // step: before energies, measures of the specimen or a state are asked for. settle() makes cracks and their
   // number known to all.
   void share(std::unique_ptr<dem::Exchange> exchange) { model.share(std::move(exchange)); }
-  void gather() { model.gather(); }
+  void gather();
   void settle() { model.settle(); }
 
 protected:
@@ -97,6 +97,8 @@ private:
   void begin_sharing();
   void gather_for_boundaries(const Step &step);
   void share_rows_of_boundaries();
+  void send_loads();
+  void receive_loads();
   bool any_rank(bool here) const;
   long lists_made() const;
   double work_from_outside() const;

@@ -36,7 +36,7 @@ void Experiment::require_boundaries_finite() {
 }
 
 void Experiment::stop_not_finite() {
-  model.gather();
+  gather();
   std::string where = dem::not_finite(model.particles);
   for (const auto &boundary : boundaries_)
     if (where.empty() && !boundary->is_finite()) where = "the force on the " + boundary->name();
@@ -47,7 +47,7 @@ void Experiment::stop_not_finite() {
 
 // A contact layer refuses a motion that could carry a particle through a face unseen.
 void Experiment::stop_unseen(const std::string &reason) {
-  model.gather();
+  gather();
   const auto slower = [](const Vector3 &a, const Vector3 &b) { return norm(a) < norm(b); };
   const dem::Particles &p = model.particles;
   const auto fastest = std::max_element(p.velocity.begin(), p.velocity.end(), slower) - p.velocity.begin();
@@ -73,7 +73,7 @@ void Experiment::check_energy() {
   const double mass = std::accumulate(model.particles.mass.begin(), model.particles.mass.end(), 0.0);
   energy_allowed_ = most_of_work_in_motion * (came_in + 0.5 * mass * speed * speed);
   if (moving <= energy_allowed_) return;
-  model.gather();
+  gather();
   const dem::StableStep limit = limit_now();
   const std::string step = "the time step of " + text_of(time_step_) + " s is ";
   const std::string cause =

@@ -1,9 +1,11 @@
 // An experiment whose specimen is cut over ranks. Each has all boundaries and the program, and computes them
 // from the same numbers: what they read of the specimen is sent to all.
 #include <algorithm>
-#include <iterator>
+#include <cstdint>
+#include <cstring>
 #include <set>
 
+#include "base/parallel.h"
 #include "coupling/experiment.h"
 
 namespace platen::coupling {
@@ -22,8 +24,55 @@ bool Experiment::any_rank(bool here) const {
 void Experiment::begin_sharing() {
   if (model.exchange() == nullptr || model.is_cut()) return;
   model.scatter();
+  std::vector<char> own(number_of_blocks(model.particles.size()), 0);
+  for (const int block : model.exchange()->blocks().all)
+    own[static_cast<std::size_t>(block)] = 1;
+  for (const auto &boundary : boundaries_)
+    boundary->compute_only(own);
   lists_shared_ = -1;
   share_rows_of_boundaries();
+}
+
+void Experiment::gather() {
+  if (!model.is_cut()) return;
+  for (const auto &boundary : boundaries_) {
+    std::vector<char> own;
+    boundary->put_rows(own);
+    boundary->take_rows(model.exchange()->all_bytes(own));
+  }
+  model.gather();
+}
+
+// Of all boundaries in one message: how many bytes each has, then these.
+void Experiment::send_loads() {
+  if (model.exchange()->ranks() == 1) return;
+  std::vector<char> bytes(boundaries_.size() * sizeof(std::uint64_t));
+  std::size_t most = bytes.size();
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    const std::size_t before = bytes.size();
+    boundaries_[b]->put_loads(bytes);
+    const std::uint64_t count = bytes.size() - before;
+    std::memcpy(bytes.data() + b * sizeof count, &count, sizeof count);
+    most += boundaries_[b]->most_bytes();
+  }
+  model.exchange()->send_to_all(bytes, most);
+}
+
+void Experiment::receive_loads() {
+  if (model.exchange()->ranks() == 1) return;
+  dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
+  std::vector<std::vector<char>> of_boundary(boundaries_.size());
+  for (const dem::Exchange::Received &bytes : model.exchange()->receive_from_all()) {
+    std::size_t at = boundaries_.size() * sizeof(std::uint64_t);
+    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+      std::uint64_t count = 0;
+      std::memcpy(&count, bytes.data + b * sizeof count, sizeof count);
+      of_boundary[b].insert(of_boundary[b].end(), bytes.data + at, bytes.data + at + count);
+      at += count;
+    }
+  }
+  for (std::size_t b = 0; b < boundaries_.size(); ++b)
+    boundaries_[b]->take_loads(of_boundary[b]);
 }
 
 void Experiment::gather_for_boundaries(const Step &step) {

@@ -2,6 +2,7 @@
 // asked of the others in a step. The particle library knows no more of them; dist/ answers by MPI.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/exact_sum.h"
@@ -31,6 +32,7 @@ struct StepSums {
 class Exchange {
 public:
   virtual ~Exchange() = default;
+  virtual int ranks() const = 0;
   virtual const OwnBlocks &blocks() const = 0;
 
   // A step, in this order. Position and motion of particles that other ranks need, after the drift.
@@ -46,6 +48,17 @@ public:
   virtual void send_contact_ghosts(const PairBlocks &blocks) = 0;
   // Puts what others have sent behind the own ghosts. Null: there are none of that kind.
   virtual void receive_ghosts(PairBlocks *bonds, PairBlocks *contacts) = 0;
+
+  // Bytes to each rank, in a step: what all have sent, this one too, in the order of ranks. No rank sends
+  // more than `most`, which all know.
+  virtual void send_to_all(const std::vector<char> &bytes, std::size_t most) = 0;
+  struct Received {
+    const char *data = nullptr; // until the next send_to_all()
+    std::size_t count = 0;
+  };
+  virtual std::vector<Received> receive_from_all() = 0;
+  // The same at once, one after the other.
+  virtual std::vector<char> all_bytes(const std::vector<char> &own) = 0;
 
   // Motion of all particles on all ranks, as it is now.
   virtual void gather_motion(Particles &particles) = 0;

@@ -117,9 +117,9 @@ void Model::search_contacts() {
   if (wide) exchange_->renew_contacts(*this);
 }
 
-void Model::compute_forces(double dt, const Loop &beside) {
+void Model::compute_forces(double dt, const Loop &beside, const std::function<void()> &done) {
   search_contacts();
-  if (exchange_) return compute_shared(dt, beside);
+  if (exchange_) return compute_shared(dt, beside, done);
   compute_bonds(dt, nullptr, beside);
   finish_breaks(dt);
   if (bonds && settings_.bond_dashpot > 0) {
@@ -134,7 +134,7 @@ void Model::compute_forces(double dt, const Loop &beside) {
 
 // Outer blocks come first, so that what they exert on particles of other ranks is under way while the rest of
 // the inner ones is computed.
-void Model::compute_shared(double dt, const Loop &beside) {
+void Model::compute_shared(double dt, const Loop &beside, const std::function<void()> &done) {
   const OwnBlocks &blocks = exchange_->blocks();
   const auto add_dashpots = [&](std::initializer_list<const BlockList *> lists) {
     if (!bonds || !(settings_.bond_dashpot > 0)) return;
@@ -142,11 +142,12 @@ void Model::compute_shared(double dt, const Loop &beside) {
     for (const BlockList *listed : lists)
       works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt, listed);
   };
-  compute_portions(dt, blocks.outer);
+  compute_portions(dt, blocks.outer, beside);
+  if (done) done();
   finish_breaks(dt);
   add_dashpots({&blocks.first_inner, &blocks.outer});
   if (bonds) exchange_->send_bond_ghosts(bonds->blocks);
-  compute_portions(dt, blocks.last_inner, beside);
+  compute_portions(dt, blocks.last_inner);
   finish_breaks(dt);
   add_dashpots({&blocks.last_inner});
   if (!contacts) return;

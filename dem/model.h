@@ -1,6 +1,7 @@
 // The specimen: its tables, the effects that its scene calls for, and the stages of one step in their order.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -108,7 +109,8 @@ public:
   // Contact search, bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them
   // and the weight, but for what waits in the ghosts. `beside` is done too, while threads have hands free: it
   // may read particles but write nothing of theirs. Throws NotFinite where the search meets such a place.
-  void compute_forces(double dt, const Loop &beside = {});
+  // On ranks `done` is called once `beside` is, while there is work left.
+  void compute_forces(double dt, const Loop &beside = {}, const std::function<void()> &done = {});
   // Ghosts of bonds, damping, second half kick; forces are complete then.
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
@@ -173,7 +175,7 @@ private:
   void search_contacts();
   void compute_bonds(double dt, const BlockList *listed, const Loop &beside = {});
   void compute_portions(double dt, const BlockList &listed, const Loop &beside = {});
-  void compute_shared(double dt, const Loop &beside);
+  void compute_shared(double dt, const Loop &beside, const std::function<void()> &done);
   void receive_ghosts();
   void add_sums();
   const BlockList *own_blocks() const { return exchange_ ? &exchange_->blocks().all : nullptr; }

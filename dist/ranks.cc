@@ -123,6 +123,10 @@ std::vector<dem::Crack> Ranks::all_cracks(const std::vector<dem::Crack> &own) {
   return all;
 }
 
+std::vector<char> Ranks::all_bytes(const std::vector<char> &own) {
+  return gather_list_of_all(ranks_, own);
+}
+
 ExactSum Ranks::all(ExactSum own) {
   Sums sums{0, own.not_finite(), 0, own.carried()};
   MPI_Allreduce(MPI_IN_PLACE, &sums, 1, sums_type_, add_sums_, ranks_);

@@ -50,6 +50,7 @@ public:
   double expected_bytes() const;
   long expected_messages() const;
 
+  int ranks() const override { return size_; }
   const dem::OwnBlocks &blocks() const override { return blocks_; }
   void send_motion(const dem::Particles &particles) override;
   void start_sums(const dem::StepSums &own) override;
@@ -59,6 +60,9 @@ public:
   void send_bond_ghosts(const dem::PairBlocks &blocks) override;
   void send_contact_ghosts(const dem::PairBlocks &blocks) override;
   void receive_ghosts(dem::PairBlocks *bonds, dem::PairBlocks *contacts) override;
+  void send_to_all(const std::vector<char> &bytes, std::size_t most) override;
+  std::vector<Received> receive_from_all() override;
+  std::vector<char> all_bytes(const std::vector<char> &own) override;
   void gather_motion(dem::Particles &particles) override;
   void renew_contacts(dem::Model &model) override;
   void share_rows(const std::vector<int> *rows) override;
@@ -129,6 +133,9 @@ private:
   bool share_all_ = false;
   std::vector<std::vector<int>> motion_to_, motion_from_; // both of these
   Messages motion_, bonds_, contacts_;
+  std::vector<std::vector<char>> loads_; // of each rank
+  std::vector<char> own_loads_;
+  std::vector<MPI_Request> receiving_loads_, sending_loads_;
 
   MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
   MPI_Op add_sums_ = MPI_OP_NULL;

@@ -10,6 +10,8 @@
 namespace platen::dist {
 namespace {
 
+constexpr int loads_tag = 14;
+
 void put(std::vector<double> &to, const Vector3 &v) {
   to.insert(to.end(), {v.x, v.y, v.z});
 }
@@ -155,6 +157,39 @@ void Ranks::send_contact_ghosts(const dem::PairBlocks &blocks) {
     }
   for (std::size_t r = 0; r < contact_ghosts_.size(); ++r)
     if (!contact_ghosts_[r].empty()) send(contacts_, static_cast<int>(r));
+}
+
+void Ranks::send_to_all(const std::vector<char> &bytes, std::size_t most) {
+  MPI_Waitall(static_cast<int>(sending_loads_.size()), sending_loads_.data(), MPI_STATUSES_IGNORE);
+  own_loads_.assign(bytes.begin(), bytes.end());
+  loads_.resize(static_cast<std::size_t>(size_));
+  receiving_loads_.assign(static_cast<std::size_t>(size_), MPI_REQUEST_NULL);
+  sending_loads_ = receiving_loads_;
+  for (int r = 0; r < size_; ++r) {
+    if (r == rank_) continue;
+    const std::size_t k = static_cast<std::size_t>(r);
+    if (loads_[k].size() < most) loads_[k].resize(most);
+    MPI_Irecv(loads_[k].data(), static_cast<int>(most), MPI_BYTE, r, loads_tag, ranks_, &receiving_loads_[k]);
+    MPI_Isend(own_loads_.data(), static_cast<int>(own_loads_.size()), MPI_BYTE, r, loads_tag, ranks_,
+              &sending_loads_[k]);
+    ++traffic_.messages;
+    traffic_.bytes += static_cast<double>(own_loads_.size());
+  }
+}
+
+std::vector<dem::Exchange::Received> Ranks::receive_from_all() {
+  const auto start = Clock::now();
+  std::vector<MPI_Status> status(receiving_loads_.size());
+  MPI_Waitall(static_cast<int>(status.size()), receiving_loads_.data(), status.data());
+  traffic_.waited += seconds_since(start);
+  std::vector<Received> all;
+  for (int r = 0; r < size_; ++r) {
+    const std::size_t k = static_cast<std::size_t>(r);
+    int count = static_cast<int>(own_loads_.size());
+    if (r != rank_) MPI_Get_count(&status[k], MPI_BYTE, &count);
+    all.push_back({(r == rank_ ? own_loads_ : loads_[k]).data(), static_cast<std::size_t>(count)});
+  }
+  return all;
 }
 
 void Ranks::receive_ghosts(dem::PairBlocks *bonds, dem::PairBlocks *contacts) {

@@ -114,6 +114,18 @@ public:
   // and then, once, what particles and body get of them.
   void apply_forces(dem::Particles &particles, fem::LoadedSurface &body);
 
+  // On ranks, which have the same rows: marks the blocks of particles whose rows are worked out here, in
+  // prepare() and compute_part(). All of them where this was not called.
+  void compute_only(const std::vector<char> &own_blocks) { own_blocks_ = own_blocks; }
+  // Between compute_part() and apply_forces(): appends what rows that were worked out here give to body and
+  // sums; and takes what all ranks have appended, one after the other in any order, its own included.
+  void put_loads(std::vector<char> &bytes) const;
+  void take_loads(const std::vector<char> &of_all);
+  std::size_t most_bytes() const; // that any rank can append in a step
+  // The same of everything that a row holds: history and contact, to be told of and kept.
+  void put_rows(std::vector<char> &bytes) const;
+  void take_rows(const std::vector<char> &of_all);
+
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const;              // ascending particle rows
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
@@ -180,6 +192,14 @@ private:
     double normal_force = 0, slip = 0;    // N, m
     bool sliding = false;
   };
+  // Of one row, between ranks.
+  struct SharedLoad {
+    int row, particle, face;
+    std::array<double, 4> weights;
+    Vector3 force, point, moment;
+    double elastic, friction_loss, damping_loss, depth;
+  };
+  bool is_own(std::size_t row) const;
   void set_rows(const std::vector<int> &particles);
   void find_due_rows();
   std::vector<int> seated_particles() const;
@@ -223,6 +243,7 @@ private:
   Column<Vector3> *seat_spring_ = nullptr;         // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 
+  std::vector<char> own_blocks_;     // empty: all
   double travelled_ = 0;             // m, sum of the distances told to moved()
   std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
   std::vector<std::size_t> due_;     // rows to work out in this step

@@ -48,7 +48,7 @@ bool ContactLayer::holds_history(std::size_t row) const {
 void ContactLayer::find_due_rows() {
   due_.clear();
   for (std::size_t row = 0; row < table_.size(); ++row)
-    if (!(travelled_ < idle_until_[row])) due_.push_back(row);
+    if (!(travelled_ < idle_until_[row]) && is_own(row)) due_.push_back(row);
   loads_.resize(due_.size());
   contacts_.resize(due_.size());
 }

@@ -1,0 +1,113 @@
+// Rows of a contact layer that several ranks work out together: each those of its own particles, and all get
+// what these give to the body. Added up row by row, as on one rank.
+#include <algorithm>
+#include <cstring>
+
+#include "base/parallel.h"
+#include "coupling/contact/contact_layer.h"
+
+namespace platen::coupling {
+namespace {
+
+template <class T>
+void put(std::vector<char> &bytes, const T &value) {
+  const char *from = reinterpret_cast<const char *>(&value);
+  bytes.insert(bytes.end(), from, from + sizeof value);
+}
+
+template <class T>
+T take(const std::vector<char> &bytes, std::size_t &at) {
+  T value;
+  std::memcpy(static_cast<void *>(&value), bytes.data() + at, sizeof value);
+  at += sizeof value;
+  return value;
+}
+
+} // namespace
+
+bool ContactLayer::is_own(std::size_t row) const {
+  return own_blocks_.empty() || own_blocks_[static_cast<std::size_t>(particle_[row]) / block_rows];
+}
+
+std::size_t ContactLayer::most_bytes() const {
+  return table_.size() * sizeof(SharedLoad);
+}
+
+void ContactLayer::put_loads(std::vector<char> &bytes) const {
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const RowLoad &l = loads_[k];
+    const bool active = l.particle >= 0;
+    if (!active && l.friction_loss == 0 && l.damping_loss == 0) continue;
+    SharedLoad shared{};
+    shared.row = static_cast<int>(due_[k]);
+    shared.particle = l.particle;
+    shared.friction_loss = l.friction_loss, shared.damping_loss = l.damping_loss;
+    if (active) {
+      shared.face = l.face, shared.weights = l.weights;
+      shared.force = l.force, shared.point = contacts_[k].point, shared.moment = contacts_[k].moment;
+      shared.elastic = l.elastic, shared.depth = l.depth;
+    }
+    put(bytes, shared);
+  }
+}
+
+// Own rows stay as they are: of others the torque on the particle and what only pictures need is not sent.
+void ContactLayer::take_loads(const std::vector<char> &of_all) {
+  std::vector<SharedLoad> shared(of_all.size() / sizeof(SharedLoad));
+  if (!shared.empty()) std::memcpy(static_cast<void *>(shared.data()), of_all.data(), of_all.size());
+  std::sort(shared.begin(), shared.end(),
+            [](const SharedLoad &a, const SharedLoad &b) { return a.row < b.row; });
+  std::vector<std::size_t> rows;
+  std::vector<RowLoad> loads;
+  std::vector<RowContact> contacts;
+  rows.reserve(shared.size()), loads.reserve(shared.size()), contacts.reserve(shared.size());
+  for (const SharedLoad &s : shared) {
+    const std::size_t row = static_cast<std::size_t>(s.row);
+    rows.push_back(row);
+    if (is_own(row)) {
+      const std::size_t k =
+          static_cast<std::size_t>(std::lower_bound(due_.begin(), due_.end(), row) - due_.begin());
+      loads.push_back(loads_[k]), contacts.push_back(contacts_[k]);
+      continue;
+    }
+    RowLoad load;
+    load.particle = s.particle, load.face = s.face, load.weights = s.weights;
+    load.force = s.force;
+    load.elastic = s.elastic, load.friction_loss = s.friction_loss, load.damping_loss = s.damping_loss;
+    load.depth = s.depth;
+    RowContact contact{};
+    contact.point = s.point, contact.moment = s.moment;
+    loads.push_back(load), contacts.push_back(contact);
+  }
+  due_ = std::move(rows), loads_ = std::move(loads), contacts_ = std::move(contacts);
+}
+
+void ContactLayer::put_rows(std::vector<char> &bytes) const {
+  for (std::size_t row = 0; row < table_.size(); ++row) {
+    if (!is_own(row)) continue;
+    put(bytes, static_cast<int>(row));
+    for (const auto &column : table_.columns()) {
+      const char *from = static_cast<const char *>(column->bytes()) + row * column->bytes_per_row();
+      bytes.insert(bytes.end(), from, from + column->bytes_per_row());
+    }
+    const auto due = std::lower_bound(due_.begin(), due_.end(), row);
+    const bool found = due != due_.end() && *due == row;
+    put(bytes, found ? contacts_[static_cast<std::size_t>(due - due_.begin())] : RowContact{});
+  }
+}
+
+void ContactLayer::take_rows(const std::vector<char> &of_all) {
+  for (std::size_t at = 0; at < of_all.size();) {
+    const std::size_t row = static_cast<std::size_t>(take<int>(of_all, at));
+    for (const auto &column : table_.columns()) {
+      const std::size_t width = column->bytes_per_row();
+      std::memcpy(static_cast<char *>(column->bytes()) + row * width, of_all.data() + at, width);
+      at += width;
+    }
+    const RowContact contact = take<RowContact>(of_all, at);
+    const auto due = std::lower_bound(due_.begin(), due_.end(), row);
+    if (due != due_.end() && *due == row) contacts_[static_cast<std::size_t>(due - due_.begin())] = contact;
+  }
+}
+
+} // namespace platen::coupling
