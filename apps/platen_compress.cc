@@ -4,8 +4,13 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  return run_app_on_ranks(argc, argv,
-                 {AppKind::compress, "platen-compress",
-                  "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens."},
-                 run_compression);
+  return run_app_on_ranks(
+      argc, argv,
+      {AppKind::compress,
+       "platen-compress",
+       "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens.",
+       {},
+       false,
+       true},
+      run_compression);
 }

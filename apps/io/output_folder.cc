@@ -20,14 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *frames_folder = "frames", *checkpoint_folder = "checkpoint";
+constexpr const char *frames_folder = "frames", *checkpoint_folder = "checkpoint",
+                     *packings_folder = "packings";
+constexpr const char *inner_folders[] = {frames_folder, checkpoint_folder, packings_folder};
 constexpr std::chrono::seconds patience_of_run{5};
 constexpr std::chrono::milliseconds glance{20}; // between two tries to lock
 
 // What the earlier run left, relative to the folder, in the order of names. Links count by their own name.
 std::vector<fs::path> outputs_in(const fs::path &folder) {
   std::vector<fs::path> found;
-  for (const char *part : {"", frames_folder, checkpoint_folder}) {
+  for (const char *part : {"", frames_folder, checkpoint_folder, packings_folder}) {
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder / part, error)) {
       const fs::path relative = fs::path(part) / entry.path().filename();
@@ -86,10 +88,12 @@ bool is_output_name(const fs::path &relative) {
   static const std::regex frame(
       "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu|fields_[0-9]{6,}(\\.part)?\\."
       "vti)");
+  static const std::regex packing(R"([0-9a-f]{16}(\.[^/]+\.part)?\.csv|in_use)");
   const std::string name = relative.filename().string();
   const fs::path parent = relative.parent_path();
   if (parent.empty()) return std::regex_match(name, top);
   if (parent == frames_folder) return std::regex_match(name, frame);
+  if (parent == packings_folder) return std::regex_match(name, packing);
   return parent == checkpoint_folder && is_checkpoint_name(name);
 }
 
@@ -125,7 +129,7 @@ void open_output_folder(const fs::path &folder, FolderUse use, const std::vector
     fs::remove(folder / file, error);
     if (error) fail(folder, fmt::format("{} cannot be removed: {}", file.string(), error.message()));
   }
-  for (const char *part : {frames_folder, checkpoint_folder})
+  for (const char *part : inner_folders)
     fs::remove(folder / part, error); // only where nothing of the user's is left in it
 }
 

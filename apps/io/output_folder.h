@@ -32,8 +32,9 @@ struct OutputPaths {
   std::filesystem::path study_json() const { return folder / "study.json"; }
   std::filesystem::path costs() const { return folder / "costs.csv"; }
   std::filesystem::path accuracy() const { return folder / "accuracy.csv"; }
-  std::filesystem::path runs() const { return folder / "runs"; }    // of a study: an output folder for each
-  std::filesystem::path view() const { return folder / "view.py"; } // for ParaView
+  std::filesystem::path runs() const { return folder / "runs"; } // of a study: an output folder for each
+  std::filesystem::path packings() const { return folder / "packings"; } // that its runs share
+  std::filesystem::path view() const { return folder / "view.py"; }      // for ParaView
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
   // "frames/specimen_000012.vtu": relative to the folder, as a .pvd names it.
   static std::string frame_name(const std::string &series, int index);

@@ -1,6 +1,7 @@
 # Everything that is written. The sources need fmt::fmt, nlohmann_json::nlohmann_json, xxhash and these components of
 # VTK: CommonCore CommonDataModel IOXML IOXMLParser. Of the project they need dem and the header apps/scene/errors.h.
 set(PLATEN_IO_SOURCES
+  io/byte_lock.cc
   io/file.cc
   io/checkpoint.cc
   io/checkpoint_folder.cc

@@ -106,18 +106,22 @@ void read_row(std::string_view row, const Place &place, dem::Specimen &specimen)
 
 } // namespace
 
+void tell_specimen_csv(const dem::Specimen &specimen, const std::function<void(std::string_view)> &take) {
+  std::string text = shape_line(specimen.shape) + std::string(header) + '\n';
+  for (std::size_t k = 0; k < specimen.size(); ++k) {
+    const Vector3 &c = specimen.centre[k];
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", c.x, c.y, c.z, specimen.radius[k]);
+    if (text.size() < write_bytes) continue;
+    take(text);
+    text.clear();
+  }
+  take(text);
+}
+
 void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &specimen) {
   write_aside(path, [&](const std::filesystem::path &part) {
     OutputFile file(part);
-    std::string text = shape_line(specimen.shape) + std::string(header) + '\n';
-    for (std::size_t k = 0; k < specimen.size(); ++k) {
-      const Vector3 &c = specimen.centre[k];
-      fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", c.x, c.y, c.z, specimen.radius[k]);
-      if (text.size() < write_bytes) continue;
-      file.write(text);
-      text.clear();
-    }
-    file.write(text);
+    tell_specimen_csv(specimen, [&](std::string_view text) { file.write(text); });
     file.close();
   });
 }

@@ -7,7 +7,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "dem/packing/specimen.h"
@@ -16,6 +18,8 @@ namespace platen::apps {
 
 // Writes shape and spheres so that they read back to the same bits. Throws OutputError.
 void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &specimen);
+// The same text in pieces, one after the other.
+void tell_specimen_csv(const dem::Specimen &specimen, const std::function<void(std::string_view)> &take);
 
 struct SpecimenFile {
   dem::Specimen specimen;

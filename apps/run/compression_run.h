@@ -12,6 +12,7 @@
 #include "apps/run/history.h"
 #include "apps/run/results.h"
 #include "apps/run/specimen_check.h"
+#include "apps/run/specimen_setup.h"
 #include "apps/run/summary_of_run.h"
 #include "coupling/platen_test.h"
 
@@ -32,6 +33,7 @@ public:
   int run(); // the exit status; throws NumericsError
 
 private:
+  KeepPacking keep_packing(); // where the command line names a folder for it
   void require_memory(const dem::Shape &shape);
   std::string description() const;
   double every(const Interval &interval, double automatic) const;

@@ -14,9 +14,11 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/ranks.h"
 #include "apps/run/run_state.h"
+#include "apps/run/shared_packing.h"
 #include "apps/run/specimen_check.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/rank.h"
 #include "coupling/program_of_test.h"
 #include "coupling/static_press.h"
 
@@ -24,8 +26,8 @@ namespace platen::apps {
 namespace {
 
 // The specimen as the app presses it.
-dem::Specimen placed(const Scene &scene, Pressed pressed) {
-  const dem::Specimen made = make_bonded_specimen(scene);
+dem::Specimen placed(const Scene &scene, Pressed pressed, const KeepPacking &keep) {
+  const dem::Specimen made = make_bonded_specimen(scene, keep);
   const auto refuse = [&](const std::string &reason) { apps::refuse(scene, "Specimen/File", reason); };
   if (pressed == Pressed::across_axis) {
     if (made.shape.kind == dem::ShapeKind::box)
@@ -91,7 +93,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (packs) require_memory(as_pressed(specimen_shape(scene), scene, pressed));
   if (!counted_.empty()) return;
   // A resumed run takes the packing that the first part wrote, to the last bit.
-  const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed);
+  const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed, keep_packing());
   require_spheres(scene, specimen);
   if (!packs) require_memory(specimen.shape);
   if (!counted_.empty()) return;
@@ -121,6 +123,14 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   output_.open();
   if (!resumes) write_specimen_csv(paths_.specimen_csv(), specimen);
   specimen_sum_ = sha256_of_file(paths_.specimen_csv()).value_or("");
+}
+
+KeepPacking CompressionRun::keep_packing() {
+  if (command_.packings.empty()) return {};
+  return [this](const std::function<dem::Specimen()> &pack) {
+    const bool writes = !command_.dry_run && !this_rank().is_silent();
+    return shared_packing(scene_, command_.packings, pack, writes, log_);
+  };
 }
 
 void CompressionRun::require_files_of_checkpoint() {

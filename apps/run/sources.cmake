@@ -22,6 +22,7 @@ set(PLATEN_RUN_SOURCES
   run/report_of_run.cc
   run/results.cc
   run/run_state.cc
+  run/shared_packing.cc
   run/specimen_check.cc
   run/specimen_setup.cc
   run/stages_of_run.cc

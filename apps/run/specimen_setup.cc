@@ -163,8 +163,10 @@ dem::Specimen make_specimen(const Scene &scene) {
   return specimen;
 }
 
-dem::Specimen make_bonded_specimen(const Scene &scene) {
-  dem::Specimen specimen = make_specimen(scene);
+dem::Specimen make_bonded_specimen(const Scene &scene, const KeepPacking &keep) {
+  const bool packs = scene.specimen.packing != PackingKind::file;
+  dem::Specimen specimen = keep && packs ? keep([&] { return place_spheres(scene); }) : place_spheres(scene);
+  check_phases(scene, specimen);
   const Gap &gap = scene.model.bond_layout.gap;
   if (scene.bond.bonded() && !gap.relative && gap.value > dem::smallest_radius(specimen))
     refuse(scene, "Bond/Gap",

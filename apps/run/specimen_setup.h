@@ -1,6 +1,8 @@
 // From the section Specimen of a scene to a packing of spheres.
 #pragma once
 
+#include <functional>
+
 #include "apps/scene/scene.h"
 #include "dem/packing/specimen.h"
 
@@ -13,6 +15,9 @@ dem::Shape specimen_shape(const Scene &scene);
 // Throws InputError where more spheres fill the shape than the memory of this machine holds.
 void check_count(const Scene &scene, const dem::Shape &shape);
 
+// What becomes of a packing: calls `pack`, or takes what it would give from elsewhere.
+using KeepPacking = std::function<dem::Specimen(const std::function<dem::Specimen()> &pack)>;
+
 // Packs the spheres of a scene, or reads them from Specimen/File; the seed of the scene decides all random
 // numbers.
 // A file's own shape holds; dimensions in the scene must agree with it within 1e-6, and are needed where the
@@ -23,7 +28,8 @@ void check_count(const Scene &scene, const dem::Shape &shape);
 dem::Specimen make_specimen(const Scene &scene);
 
 // The same for bonds between the spheres. Throws InputError too where Bond/Gap reaches past neighbours.
-dem::Specimen make_bonded_specimen(const Scene &scene);
+// `keep`, where it is given, is asked for a packing; for a specimen of a file it is not.
+dem::Specimen make_bonded_specimen(const Scene &scene, const KeepPacking &keep = {});
 
 // Throws InputError where this machine's memory cannot hold the spheres that fill the specimen; make_specimen
 // does so too.

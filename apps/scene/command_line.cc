@@ -31,17 +31,22 @@ void check_name(const std::string &name, const char *what) {
            "... holds a control character or a line end. Allowed: a name without.");
 }
 
-const std::vector<std::string> option_names = {
-    "--output",           "--set",  "--threads", "--resume",  "--overwrite", "--dry-run",
-    "--print-parameters", "--json", "--quiet",   "--verbose", "--help",      "--version"};
+std::vector<std::string> option_names(const AppDescription &app) {
+  std::vector<std::string> names{
+      "--output",           "--set",  "--threads", "--resume",  "--overwrite", "--dry-run",
+      "--print-parameters", "--json", "--quiet",   "--verbose", "--help",      "--version"};
+  if (app.shares_packings) names.emplace_back("--packings");
+  return names;
+}
 
 // Text of what was not understood, with the nearest option.
-[[noreturn]] void refuse_extra(const std::string &argument, const CommandLine &line) {
+[[noreturn]] void refuse_extra(const std::string &argument, const CommandLine &line,
+                               const AppDescription &app) {
   if (argument.size() < 2 || argument[0] != '-')
     fail("\"" + argument + "\" is one argument too many" +
          (line.scene.empty() ? "" : " after " + line.scene) +
          ". Texts with blanks need quotes: --set \"Section/Key = value\".");
-  const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), option_names);
+  const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), option_names(app));
   fail(argument + " is not an option." +
        (nearest.empty() ? " See --help." : " Did you mean \"" + nearest + "\"?"));
 }
@@ -91,6 +96,7 @@ void check(const CommandLine &line, const AppDescription &app) {
   if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
   check_name(line.scene, "SCENE");
   check_name(line.output, "--output");
+  check_name(line.packings, "--packings");
   if (line.output_given && line.output.empty()) fail("--output is empty. Allowed: the name of a folder.");
   const std::string kind = app.kinds.empty() ? "" : "KIND ";
   if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {
@@ -129,6 +135,14 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
                   "SECTION/KEY: these alone");
   parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
   parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
+  CLI::Option *packings = nullptr;
+  if (app.shares_packings)
+    packings =
+        parser
+            .add_option("--packings", line.packings,
+                        "Takes its packing from this folder where one of the same recipe is there, else "
+                        "packs and leaves it there; the results are the same bytes")
+            ->type_name("DIR");
   parser.add_flag("--quiet", line.quiet, "Print errors only");
   parser.add_flag("--verbose", line.verbose, "Print more");
   parser.add_flag("--version", version, "Print version and libraries and exit");
@@ -142,8 +156,10 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   }
   if (version) throw PrintAndExit{version_text() + "\n"};
   const std::vector<std::string> extras = parser.remaining();
-  if (!extras.empty()) refuse_extra(extras.front(), line);
+  if (!extras.empty()) refuse_extra(extras.front(), line, app);
   line.output_given = output->count() > 0;
+  if (packings != nullptr && packings->count() > 0 && line.packings.empty())
+    fail("--packings is empty. Allowed: the name of a folder.");
   if (!threads.empty()) line.threads = read_threads(threads);
   for (int k = 0; k < argc; ++k)
     line.text += (k == 0 ? "" : " ") + std::string(argv[k]);

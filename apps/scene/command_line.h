@@ -16,6 +16,7 @@ struct AppDescription {
   std::string purpose;                 // one sentence for --help
   std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
   bool runs_on_ranks = false;          // of mpirun
+  bool shares_packings = false;        // has --packings
 };
 
 struct CommandLine {
@@ -25,6 +26,7 @@ struct CommandLine {
   bool output_given = false;
   std::vector<std::string> overrides; // "Section/Key = value", in order
   int threads = 0;                    // 0: all that the machine has
+  std::string packings;               // folder of packings that runs share; "": none
   bool resume = false, overwrite = false, dry_run = false, print_parameters = false, json = false;
   std::string part; // what of the parameters is printed, "Bond" or "Bond/Gap"; "": all
   bool quiet = false, verbose = false;

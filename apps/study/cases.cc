@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "apps/run/shared_packing.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
@@ -165,6 +166,10 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
           read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
       if (of_platens(kind)) label_platens(one, led_to);
       if (kind == StudyKind::accuracy) label_parameters(one, led_to);
+      for (const unsigned long seed : plan.seeds) {
+        const std::string recipe = packing_recipe(led_to, seed);
+        one.packings.push_back(recipe.empty() ? "" : packing_name(recipe));
+      }
     } catch (const InputError &error) {
       throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
                        ", which cannot be run:\n" + error.what());

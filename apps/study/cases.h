@@ -22,6 +22,7 @@ struct StudyCase {
   std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
   std::vector<std::string> overrides; // "Section/Key = value"
   std::string surface = {};           // what the platens are, in words; studies of platens
+  std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
 };
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.

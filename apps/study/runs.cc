@@ -200,6 +200,20 @@ fs::path compress_program() {
   return program;
 }
 
+namespace {
+
+// A packing that one run alone has is not worth a file.
+void share_packings(std::vector<StudyRun> &runs, const OutputPaths &paths) {
+  std::vector<int> users(runs.size(), 0);
+  for (const StudyRun &run : runs)
+    ++users[run.specimen_of];
+  for (StudyRun &run : runs)
+    if (users[run.specimen_of] > 1)
+      run.command.insert(run.command.end(), {"--packings", paths.packings().string()});
+}
+
+} // namespace
+
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               const std::vector<std::string> &overrides, const OutputPaths &paths,
                               int threads) {
@@ -207,6 +221,7 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
   const int count = static_cast<int>(plan.cases.size() * plan.seeds.size());
   const std::string share = std::to_string(std::max(1, threads / count));
   std::vector<StudyRun> runs;
+  std::vector<std::string> packings;
   for (std::size_t k = 0; k < plan.cases.size(); ++k)
     for (const unsigned long seed : plan.seeds) {
       StudyRun run;
@@ -219,8 +234,13 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
       run.command = {program, scene, "-o", run.folder.string(), "-t", share, "--quiet"};
       for (const std::string &entry : run.overrides)
         run.command.insert(run.command.end(), {"-s", entry});
+      packings.push_back(plan.cases[k].packings[runs.size() % plan.seeds.size()]);
+      const auto first = std::find(packings.begin(), packings.end(), packings.back());
+      run.specimen_of =
+          packings.back().empty() ? runs.size() : static_cast<std::size_t>(first - packings.begin());
       runs.push_back(std::move(run));
     }
+  share_packings(runs, paths);
   return runs;
 }
 

@@ -19,7 +19,8 @@ struct StudyRun {
   unsigned long seed = 0;
   std::string name; // of its folder below runs/: "sphere_radius_0.001_seed_2"
   std::filesystem::path folder;
-  std::string scene; // that its entries change
+  std::size_t specimen_of = 0; // the first run that has the same packing: itself, or one before
+  std::string scene;           // that its entries change
   std::vector<std::string> overrides = {};
   std::vector<std::string> command; // platen-compress and what it is given, but for overwrite or resume
 };

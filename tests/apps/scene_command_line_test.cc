@@ -66,6 +66,15 @@ TEST(CommandLine, help_and_version_are_texts) {
   }
 }
 
+TEST(CommandLine, packings_are_shared_by_programs_that_pack_for_many_runs) {
+  AppDescription sharing = compress;
+  sharing.shares_packings = true;
+  EXPECT_EQ(parse({"a.prm", "--packings", "kept"}, sharing).packings, "kept");
+  EXPECT_EQ(parse({"a.prm"}, sharing).packings, "");
+  EXPECT_THROW(parse({"a.prm", "--packings", "kept"}), InputError);
+  EXPECT_THROW(parse({"a.prm", "--packings", ""}, sharing), InputError);
+}
+
 struct BadLine {
   std::vector<const char *> arguments;
   const char *says;

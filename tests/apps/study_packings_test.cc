@@ -1,0 +1,188 @@
+// Packings that runs share: the same bytes as without, made once, and never taken where they are damaged.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "apps/io/byte_lock.h"
+#include "apps/io/sha256.h"
+#include "apps/run/shared_packing.h"
+#include "apps/study_runs.h"
+
+namespace platen::apps::testing {
+namespace {
+
+const std::vector<std::string> short_test{"-s", "Specimen/Sphere radius = 2 mm", "-s",
+                                          "Loading/Target strain = 0.005"};
+
+class SharedPacking : public ScratchFolder {
+protected:
+  std::vector<std::string> arguments(const std::string &name,
+                                     const std::vector<std::string> &options = {}) const {
+    std::vector<std::string> all{test_scene("study.prm"), "-o", name, "-t", "1"};
+    all.insert(all.end(), short_test.begin(), short_test.end());
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+  }
+  Outcome run(const std::string &name, const std::vector<std::string> &options = {}) const {
+    Outcome outcome = run_compress(arguments(name, options), folder_);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    return outcome;
+  }
+  Outcome sharing(const std::string &name, std::vector<std::string> options = {}) const {
+    return run(name, with(with(std::move(options), "--packings"), "kept"));
+  }
+  std::string difference_of(const std::string &a, const std::string &b) const {
+    return difference(results_in(folder_ / a), results_in(folder_ / b));
+  }
+  std::vector<fs::path> kept() const {
+    std::vector<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(folder_ / "kept"))
+      if (entry.path().extension() == ".csv") files.push_back(entry.path());
+    return files;
+  }
+};
+
+TEST_F(SharedPacking, changes_no_byte_of_what_a_run_leaves) {
+  run("alone");
+  sharing("first");
+  sharing("second");
+  EXPECT_EQ(difference_of("alone", "first"), "");
+  EXPECT_EQ(difference_of("alone", "second"), "");
+  EXPECT_EQ(kept().size(), 1u);
+}
+
+// Another seed's spheres under its recipe, as if they were its own: what a run takes is what is there.
+TEST_F(SharedPacking, is_taken_from_the_file) {
+  sharing("mine");
+  const std::string text = content_of(kept().at(0));
+  run("other", {"-s", "Scene/Seed = 8"});
+  const std::string spheres = content_of(folder_ / "other/specimen.csv");
+  const std::string planted = text.substr(0, text.find('\n') + 1) + spheres;
+  put(kept().at(0), planted + "# sha256 of all above: " + sha256_of(planted) + "\n");
+  sharing("taken");
+  EXPECT_EQ(content_of(folder_ / "taken/specimen.csv"), spheres);
+  EXPECT_NE(content_of(folder_ / "mine/specimen.csv"), spheres);
+}
+
+TEST_F(SharedPacking, that_is_damaged_is_told_and_made_anew) {
+  sharing("whole");
+  const fs::path file = kept().at(0);
+  const std::string text = content_of(file);
+  std::string digit = text, recipe = text;
+  char &last_of_z = digit[text.rfind('\n', text.size() - 100) - 1];
+  last_of_z = last_of_z == '1' ? '2' : '1';
+  recipe.replace(recipe.find("Scene/Seed = 3"), 14, "Scene/Seed = 4");
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {digit, "is not as it was written"},
+      {text.substr(0, text.size() / 2), "is not as it"},
+      {text.substr(0, 20), "is cut short"},
+      {"", "is cut short"},
+      {recipe, "is of another recipe"}};
+  int number = 0;
+  for (const auto &[content, says] : faults) {
+    put(file, content);
+    const std::string name = "damaged_" + std::to_string(++number);
+    const Outcome outcome = sharing(name);
+    EXPECT_TRUE(contains(outcome.error, file.filename().string() + ": " + says)) << outcome.error;
+    EXPECT_TRUE(contains(outcome.error, "the specimen is packed anew")) << outcome.error;
+    EXPECT_EQ(difference_of("whole", name), "");
+    EXPECT_EQ(content_of(file), text) << says;
+  }
+}
+
+TEST_F(SharedPacking, of_another_recipe_is_another_file) {
+  const std::vector<std::vector<std::string>> others{{},
+                                                     {"-s", "Scene/Seed = 8"},
+                                                     {"-s", "Specimen/Height = 21 mm"},
+                                                     {"-s", "Specimen/Radius spread = 0.3"}};
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    sharing("of_" + std::to_string(k), others[k]);
+    EXPECT_EQ(kept().size(), k + 1);
+  }
+  // What is done to it afterwards does not count.
+  sharing("bonds", {"-s", "Specimen/End layer = 0.5", "-s", "Bond/Gap = 0.1 R_min", "-s",
+                    "Platens/Friction static = 0.2"});
+  EXPECT_EQ(kept().size(), others.size());
+}
+
+TEST_F(SharedPacking, that_cannot_be_kept_does_no_harm) {
+  run("alone");
+  put(folder_ / "kept", "a file where the folder would be");
+  const Outcome outcome = sharing("a");
+  EXPECT_TRUE(contains(outcome.error, "the packing is not shared")) << outcome.error;
+  EXPECT_EQ(difference_of("alone", "a"), "");
+}
+
+TEST_F(SharedPacking, is_made_once_by_runs_that_want_it_at_once_and_tidied) {
+  sharing("whole");
+  const fs::path file = kept().at(0);
+  fs::remove(file);
+  const fs::path part =
+      folder_ / "kept" / (file.stem().string() + ".node7_4242.part.csv"); // of one that was killed
+  put(part, "half");
+  // Another process holds the lock until the run says that it waits.
+  int ready[2];
+  ASSERT_EQ(pipe2(ready, O_CLOEXEC), 0);
+  const std::uint64_t byte = std::stoull(file.stem().string().substr(0, 8), nullptr, 16);
+  const pid_t holder = fork();
+  if (holder == 0) {
+    const auto lock = ByteLock::take(folder_ / "kept/in_use", byte, 1, std::chrono::milliseconds(0), [] {});
+    if (lock != nullptr && lock->holds() && write(ready[1], "1", 1) == 1) pause();
+    _exit(1);
+  }
+  char one = 0;
+  ASSERT_EQ(read(ready[0], &one, 1), 1);
+  Program waiting(compress_command(arguments("waiting", {"--packings", "kept", "--verbose"})), folder_);
+  ASSERT_TRUE(waiting.wait_until([&] {
+    return fs::exists(folder_ / "out.txt") &&
+           contains(content_of(folder_ / "out.txt"),
+                    "waits for the run that packs kept/" + file.filename().string());
+  }));
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_TRUE(fs::exists(part));
+  kill(holder, SIGKILL);
+  waitpid(holder, nullptr, 0);
+  EXPECT_EQ(waiting.wait(), 0);
+  EXPECT_EQ(difference_of("whole", "waiting"), "");
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_FALSE(fs::exists(part));
+}
+
+TEST_F(SharedPacking, is_not_written_by_a_dry_run) {
+  Outcome outcome = run_compress(arguments("dry", {"--packings", "kept", "--dry-run"}), folder_);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder_ / "kept"));
+}
+
+TEST_F(Study, runs_on_one_seed_share_their_packing_and_change_no_byte) {
+  const std::vector<std::string> rates{"--quiet", "-s", "Study/Axial rate list = 1 m/s, 2 m/s, 4 m/s"};
+  ASSERT_EQ(run("a", rates, "rate").status, 0);
+  int files = 0;
+  for (const auto &entry : fs::directory_iterator(folder_ / "a/packings"))
+    files += entry.path().extension() == ".csv";
+  EXPECT_EQ(files, 2); // seeds
+  for (const char *rate : {"1", "2", "4"}) {
+    const std::string name = std::string("rate_") + rate + "_seed_4";
+    const Outcome alone =
+        run_compress({(folder_ / "a/runs" / name / "scene.prm").string(), "-o", name, "-t", "1"}, folder_);
+    ASSERT_EQ(alone.status, 0) << alone.error;
+    EXPECT_EQ(difference(results_in(folder_ / name), results_in(folder_ / "a/runs" / name)), "");
+  }
+  const std::string before = table("a");
+  fs::remove_all(folder_ / "a/runs/rate_4_seed_4");
+  put((*fs::directory_iterator(folder_ / "a/packings")).path(), "damaged");
+  EXPECT_EQ(run("a", with(rates, "--resume"), "rate").status, 0);
+  EXPECT_EQ(table("a"), before);
+  // A study begun anew takes nothing from the one before.
+  put(folder_ / "a/packings/mine.txt", "kept");
+  ASSERT_EQ(run("a", {"--quiet", "--overwrite"}).status, 0); // sizes: each run has its own
+  EXPECT_TRUE(fs::exists(folder_ / "a/packings/mine.txt"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "a/packings"), {}), 1);
+}
+
+} // namespace
+} // namespace platen::apps::testing
