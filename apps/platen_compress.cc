@@ -4,13 +4,9 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  return run_app_on_ranks(
-      argc, argv,
-      {AppKind::compress,
-       "platen-compress",
-       "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens.",
-       {},
-       false,
-       true},
-      run_compression);
+  AppDescription app{
+      AppKind::compress, "platen-compress",
+      "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens."};
+  app.shares_packings = true;
+  return run_app_on_ranks(argc, argv, app, run_compression);
 }

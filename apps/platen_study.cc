@@ -4,11 +4,11 @@
 
 int main(int argc, char **argv) {
   using namespace platen::apps;
-  return run_app(
-      argc, argv,
-      {AppKind::study, "platen-study",
-       "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
-       "time, each on several seeds, and tables the results.",
-       study_kinds()},
-      run_study);
+  AppDescription app{
+      AppKind::study, "platen-study",
+      "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
+      "time, each on several seeds, and tables the results.",
+      study_kinds()};
+  app.plans_runs = true;
+  return run_app(argc, argv, app, run_study);
 }

@@ -21,15 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *frames_folder = "frames", *checkpoint_folder = "checkpoint",
-                     *packings_folder = "packings";
-constexpr const char *inner_folders[] = {frames_folder, checkpoint_folder, packings_folder};
+                     *packings_folder = "packings", *runs_folder = "runs";
+constexpr const char *inner_folders[] = {frames_folder, checkpoint_folder, packings_folder, runs_folder};
 constexpr std::chrono::seconds patience_of_run{5};
 constexpr std::chrono::milliseconds glance{20}; // between two tries to lock
 
 // What the earlier run left, relative to the folder, in the order of names. Links count by their own name.
 std::vector<fs::path> outputs_in(const fs::path &folder) {
   std::vector<fs::path> found;
-  for (const char *part : {"", frames_folder, checkpoint_folder, packings_folder}) {
+  for (const char *part : {"", frames_folder, checkpoint_folder, packings_folder, runs_folder}) {
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder / part, error)) {
       const fs::path relative = fs::path(part) / entry.path().filename();
@@ -80,20 +80,22 @@ std::string OutputPaths::frame_name(const std::string &series, int index) {
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
       "((scene|found)(\\.part)?\\.prm"
-      "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|costs|accuracy|trials|abacus"
+      "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|plan|costs|accuracy|trials|abacus"
       "|packing_([a-z0-9_.]+_)?[0-9]+)(\\.part)?\\.csv"
       "|packings(\\.part)?\\.sha256"
-      "|(summary|study)(\\.part)?\\.json|run\\.log|(specimen|cracks)(\\.part)?\\.vtu"
+      "|(summary|study|plan)(\\.part)?\\.json|run\\.log|(specimen|cracks)(\\.part)?\\.vtu"
       "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
   static const std::regex frame(
       "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu|fields_[0-9]{6,}(\\.part)?\\."
       "vti)");
   static const std::regex packing(R"([0-9a-f]{16}(\.[^/]+\.part)?\.csv|in_use)");
+  static const std::regex record(R"([^/]+\.run(\.part)?\.json)");
   const std::string name = relative.filename().string();
   const fs::path parent = relative.parent_path();
   if (parent.empty()) return std::regex_match(name, top);
   if (parent == frames_folder) return std::regex_match(name, frame);
   if (parent == packings_folder) return std::regex_match(name, packing);
+  if (parent == runs_folder) return std::regex_match(name, record);
   return parent == checkpoint_folder && is_checkpoint_name(name);
 }
 
@@ -135,11 +137,12 @@ void open_output_folder(const fs::path &folder, FolderUse use, const std::vector
 
 // Not closed on exec: what is started inherits the lock.
 FolderLock::FolderLock(const fs::path &folder, std::chrono::milliseconds patience,
-                       const std::function<void()> &tell_that_it_waits)
+                       const std::function<void()> &tell_that_it_waits, Hold hold)
     : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
   if (file_ < 0) fail(folder, std::strerror(errno));
   const auto end = std::chrono::steady_clock::now() + patience;
-  for (bool told = false; flock(file_, LOCK_EX | LOCK_NB) != 0; told = true) {
+  const int kind = hold == Hold::alone ? LOCK_EX : LOCK_SH;
+  for (bool told = false; flock(file_, kind | LOCK_NB) != 0; told = true) {
     if (errno != EWOULDBLOCK && errno != EINTR) return; // a file system without locks
     if (std::chrono::steady_clock::now() > end) {
       close(file_);

@@ -33,6 +33,9 @@ struct OutputPaths {
   std::filesystem::path costs() const { return folder / "costs.csv"; }
   std::filesystem::path accuracy() const { return folder / "accuracy.csv"; }
   std::filesystem::path runs() const { return folder / "runs"; } // of a study: an output folder for each
+  std::filesystem::path plan() const { return folder / "plan.csv"; }
+  std::filesystem::path plan_json() const { return folder / "plan.json"; }
+  std::filesystem::path run_record(const std::string &name) const { return runs() / (name + ".run.json"); }
   std::filesystem::path packings() const { return folder / "packings"; } // that its runs share
   std::filesystem::path view() const { return folder / "view.py"; }      // for ParaView
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
@@ -64,10 +67,11 @@ void open_output_folder(const std::filesystem::path &folder, FolderUse use,
 // end of a process, however it comes, gives the folder free; nothing is left behind in it.
 class FolderLock {
 public:
+  enum class Hold { alone, shared }; // shared: with others that hold it so
   // Waits for who holds the folder, after telling so once, for `patience` at most. Throws FolderError then,
   // and where the folder cannot be opened. A file system without locks is not locked.
   FolderLock(const std::filesystem::path &folder, std::chrono::milliseconds patience,
-             const std::function<void()> &tell_that_it_waits);
+             const std::function<void()> &tell_that_it_waits, Hold hold = Hold::alone);
   ~FolderLock();
   FolderLock(const FolderLock &) = delete;
   FolderLock &operator=(const FolderLock &) = delete;

@@ -175,15 +175,20 @@ Json finished_study(const fs::path &folder) {
   std::ifstream stream = open_file(file);
   Json study = Json::parse(stream, nullptr, false);
   if (!study.is_object()) throw InputError(file.string() + ": cannot be read as JSON");
-  if (study.value("status", "") == "running")
+  const std::string status = study.value("status", "");
+  if (status == "running" || status == "planned")
     throw InputError(file.string() + ": the study has not ended; go on with it by platen-study " +
-                     study.value("kind", "") + " --resume");
+                     study.value("kind", "") +
+                     (status == "planned" ? " --run, then --collect" : " --resume"));
   return study;
 }
 
 void add_failed_runs(const Json &study, std::vector<std::string> &remarks) {
   if (const int failed = study.at("failed_runs"), runs = study.at("runs"); failed > 0)
     remarks.push_back(fmt::format("{} of {} runs failed and count in no mean", failed, runs));
+  if (const int missing = study.value("missing_runs", 0); missing > 0)
+    remarks.push_back(fmt::format("{} of {} runs were missing when the tables were made and count in no mean",
+                                  missing, study.at("runs").get<int>()));
 }
 
 double number_or_nan(const Json &value) {

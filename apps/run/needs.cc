@@ -205,7 +205,23 @@ double longest_step(const Scene &scene, const dem::Shape &shape, const coupling:
   return step;
 }
 
+// s, on two threads.
+double seconds_of_step(const Needs &needs, const coupling::PlatenTestSettings &of) {
+  const bool steps_elements =
+      of.platens.elastic && of.platens.elastic->motion == fem::ElasticMotion::explicit_steps;
+  return seconds_of_sphere * needs.spheres + seconds_of_sleeve * needs.sleeve_cells +
+         (steps_elements ? seconds_of_explicit : seconds_of_rigid) * needs.platen_cells;
+}
+
 } // namespace
+
+CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape) {
+  const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
+  const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
+  return {needs.spheres, needs.bytes(),
+          seconds_of_step(needs, settings) * duration(scene, shape.height) /
+              longest_step(scene, shape, settings)};
+}
 
 Needs needs_of(const Scene &scene, const dem::Shape &shape) {
   return needs_of(scene, shape, settings_without_meshes(scene), elements_around(scene));
@@ -234,10 +250,7 @@ std::string counted_estimate(const Scene &scene, const dem::Shape &shape) {
   const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
   const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
   if (memory == 0 || needs.bytes() <= share_of_dry_run * memory) return "";
-  const bool steps_elements =
-      settings.platens.elastic && settings.platens.elastic->motion == fem::ElasticMotion::explicit_steps;
-  const double step = seconds_of_sphere * needs.spheres + seconds_of_sleeve * needs.sleeve_cells +
-                      (steps_elements ? seconds_of_explicit : seconds_of_rigid) * needs.platen_cells,
+  const double step = seconds_of_step(needs, settings),
                steps = duration(scene, shape.height) / longest_step(scene, shape, settings);
   const std::string time = std::isnan(steps) ? "time not counted"
                                              : fmt::format("{} or more ({:.2g} steps or more)",

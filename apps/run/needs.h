@@ -24,6 +24,13 @@ Needs needs_of(const Scene &scene, const dem::Shape &shape);
 // far it may go.
 void require_memory(const Scene &scene, const dem::Shape &shape);
 
+// What a run takes, counted as above: spheres, their and all elements' bytes, seconds of wall clock to the
+// target strain on two threads; NaN where stages or a stress lead, for then nobody knows how long.
+struct CountedCosts {
+  double spheres = 0, bytes = 0, seconds = 0;
+};
+CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape);
+
 // For a dry run that would have to make more than a share of the memory only to look at it: its estimate from
 // the counts alone. "" where it can be made.
 std::string counted_estimate(const Scene &scene, const dem::Shape &shape);

@@ -36,6 +36,7 @@ std::vector<std::string> option_names(const AppDescription &app) {
       "--output",           "--set",  "--threads", "--resume",  "--overwrite", "--dry-run",
       "--print-parameters", "--json", "--quiet",   "--verbose", "--help",      "--version"};
   if (app.shares_packings) names.emplace_back("--packings");
+  if (app.plans_runs) names.insert(names.end(), {"--plan", "--run", "--collect"});
   return names;
 }
 
@@ -59,6 +60,29 @@ int read_threads(const std::string &text) {
     fail("--threads = " + text + " is no count of threads. Allowed: 1 ... " + std::to_string(most_threads()) +
          ".");
   return threads;
+}
+
+int read_run(const std::string &text) {
+  int run = 0;
+  const char *last = text.data() + text.size();
+  const auto [end, failure] = std::from_chars(text.data(), last, run);
+  if (failure != std::errc() || end != last || run < 1)
+    fail("--run = " + text + " is no number of a run. Allowed: 1 and what follows, as plan.csv has them.");
+  return run;
+}
+
+void check_planned(const CommandLine &line) {
+  const int asked = (line.plan ? 1 : 0) + (line.run > 0 ? 1 : 0) + (line.collect ? 1 : 0);
+  if (asked == 0) return;
+  if (asked > 1) fail("--plan, --run and --collect exclude each other. Allowed: one of them.");
+  if (line.dry_run)
+    fail("--dry-run goes with a whole study. Allowed: one of --dry-run, --plan, --run, --collect.");
+  if (line.resume)
+    fail(
+        "--resume goes with a whole study; --run goes on by itself with what is there. Allowed: one of "
+        "--resume, --plan, --run, --collect.");
+  if (line.overwrite && !line.plan)
+    fail("--overwrite goes with --plan or a whole study, not with --run or --collect.");
 }
 
 // What stands after --print-parameters, where it is neither an option nor a scene: a section or an entry.
@@ -93,6 +117,7 @@ void check(const CommandLine &line, const AppDescription &app) {
   if (line.resume && line.overwrite)
     fail("--resume and --overwrite exclude each other. Allowed: one of them.");
   if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
+  check_planned(line);
   if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
   check_name(line.scene, "SCENE");
   check_name(line.output, "--output");
@@ -143,6 +168,18 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
                         "Takes its packing from this folder where one of the same recipe is there, else "
                         "packs and leaves it there; the results are the same bytes")
             ->type_name("DIR");
+  std::string run;
+  CLI::Option *planned = nullptr;
+  if (app.plans_runs) {
+    parser.add_flag("--plan", line.plan, "Write plan.csv, a run a line, and run nothing");
+    planned =
+        parser
+            .add_option("--run", run,
+                        "Make the run with this number of the plan, or go on with it; one that is done is "
+                        "left")
+            ->type_name("K");
+    parser.add_flag("--collect", line.collect, "Make the tables of the runs of the plan");
+  }
   parser.add_flag("--quiet", line.quiet, "Print errors only");
   parser.add_flag("--verbose", line.verbose, "Print more");
   parser.add_flag("--version", version, "Print version and libraries and exit");
@@ -161,6 +198,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   if (packings != nullptr && packings->count() > 0 && line.packings.empty())
     fail("--packings is empty. Allowed: the name of a folder.");
   if (!threads.empty()) line.threads = read_threads(threads);
+  if (planned != nullptr && planned->count() > 0) line.run = read_run(run);
   for (int k = 0; k < argc; ++k)
     line.text += (k == 0 ? "" : " ") + std::string(argv[k]);
   check(line, app);

@@ -17,6 +17,7 @@ struct AppDescription {
   std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
   bool runs_on_ranks = false;          // of mpirun
   bool shares_packings = false;        // has --packings
+  bool plans_runs = false;             // has --plan, --run, --collect
 };
 
 struct CommandLine {
@@ -28,6 +29,8 @@ struct CommandLine {
   int threads = 0;                    // 0: all that the machine has
   std::string packings;               // folder of packings that runs share; "": none
   bool resume = false, overwrite = false, dry_run = false, print_parameters = false, json = false;
+  bool plan = false, collect = false;
+  int run = 0;      // number of a planned run, from 1 on; 0: none is given
   std::string part; // what of the parameters is printed, "Bond" or "Bond/Gap"; "": all
   bool quiet = false, verbose = false;
   std::string text; // the whole line as typed, for the log

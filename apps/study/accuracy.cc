@@ -93,7 +93,7 @@ void Accuracy::add(const StudyRun &run, const RunOutcome &outcome) {
   const auto number = [&](const char *key) { return number_in(outcome.summary, key); };
   const bool peaked = StudyTables::peaked(outcome.summary);
   cases_[run.of].push_back(
-      {outcome.done,
+      {word(outcome),
        {peaked ? number("strength_pa") : not_given, peaked ? number("strain_at_peak_platen") : not_given,
         peaked ? number("youngs_modulus_gauge_pa") : not_given,
         number("broken_tension") + number("broken_shear")},
@@ -152,7 +152,7 @@ void Accuracy::write_rows(const std::filesystem::path &csv) const {
         const StudiedParameter::Value &value = parameter.values[v];
         const Run &run = cases_[value.of_case][seed];
         std::vector<CsvCell> cells{parameter.name, value.text, plan_.cases[value.of_case].name,
-                                   plan_.seeds[seed], run.done ? "done" : "failed"};
+                                   plan_.seeds[seed], run.status};
         for (std::size_t m = 0; m < measure_count; ++m)
           cells.emplace_back(error(parameter, v, seed, m));
         cells.insert(cells.end(), {run.residual, run.kinetic, run.steps});

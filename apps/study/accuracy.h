@@ -47,7 +47,7 @@ public:
 
 private:
   struct Run {
-    bool done;
+    const char *status;                         // "done", "failed", "missing"
     std::array<double, measure_count> measures; // SI; NaN: not measured
     double residual, kinetic, steps, seconds;
   };

@@ -15,19 +15,16 @@
 #include "apps/io/machine.h"
 #include "apps/io/output_folder.h"
 #include "apps/io/run_log.h"
-#include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
 #include "apps/io/summary.h"
 #include "apps/run/app_output.h"
-#include "apps/run/problem_setup.h"
-#include "apps/scene/expect.h"
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
-#include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
+#include "apps/study/planned_runs.h"
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
-#include "apps/study/tables.h"
+#include "apps/study/study_results.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 
@@ -51,22 +48,21 @@ public:
         scene_(scene),
         plan_(plan_study(study_kind(command.kind), scene, command.overrides)),
         paths_(command.output),
-        runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads())),
+        runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads(),
+                      command.run > 0 || command.plan || command.collect)),
         log_(loudness_of(command)) {}
 
   int run();
 
 private:
   int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
+  std::string command_text() const;
   std::string description() const;
   int tell_costs() const;
   void open();
   void open_anew();
   void require_same_study() const;
-  void keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome);
-  // What the kind of study alone leaves: added to study.json, told.
-  std::string compare(const StudyTables &tables, Json &study) const;
-  int finish(const StudyTables &tables);
+  int make_all();
 
   const CommandLine &command_;
   const Scene &scene_;
@@ -76,9 +72,15 @@ private:
   std::unique_ptr<FolderLock> lock_;
   std::vector<StudyRun> runs_;
   RunLog log_;
-  Accuracy accuracy_{plan_};
-  std::vector<std::string> missed_; // of what the scene expects of each run
 };
+
+// As it was called, but for what is to be done.
+std::string StudyApp::command_text() const {
+  std::string text = fmt::format("platen-study {} {} -o {}", command_.kind, command_.scene, command_.output);
+  for (const std::string &assignment : command_.overrides)
+    text += fmt::format(" -s \"{}\"", assignment);
+  return text;
+}
 
 std::string StudyApp::description() const {
   std::string text =
@@ -122,17 +124,7 @@ void StudyApp::open_anew() {
   const std::vector<fs::path> inputs = input_files(scene_);
   const FolderUse use = command_.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   check_output_folder(paths_.folder, use, inputs);
-  std::error_code none;
-  for (const auto &entry : fs::directory_iterator(paths_.runs(), none)) {
-    if (!entry.is_directory()) continue;
-    if (!command_.overwrite)
-      throw FolderError(
-          fmt::format("output folder {}: holds runs of an earlier study ({}); choose another "
-                      "folder with --output, or replace them with --overwrite",
-                      paths_.folder.string(), entry.path().filename().string()));
-    open_output_folder(entry.path(), FolderUse::overwrite, inputs);
-    fs::remove(entry.path(), none); // only where nothing of the user's is left in it
-  }
+  clear_runs(paths_, command_.overwrite, inputs);
   open_locked(lock_, paths_.folder, use, inputs, log_);
   create_folder(paths_.runs());
   write_text_aside(paths_.scene(), scene_text(scene_, paths_.folder));
@@ -151,88 +143,30 @@ void StudyApp::open() {
   log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
 }
 
-void StudyApp::keep(StudyTables &tables, std::size_t k, const RunOutcome &outcome) {
-  const StudyRun &run = runs_[k];
-  tables.add(run, outcome);
-  accuracy_.add(run, outcome);
-  const std::string head = fmt::format("  {} of {}  {}", k + 1, runs_.size(), run.name);
-  if (!outcome.done) {
-    log_.warning("{}: failed, {}", head, outcome.reason);
-    return;
-  }
-  log_.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
-            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
-  const bool compared = of_platens(plan_.kind) || plan_.kind == StudyKind::accuracy;
-  if (compared && !StudyTables::peaked(outcome.summary))
-    log_.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
-                 run.name);
-  for (const std::string &line : check_expectations(scene_, outcome.summary).failed) {
-    missed_.push_back(run.name + ": " + line);
-    log_.error("expected: {}", missed_.back());
-  }
-}
-
-std::string StudyApp::compare(const StudyTables &tables, Json &study) const {
-  if (of_platens(plan_.kind)) {
-    const std::vector<Comparison> comparisons = tables.comparisons();
-    study["comparisons"] = json_of(plan_, comparisons);
-    study["laboratory"] = laboratory_figures();
-    return text_of(plan_, comparisons);
-  }
-  if (plan_.kind != StudyKind::accuracy) return "";
-  accuracy_.write_rows(paths_.accuracy());
-  const std::vector<ParameterErrors> errors = accuracy_.errors();
-  study["accuracy"] = json_of(plan_, errors);
-  study["costs"] = costs_of(plan_, errors);
-  return text_of(plan_, errors);
-}
-
-int StudyApp::finish(const StudyTables &tables) {
-  const bool any = tables.failed() < static_cast<int>(runs_.size());
-  Json study;
-  study["kind"] = word(plan_.kind);
-  study["status"] = any ? "done" : "failed";
-  study["varied"] = plan_.varied;
-  study["seeds"] = plan_.seeds;
-  study["runs"] = runs_.size();
-  study["failed_runs"] = tables.failed();
-  study["cases"] = tables.cases();
-  const std::string compared = compare(tables, study);
-  write_summary(paths_.study_json(), study);
-  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
-  s.update(study);
-  s["missed"] = missed_;
-  s["threads"] = threads();
-  s["wall_seconds"] = seconds_since(start_);
-  s["peak_memory_bytes"] = peak_memory_bytes();
-  s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");
-  s["inputs_sha256"] = input_sums(scene_);
-  write_summary(paths_.summary(), s);
-  log_.info("{}{}", tables.text(), compared);
-  if (tables.failed() > 0) log_.warning("{} of {} runs failed", tables.failed(), runs_.size());
-  log_.info("results are in {}", paths_.folder.string());
-  if (!any) {
-    log_.error("no run came to its end");
-    return status_numerics;
-  }
-  return missed_.empty() ? status_done : status_check_failed;
-}
-
 int StudyApp::run() {
   if (command_.dry_run) return tell_costs();
+  const PlannedStudy planned{scene_, plan_, runs_, paths_, command_text()};
+  if (command_.plan) return plan_runs(command_, planned, log_);
+  if (command_.run > 0) return make_planned_run(command_, planned, log_);
+  if (command_.collect) return collect_runs(command_, planned, log_);
+  return make_all();
+}
+
+int StudyApp::make_all() {
   catch_stop_signals();
   open();
   log_.info("{}", description());
-  StudyTables tables(plan_, paths_);
+  StudyResults results(scene_, plan_, runs_, paths_, log_);
   try {
     carry_out(runs_, threads(), log_,
-              [&](std::size_t k, const RunOutcome &outcome) { keep(tables, k, outcome); });
+              [&](std::size_t k, const RunOutcome &outcome) { results.keep(k, outcome); });
   } catch (const Stopped &stopped) {
-    log_.info("stopped by a signal; go on with: platen-study {} {} -o {} --resume", command_.kind,
-              command_.scene, command_.output);
+    log_.info("stopped by a signal; go on with: {} --resume", command_text());
     return exit_status_of_signal(stopped.signal);
   }
-  return finish(tables);
+  return results.finish({{"threads", threads()},
+                         {"wall_seconds", seconds_since(start_)},
+                         {"peak_memory_bytes", peak_memory_bytes()}});
 }
 
 } // namespace

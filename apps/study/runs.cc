@@ -16,6 +16,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/app_output.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/version.h"
 
 namespace platen::apps {
 namespace {
@@ -25,15 +26,10 @@ namespace fs = std::filesystem;
 // How often running programs are checked.
 constexpr std::chrono::milliseconds glance{20};
 
-// What a run has left.
-struct Left {
-  std::optional<Json> summary; // of one that came to its end and can be kept
-  std::string fault;           // why not; "" where it had not come to its end, or had not begun
-  bool of_this = true;         // else its checkpoints are of no use either
-};
-
 // Why a summary as it was written is of another run than this one; "" where it is of this.
 std::string other_run(const Json &summary, const StudyRun &run) {
+  if (run.of_this_version && text_in(summary, "version") != version_line())
+    return fmt::format("it was made by {}, this is {}", text_in(summary, "version"), version_line());
   const OutputPaths paths(run.folder);
   if (text_in(summary, "scene_sha256") != sha256_of_file(paths.scene()).value_or("missing"))
     return "scene.prm is not the scene that summary.json was made with";
@@ -47,18 +43,6 @@ std::string other_run(const Json &summary, const StudyRun &run) {
     if (text_in(summary.value("inputs_sha256", Json::object()), entry) != sum)
       return fmt::format("the file that {} names has changed", entry);
   return "the files that the scene names have changed";
-}
-
-Left left_by(const StudyRun &run) {
-  std::error_code none;
-  const fs::path file = OutputPaths(run.folder).summary();
-  if (!fs::exists(fs::symlink_status(file, none))) return {};
-  ReadSummary read = read_summary(file);
-  if (!read.fault.empty()) return {std::nullopt, "summary.json " + read.fault};
-  if (text_in(read.summary, "status") != "done") return {}; // stopped or failed, as it says
-  const std::string other = other_run(read.summary, run);
-  if (!other.empty()) return {std::nullopt, other, false};
-  return {std::move(read.summary), ""};
 }
 
 bool has_checkpoint(const fs::path &folder) {
@@ -131,11 +115,11 @@ void Processes::start_more() {
     const std::size_t k = next_++;
     Left left = left_by(runs_[k]);
     if (left.summary) {
-      outcomes_[k] = RunOutcome{true, true, "", std::move(*left.summary)};
+      outcomes_[k] = RunOutcome{true, true, "", std::move(*left.summary), 0, false};
       continue;
     }
     if (!left.fault.empty()) log_.warning("{}: is made again: {}", runs_[k].name, left.fault);
-    start(k, left.of_this);
+    start(k, left.of_this && runs_[k].may_go_on);
   }
 }
 
@@ -144,7 +128,7 @@ void Processes::ended(Active &one) {
   const int status = one.process.status();
   Left left = left_by(run);
   if (left.summary) {
-    outcomes_[one.run] = RunOutcome{true, false, "", std::move(*left.summary)};
+    outcomes_[one.run] = RunOutcome{true, false, "", std::move(*left.summary), 0, false};
   } else if (signal_ != 0) {
     return; // stopped with us, to go on later
   } else if (one.resumes && status == status_bad_input) {
@@ -158,7 +142,8 @@ void Processes::ended(Active &one) {
     const std::string how = status < 0 ? fmt::format("ended by signal {}", -status)
                                        : fmt::format("exit status {}", status),
                       errors = without_line_end(one.process.errors());
-    outcomes_[one.run] = RunOutcome{false, false, how + (errors.empty() ? "" : ": " + errors), {}};
+    outcomes_[one.run] =
+        RunOutcome{false, false, how + (errors.empty() ? "" : ": " + errors), {}, status, false};
   }
 }
 
@@ -190,6 +175,23 @@ void Processes::work(const std::function<void(std::size_t, const RunOutcome &)> 
 
 } // namespace
 
+const char *word(const RunOutcome &outcome) {
+  return outcome.done ? "done" : outcome.missing ? "missing" : "failed";
+}
+
+Left left_by(const StudyRun &run) {
+  std::error_code none;
+  const fs::path file = OutputPaths(run.folder).summary();
+  if (!fs::exists(fs::symlink_status(file, none))) return {};
+  ReadSummary read = read_summary(file);
+  if (!read.fault.empty()) return {std::nullopt, "summary.json " + read.fault};
+  const std::string status = text_in(read.summary, "status");
+  if (status != "done") return {std::nullopt, "", true, status}; // stopped or failed, as it says
+  const std::string other = other_run(read.summary, run);
+  if (!other.empty()) return {std::nullopt, other, false, status};
+  return {std::move(read.summary), "", true, status};
+}
+
 fs::path compress_program() {
   std::error_code failure;
   const fs::path here = fs::read_symlink("/proc/self/exe", failure);
@@ -216,10 +218,10 @@ void share_packings(std::vector<StudyRun> &runs, const OutputPaths &paths) {
 
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               const std::vector<std::string> &overrides, const OutputPaths &paths,
-                              int threads) {
+                              int threads, bool one_by_one) {
   const std::string program = compress_program().string();
   const int count = static_cast<int>(plan.cases.size() * plan.seeds.size());
-  const std::string share = std::to_string(std::max(1, threads / count));
+  const std::string share = std::to_string(one_by_one ? threads : std::max(1, threads / count));
   std::vector<StudyRun> runs;
   std::vector<std::string> packings;
   for (std::size_t k = 0; k < plan.cases.size(); ++k)
@@ -227,6 +229,7 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
       StudyRun run;
       run.of = k;
       run.seed = seed;
+      run.of_this_version = one_by_one;
       run.name = plan.cases[k].name + "_seed_" + std::to_string(seed);
       run.folder = paths.runs() / run.name;
       run.scene = scene;
@@ -242,6 +245,20 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
     }
   share_packings(runs, paths);
   return runs;
+}
+
+void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<fs::path> &inputs) {
+  std::error_code none;
+  for (const auto &entry : fs::directory_iterator(paths.runs(), none)) {
+    if (!entry.is_directory()) continue;
+    if (!overwrite)
+      throw FolderError(
+          fmt::format("output folder {}: holds runs of an earlier study ({}); choose another "
+                      "folder with --output, or replace them with --overwrite",
+                      paths.folder.string(), entry.path().filename().string()));
+    open_output_folder(entry.path(), FolderUse::overwrite, inputs);
+    fs::remove(entry.path(), none); // only where nothing of the user's is left in it
+  }
 }
 
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,23 +24,41 @@ struct StudyRun {
   std::string scene;           // that its entries change
   std::vector<std::string> overrides = {};
   std::vector<std::string> command; // platen-compress and what it is given, but for overwrite or resume
+  bool of_this_version = false;     // else a result of any version of the program is kept
+  bool may_go_on = true;            // from checkpoints that are there
 };
 
 struct RunOutcome {
   bool done = false;
-  bool kept = false;  // was there before
-  std::string reason; // why not done
-  Json summary;       // of a run that is done
+  bool kept = false;    // was there before
+  std::string reason;   // why not done
+  Json summary;         // of a run that is done
+  int status = 0;       // of one that failed: exit status, or minus the number of the signal
+  bool missing = false; // has not come to its end, nor failed
 };
+const char *word(const RunOutcome &outcome); // "done", "failed", "missing"
+
+// What a run has left.
+struct Left {
+  std::optional<Json> summary; // of one that came to its end and can be kept
+  std::string fault;           // why not; "" where it had not come to its end, or had not begun
+  bool of_this = true;         // else its checkpoints are of no use either
+  std::string status = "";     // what its summary says, where that is whole: "done", "stopped", "failed"
+};
+Left left_by(const StudyRun &run);
 
 // The program beside this one. Throws InputError where it is not there.
 std::filesystem::path compress_program();
 
 // Every case on every seed, case by case; `overrides` are those of the command line. Of `threads` each run
-// gets one, or its share where there are fewer runs.
+// gets one, or its share where there are fewer runs; where runs are made `one_by_one`, each gets all.
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               const std::vector<std::string> &overrides, const OutputPaths &paths,
-                              int threads);
+                              int threads, bool one_by_one = false);
+
+// Removes, with `overwrite`, what runs of an earlier study have left, and nothing of the user's. Throws
+// FolderError where there is any and it may not.
+void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<std::filesystem::path> &inputs);
 
 // Carries out all runs, at most `at_a_time` at once, started in their order; `keep` is called for each in
 // that order as soon as it and all before it have ended. A run whose summary says done is kept where the

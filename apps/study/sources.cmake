@@ -4,8 +4,11 @@ set(PLATEN_STUDY_SOURCES
   study/accuracy_cases.cc
   study/cases.cc
   study/comparisons.cc
+  study/plan_file.cc
+  study/planned_runs.cc
   study/platen_cases.cc
   study/process.cc
   study/run_study.cc
   study/runs.cc
+  study/study_results.cc
   study/tables.cc)

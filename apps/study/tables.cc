@@ -122,7 +122,7 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   std::vector<CsvCell> cells{word(plan_.kind), of.name};
   if (of_platens(plan_.kind)) cells.emplace_back(of.surface);
   cells.insert(cells.end(), of.labels.begin(), of.labels.end());
-  cells.insert(cells.end(), {run.seed, outcome.done ? "done" : "failed"});
+  cells.insert(cells.end(), {run.seed, word(outcome)});
   std::vector<CsvCell> cost_cells = cells;
   for (const std::string &key : figures) {
     const double value = number_in(outcome.summary, key);
@@ -142,7 +142,7 @@ void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   sums.strengths.push_back(peaked(outcome.summary) ? number_in(outcome.summary, "strength_pa") : not_given);
   if (outcome.done && !peaked(outcome.summary)) ++sums.without_peak;
   ++sums.runs;
-  if (!outcome.done) ++sums.failed;
+  if (!outcome.done) ++(outcome.missing ? sums.missing : sums.failed);
 }
 
 bool StudyTables::peaked(const Json &summary) {
@@ -152,6 +152,11 @@ bool StudyTables::peaked(const Json &summary) {
 int StudyTables::failed() const {
   return std::accumulate(cases_.begin(), cases_.end(), 0,
                          [](int sum, const OfCase &of) { return sum + of.failed; });
+}
+
+int StudyTables::missing() const {
+  return std::accumulate(cases_.begin(), cases_.end(), 0,
+                         [](int sum, const OfCase &of) { return sum + of.missing; });
 }
 
 Json StudyTables::cases() const {
@@ -165,6 +170,7 @@ Json StudyTables::cases() const {
     one["overrides"] = plan_.cases[c].overrides;
     one["runs"] = cases_[c].runs;
     one["failed"] = cases_[c].failed;
+    if (cases_[c].missing > 0) one["missing"] = cases_[c].missing;
     if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
     for (const std::string &key : figures)
       one[key] = json_of(cases_[c].figures.at(key));
@@ -200,8 +206,8 @@ std::string StudyTables::text() const {
       const double value = plan_.cases[c].labels[label.place] / label.shown->unit;
       row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
     }
-    row.push_back(of.failed == 0 ? std::to_string(of.runs)
-                                 : fmt::format("{} of {}", of.runs - of.failed, of.runs));
+    const int absent = of.failed + of.missing;
+    row.push_back(absent == 0 ? std::to_string(of.runs) : fmt::format("{} of {}", of.runs - absent, of.runs));
     for (const Shown &column : measured)
       row.push_back(text_of(of.figures.at(column.column), column.unit));
     row.push_back(text_of(of.figures.at("wall_seconds"), 1));

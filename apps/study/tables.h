@@ -26,7 +26,7 @@ public:
   // Rows of a run, in the order of the runs.
   void add(const StudyRun &run, const RunOutcome &outcome);
 
-  int failed() const; // runs
+  int failed() const, missing() const; // runs
   // Whether a run is known to have borne its most: its stress fell to 0.8 of the peak, where damage is
   // measured. Else it has no strength that could be compared.
   static bool peaked(const Json &summary);
@@ -39,7 +39,7 @@ public:
 
 private:
   struct OfCase {
-    int runs = 0, failed = 0, without_peak = 0;
+    int runs = 0, failed = 0, missing = 0, without_peak = 0;
     std::map<std::string, SeedStatistics> figures; // by key of summary.json
     std::vector<double> strengths;                 // Pa, by seed; NaN: failed, or without a peak
     std::map<std::string, int> patterns;           // runs that failed so

@@ -65,6 +65,19 @@ TEST_F(Lock, comes_after_a_wait) {
   EXPECT_THROW(FolderLock(folder_, milliseconds(0), [] {}), FolderError); // ours, by another descriptor
 }
 
+TEST_F(Lock, that_is_shared_keeps_out_who_wants_it_alone) {
+  const auto lock = [&](FolderLock::Hold hold) {
+    return FolderLock(
+        folder_, milliseconds(0), [] {}, hold);
+  };
+  {
+    const FolderLock one = lock(FolderLock::Hold::shared), other = lock(FolderLock::Hold::shared);
+    EXPECT_THROW(lock(FolderLock::Hold::alone), FolderError);
+  }
+  const FolderLock alone = lock(FolderLock::Hold::alone);
+  EXPECT_THROW(lock(FolderLock::Hold::shared), FolderError);
+}
+
 TEST_F(Lock, of_no_folder_is_an_error) {
   EXPECT_THROW(FolderLock(folder_ / "none", milliseconds(0), [] {}), FolderError);
 }

@@ -20,12 +20,29 @@ protected:
   // One file under every name that the apps write, taken from what names them.
   void write_run() const {
     const OutputPaths paths(output_);
-    for (const fs::path &file :
-         {paths.scene(), paths.history(), paths.cracks(), paths.summary(), paths.log(), paths.specimen_csv(),
-          paths.specimen_vtu(), paths.directions(), paths.study(), paths.study_json(), paths.costs(),
-          paths.view(), output_ / "fields.pvd", output_ / "frames" / "fields_000003.vti",
-          paths.checkpoints() / "step_000000000007.platen",
-          paths.checkpoints() / "step_000000000008.part.platen"})
+    for (const fs::path &file : {paths.scene(),
+                                 paths.history(),
+                                 paths.cracks(),
+                                 paths.summary(),
+                                 paths.log(),
+                                 paths.specimen_csv(),
+                                 paths.specimen_vtu(),
+                                 paths.directions(),
+                                 paths.study(),
+                                 paths.study_json(),
+                                 paths.costs(),
+                                 paths.view(),
+                                 output_ / "fields.pvd",
+                                 output_ / "frames" / "fields_000003.vti",
+                                 paths.checkpoints() / "step_000000000007.platen",
+                                 paths.checkpoints() / "step_000000000008.part.platen",
+                                 paths.plan(),
+                                 paths.plan_json(),
+                                 paths.run_record("grease_seed_1"),
+                                 paths.runs() / "grease_seed_2.run.part.json",
+                                 paths.packings() / "0123456789abcdef.csv",
+                                 paths.packings() / "0123456789abcdef.node-3_42.part.csv",
+                                 paths.packings() / "in_use"})
       put(file, "run");
     for (const char *series : {"specimen", "bonds", "platens", "sleeve", "contacts"}) {
       put(output_ / (std::string(series) + ".pvd"), "run");

@@ -75,6 +75,43 @@ TEST(CommandLine, packings_are_shared_by_programs_that_pack_for_many_runs) {
   EXPECT_THROW(parse({"a.prm", "--packings", ""}, sharing), InputError);
 }
 
+TEST(CommandLine, a_study_is_planned_run_by_number_and_collected) {
+  AppDescription planning = study;
+  planning.plans_runs = true;
+  EXPECT_TRUE(parse({"rate", "a.prm", "--plan"}, planning).plan);
+  EXPECT_TRUE(parse({"rate", "a.prm", "--collect"}, planning).collect);
+  EXPECT_EQ(parse({"rate", "a.prm", "--run", "12"}, planning).run, 12);
+  EXPECT_EQ(parse({"rate", "a.prm", "--run=007"}, planning).run, 7); // seq -w
+  EXPECT_EQ(parse({"rate", "a.prm"}, planning).run, 0);
+  EXPECT_TRUE(parse({"rate", "a.prm", "--plan", "--overwrite"}, planning).overwrite);
+  const std::pair<std::vector<const char *>, const char *> bad[] = {
+      {{"--run", "0"}, "--run = 0 is no number of a run"},
+      {{"--run", "-1"}, "--run = -1 is no number of a run"},
+      {{"--run", "2x"}, "--run = 2x is no number of a run"},
+      {{"--run", "1-4"}, "--run = 1-4 is no number of a run"},
+      {{"--run", ""}, "--run =  is no number of a run"},
+      {{"--run", "99999999999"}, "is no number of a run"},
+      {{"--run"}, "--run"},
+      {{"--plan", "--collect"}, "exclude each other"},
+      {{"--plan", "--run", "1"}, "exclude each other"},
+      {{"--run", "1", "--resume"}, "--resume goes with a whole study"},
+      {{"--collect", "--resume"}, "--resume goes with a whole study"},
+      {{"--run", "1", "--overwrite"}, "--overwrite goes with --plan"},
+      {{"--collect", "--overwrite"}, "--overwrite goes with --plan"},
+      {{"--plan", "--dry-run"}, "--dry-run goes with a whole study"},
+      {{"--colect"}, "Did you mean \"--collect\"?"}};
+  for (const auto &[options, says] : bad)
+    try {
+      std::vector<const char *> line{"rate", "a.prm"};
+      line.insert(line.end(), options.begin(), options.end());
+      parse(line, planning);
+      ADD_FAILURE() << says;
+    } catch (const InputError &error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  EXPECT_THROW(parse({"a.prm", "--plan"}), InputError); // of other programs
+}
+
 struct BadLine {
   std::vector<const char *> arguments;
   const char *says;

@@ -1,0 +1,194 @@
+#include "apps/study/planned_runs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <set>
+
+#include "apps/io/byte_lock.h"
+#include "apps/io/file.h"
+#include "apps/io/machine.h"
+#include "apps/io/stop_signal.h"
+#include "apps/run/app_output.h"
+#include "apps/scene/version.h"
+#include "apps/study/study_results.h"
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A run that was killed may still be writing its last checkpoint.
+constexpr std::chrono::seconds patience{5};
+// Bytes of plan.csv: 0 for who collects, K for who makes run K.
+constexpr std::uint64_t byte_of_collecting = 0;
+
+// Runs of a plan, and who collects them, work side by side; who writes the folder anew, or makes the whole
+// study in one process, has it alone.
+std::unique_ptr<FolderLock> lock_folder(const PlannedStudy &study, FolderLock::Hold hold, RunLog &log) {
+  const fs::path &folder = study.paths.folder;
+  return std::make_unique<FolderLock>(
+      folder, patience, [&] { log.info("waits for a study at work in {}", folder.string()); }, hold);
+}
+
+std::unique_ptr<ByteLock> lock_bytes(const PlannedStudy &study, std::uint64_t first, std::uint64_t count,
+                                     const std::string &what, RunLog &log) {
+  std::unique_ptr<ByteLock> lock =
+      ByteLock::take(study.paths.plan(), first, count, patience, [&] { log.info("waits: {}", what); });
+  if (lock == nullptr)
+    throw FolderError(
+        fmt::format("{}: error: {}; wait for it, or stop it", study.paths.plan().string(), what));
+  return lock;
+}
+
+// What --run says of a run that has begun and is not done: NAME.run.json beside its folder.
+Json record_of(const PlannedStudy &study, const StudyRun &run) {
+  const ReadSummary read = read_summary(study.paths.run_record(run.name));
+  const bool ours = read.fault.empty() && text_in(read.summary, "version") == version_line() &&
+                    text_in(read.summary, "scene_sha256") == sha256_of_file(study.paths.scene()).value_or("");
+  return ours ? read.summary : Json::object();
+}
+
+void write_record(const PlannedStudy &study, const StudyRun &run, const std::string &status,
+                  const RunOutcome &outcome = {}) {
+  Json record{{"name", run.name}, {"status", status}, {"version", version_line()}};
+  record["scene_sha256"] = sha256_of_file(study.paths.scene()).value_or("");
+  if (status == "failed") record["exit_status"] = outcome.status, record["reason"] = outcome.reason;
+  write_summary(study.paths.run_record(run.name), record);
+}
+
+const StudyRun &run_of_number(const PlannedStudy &study, int number) {
+  if (static_cast<std::size_t>(number) > study.runs.size())
+    throw InputError(fmt::format("command line: error: --run = {} is not in the plan. Allowed: 1 ... {}.",
+                                 number, study.runs.size()));
+  return study.runs[static_cast<std::size_t>(number) - 1];
+}
+
+// "3, 5-9", as an array job takes them.
+std::string ranges_of(const std::vector<std::size_t> &numbers) {
+  std::string text;
+  for (std::size_t k = 0; k < numbers.size();) {
+    std::size_t last = k;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1)
+      ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[k]);
+    if (last > k) text += fmt::format("-{}", numbers[last]);
+    k = last + 1;
+  }
+  return text;
+}
+
+// What is there of a run that nobody has carried out here.
+RunOutcome found(const PlannedStudy &study, std::size_t k) {
+  const StudyRun &run = study.runs[k];
+  const auto missing = [](const std::string &why) { return RunOutcome{false, false, why, {}, 0, true}; };
+  if (ByteLock::is_taken(study.paths.plan(), k + 1)) return missing("at work");
+  Left left = left_by(run);
+  if (left.summary) return RunOutcome{true, true, "", std::move(*left.summary), 0, false};
+  if (!left.fault.empty()) return missing(left.fault);
+  const Json record = record_of(study, run);
+  if (text_in(record, "status") == "failed")
+    return RunOutcome{false, false, text_in(record, "reason"), {}, record.value("exit_status", 0), false};
+  if (!left.status.empty())
+    return missing(left.status == "failed" ? "failed, but not in this plan" : left.status);
+  return missing(record.empty() ? "not begun" : "killed");
+}
+
+// A node with other instructions rounds otherwise; see docs/clusters.md.
+void tell_instruction_sets(const std::set<std::string> &sets, RunLog &log) {
+  if (sets.size() > 1)
+    log.warning(
+        "runs were made with the instruction sets {}: on one machine they would differ by round-off; "
+        "Integration/Instruction set makes them the same",
+        fmt::join(sets, ", "));
+}
+
+} // namespace
+
+int plan_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
+  const OutputPaths &paths = study.paths;
+  if (!command.overwrite && has_plan(study, log)) {
+    log.info("the plan of {} runs is there already, {}", study.runs.size(), paths.plan().string());
+    return status_done;
+  }
+  std::error_code none;
+  const bool repairs = !command.overwrite && fs::exists(paths.plan_json(), none);
+  const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
+  if (!repairs) check_output_folder(paths.folder, use, input_files(study.scene));
+  create_folder(paths.folder);
+  const std::unique_ptr<FolderLock> lock = lock_folder(study, FolderLock::Hold::alone, log);
+  std::unique_ptr<ByteLock> runs; // on other machines too
+  if (fs::is_regular_file(paths.plan(), none))
+    runs = lock_bytes(study, 0, ByteLock::to_the_end, "runs of the plan are at work", log);
+  if (!repairs) {
+    clear_runs(paths, command.overwrite, input_files(study.scene));
+    open_output_folder(paths.folder, use, input_files(study.scene));
+  }
+  write_plan(study);
+  log.info(
+      "{} runs are planned in {}; make each with\n  {} --run K\nand, when all are done, the tables with\n  "
+      "{} --collect",
+      study.runs.size(), paths.plan().string(), study.command, study.command);
+  return status_done;
+}
+
+int make_planned_run(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
+  require_plan(study);
+  StudyRun run = run_of_number(study, command.run);
+  const std::unique_ptr<FolderLock> folder = lock_folder(study, FolderLock::Hold::shared, log);
+  const std::unique_ptr<ByteLock> lock =
+      lock_bytes(study, static_cast<std::uint64_t>(command.run), 1,
+                 fmt::format("run {} of the plan, {}, is at work already", command.run, run.name), log);
+  catch_stop_signals();
+  run.may_go_on = !record_of(study, run).empty();
+  const fs::path record = study.paths.run_record(run.name);
+  if (!left_by(run).summary) write_record(study, run, "begun");
+  RunOutcome outcome;
+  try {
+    carry_out({run}, 1, log, [&](std::size_t, const RunOutcome &of) { outcome = of; });
+  } catch (const Stopped &stopped) {
+    log.info("stopped by a signal; go on with: {} --run {}", study.command, command.run);
+    return exit_status_of_signal(stopped.signal);
+  }
+  const std::string head = fmt::format("  {} of {}  {}", command.run, study.runs.size(), run.name);
+  if (!outcome.done) {
+    write_record(study, run, "failed", outcome);
+    log.error("{}: failed, {}", head, outcome.reason);
+    return outcome.status < 0 ? exit_status_of_signal(-outcome.status) : outcome.status;
+  }
+  std::error_code ignored;
+  fs::remove(record, ignored);
+  const bool missed = !tell_outcome(study.scene, study.plan.kind, head, run, outcome, log).empty();
+  return missed ? status_check_failed : status_done;
+}
+
+int collect_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
+  require_plan(study);
+  const std::unique_ptr<FolderLock> folder = lock_folder(study, FolderLock::Hold::shared, log);
+  const std::unique_ptr<ByteLock> lock =
+      lock_bytes(study, byte_of_collecting, 1, "its runs are being collected", log);
+  log.open(study.paths.log(), true, {version_text(), command.text, 1});
+  StudyResults results(study.scene, study.plan, study.runs, study.paths, log);
+  std::vector<std::size_t> missing;
+  std::set<std::string> instruction_sets;
+  for (std::size_t k = 0; k < study.runs.size(); ++k) {
+    const RunOutcome outcome = found(study, k);
+    results.keep(k, outcome);
+    if (outcome.missing) missing.push_back(k + 1);
+    if (const std::string set = text_in(outcome.summary, "instruction_set"); !set.empty())
+      instruction_sets.insert(set);
+  }
+  tell_instruction_sets(instruction_sets, log);
+  // Seconds and threads are those of many processes: costs.csv has them.
+  const int status = results.finish(
+      {{"threads", nullptr}, {"wall_seconds", nullptr}, {"peak_memory_bytes", peak_memory_bytes()}});
+  if (!missing.empty())
+    log.error("{} of {} runs are missing: {}. Make them with: {} --run K", missing.size(), study.runs.size(),
+              ranges_of(missing), study.command);
+  return status;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,106 @@
+#include "apps/study/study_results.h"
+
+#include <fmt/format.h>
+
+#include "apps/io/sha256.h"
+#include "apps/run/app_output.h"
+#include "apps/run/problem_setup.h"
+#include "apps/scene/expect.h"
+#include "apps/scene/values.h"
+
+namespace platen::apps {
+
+std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const std::string &head,
+                                      const StudyRun &run, const RunOutcome &outcome, RunLog &log) {
+  if (!outcome.done) {
+    log.warning("{}: {}, {}", head, word(outcome), outcome.reason);
+    return {};
+  }
+  log.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
+           number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
+  const bool compared = of_platens(kind) || kind == StudyKind::accuracy;
+  if (compared && !StudyTables::peaked(outcome.summary))
+    log.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
+                run.name);
+  std::vector<std::string> missed;
+  for (const std::string &line : check_expectations(scene, outcome.summary).failed) {
+    missed.push_back(run.name + ": " + line);
+    log.error("expected: {}", missed.back());
+  }
+  return missed;
+}
+
+StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
+                           const OutputPaths &paths, RunLog &log)
+    : scene_(scene),
+      plan_(plan),
+      runs_(runs),
+      paths_(paths),
+      log_(log),
+      tables_(plan, paths),
+      accuracy_(plan) {}
+
+void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
+  tables_.add(runs_[k], outcome);
+  accuracy_.add(runs_[k], outcome);
+  const std::string head = fmt::format("  {} of {}  {}", k + 1, runs_.size(), runs_[k].name);
+  for (std::string &line : tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_))
+    missed_.push_back(std::move(line));
+}
+
+std::string StudyResults::compare(Json &study) const {
+  if (of_platens(plan_.kind)) {
+    const std::vector<Comparison> comparisons = tables_.comparisons();
+    study["comparisons"] = json_of(plan_, comparisons);
+    study["laboratory"] = laboratory_figures();
+    return text_of(plan_, comparisons);
+  }
+  if (plan_.kind != StudyKind::accuracy) return "";
+  accuracy_.write_rows(paths_.accuracy());
+  const std::vector<ParameterErrors> errors = accuracy_.errors();
+  study["accuracy"] = json_of(plan_, errors);
+  study["costs"] = costs_of(plan_, errors);
+  return text_of(plan_, errors);
+}
+
+std::string StudyResults::status() const {
+  if (tables_.missing() > 0) return "stopped";
+  return tables_.failed() < static_cast<int>(runs_.size()) ? "done" : "failed";
+}
+
+Json StudyResults::study_json() const {
+  Json study;
+  study["kind"] = word(plan_.kind);
+  study["status"] = status();
+  study["varied"] = plan_.varied;
+  study["seeds"] = plan_.seeds;
+  study["runs"] = runs_.size();
+  study["failed_runs"] = tables_.failed();
+  if (tables_.missing() > 0) study["missing_runs"] = tables_.missing();
+  study["cases"] = tables_.cases();
+  return study;
+}
+
+int StudyResults::finish(const Json &costs) {
+  Json study = study_json();
+  const std::string compared = compare(study);
+  write_summary(paths_.study_json(), study);
+  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
+  s.update(study);
+  s["missed"] = missed_;
+  s.update(costs);
+  s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");
+  s["inputs_sha256"] = input_sums(scene_);
+  write_summary(paths_.summary(), s);
+  log_.info("{}{}", tables_.text(), compared);
+  if (tables_.failed() > 0) log_.warning("{} of {} runs failed", tables_.failed(), runs_.size());
+  log_.info("results are in {}", paths_.folder.string());
+  if (tables_.missing() > 0) return status_numerics;
+  if (status() == "failed") {
+    log_.error("no run came to its end");
+    return status_numerics;
+  }
+  return missed_.empty() ? status_done : status_check_failed;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,47 @@
+// What a study leaves when its runs are there: tables, study.json, summary.json, words on the screen.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/io/output_folder.h"
+#include "apps/io/run_log.h"
+#include "apps/study/accuracy.h"
+#include "apps/study/cases.h"
+#include "apps/study/runs.h"
+#include "apps/study/tables.h"
+
+namespace platen::apps {
+
+// Says what came of a run, after `head`, and which numbers that the scene expects it missed; returns those.
+std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const std::string &head,
+                                      const StudyRun &run, const RunOutcome &outcome, RunLog &log);
+
+class StudyResults {
+public:
+  // Begins the tables anew. All but the scene's text has to outlive this.
+  StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
+               const OutputPaths &paths, RunLog &log);
+
+  // Of run k, in their order.
+  void keep(std::size_t k, const RunOutcome &outcome);
+  // Once all are there. `costs` are the keys of summary.json on what the study took. Returns the exit status.
+  int finish(const Json &costs);
+
+private:
+  // What the kind of study alone leaves: added to study.json, told.
+  std::string compare(Json &study) const;
+  Json study_json() const;
+  std::string status() const;
+
+  const Scene &scene_;
+  const StudyPlan &plan_;
+  const std::vector<StudyRun> &runs_;
+  const OutputPaths &paths_;
+  RunLog &log_;
+  StudyTables tables_;
+  Accuracy accuracy_;
+  std::vector<std::string> missed_; // of what the scene expects of each run
+};
+
+} // namespace platen::apps
