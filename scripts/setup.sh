@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
 # Installs what Platen needs on Debian 12 and is not there yet, and further packages that are named. Where all is there it
-# says so and touches nothing, the network included.
-#   scripts/setup.sh [PACKAGE...]
+# says so and touches nothing, the network included. --cluster: what tests of studies over nodes need too, Slurm and GNU
+# parallel.
+#   scripts/setup.sh [--cluster] [PACKAGE...]
 set -euo pipefail
+
+cluster=()
+if [ "${1:-}" = --cluster ]; then
+  cluster=(munge slurmctld slurmd slurm-client parallel)
+  shift
+fi
 
 packages=(
   git g++ cmake ninja-build pkg-config # tools
@@ -16,6 +23,7 @@ packages=(
   xvfb xauth                           # pictures where there is no display
   libfontconfig-dev                    # and their letters: Latin, Greek, Cyrillic; Chinese, Japanese, Korean
   fonts-dejavu-core fonts-wqy-microhei
+  "${cluster[@]}"
   "$@"
 )
 
