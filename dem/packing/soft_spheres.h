@@ -1,5 +1,5 @@
-// Soft frictionless spheres between frictionless walls, brought to rest: the working part of the growth
-// packing.
+// Soft frictionless spheres between frictionless walls, or in a box without walls that repeats itself,
+// brought to rest: the working part of the growth packings.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,8 @@
 
 #include "base/random.h"
 #include "base/vector3.h"
+#include "dem/kernels/soft_kernel.h"
+#include "dem/packing/soft_partners.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -19,12 +21,19 @@ struct Overlaps {
   double residual_force = 0; // root mean square of the net force on a sphere, same unit (stiffness 1)
 };
 
+// Where soft spheres are.
+struct Room {
+  Shape shape;          // a cylinder or box with walls; of a repeating room a box
+  bool repeats = false; // in x, y and z: what leaves at one face comes in at the opposite one
+};
+
 // Spheres of radius scale * factor[i] that repel with unit stiffness where they overlap (energy overlap^2 / 2
 // per contact). Any length unit; the mean radius should be about 1, which the search skin and the steps
-// assume.
+// assume. Loops use the threads of all loops; places repeat to the last bit for any number of them and on any
+// processor: forces are added in the order of the spheres, and so are the two sums that a place depends on.
 class SoftSpheres {
 public:
-  SoftSpheres(const Shape &shape, std::vector<Vector3> centre, std::vector<double> factor);
+  SoftSpheres(Room room, const std::vector<Vector3> &centre, std::vector<double> factor);
 
   void set_scale(double scale);
   double scale() const { return scale_; }
@@ -37,26 +46,58 @@ public:
   // force in a direction of its own, from now on, so that relax() seats it on its neighbours: no sphere
   // floats. Returns how many there are.
   std::size_t press_loose_spheres(double force, Random &random);
-  const std::vector<Vector3> &centre() const { return centre_; }
+  // In order of space, not of the constructor. Of a repeating room: within the box.
+  std::vector<Vector3> centres() const;
   const std::vector<double> &factor() const { return factor_; }
 
 private:
-  void sort_in_space();
-  void build_pairs();
-  bool pairs_are_stale() const;
-  void compute_forces();
-  double squeeze(double x, double r, double half);
-  void add_wall_forces();
-  void touch(double overlap);
+  // Of one block of rows, in the order of lanes: good for what allows for their round-off.
+  struct BlockSums {
+    kernels::SoftContacts contacts;
+    kernels::SoftPower power;
+    double fastest = 0;
+    double room = -1; // how far its spheres may still go before each is looked at
+  };
 
-  Shape shape_;
+  std::size_t size() const { return factor_.size(); }
+  Vector3 place(std::size_t i) const { return {ball_[i].x, ball_[i].y, ball_[i].z}; }
+  void sort_in_space(std::vector<Vector3> &centre);
+  void make_images();
+  void move_images();
+  void choose_reach();
+  void find_partners();
+  bool partners_are_stale();
+  double room_of(std::size_t first, std::size_t last) const;
+  void compute_forces(double next_step);
+  void compute_squares(double next_step);
+  void sum_squares();
+  bool at_rest(double tolerance, double floor);
+  bool goes_downhill() const;
+  void step_back(double step);
+  void drift(double step, double mixing);
+  Overlaps exact_overlaps() const;
+  template <class Touch>
+  Vector3 wall_force(std::size_t i, const Touch &touch) const;
+  kernels::SoftColumns columns();
+
+  Room room_;
   double scale_ = 1, largest_factor_ = 1;
-  std::vector<Vector3> centre_, press_, force_, velocity_, centre_at_build_;
-  std::vector<double> factor_, radius_;
+  std::vector<double> factor_;
+  // Spheres, filled up to whole packs; one that touches none; images. Other columns have the first and a
+  // spare row, so that vectors can be read as four doubles.
+  std::vector<kernels::Ball> ball_;
+  std::size_t rows_ = 0; // whole packs
+  std::vector<int> owner_;
+  std::vector<Vector3> shift_; // of images
+  std::vector<Vector3> press_, force_, velocity_, centre_at_build_;
+  std::vector<double> force_square_, speed_square_;
+  SoftPartners partners_;
+  std::vector<int> near_wall_;
+  std::vector<double> reach_; // how far each sphere may go until partners are looked for again
   double scale_at_build_ = 0;
-  std::vector<int> first_,
-      partner_;  // partners of sphere i, numbers above i: partner_[first_[i] .. first_[i + 1])
-  Overlaps now_; // of the last compute_forces()
+  long since_build_ = 0;
+  std::vector<BlockSums> sums_;
+  double residual_ = 0, push_ = 0, speed_ = 0; // of the last forces: squares summed in order
 };
 
 } // namespace platen::dem

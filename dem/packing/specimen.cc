@@ -148,6 +148,23 @@ double wall_clearance(const Shape &shape, const Vector3 &p) {
   return std::min(ends, std::min(0.5 * shape.width_x - std::abs(p.x), 0.5 * shape.width_y - std::abs(p.y)));
 }
 
+Shape scaled(Shape shape, double s) {
+  shape.radius *= s, shape.width_x *= s, shape.width_y *= s, shape.height *= s;
+  return shape;
+}
+
+Vector3 periods(const Shape &box) {
+  return {box.width_x, box.width_y, box.height};
+}
+
+Vector3 within(const Shape &box, const Vector3 &point) {
+  const Vector3 period = periods(box), low = bounding_box(box).low;
+  Vector3 place;
+  for (int k = 0; k < 3; ++k)
+    place[k] = point[k] - period[k] * std::floor((point[k] - low[k]) / period[k]);
+  return place;
+}
+
 void require_valid(const Shape &shape) {
   require_positive(shape.height, "height");
   if (shape.kind == ShapeKind::cylinder) {

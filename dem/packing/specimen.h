@@ -41,6 +41,10 @@ double smallest_width(const Shape &shape);                // m: diameter, an edg
 // Distance from a point to the nearest wall or end plane, m; negative outside (there, for a box, the largest
 // distance to a face plane).
 double wall_clearance(const Shape &shape, const Vector3 &point);
+Shape scaled(Shape shape, double factor); // every length
+// Of a box that repeats itself along x, y and z: its edges (m), and the place in it of a point anywhere.
+Vector3 periods(const Shape &box);
+Vector3 within(const Shape &box, const Vector3 &point);
 // Throws std::invalid_argument, naming the measure, unless every measure of the shape is positive and finite.
 void require_valid(const Shape &shape);
 

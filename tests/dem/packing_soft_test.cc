@@ -1,0 +1,185 @@
+// Soft spheres on their way to rest: places are those of a plain loop over all pairs, to the last bit, on any
+// number of threads and any processor.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "dem/instruction_set.h"
+#include "dem/packing/growth.h"
+#include "dem/packing/soft_spheres.h"
+
+namespace {
+
+using namespace platen;
+using namespace platen::dem;
+
+bool same_bytes(const Specimen &a, const Specimen &b) {
+  return a.size() == b.size() && a.size() > 0 &&
+         std::memcmp(a.centre.data(), b.centre.data(), a.size() * sizeof(Vector3)) == 0 &&
+         std::memcmp(a.radius.data(), b.radius.data(), a.size() * sizeof(double)) == 0;
+}
+
+// FIRE with unit stiffness as it is written down, every pair looked at in every iteration.
+class PlainSpheres {
+public:
+  PlainSpheres(const Shape &shape, std::vector<Vector3> centre, std::vector<double> radius)
+      : shape_(shape), centre_(std::move(centre)), radius_(std::move(radius)) {}
+  const std::vector<Vector3> &centre() const { return centre_; }
+
+  void relax(long iterations) {
+    const std::size_t n = centre_.size();
+    std::vector<Vector3> velocity(n);
+    double step = 0.1, mixing = 0.1;
+    int downhill = 0;
+    for (long iteration = 0; iteration < iterations; ++iteration) {
+      compute_forces();
+      double power = 0, speed = 0, push = 0;
+      for (std::size_t i = 0; i < n; ++i)
+        power += dot(force_[i], velocity[i]);
+      if (power > 0) {
+        if (++downhill > 5) step = std::min(step * 1.1, 0.45), mixing *= 0.99;
+      } else {
+        for (std::size_t i = 0; i < n; ++i)
+          centre_[i] -= (0.5 * step) * velocity[i], velocity[i] = Vector3{};
+        if (iteration > 0) step = std::max(step * 0.5, 0.002);
+        mixing = 0.1, downhill = 0;
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        velocity[i] += step * force_[i];
+        speed += norm_squared(velocity[i]), push += norm_squared(force_[i]);
+      }
+      const double along = push > 0 ? mixing * std::sqrt(speed / push) : 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        velocity[i] = (1 - mixing) * velocity[i] + along * force_[i];
+        centre_[i] += step * velocity[i];
+      }
+    }
+  }
+
+private:
+  static double squeeze(double x, double r, double half) {
+    return std::max(0.0, r - half - x) - std::max(0.0, x + r - half);
+  }
+  void compute_forces() {
+    force_.assign(centre_.size(), Vector3{});
+    for (std::size_t i = 0; i < centre_.size(); ++i) {
+      Vector3 sum;
+      for (std::size_t j = i + 1; j < centre_.size(); ++j) {
+        const Vector3 d = centre_[j] - centre_[i];
+        const double overlap = std::max(0.0, radius_[i] + radius_[j] - norm(d));
+        const Vector3 f = (overlap / norm(d)) * d;
+        sum -= f;
+        force_[j] += f;
+      }
+      force_[i] += sum;
+    }
+    for (std::size_t i = 0; i < centre_.size(); ++i) {
+      const Vector3 &c = centre_[i];
+      const double half = 0.5 * shape_.height, r = radius_[i], out = std::sqrt(c.x * c.x + c.y * c.y);
+      force_[i].z += squeeze(c.z - half, r, half);
+      const double inwards = squeeze(out, r, shape_.radius);
+      if (inwards != 0) force_[i].x += inwards * c.x / out, force_[i].y += inwards * c.y / out;
+    }
+  }
+
+  Shape shape_;
+  std::vector<Vector3> centre_, force_;
+  std::vector<double> radius_;
+};
+
+TEST(SoftSpheres, go_where_a_plain_loop_over_all_pairs_takes_them) {
+  const Shape shape = cylinder(5, 12);
+  Random random(3);
+  std::vector<Vector3> centre;
+  std::vector<double> factor;
+  while (centre.size() < 150) { // 18 packs of eight and six more
+    const Vector3 p{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 12)};
+    if (wall_clearance(shape, p) < 0.5) continue;
+    centre.push_back(p), factor.push_back(random.uniform(0.7, 1.3));
+  }
+  SoftSpheres soft({shape, false}, centre, factor);
+  PlainSpheres plain(shape, soft.centres(), soft.factor());
+  for (const long iterations : {1L, 60L, 900L}) { // from its last place each time, at rest
+    soft.relax(0, 0, iterations);
+    plain.relax(iterations);
+    const std::vector<Vector3> places = soft.centres();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        ASSERT_EQ(places[i][k], plain.centre()[i][k])
+            << "sphere " << i << ", " << iterations << " iterations";
+  }
+}
+
+struct Columns {
+  std::vector<kernels::Ball> ball;
+  std::vector<Vector3> force, velocity, press;
+  std::vector<double> force_square, speed_square;
+  kernels::SoftContacts contacts;
+};
+
+// Two packs of spheres anywhere, with one kernel set.
+Columns by_kernels(kernels::SoftForces add_forces, kernels::SoftSquares squares, kernels::SoftDrift drift) {
+  Columns c;
+  Random random(8);
+  c.ball.resize(17);
+  c.force.resize(17), c.velocity.resize(17), c.press.resize(17);
+  c.force_square.resize(16), c.speed_square.resize(16);
+  for (std::size_t i = 0; i < 16; ++i) {
+    c.ball[i] = {random.uniform(0.5, 1.5), random.uniform(0, 3), random.uniform(0, 3), random.uniform(0, 3)};
+    c.velocity[i] = random.direction(), c.press[i] = 0.1 * random.direction();
+  }
+  c.ball[16].radius = -1e300;
+  SoftPartners partners;
+  const std::vector<double> reach(16, 0.1);
+  partners.build({c.ball.data(), 16, 17, 17, nullptr, reach.data()});
+  const kernels::SoftColumns columns{c.ball.data(),           c.force.data(),          c.velocity.data(),
+                                     c.press.data(),          partners.partner.data(), partners.first.data(),
+                                     partners.earlier.data(), c.force_square.data(),   c.speed_square.data()};
+  c.contacts = add_forces(columns, 0, 2);
+  squares(columns, 0.37, 0, 2);
+  drift(columns, {0.37, 0.09, 0.2}, 0, 2);
+  return c;
+}
+
+void expect_same(const Columns &a, const Columns &b) {
+  const auto bytes = [](const auto &x, const auto &y) {
+    return std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+  };
+  EXPECT_TRUE(bytes(a.force, b.force));
+  EXPECT_TRUE(bytes(a.velocity, b.velocity));
+  EXPECT_TRUE(bytes(a.ball, b.ball));
+  EXPECT_TRUE(bytes(a.force_square, b.force_square));
+  EXPECT_TRUE(bytes(a.speed_square, b.speed_square));
+  EXPECT_EQ(a.contacts.number, b.contacts.number);
+  EXPECT_EQ(a.contacts.largest, b.contacts.largest);
+}
+
+TEST(SoftSpheres, go_the_same_way_on_every_instruction_set) {
+  using namespace kernels;
+  const Columns baseline = by_kernels(add_soft_forces_baseline, soft_squares_baseline, move_soft_baseline);
+  EXPECT_GT(baseline.contacts.number, 30);
+  const InstructionSet best = best_instruction_set();
+  if (best == InstructionSet::baseline) GTEST_SKIP() << "this processor has the baseline alone";
+  expect_same(baseline, by_kernels(add_soft_forces_avx2, soft_squares_avx2, move_soft_avx2));
+  if (best == InstructionSet::avx512)
+    expect_same(baseline, by_kernels(add_soft_forces_avx512, soft_squares_avx512, move_soft_avx512));
+}
+
+TEST(SoftSpheres, go_the_same_way_on_any_number_of_threads) {
+  std::vector<Specimen> walls;
+  for (const int threads : {1, 2, 3}) {
+    const ThreadLimit limit(threads);
+    walls.push_back(random_close_packing_of(box(10, 10, 17), 1100, 0.5, 6)); // three blocks of rows
+  }
+  for (std::size_t k = 1; k < walls.size(); ++k) {
+    EXPECT_TRUE(same_bytes(walls[0], walls[k])) << k + 1 << " threads";
+  }
+}
+
+} // namespace
