@@ -7,6 +7,7 @@
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/run_state.h"
+#include "apps/run/specimen_setup.h"
 #include "apps/scene/surfaces.h"
 #include "base/pi.h"
 #include "dem/measure/stress.h"
@@ -49,6 +50,7 @@ std::string CompressionRun::description() const {
   text += fmt::format("  particles {}, bonds {:.0f}, coordination number {:.2f}, packing fraction {:.3f}\n",
                       model.particles.size(), bonds, test_->coordination_number(),
                       test_->facts().packing_fraction);
+  text += text_of(tiling_of(scene_, test_->shape()));
   text += text_of(specimen_state_);
   if (const SizeCorrection &size = scene_.bond.size; size.reference > 0) {
     const double share = scene_.specimen.sphere_radius / size.reference;

@@ -13,6 +13,7 @@
 #include "apps/run/app_output.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/version.h"
+#include "base/parallel.h"
 #include "dem/packing/quality.h"
 #include "dem/packing/specimen.h"
 
@@ -44,7 +45,7 @@ Judgement judge(const dem::Specimen &specimen, const Scene &scene) {
   return j;
 }
 
-Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
+Json summary_of(const Scene &scene, const Judgement &j, const Tiling &tiling, double seconds) {
   const dem::PackingQuality &q = j.quality;
   Json s;
   s["status"] = "done";
@@ -69,6 +70,10 @@ Json summary_of(const Scene &scene, const Judgement &j, double seconds) {
   s["touching_top"] = q.touching_top;
   s["seated_bottom"] = j.seated_bottom;
   s["seated_top"] = j.seated_top;
+  if (tiling.tiles > 0) {
+    s["tiles"] = tiling.tiles;
+    s["tile_period_m"] = tiling.period;
+  }
   s["wall_seconds"] = seconds;
   s["peak_memory_bytes"] = peak_memory_bytes();
   return s;
@@ -87,7 +92,7 @@ void write_directions(const OutputPaths &paths, const std::vector<dem::AxisCell>
   table.finish();
 }
 
-std::string report_of(const Judgement &j, double seconds) {
+std::string report_of(const Judgement &j, const Tiling &tiling, double seconds) {
   const dem::PackingQuality &q = j.quality;
   std::string text = fmt::format("  spheres                    {} of mean radius {:.4g} mm\n", q.spheres,
                                  1e3 * q.mean_radius);
@@ -104,6 +109,7 @@ std::string report_of(const Judgement &j, double seconds) {
       fmt::format("  isotropy, chi squared      {:.2f} (isotropic: 1.0 +- 0.1)\n", q.isotropy_chi_squared);
   text += fmt::format("  at the ends                touching {} and {}, seated {} and {}\n",
                       q.touching_bottom, q.touching_top, j.seated_bottom, j.seated_top);
+  text += text_of(tiling);
   text += fmt::format("  seconds                    {:.1f}\n", seconds);
   return text;
 }
@@ -117,8 +123,8 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   if (command.dry_run) {
     require_room(scene);
     const dem::Shape shape = specimen_shape(scene);
-    fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n", title_of(scene), 1e6 * shape.volume(),
-               1e3 * scene.specimen.sphere_radius);
+    fmt::print("{}\n  volume {:.4g} cm3, sphere radius {:.4g} mm\n{}", title_of(scene), 1e6 * shape.volume(),
+               1e3 * scene.specimen.sphere_radius, text_of(tiling_of(scene, shape)));
     return status_done;
   }
   const auto start = Clock::now();
@@ -126,7 +132,8 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   const double seconds = seconds_since(start);
   const Judgement judgement = judge(specimen, scene);
 
-  output.open(1);
+  const Tiling tiling = tiling_of(scene, specimen.shape);
+  output.open(scene.specimen.packing == PackingKind::random_close ? loop_threads() : 1);
   const OutputPaths &paths = output.paths;
   write_specimen_csv(paths.specimen_csv(), specimen);
   std::vector<int> id(specimen.size());
@@ -134,8 +141,8 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   write_points(paths.specimen_vtu(), 0.0, specimen.centre, {{"radius", specimen.radius}, {"id", id}});
   write_directions(paths, judgement.quality.directions);
   return output.finish(
-      summary_of(scene, judgement, seconds),
-      fmt::format("{}\nresults are in {}", report_of(judgement, seconds), paths.folder.string()));
+      summary_of(scene, judgement, tiling, seconds),
+      fmt::format("{}\nresults are in {}", report_of(judgement, tiling, seconds), paths.folder.string()));
 }
 
 } // namespace platen::apps

@@ -12,6 +12,8 @@
 #include "base/pi.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
+#include "dem/packing/periodic_growth.h"
+#include "dem/packing/tiled.h"
 
 namespace platen::apps {
 namespace {
@@ -116,9 +118,51 @@ namespace {
 // Both constants are on the safe side: bench/results/step.md has 665 bytes a sphere in columns alone.
 constexpr double least_packing_fraction = 0.5, least_bytes = 500, most_spheres = 2e8;
 
+bool tiled(const SpecimenSection &specimen) {
+  return specimen.packing == PackingKind::random_close && specimen.tile_spheres > 0;
+}
+
+double spread_of(const SpecimenSection &specimen) {
+  return specimen.radius_distribution == RadiusKind::equal ? 0.0 : specimen.radius_spread;
+}
+
+void check_tiles(const Scene &scene, const dem::Shape &shape) {
+  const SpecimenSection &specimen = scene.specimen;
+  if (!tiled(specimen)) return;
+  const auto least = static_cast<double>(dem::fewest_periodic_spheres);
+  const double one = tiling_of(scene, shape).tiles * specimen.tile_spheres; // spheres of the specimen
+  const double most = std::floor(one / dem::fewest_tiles / 100) * 100;
+  if (specimen.tile_spheres >= least && specimen.tile_spheres <= most) return;
+  const std::string why = specimen.tile_spheres < least
+                              ? "would meet itself"
+                              : fmt::format("is a large part of the specimen, which has some {:.2g}", one);
+  refuse(scene, "Specimen/Tile spheres",
+         most < least
+             ? why + ". Allowed: 0, which grows the specimen as a whole."
+             : fmt::format("{}. Allowed: {:.0f} ... {:.0f}, or 0, which grows the specimen as a whole.", why,
+                           least, most));
+}
+
 } // namespace
 
+Tiling tiling_of(const Scene &scene, const dem::Shape &shape) {
+  const SpecimenSection &specimen = scene.specimen;
+  if (!tiled(specimen)) return {};
+  const double tiles = dem::tiles_in(shape, specimen.sphere_radius, spread_of(specimen),
+                                     static_cast<std::size_t>(specimen.tile_spheres));
+  return {tiles, std::cbrt(shape.volume() / tiles)};
+}
+
+std::string text_of(const Tiling &tiling) {
+  if (tiling.tiles == 0) return {};
+  return fmt::format(
+      "  packing of {:.3g} tiles, the same again every {:.4g} mm along x, y and z: figures scatter "
+      "as those of one tile\n",
+      tiling.tiles, 1e3 * tiling.period);
+}
+
 void check_count(const Scene &scene, const dem::Shape &shape) {
+  check_tiles(scene, shape);
   const double radius = scene.specimen.sphere_radius;
   const double room = least_packing_fraction * shape.volume() / (4.0 / 3.0 * pi);
   const double spheres = room / std::pow(radius, 3);
@@ -146,9 +190,10 @@ dem::Specimen place_spheres(const Scene &scene) {
         scene, "Specimen/Radius distribution",
         "does not go with Specimen/Packing = random close. Allowed: equal, uniform; or Packing = advancing "
         "front.");
-  const bool equal = specimen.radius_distribution == RadiusKind::equal;
-  return dem::random_close_packing(shape, specimen.sphere_radius, equal ? 0.0 : specimen.radius_spread,
-                                   scene.general.seed);
+  if (tiled(specimen))
+    return dem::tiled_close_packing(shape, specimen.sphere_radius, spread_of(specimen),
+                                    static_cast<std::size_t>(specimen.tile_spheres), scene.general.seed);
+  return dem::random_close_packing(shape, specimen.sphere_radius, spread_of(specimen), scene.general.seed);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "apps/scene/scene.h"
 #include "dem/packing/specimen.h"
@@ -12,7 +13,17 @@ namespace platen::apps {
 // given.
 dem::Shape specimen_shape(const Scene &scene);
 
-// Throws InputError where more spheres fill the shape than the memory of this machine holds.
+// How often a packing of tiles repeats itself, within a percent.
+struct Tiling {
+  double tiles = 0;  // volume of the specimen over that of a tile; 0 where it is grown as a whole
+  double period = 0; // m, along x, y and z
+};
+Tiling tiling_of(const Scene &scene, const dem::Shape &shape);
+// A line for the screen; none where nothing repeats itself.
+std::string text_of(const Tiling &tiling);
+
+// Throws InputError where more spheres fill the shape than the memory of this machine holds, or fewer than
+// two tiles do.
 void check_count(const Scene &scene, const dem::Shape &shape);
 
 // What becomes of a packing: calls `pack`, or takes what it would give from elsewhere.

@@ -9,6 +9,7 @@
 #include "apps/run/pressure_path.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
+#include "apps/run/specimen_setup.h"
 #include "apps/run/stages_of_run.h"
 #include "apps/run/validity.h"
 #include "dem/measure/damage.h"
@@ -176,6 +177,10 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
   s["packing_fraction"] = problem.facts().packing_fraction;
+  if (const Tiling tiling = tiling_of(scene, problem.shape()); tiling.tiles > 0) {
+    s["tiles"] = tiling.tiles;
+    s["tile_period_m"] = tiling.period;
+  }
   s["grain_density_kg_m3"] = problem.facts().grain_density;
   s["seated_top"] = problem.top().layer().seats();
   s["seated_bottom"] = problem.bottom().layer().seats();

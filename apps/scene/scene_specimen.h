@@ -28,7 +28,8 @@ struct SpecimenSection {
   double second_radius_ratio = 0.5; // two sizes: second radius over the first
   double second_fraction = 0.5;     // two sizes: share of the number of spheres that has the second radius
   PackingKind packing = PackingKind::advancing_front;
-  std::string file; // Packing = file; resolved against the folder of the scene
+  int tile_spheres = 0; // random close: laid out of tiles of so many; 0: grown as a whole
+  std::string file;     // Packing = file; resolved against the folder of the scene
   dem::EndPreparation ends = dem::EndPreparation::as_packed;
   double end_layer = 1; // mean sphere radii
   bool seat = false;

@@ -41,6 +41,12 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                               {"random close", PackingKind::random_close},
                               {"file", PackingKind::file}},
                              "How the spheres are placed; file takes them from File.");
+  section
+      .integer("Tile spheres", specimen.tile_spheres, 0, 5000000,
+               "A large packing is laid out of copies of one of so many spheres, which repeats itself "
+               "without seams, and grown on between the walls; 0 grows it as a whole. What is told of many "
+               "tiles is known of one.")
+      .only_if("Specimen/Packing", {"random close"});
   section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
   section
       .entry<dem::EndPreparation>(

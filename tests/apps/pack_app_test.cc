@@ -31,6 +31,17 @@ constexpr const char *cylinder =
     "  set Sphere radius = 1 mm\n"
     "end\n";
 
+// Some 2 300 spheres.
+constexpr const char *large_box =
+    "subsection Specimen\n"
+    "  set Shape = box\n"
+    "  set Width x = 24 mm\n"
+    "  set Width y = 24 mm\n"
+    "  set Height = 30 mm\n"
+    "  set Sphere radius = 1 mm\n"
+    "  set Packing = random close\n"
+    "end\n";
+
 std::string text_of(const fs::path &path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -222,6 +233,42 @@ TEST_F(PackApp, a_written_packing_is_read_back) {
   EXPECT_GT(s["packing_fraction"].get<double>(), .54);
   EXPECT_GT(s["touching_bottom"].get<int>(), 15);
   EXPECT_GT(s["touching_top"].get<int>(), 15);
+}
+
+TEST_F(PackApp, lays_a_large_packing_out_of_tiles_and_tells_how_many) {
+  write("large.prm", large_box);
+  ASSERT_EQ(run(scene("large.prm", {"Specimen/Tile spheres = 400"}), "tiled"), status_done);
+  ASSERT_EQ(run(scene("large.prm"), "whole"), status_done);
+  const nlohmann::json tiled = summary("tiled"), whole = summary("whole");
+  EXPECT_FALSE(whole.contains("tiles"));
+  const double period = tiled["tile_period_m"].get<double>();
+  EXPECT_NEAR(tiled["tiles"].get<double>() * period * period * period, 24e-3 * 24e-3 * 30e-3, 1e-10);
+  EXPECT_NEAR(tiled["tiles"].get<double>(), tiled["particles"].get<double>() / 400, .5); // less at walls
+  for (const char *key : {"packing_fraction", "core_packing_fraction"})
+    EXPECT_NEAR(tiled[key].get<double>(), whole[key].get<double>(), .01) << key;
+  EXPECT_NE(text_of(folder / "tiled/specimen.csv"), text_of(folder / "whole/specimen.csv"));
+  EXPECT_NE(text_of(folder / "tiled/run.log").find("the same again every"), std::string::npos);
+}
+
+TEST_F(PackApp, refuses_tiles_that_are_no_small_part_of_the_specimen) {
+  write("large.prm", large_box);
+  const auto said = [&](const std::string &entry, bool dry) {
+    try {
+      if (dry)
+        require_room(scene("large.prm", {entry}));
+      else
+        make_specimen(scene("large.prm", {entry}));
+    } catch (const InputError &e) {
+      return std::string(e.what());
+    }
+    return std::string("nothing");
+  };
+  for (const bool dry : {false, true}) {
+    EXPECT_NE(said("Specimen/Tile spheres = 1500", dry).find("Allowed: 200 ... 1300, or 0"),
+              std::string::npos)
+        << said("Specimen/Tile spheres = 1500", dry);
+    EXPECT_NE(said("Specimen/Tile spheres = 199", dry).find("would meet itself"), std::string::npos);
+  }
 }
 
 TEST_F(PackApp, packs_boxes_and_bars) {
