@@ -160,7 +160,7 @@ void measure(const Options &o, coupling::PlatenTest &problem, double memory_befo
 int main(int argc, char **argv) {
   Options o;
   CLI::App app("Bond-steps per second of a bonded specimen between rigid platens.");
-  app.add_option("--particles", o.particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
+  app.add_option("--particles", o.particles, "spheres of 1 mm radius")->check(CLI::Range(100, 20000000));
   app.add_option("--threads", o.threads, "threads")->check(CLI::Range(1, 256));
   app.add_option("--steps", o.steps, "steps per repeat")->check(CLI::Range(1, 1000000));
   app.add_option("--repeats", o.repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));

@@ -4,6 +4,7 @@
 
 #include "base/pi.h"
 #include "dem/packing/growth.h"
+#include "dem/packing/tiled.h"
 
 namespace platen::bench {
 namespace {
@@ -11,38 +12,23 @@ namespace {
 constexpr double radius = 1e-3;
 // What growth between walls reaches.
 constexpr double fraction = 0.615;
-constexpr int largest_cylinder = 50000, block_of = 20000;
+constexpr int largest_cylinder = 50000;
+constexpr std::size_t tile_of = 20000; // spheres
 
 double volume_for(double particles) {
   return particles * 4.0 / 3.0 * pi * radius * radius * radius / fraction;
 }
 
-// Blocks n x n x m, face to face.
-dem::Specimen stacked(int particles) {
-  const int blocks = std::max(1, static_cast<int>(std::lround(particles / static_cast<double>(block_of))));
-  const int across = std::max(1, static_cast<int>(std::lround(std::cbrt(blocks / 2.0))));
-  const int up = std::max(1, static_cast<int>(std::lround(blocks / static_cast<double>(across * across))));
-  const int each = particles / (across * across * up);
-  const double edge = std::cbrt(volume_for(each));
-  const dem::Specimen block =
-      dem::random_close_packing_of(dem::box(edge, edge, edge), static_cast<std::size_t>(each), 0.0, 1);
-  dem::Specimen all;
-  all.shape = dem::box(across * edge, across * edge, up * edge);
-  for (int z = 0; z < up; ++z)
-    for (int y = 0; y < across; ++y)
-      for (int x = 0; x < across; ++x)
-        for (std::size_t k = 0; k < block.size(); ++k) {
-          all.centre.push_back(block.centre[k] +
-                               edge * Vector3{x - 0.5 * (across - 1), y - 0.5 * (across - 1), 1.0 * z});
-          all.radius.push_back(block.radius[k]);
-        }
-  return all;
+// Twice as high as wide, of tiles that fit to each other without seams.
+dem::Specimen tiled(int particles) {
+  const double edge = std::cbrt(volume_for(particles) / 2);
+  return dem::tiled_close_packing(dem::box(edge, edge, 2 * edge), radius, 0.0, tile_of, 1);
 }
 
 } // namespace
 
 dem::Specimen close_packed(int particles) {
-  if (particles > largest_cylinder) return stacked(particles);
+  if (particles > largest_cylinder) return tiled(particles);
   const double r = std::cbrt(volume_for(particles) / (4 * pi));
   return dem::random_close_packing_of(dem::cylinder(r, 4 * r), static_cast<std::size_t>(particles), 0.0, 1);
 }
