@@ -36,7 +36,7 @@ struct Options {
   dem::ShapeKind shape = dem::ShapeKind::box;
   std::size_t spheres = 22500, tile = 50000;
   int threads = 1, seed = 1;
-  double spread = 0;
+  double spread = 0, at_rest = 1e-2;
   bool slabs = false;
   std::string write;
 };
@@ -69,7 +69,7 @@ dem::Specimen packed(const Options &o, const dem::Shape &shape) {
     return specimen;
   }
   dem::TilingReport made;
-  dem::Specimen specimen = dem::tiled_close_packing(shape, radius, o.spread, o.tile, seed, &made);
+  dem::Specimen specimen = dem::tiled_close_packing(shape, radius, o.spread, o.tile, seed, &made, o.at_rest);
   std::printf("%.2f tiles of %zu (fraction %.4f, %ld iterations), period %.2f R; %ld iterations, %d stages\n",
               made.tiles, made.tile.spheres, made.tile.packing_fraction, made.tile.iterations,
               made.period / radius, made.whole.iterations, made.whole.stages);
@@ -193,6 +193,8 @@ int main(int argc, char **argv) {
   app.add_option("--threads", o.threads, "threads")->check(CLI::Range(1, 256));
   app.add_option("--seed", o.seed, "seed")->check(CLI::Range(0, 1000000));
   app.add_option("--spread", o.spread, "of the radii")->check(CLI::Range(0., 1.5));
+  app.add_option("--at-rest", o.at_rest, "residual force at which a stage of tiles ends")
+      ->check(CLI::Range(1e-4, 0.1));
   app.add_flag("--slabs", o.slabs, "quality in slabs too");
   app.add_option("--write-specimen", o.write, "write the packing to this file");
   CLI11_PARSE(app, argc, argv);

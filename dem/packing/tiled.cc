@@ -16,9 +16,6 @@
 namespace platen::dem {
 namespace {
 
-// Twice as loose as from random places costs a third of the iterations, for .04 contacts a sphere fewer.
-constexpr double at_rest_from_tiles = 1e-2;
-
 // visit(centre, number in the tile) for every sphere of the tiles over the shape; lengths in mean radii.
 template <class Visit>
 void for_each_of_tiles(const Specimen &tile, const Shape &shape, const Visit &visit) {
@@ -61,8 +58,10 @@ double tiles_in(const Shape &shape, double mean_radius, double spread, std::size
 }
 
 Specimen tiled_close_packing(const Shape &shape, double mean, double spread, std::size_t tile_spheres,
-                             std::uint64_t seed, TilingReport *report) {
+                             std::uint64_t seed, TilingReport *report, double at_rest) {
   require_tiles(shape, mean, spread, tile_spheres);
+  if (!(at_rest > 0) || !(at_rest <= 0.1))
+    throw std::invalid_argument("the residual force at which a packing is at rest must lie in (0, 0.1]");
   TilingReport made;
   Random random(seed);
   Specimen tile = periodic_close_packing(box(1, 1, 1), tile_spheres, spread, random.next(), &made.tile);
@@ -78,7 +77,7 @@ Specimen tiled_close_packing(const Shape &shape, double mean, double spread, std
   });
   SoftSpheres soft({unit, false}, centre, std::move(factor));
   soft.set_scale(overfull_scale());
-  decompress(soft, random, made.whole, at_rest_from_tiles);
+  decompress(soft, random, made.whole, at_rest);
   Specimen specimen;
   specimen.shape = shape;
   specimen.centre = soft.centres();

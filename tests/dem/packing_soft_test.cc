@@ -118,6 +118,47 @@ TEST(SoftSpheres, go_where_a_plain_loop_over_all_pairs_takes_them) {
   }
 }
 
+TEST(SoftSpheres, feel_their_nearest_images_through_faces_edges_and_corners) {
+  const Shape room = box(6, 5, 7);
+  const Vector3 period = periods(room);
+  Random random(12);
+  std::vector<Vector3> centre;
+  std::vector<double> factor;
+  for (int i = 0; i < 70; ++i) {
+    centre.push_back({random.uniform(-3, 3), random.uniform(-2.5, 2.5), random.uniform(0, 7)});
+    factor.push_back(random.uniform(0.6, 1.2));
+  }
+  SoftSpheres soft({room, true}, centre, factor);
+  const std::vector<Vector3> before = soft.centres();
+  soft.relax(0, 0, 1); // from rest by step^2 of the force, with a first step of .1
+  const std::vector<Vector3> after = soft.centres();
+  int through[4] = {}; // contacts over so many faces at once
+  Vector3 total;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    Vector3 force;
+    for (std::size_t j = 0; j < before.size(); ++j) {
+      Vector3 d = before[j] - before[i];
+      int faces = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double shift = std::round(d[k] / period[k]);
+        d[k] -= shift * period[k], faces += shift != 0 ? 1 : 0;
+      }
+      const double overlap = soft.factor()[i] + soft.factor()[j] - norm(d);
+      if (j == i || overlap <= 0) continue;
+      force -= (overlap / norm(d)) * d;
+      ++through[faces];
+    }
+    total += force;
+    Vector3 moved = after[i] - before[i];
+    for (int k = 0; k < 3; ++k)
+      moved[k] -= period[k] * std::round(moved[k] / period[k]);
+    EXPECT_LT(norm(100 * moved - force), 1e-11) << "sphere " << i;
+  }
+  EXPECT_LT(norm(total), 1e-11); // and nothing pulls the whole
+  for (const int contacts : through)
+    EXPECT_GT(contacts, 0);
+}
+
 struct Columns {
   std::vector<kernels::Ball> ball;
   std::vector<Vector3> force, velocity, press;

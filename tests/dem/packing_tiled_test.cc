@@ -214,6 +214,7 @@ TEST(TiledPacking, refuses_shapes_that_are_hardly_a_tile) {
   EXPECT_THROW(tiled_close_packing(disc(10, 10), 1, 0, 200, 1), std::invalid_argument);
   EXPECT_THROW(tiled_close_packing(box(20, 20, 20), 1, 0, 20, 1), std::invalid_argument);
   EXPECT_THROW(tiled_close_packing(box(20, 20, 20), -1, 0, 300, 1), std::invalid_argument);
+  EXPECT_THROW(tiled_close_packing(box(20, 20, 20), 1, 0, 300, 1, nullptr, 0), std::invalid_argument);
   EXPECT_THROW(tiled_close_packing(box(2e4, 2e4, 2e4), 1, 0, 300, 1), std::invalid_argument); // too many
 }
 
