@@ -22,6 +22,8 @@ namespace {
 
 using namespace platen;
 
+constexpr int most_packed = 50000; // beyond, tiles that repeat themselves
+
 struct Options {
   int particles = 1000000, threads = 1;
   long steps = 20;
@@ -52,7 +54,8 @@ void measure(const Options &o) {
   std::unique_ptr<coupling::PlatenTest> test;
   std::size_t bonds = 0;
   {
-    const dem::Specimen specimen = bench::close_packed(o.particles);
+    const dem::Specimen specimen =
+        (o.particles > most_packed ? bench::repeated(o.particles) : bench::close_packed(o.particles));
     stage.done("packing");
     test = std::make_unique<coupling::PlatenTest>(specimen, bench::elastic_press());
     bonds = test->model.bonds->size();

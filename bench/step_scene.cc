@@ -4,6 +4,7 @@
 
 #include "base/pi.h"
 #include "dem/packing/growth.h"
+#include "dem/packing/periodic_growth.h"
 #include "dem/packing/tiled.h"
 
 namespace platen::bench {
@@ -31,6 +32,28 @@ dem::Specimen close_packed(int particles) {
   if (particles > largest_cylinder) return tiled(particles);
   const double r = std::cbrt(volume_for(particles) / (4 * pi));
   return dem::random_close_packing_of(dem::cylinder(r, 4 * r), static_cast<std::size_t>(particles), 0.0, 1);
+}
+
+dem::Specimen repeated(int particles) {
+  const double edge = std::cbrt(volume_for(static_cast<double>(tile_of)));
+  const dem::Specimen tile = dem::periodic_close_packing(dem::box(edge, edge, edge), tile_of, 0.0, 1);
+  const double tiles = static_cast<double>(particles) / static_cast<double>(tile_of);
+  const int across = std::max(1, static_cast<int>(std::lround(std::cbrt(tiles / 2))));
+  const int up = std::max(1, static_cast<int>(std::lround(tiles / (across * across))));
+  const double most = *std::max_element(tile.radius.begin(), tile.radius.end());
+  dem::Specimen all;
+  all.shape = dem::box(across * edge + 2 * most, across * edge + 2 * most, up * edge + 2 * most);
+  const std::size_t size = tile.size() * static_cast<std::size_t>(across * across * up);
+  all.centre.reserve(size), all.radius.reserve(size);
+  for (int z = 0; z < up; ++z)
+    for (int y = 0; y < across; ++y)
+      for (int x = 0; x < across; ++x)
+        for (std::size_t k = 0; k < tile.size(); ++k) {
+          const Vector3 place{x - 0.5 * (across - 1), y - 0.5 * (across - 1), 1.0 * z};
+          all.centre.push_back(tile.centre[k] + edge * place + Vector3{0, 0, most});
+          all.radius.push_back(tile.radius[k]);
+        }
+  return all;
 }
 
 const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},

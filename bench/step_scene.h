@@ -18,6 +18,10 @@ namespace platen::bench {
 // of tiles of 20 000 spheres without seams, which a million takes two minutes for.
 dem::Specimen close_packed(int particles);
 
+// About so many spheres of a periodic packing repeated as it is, in seconds: without seams inside, and with
+// ends and sides that are not brought to rest. For what costs and sizes alone are asked of.
+dem::Specimen repeated(int particles);
+
 // Failure checks, energy balance, local damping and contacts on; strengths that nothing reaches.
 enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond };
 extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
