@@ -15,7 +15,7 @@
 namespace platen::bench {
 
 // About `particles` spheres: a cylinder twice as high as wide; above 50 000, a box twice as high as wide
-// of tiles of 20 000 spheres without seams, which a million takes two minutes for.
+// of tiles of 20 000 spheres without seams.
 dem::Specimen close_packed(int particles);
 
 // About so many spheres of a periodic packing repeated as it is, in seconds: without seams inside, and with
