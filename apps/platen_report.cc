@@ -15,6 +15,7 @@
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/rank.h"
 #include "apps/scene/version.h"
 
 namespace {
@@ -89,7 +90,9 @@ int fail(const std::exception &error, int status) {
   std::string text = error.what();
   for (char &c : text) // names of files may hold what a terminal obeys
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
+  before_telling_a_failure();
   std::cerr << "error: " << text << '\n';
+  after_telling_a_failure(status);
   return status;
 }
 
@@ -122,6 +125,7 @@ int main(int argc, char **argv) {
     return app.exit(error) == 0 ? status_done : status_bad_input;
   }
   try {
+    require_one_process("platen-report");
     if (wishes.state || !wishes.other_state.empty()) return tell_state(wishes);
     report_on(wishes, argv);
   } catch (const InputError &error) {

@@ -87,6 +87,7 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
 
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
     : command_(command), scene_(scene), output_(command, scene, true) {
+  require_same_on_ranks(scene_text(scene, paths_.folder));
   const bool resumes = command.resume && !command.dry_run;
   if (resumes) require_files_of_checkpoint();
   const bool packs = !resumes && scene.specimen.packing != PackingKind::file;
@@ -100,8 +101,9 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   coupling::PlatenTestSettings settings = problem_settings(scene);
   if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
   std::unique_ptr<dem::Exchange> exchange = command.dry_run ? nullptr : exchange_of_ranks();
-  require_one_scene(scene_text(scene, paths_.folder), exchange.get());
-  settings.model.instruction_set = common_instruction_set(settings.model.instruction_set, exchange.get());
+  const CommonSet common = common_instruction_set(settings.model.instruction_set, exchange.get(), resumes);
+  settings.model.instruction_set = common.set;
+  if (!common.note.empty()) log_.warning("{}", common.note);
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   require_prompt_platens(*test_);
   specimen_state_ = state_of(specimen, *test_);

@@ -19,10 +19,10 @@ std::string words_of_idle_ranks(const dem::Exchange &) {
   return "";
 }
 
-dem::InstructionSet common_instruction_set(dem::InstructionSet own, dem::Exchange *) {
-  return own;
+CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *, bool) {
+  return {own, ""};
 }
 
-void require_one_scene(const std::string &, dem::Exchange *) {}
+void require_same_on_ranks(const std::string &) {}
 
 } // namespace platen::apps

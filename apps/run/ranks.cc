@@ -2,22 +2,32 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <chrono>
+#include <thread>
 
-#include "apps/io/sha256.h"
 #include "apps/scene/rank.h"
 #include "base/parallel.h"
+#include "dist/agree.h"
 #include "dist/ranks.h"
 #include "dist/session.h"
 
 namespace platen::apps {
 
 int run_app_on_ranks(int argc, char **argv, const AppDescription &app, const AppBody &body) {
-  const dist::Session session;
-  this_rank() = {session.rank(), session.ranks(), session.ranks_here(), dist::Session::end_all};
+  constexpr std::chrono::milliseconds to_leave{300}; // for the other ranks
   AppDescription on_ranks = app;
-  on_ranks.runs_on_ranks = true;
-  return run_app(argc, argv, on_ranks, body);
+  on_ranks.require_same = require_same_on_ranks;
+  int status = status_done;
+  {
+    const dist::Session session;
+    this_rank() = {session.rank(), session.ranks(), session.ranks_here(), dist::Session::end_all};
+    status = run_app(argc, argv, on_ranks, body);
+  }
+  // All have come to the end. A launcher ends a job of which one process tells a failure, and may wait for
+  // ever where others leave at that moment: the first one alone tells it, as the last to leave.
+  if (this_rank().is_silent()) return status_done;
+  if (this_rank().of > 1 && status != status_done) std::this_thread::sleep_for(to_leave);
+  return status;
 }
 
 std::unique_ptr<dem::Exchange> exchange_of_ranks() {
@@ -39,17 +49,19 @@ std::string words_of_idle_ranks(const dem::Exchange &exchange) {
       ranks.size() - useful, ranks.size(), ranks.partition().rank.size(), block_rows, useful);
 }
 
-dem::InstructionSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchange) {
-  if (exchange == nullptr) return own;
-  return static_cast<dem::InstructionSet>(-exchange->largest(-static_cast<long>(own)));
+CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchange, bool resumes) {
+  if (exchange == nullptr) return {own, ""};
+  const auto weakest = static_cast<dem::InstructionSet>(-exchange->largest(-static_cast<long>(own))),
+             best = static_cast<dem::InstructionSet>(exchange->largest(static_cast<long>(own)));
+  if (weakest == best) return {weakest, ""};
+  return {weakest,
+          fmt::format("machines of this run have the instruction sets {} and {}: all go {} {}{}",
+                      dem::name(best), dem::name(weakest), resumes ? "on with" : "by", dem::name(weakest),
+                      resumes ? ", and the last digits are no longer those of the part before" : "")};
 }
 
-void require_one_scene(const std::string &text_of_scene, dem::Exchange *exchange) {
-  if (exchange == nullptr) return;
-  Sha256 sum;
-  sum.update(text_of_scene);
-  const long own = std::stol(sum.text().substr(0, 15), nullptr, 16);
-  if (exchange->largest(own) != -exchange->largest(-own))
+void require_same_on_ranks(const std::string &text) {
+  if (this_rank().of > 1 && !dist::same_on_all(MPI_COMM_WORLD, text))
     throw InputError(
         "error: ranks were started with different scenes or entries. Allowed: one command line, "
         "mpirun -n N platen-compress SCENE.prm.");

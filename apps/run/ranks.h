@@ -18,11 +18,16 @@ std::unique_ptr<dem::Exchange> exchange_of_ranks();
 std::string words_of_cut(const dem::Exchange &exchange);
 std::string words_of_idle_ranks(const dem::Exchange &exchange);
 
-// The best set that all ranks have. A specimen that is computed with several is not the same on all numbers
-// of ranks.
-dem::InstructionSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchange);
+// The best set that all ranks have, and what to say where some have a better one; empty where none has. A
+// specimen that is computed with several sets is not the same on all numbers of ranks.
+struct CommonSet {
+  dem::InstructionSet set;
+  std::string note;
+};
+CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchange, bool resumes);
 
-// Throws InputError where ranks were started with different scenes.
-void require_one_scene(const std::string &text_of_scene, dem::Exchange *exchange);
+// Throws InputError where ranks have different texts: command lines, or scenes of one name on several
+// machines.
+void require_same_on_ranks(const std::string &text);
 
 } // namespace platen::apps

@@ -15,9 +15,11 @@ struct AppDescription {
   std::string name;                    // "platen-compress"
   std::string purpose;                 // one sentence for --help
   std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
-  bool runs_on_ranks = false;          // of mpirun
   bool shares_packings = false;        // has --packings
   bool plans_runs = false;             // has --plan, --run, --collect
+  // Of an app that runs on ranks of mpirun: throws InputError where they were given different texts. Null: it
+  // runs in one process.
+  void (*require_same)(const std::string &text) = nullptr;
 };
 
 struct CommandLine {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -43,18 +42,28 @@ int tell(const std::string &message, int status) {
   return status;
 }
 
-// Processes that a launcher says to have started; 1 without one.
-int launched() {
-  const char *text = std::getenv("OMPI_COMM_WORLD_SIZE");
-  return text == nullptr ? 1 : std::atoi(text);
+// The command line without its number of threads, which may be another on each machine.
+std::string words_but_threads(int argc, const char *const *argv, const AppDescription &app) {
+  std::string words = app.name;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "-t" || word == "--threads")
+      ++k;
+    else if (word.rfind("-t", 0) != 0 && word.rfind("--threads=", 0) != 0)
+      words += '\0' + word;
+  }
+  return words;
 }
 
-void require_one_process(const AppDescription &app) {
-  if (app.runs_on_ranks || launched() < 2) return;
-  throw InputError(
-      fmt::format("error: mpirun has started {} processes of {}, which runs in one. Allowed: without "
-                  "mpirun; platen-compress and platen-brazilian run on several ranks.",
-                  launched(), app.name));
+void require_ranks(int argc, const char *const *argv, const AppDescription &app) {
+  if (app.require_same == nullptr) {
+    try {
+      require_one_process(app.name);
+    } catch (const InputError &error) {
+      throw InputError(std::string("error: ") + error.what());
+    }
+  } else
+    app.require_same(words_but_threads(argc, argv, app));
 }
 
 extern "C" void end_at_once(int number) {
@@ -106,7 +115,7 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
 int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
   obey_early_signals();
   try {
-    require_one_process(app);
+    require_ranks(argc, argv, app);
     return run(read_command_line(argc, argv, app), app, body);
   } catch (const PrintAndExit &asked) {
     if (!this_rank().is_silent()) std::cout << asked.text;
