@@ -1,0 +1,109 @@
+// One specimen over several ranks of mpirun: neither their number nor threads, stops or late messages change
+// a byte of what a run finds.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "apps/on_ranks.h"
+#include "apps/run/ranks.h"
+
+namespace platen::apps::testing {
+namespace {
+
+class Ranks : public OnRanks {
+protected:
+  // A run worth comparing: failure of both kinds, frames, more blocks than two ranks.
+  void require_crushed(const std::string &name) const {
+    const nlohmann::json found = summary_in(folder_ / name);
+    EXPECT_GT(found["particles"], 1024);
+    EXPECT_GT(found["broken_tension"], 300);
+    EXPECT_GT(found["broken_shear"], 10);
+    EXPECT_GT(lines_in(folder_ / name / "specimen.pvd"), 6);
+  }
+};
+
+TEST_F(Ranks, their_number_threads_and_late_messages_change_no_byte) {
+  run_whole("one");
+  require_crushed("one");
+  run_on(2, "two", {"-t", "2"});
+  EXPECT_EQ(unlike("one", "two"), "");
+  run_on(3, "three", {}, true);
+  EXPECT_EQ(unlike("one", "three"), "");
+}
+
+TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
+  const std::vector<std::string> around{"-s", "Platens/Kind = deformable",
+                                        "-s", "Loading/Confinement = sleeve",
+                                        "-s", "Loading/Confining pressure = 20 MPa",
+                                        "-s", "Loading/Confining ramp = 0.02 ms",
+                                        "-s", "Sleeve/Thickness = 1 mm",
+                                        "-s", "Loading/Target strain = 0.003"};
+  run_whole("one", around);
+  EXPECT_GT(summary_in(folder_ / "one")["broken_tension"], 10);
+  run_on(3, "three", around);
+  EXPECT_EQ(unlike("one", "three"), "");
+}
+
+TEST_F(Ranks, a_run_resumed_on_four_three_one_and_seven_ranks_ends_as_if_it_had_not_been_stopped) {
+  run_whole("whole");
+  const auto part = [&](int ranks, long rows, const std::vector<std::string> &more) {
+    const auto command = crush("stopped", more);
+    return disturb(ranks == 1 ? command : on(ranks, command), "stopped", rows, [&](Program &program) {
+      kill(ranks == 1 ? program.id() : process_of_rank(program.id(), ranks - 1), SIGTERM);
+    });
+  };
+  ASSERT_EQ(part(4, 8, {}), 143) << said();
+  EXPECT_EQ(summary_in(folder_ / "stopped")["status"], "stopped");
+  ASSERT_EQ(part(3, 24, {"--resume"}), 143) << said();
+  ASSERT_EQ(part(1, 40, {"--resume"}), 143) << said();
+  run_on(7, "stopped", {"--resume"});
+  EXPECT_EQ(unlike("whole", "stopped"), "");
+}
+
+// Ranks of which this one has `own`, as the others have `others`.
+struct Fake : dem::Exchange {
+  explicit Fake(std::vector<dem::InstructionSet> of_others) : others(std::move(of_others)) {}
+  std::vector<dem::InstructionSet> others;
+  dem::OwnBlocks none;
+  const dem::OwnBlocks &blocks() const override { return none; }
+  void send_motion(const dem::Particles &) override {}
+  void start_sums(const dem::StepSums &) override {}
+  void receive_motion(dem::Particles &) override {}
+  dem::StepSums finish_sums() override { return {}; }
+  void send_bond_ghosts(const dem::PairBlocks &) override {}
+  void send_contact_ghosts(const dem::PairBlocks &) override {}
+  void receive_ghosts(dem::PairBlocks *, dem::PairBlocks *) override {}
+  void gather_motion(dem::Particles &) override {}
+  void renew_contacts(dem::Model &) override {}
+  void share_rows(const std::vector<int> *) override {}
+  std::vector<dem::Crack> all_cracks(const std::vector<dem::Crack> &own) override { return own; }
+  ExactSum all(ExactSum own) override { return own; }
+  long all(long own) override { return own; }
+  long largest(long own) override {
+    for (const dem::InstructionSet set : others)
+      own = std::max(own, own < 0 ? -static_cast<long>(set) : static_cast<long>(set));
+    return own;
+  }
+  void gather(dem::Model &) override {}
+  void scatter(dem::Model &) override {}
+};
+
+TEST(RanksOfUnlikeMachines, all_go_by_the_weakest_instruction_set_and_say_so) {
+  using dem::InstructionSet;
+  Fake unlike({InstructionSet::avx2, InstructionSet::avx512}), alike({InstructionSet::avx512});
+  for (const InstructionSet own : {InstructionSet::avx2, InstructionSet::avx512}) {
+    const CommonSet begun = common_instruction_set(own, &unlike, false);
+    EXPECT_EQ(begun.set, InstructionSet::avx2);
+    EXPECT_EQ(begun.note, "machines of this run have the instruction sets avx512 and avx2: all go by avx2");
+    const CommonSet resumed = common_instruction_set(own, &unlike, true);
+    EXPECT_EQ(resumed.set, InstructionSet::avx2);
+    EXPECT_EQ(resumed.note,
+              "machines of this run have the instruction sets avx512 and avx2: all go on with avx2, "
+              "and the last digits are no longer those of the part before");
+  }
+  EXPECT_EQ(common_instruction_set(InstructionSet::avx512, &alike, true).set, InstructionSet::avx512);
+  EXPECT_EQ(common_instruction_set(InstructionSet::avx512, &alike, true).note, "");
+  EXPECT_EQ(common_instruction_set(InstructionSet::avx512, nullptr, true).note, "");
+}
+
+} // namespace
+} // namespace platen::apps::testing
