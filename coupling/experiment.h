@@ -79,10 +79,12 @@ public:
   // Cuts the specimen over ranks, which all hold this same experiment and call the same from now on. Between
   // calls of advance() each knows its own part of the specimen, and all of it from gather() on until the next
   // step: before energies, measures of the specimen or a state are asked for. settle() makes cracks and their
-  // number known to all.
+  // number known to all; settle_state() too what a state of the first rank holds beside the rows that each
+  // rank has.
   void share(std::unique_ptr<dem::Exchange> exchange) { model.share(std::move(exchange)); }
   void gather();
   void settle() { model.settle(); }
+  void settle_state() { model.settle_state(); }
 
 protected:
   // Of cracks: the strain of the test. Rows that the program's measures read in each step, ascending.

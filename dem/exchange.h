@@ -73,6 +73,8 @@ public:
   virtual long all(long own) = 0;     // their sum
   virtual long largest(long own) = 0; // of all ranks
 
+  // Sums of the model that each rank has a part of: the first one has them all, the others nothing.
+  virtual void sum_up(Model &model) = 0;
   // Tables as they were on one rank: every rank has all rows; and back to the own ones.
   virtual void gather(Model &model) = 0;
   virtual void scatter(Model &model) = 0;

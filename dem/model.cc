@@ -250,6 +250,13 @@ void Model::settle() {
   }
 }
 
+void Model::settle_state() {
+  if (!exchange_ || !cut_) return;
+  settle();
+  if (bonds) bonds->compact();
+  exchange_->sum_up(*this);
+}
+
 void Model::gather() {
   if (!exchange_ || !cut_) return;
   settle();

@@ -154,6 +154,9 @@ public:
   void gather();
   void scatter();
   void settle();
+  // Before a state is written by all ranks together, each its own rows: what is in no row is known to the
+  // first rank then, and broken rows are dropped.
+  void settle_state();
 
 private:
   ModelSettings settings_;

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "dist/agree.h"
 
@@ -48,18 +49,26 @@ std::string reason(int status, int system) {
   return text;
 }
 
+void require_none(MPI_Comm ranks, const std::string &path, const std::string &mine) {
+  const std::string with_rank = mine.empty() ? "" : mine + " (rank " + std::to_string(rank_in(ranks)) + ")";
+  const std::string first = first_error(ranks, with_rank);
+  if (!first.empty()) throw std::runtime_error(path + ": " + first);
+}
+
+} // namespace
+
 // A file that one rank has open. Each opens it for itself: where one fails the others need not wait for it.
-class OpenFile {
+class FileOfRanks::Open {
 public:
-  OpenFile(const std::string &path, int mode) {
+  Open(const std::string &path, int mode) {
     errno = 0;
     note(MPI_File_open(MPI_COMM_SELF, path.c_str(), mode, MPI_INFO_NULL, &file_),
          "cannot be opened for writing");
     if (!error_.empty()) file_ = MPI_FILE_NULL;
   }
-  ~OpenFile() { close(); }
-  OpenFile(const OpenFile &) = delete;
-  OpenFile &operator=(const OpenFile &) = delete;
+  ~Open() { close(); }
+  Open(const Open &) = delete;
+  Open &operator=(const Open &) = delete;
 
   void empty() {
     errno = 0;
@@ -103,14 +112,6 @@ private:
   std::string error_;
 };
 
-void require_none(MPI_Comm ranks, const std::string &path, const std::string &mine) {
-  const std::string with_rank = mine.empty() ? "" : mine + " (rank " + std::to_string(rank_in(ranks)) + ")";
-  const std::string first = first_error(ranks, with_rank);
-  if (!first.empty()) throw std::runtime_error(path + ": " + first);
-}
-
-} // namespace
-
 std::vector<FileRun> runs_of_file(MPI_Comm ranks, const std::vector<FilePiece> &pieces) {
   const std::vector<FileRun> own = own_runs(pieces, rank_in(ranks));
   int size = 1, bytes = static_cast<int>(own.size() * sizeof(FileRun));
@@ -133,23 +134,38 @@ std::vector<FileRun> runs_of_file(MPI_Comm ranks, const std::vector<FilePiece> &
   return runs;
 }
 
-void write_rank_file(MPI_Comm ranks, const std::string &path, const std::vector<FilePiece> &pieces,
-                     std::uint64_t at_once) {
-  runs_of_file(ranks, pieces);
+FileOfRanks::FileOfRanks(MPI_Comm ranks, std::string path, std::uint64_t at_once)
+    : ranks_(ranks), path_(std::move(path)), at_once_(at_once) {
   std::string error;
   if (rank_in(ranks) == 0) {
-    OpenFile file(path, MPI_MODE_CREATE | MPI_MODE_WRONLY);
+    Open file(path_, MPI_MODE_CREATE | MPI_MODE_WRONLY);
     file.empty();
     file.close();
     error = file.error();
   }
-  require_none(ranks, path, error);
-  OpenFile file(path, MPI_MODE_WRONLY);
+  require_none(ranks, path_, error);
+  open_ = std::make_unique<Open>(path_, MPI_MODE_WRONLY);
+}
+
+FileOfRanks::~FileOfRanks() = default;
+
+void FileOfRanks::write(const FilePiece &piece) {
+  open_->write(piece, at_once_);
+}
+
+void FileOfRanks::finish() {
+  open_->sync();
+  open_->close();
+  require_none(ranks_, path_, open_->error());
+}
+
+void write_rank_file(MPI_Comm ranks, const std::string &path, const std::vector<FilePiece> &pieces,
+                     std::uint64_t at_once) {
+  runs_of_file(ranks, pieces);
+  FileOfRanks file(ranks, path, at_once);
   for (const FilePiece &piece : pieces)
-    file.write(piece, at_once);
-  file.sync();
-  file.close();
-  require_none(ranks, path, file.error());
+    file.write(piece);
+  file.finish();
 }
 
 } // namespace platen::dist

@@ -42,6 +42,7 @@ public:
 
   int rank() const { return rank_; }
   int size() const { return size_; }
+  MPI_Comm communicator() const { return ranks_; }          // of its own
   const Partition &partition() const { return partition_; } // from the first scatter() on
   const Traffic &traffic() const { return traffic_; }
   std::size_t halo_rows() const; // of other ranks, sent here in every step
@@ -70,6 +71,7 @@ public:
   ExactSum all(ExactSum own) override;
   long all(long own) override;
   long largest(long own) override;
+  void sum_up(dem::Model &model) override;
   void gather(dem::Model &model) override;
   void scatter(dem::Model &model) override;
 

@@ -1,23 +1,14 @@
 // Tables and motion of all ranks together, in the order that they have on one.
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "dem/model.h"
 #include "dist/mpi_lists.h"
 #include "dist/ranks.h"
+#include "dist/spread_state.h"
 
 namespace platen::dist {
 namespace {
-
-// Columns of particles that a step changes.
-constexpr std::array<const char *, 8> moving{"position",        "velocity",   "force",
-                                             "orientation",     "torque",     "angular_velocity",
-                                             "excess_velocity", "excess_spin"};
-
-bool moves(const ColumnBase &column) {
-  return std::any_of(moving.begin(), moving.end(), [&](const char *name) { return column.name() == name; });
-}
 
 std::size_t block_of(int row) {
   return static_cast<std::size_t>(row) / block_rows;
@@ -87,7 +78,7 @@ void Ranks::gather_particles(dem::Particles &p) {
     rows_of_block[b] = static_cast<std::int64_t>(std::min(block_rows, p.size() - b * block_rows));
   std::vector<char> own;
   for (const auto &column : p.table.columns()) {
-    if (!moves(*column)) continue;
+    if (!is_moving(column->name())) continue;
     const std::size_t width = column->bytes_per_row();
     char *bytes = static_cast<char *>(column->bytes());
     own.clear();
@@ -115,6 +106,13 @@ void Ranks::gather(dem::Model &model) {
     contacts.rows_changed();
   }
   model.visit_sums([&](ExactSum &sum) { sum = all(sum); });
+}
+
+void Ranks::sum_up(dem::Model &model) {
+  model.visit_sums([&](ExactSum &sum) {
+    sum = all(sum);
+    if (rank_ != 0) sum = {};
+  });
 }
 
 void Ranks::gather_motion(dem::Particles &p) {

@@ -54,9 +54,9 @@ struct Counts {
 struct Hasher {
   MPI_Comm comm;
   int rank = 0, ranks = 1;
-  const std::vector<FileRun> &runs;      // of all ranks
-  const std::vector<FilePiece> &own;     // of this one, ascending
-  XXH64_state_t state = XXH64_state_t{}; // where this rank has it
+  const std::vector<FileRun> &runs;  // of all ranks
+  const std::vector<FilePiece> &own; // of this one, ascending
+  XXH64_state_t state;               // where this rank has it: rank 0 at first
 };
 
 // What this rank holds of the shares of all, by rank, and what it gets for its own, by rank.
@@ -105,19 +105,24 @@ void hash_window(Hasher &h, const Window &window) {
     MPI_Send(&h.state, sizeof h.state, MPI_BYTE, (h.rank + 1) % h.ranks, tag, h.comm);
 }
 
-// The hash on the rank that has the end of the text, 0 elsewhere; of no bytes on rank 0.
-std::uint64_t hash_text(Hasher &h, std::uint64_t largest) {
+// Back to the first rank, who goes on with it.
+void hand_back(Hasher &h, int holder) {
+  if (holder == 0) return;
+  if (h.rank == holder) MPI_Send(&h.state, sizeof h.state, MPI_BYTE, 0, tag, h.comm);
+  if (h.rank == 0) MPI_Recv(&h.state, sizeof h.state, MPI_BYTE, holder, tag, h.comm, MPI_STATUS_IGNORE);
+}
+
+void hash_text(Hasher &h, std::uint64_t largest) {
   const std::uint64_t total = h.runs.empty() ? 0 : h.runs.back().offset + h.runs.back().length,
                       ranks = static_cast<std::uint64_t>(h.ranks);
   const std::uint64_t share = std::min(largest, std::max(least_share, (total + ranks - 1) / ranks));
   int holder = 0;
-  XXH64_reset(&h.state, 0);
   for (std::uint64_t first = 0; first < total; first += share * ranks) {
     const Window window{first, share, total, h.ranks};
     hash_window(h, window);
     holder = window.in_use() - 1;
   }
-  return h.rank == holder ? XXH64_digest(&h.state) : 0;
+  hand_back(h, holder);
 }
 
 std::vector<FilePiece> ascending(std::vector<FilePiece> pieces) {
@@ -128,18 +133,46 @@ std::vector<FilePiece> ascending(std::vector<FilePiece> pieces) {
 
 } // namespace
 
+struct SpreadHash::State {
+  XXH64_state_t of_first{}; // kept by rank 0
+  int rank = 0, ranks = 1;
+};
+
+SpreadHash::SpreadHash(MPI_Comm ranks, std::uint64_t share)
+    : ranks_(ranks), share_(share), state_(std::make_unique<State>()) {
+  MPI_Comm_rank(ranks, &state_->rank);
+  MPI_Comm_size(ranks, &state_->ranks);
+  XXH64_reset(&state_->of_first, 0);
+}
+
+SpreadHash::~SpreadHash() = default;
+
+void SpreadHash::add(const std::vector<FilePiece> &pieces) {
+  const std::vector<FileRun> runs = runs_of_file(ranks_, pieces);
+  const std::vector<FilePiece> own = ascending(pieces);
+  Hasher hasher{ranks_, state_->rank, state_->ranks, runs, own, state_->of_first};
+  hash_text(hasher, share_);
+  state_->of_first = hasher.state;
+}
+
+void SpreadHash::add_of_first(const void *bytes, std::size_t count) {
+  if (state_->rank == 0 && count > 0) XXH64_update(&state_->of_first, bytes, count);
+}
+
+std::uint64_t SpreadHash::value() const {
+  std::uint64_t hash = XXH64_digest(&state_->of_first);
+  MPI_Bcast(&hash, 1, MPI_UINT64_T, 0, ranks_);
+  return hash;
+}
+
 std::vector<std::uint64_t> xxh64_of(MPI_Comm ranks, const std::vector<std::vector<FilePiece>> &texts,
                                     std::uint64_t share) {
   std::vector<std::uint64_t> hashes;
   for (const auto &text : texts) {
-    const std::vector<FileRun> runs = runs_of_file(ranks, text);
-    const std::vector<FilePiece> own = ascending(text);
-    Hasher hasher{ranks, 0, 1, runs, own};
-    MPI_Comm_rank(ranks, &hasher.rank);
-    MPI_Comm_size(ranks, &hasher.ranks);
-    hashes.push_back(hash_text(hasher, share));
+    SpreadHash hash(ranks, share);
+    hash.add(text);
+    hashes.push_back(hash.value());
   }
-  MPI_Allreduce(MPI_IN_PLACE, hashes.data(), static_cast<int>(hashes.size()), MPI_UINT64_T, MPI_BOR, ranks);
   return hashes;
 }
 

@@ -3,7 +3,9 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "dist/rank_file.h"
@@ -12,11 +14,33 @@ namespace platen::dist {
 
 constexpr std::uint64_t largest_share = std::uint64_t{1} << 24; // bytes that a rank hashes in one go
 
+// XXH64 (seed 0) of a text that grows. It cannot be made from those of two parts: ranks exchange bytes so
+// that each has a share of what is added in one piece, and hand the hash on from share to share (88 bytes).
+class SpreadHash {
+public:
+  explicit SpreadHash(MPI_Comm ranks, std::uint64_t share = largest_share); // `share` is for tests
+  ~SpreadHash();
+  SpreadHash(const SpreadHash &) = delete;
+  SpreadHash &operator=(const SpreadHash &) = delete;
+
+  // Bytes that the ranks hold in pieces that cover them, offsets counted from their own beginning.
+  // Collective. Throws std::invalid_argument as runs_of_file does.
+  void add(const std::vector<FilePiece> &pieces);
+  // Bytes that rank 0 has; what other ranks give is nothing.
+  void add_of_first(const void *bytes, std::size_t count);
+  std::uint64_t value() const; // on every rank; collective
+
+private:
+  struct State;
+  MPI_Comm ranks_;
+  std::uint64_t share_;
+  std::unique_ptr<State> state_;
+};
+
 // XXH64 (seed 0) of each text whose bytes the ranks hold in pieces that cover it, offsets counted from its
-// own beginning: what one rank that had all would compute, on every rank. XXH64 of two parts cannot be made
-// from those of each: ranks exchange bytes so that each has a share of the text in one piece, and hand the
-// hash on from share to share (88 bytes). Collective; each rank gives as many texts, with no piece where it
-// has none. Throws std::invalid_argument as runs_of_file does. `share` is for tests.
+// own beginning: what one rank that had all would compute, on every rank. Collective; each rank gives as many
+// texts, with no piece where it has none. Throws std::invalid_argument as runs_of_file does. `share` is for
+// tests.
 std::vector<std::uint64_t> xxh64_of(MPI_Comm ranks, const std::vector<std::vector<FilePiece>> &texts,
                                     std::uint64_t share = largest_share);
 

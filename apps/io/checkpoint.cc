@@ -52,23 +52,16 @@ std::optional<StoredBlock> stored_block(const CheckpointBlockHeader &header) {
 
 } // namespace
 
-CheckpointWriter::CheckpointWriter(const std::filesystem::path &path)
-    : file_(path), hash_(std::make_unique<CheckpointHash>()) {
+CheckpointHeader checkpoint_header() {
   CheckpointHeader header{};
   std::memcpy(header.magic, checkpoint_magic, sizeof header.magic);
   header.version = checkpoint_version;
   header.byte_order = checkpoint_byte_order;
-  put(&header, sizeof header);
+  return header;
 }
 
-CheckpointWriter::~CheckpointWriter() = default;
-
-void CheckpointWriter::add(const std::string &name, const BlockType &type, const void *data,
-                           std::size_t rows) {
-  if (std::find(names_.begin(), names_.end(), name) != names_.end())
-    throw std::logic_error("checkpoint block \"" + name + "\" is written twice");
-  names_.push_back(name);
-  const std::size_t bytes = rows * type.bytes_per_row();
+std::string checkpoint_block_begin(const std::string &name, const BlockType &type, std::uint64_t bytes,
+                                   std::uint64_t checksum) {
   CheckpointBlockHeader header{};
   header.name_bytes = static_cast<std::uint32_t>(name.size());
   header.unit_bytes = static_cast<std::uint32_t>(type.unit.size());
@@ -76,18 +69,43 @@ void CheckpointWriter::add(const std::string &name, const BlockType &type, const
   header.number_bytes = type.bytes;
   header.numbers = type.numbers;
   header.bytes = bytes;
-  header.checksum = bytes > 0 ? XXH64(data, bytes, 0) : XXH64("", 0, 0);
+  header.checksum = checksum;
+  return std::string(reinterpret_cast<const char *>(&header), sizeof header) + name + type.unit;
+}
+
+CheckpointTrailer checkpoint_trailer(std::uint64_t blocks, std::uint64_t bytes_before) {
+  CheckpointTrailer trailer{};
+  std::memcpy(trailer.magic, checkpoint_end, sizeof trailer.magic);
+  trailer.blocks = blocks;
+  trailer.file_bytes = bytes_before + sizeof trailer;
+  return trailer;
+}
+
+void CheckpointNames::add(const std::string &name) {
+  if (!names_.insert(name).second)
+    throw std::logic_error("checkpoint block \"" + name + "\" is written twice");
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path &path)
+    : file_(path), hash_(std::make_unique<CheckpointHash>()) {
+  const CheckpointHeader header = checkpoint_header();
   put(&header, sizeof header);
-  put(name.data(), name.size());
-  put(type.unit.data(), type.unit.size());
+}
+
+CheckpointWriter::~CheckpointWriter() = default;
+
+void CheckpointWriter::add(const std::string &name, const BlockType &type, const void *data,
+                           std::size_t rows) {
+  names_.add(name);
+  const std::size_t bytes = rows * type.bytes_per_row();
+  const std::string begin =
+      checkpoint_block_begin(name, type, bytes, bytes > 0 ? XXH64(data, bytes, 0) : XXH64("", 0, 0));
+  put(begin.data(), begin.size());
   put(data, bytes);
 }
 
 void CheckpointWriter::finish() {
-  CheckpointTrailer trailer{};
-  std::memcpy(trailer.magic, checkpoint_end, sizeof trailer.magic);
-  trailer.blocks = names_.size();
-  trailer.file_bytes = length_ + sizeof trailer;
+  CheckpointTrailer trailer = checkpoint_trailer(names_.count(), length_);
   hash_->update(&trailer, sizeof trailer - sizeof trailer.checksum);
   trailer.checksum = hash_->value();
   put(&trailer, sizeof trailer);

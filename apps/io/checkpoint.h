@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,23 @@ static_assert(sizeof(CheckpointHeader) == 16 && sizeof(CheckpointBlockHeader) ==
                   sizeof(CheckpointTrailer) == 32,
               "the layout is the file format");
 
+// What stands before all blocks, what before the bytes of one (header, name, unit), and what after all, its
+// checksum aside: for who writes blocks elsewhere (rank_checkpoint.h).
+CheckpointHeader checkpoint_header();
+std::string checkpoint_block_begin(const std::string &name, const BlockType &type, std::uint64_t bytes,
+                                   std::uint64_t checksum);
+CheckpointTrailer checkpoint_trailer(std::uint64_t blocks, std::uint64_t bytes_before);
+
+// No block is to be written twice: keeps the names and throws std::logic_error.
+class CheckpointNames {
+public:
+  void add(const std::string &name);
+  std::size_t count() const { return names_.size(); }
+
+private:
+  std::set<std::string> names_;
+};
+
 class CheckpointHash; // running XXH64
 
 // Writes blocks straight to the file, nothing is collected in memory. Failures throw OutputError; a file
@@ -72,7 +90,7 @@ private:
   std::vector<char> buffer_; // small blocks are collected, large ones go past it
   std::unique_ptr<CheckpointHash> hash_;
   std::uint64_t length_ = 0;
-  std::vector<std::string> names_;
+  CheckpointNames names_;
 };
 
 // Opens a checkpoint and verifies every byte of it; throws CheckpointError that says what is wrong. Blocks

@@ -40,17 +40,11 @@ bool is_checkpoint_name(const std::string &name) {
   return std::regex_match(name, pattern);
 }
 
-std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
-                                       const std::function<void(CheckpointWriter &)> &fill) {
-  if (this_rank().is_silent()) return folder;
-  create_folder(folder);
-  const std::filesystem::path path = folder / fmt::format("step_{:012}.platen", step);
-  write_aside(path, [&](const std::filesystem::path &part) {
-    CheckpointWriter writer(part);
-    fill(writer);
-    writer.finish();
-  });
+std::filesystem::path checkpoint_path(const std::filesystem::path &folder, std::uint64_t step) {
+  return folder / fmt::format("step_{:012}.platen", step);
+}
 
+void remove_other_checkpoints(const std::filesystem::path &folder, std::uint64_t step) {
   int kept = 1;
   std::error_code ignored; // a file too many does no harm
   for (const Entry &entry : entries_of(folder))
@@ -61,6 +55,19 @@ std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std:
     const std::string name = file.path().filename().string();
     if (is_checkpoint_name(name) && !step_of(name)) std::filesystem::remove(file.path(), ignored);
   }
+}
+
+std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
+                                       const std::function<void(StateSink &)> &fill) {
+  if (this_rank().is_silent()) return folder;
+  create_folder(folder);
+  const std::filesystem::path path = checkpoint_path(folder, step);
+  write_aside(path, [&](const std::filesystem::path &part) {
+    CheckpointWriter writer(part);
+    fill(writer);
+    writer.finish();
+  });
+  remove_other_checkpoints(folder, step);
   return path;
 }
 

@@ -18,7 +18,11 @@ constexpr int kept_checkpoints = 2; // the newest, and one to fall back on
 // of later steps are of a run that was taken back, and go too. Where writing fails (OutputError), the former
 // ones stay as they are. Returns the file.
 std::filesystem::path write_checkpoint(const std::filesystem::path &folder, std::uint64_t step,
-                                       const std::function<void(CheckpointWriter &)> &fill);
+                                       const std::function<void(StateSink &)> &fill);
+
+// Its parts, for who writes the file otherwise (rank_checkpoint.h): its name, and what goes once it is there.
+std::filesystem::path checkpoint_path(const std::filesystem::path &folder, std::uint64_t step);
+void remove_other_checkpoints(const std::filesystem::path &folder, std::uint64_t step);
 
 struct FoundCheckpoint {
   std::filesystem::path path;

@@ -86,7 +86,7 @@ void CompressionRun::loop() {
     look_around();
     const bool row = due(scene_.output.every, automatic_rows);
     const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
-    if (row || frame || checkpoint_asked_ || signal_ != 0 || finished())
+    if (row || frame || signal_ != 0 || finished())
       test_->gather();
     else
       test_->settle();

@@ -6,6 +6,7 @@
 #include "apps/io/checkpoint_folder.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/ranks.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/surfaces.h"
@@ -172,8 +173,12 @@ void CompressionRun::checkpoint() {
   marks.frames = fields_ ? fields_->count() : 0;
   marks.wall_seconds = costs().wall_seconds;
   marks.target_strain = scene_.loading.target_strain;
-  write_checkpoint(paths_.checkpoints(), static_cast<std::uint64_t>(test_->steps()),
-                   [&](CheckpointWriter &to) { save_state(to, *test_, results_, marks); });
+  const auto step = static_cast<std::uint64_t>(test_->steps());
+  const auto fill = [&](StateSink &to) { save_state(to, *test_, results_, marks); };
+  if (test_->model.is_cut())
+    write_checkpoint_of_ranks(test_->model, specimen_part, paths_.checkpoints(), step, fill);
+  else
+    write_checkpoint(paths_.checkpoints(), step, fill);
   last_checkpoint_ = Clock::now();
 }
 

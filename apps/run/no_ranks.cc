@@ -1,6 +1,8 @@
 // Where the library was built without MPI: one rank.
 #include "apps/run/ranks.h"
 
+#include <stdexcept>
+
 namespace platen::apps {
 
 int run_app_on_ranks(int argc, char **argv, const AppDescription &app, const AppBody &body) {
@@ -24,5 +26,10 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *, bool)
 }
 
 void require_same_on_ranks(const std::string &) {}
+
+void write_checkpoint_of_ranks(dem::Model &, const std::string &, const std::filesystem::path &,
+                               std::uint64_t, const std::function<void(StateSink &)> &) {
+  throw std::logic_error("a specimen is cut, but there are no ranks");
+}
 
 } // namespace platen::apps

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "apps/io/rank_checkpoint.h"
 #include "apps/scene/rank.h"
 #include "base/parallel.h"
 #include "dist/agree.h"
@@ -65,6 +66,14 @@ void require_same_on_ranks(const std::string &text) {
     throw InputError(
         "error: ranks were started with different scenes or entries. Allowed: one command line, "
         "mpirun -n N platen-compress SCENE.prm.");
+}
+
+void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,
+                               const std::filesystem::path &folder, std::uint64_t step,
+                               const std::function<void(StateSink &)> &fill) {
+  const auto &ranks = dynamic_cast<const dist::Ranks &>(*specimen.exchange());
+  specimen.settle_state();
+  write_rank_checkpoint(ranks.communicator(), dist::SpreadState(ranks, specimen, part), folder, step, fill);
 }
 
 } // namespace platen::apps

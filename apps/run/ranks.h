@@ -1,11 +1,16 @@
 // The apps that run on several ranks.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "apps/scene/command_line.h"
+#include "base/state.h"
 #include "dem/exchange.h"
 #include "dem/instruction_set.h"
+#include "dem/model.h"
 
 namespace platen::apps {
 
@@ -29,5 +34,11 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchang
 // Throws InputError where ranks have different texts: command lines, or scenes of one name on several
 // machines.
 void require_same_on_ranks(const std::string &text);
+
+// write_checkpoint (apps/io/checkpoint_folder.h) of a run whose specimen is cut: all ranks write it, each its
+// own rows. `part` is the name of the specimen in the state that `fill` adds on each rank.
+void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,
+                               const std::filesystem::path &folder, std::uint64_t step,
+                               const std::function<void(StateSink &)> &fill);
 
 } // namespace platen::apps

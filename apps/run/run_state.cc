@@ -9,7 +9,7 @@ constexpr const char *instruction_set_block = "test/specimen/instruction_set";
 
 } // namespace
 
-void save_state(CheckpointWriter &to, const coupling::PlatenTest &problem, const Results &results,
+void save_state(StateSink &to, const coupling::PlatenTest &problem, const Results &results,
                 const FileMarks &marks) {
   save_part(to, test_part, problem);
   save_part(to, results_part, results);

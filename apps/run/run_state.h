@@ -10,7 +10,10 @@
 
 namespace platen::apps {
 
-void save_state(CheckpointWriter &to, const coupling::PlatenTest &problem, const Results &results,
+// Of its specimen in a state.
+constexpr const char *specimen_part = "test/specimen/";
+
+void save_state(StateSink &to, const coupling::PlatenTest &problem, const Results &results,
                 const FileMarks &marks);
 // What to go on with: the instruction set that the run began with, for forces of bonds depend on it in their
 // last bits; where this machine lacks it, its own best, and a warning.

@@ -17,7 +17,7 @@ class CheckpointFolder : public ScratchFolder {
 protected:
   fs::path checkpoints_ = folder_ / "checkpoint";
   fs::path write(std::uint64_t step) const {
-    return write_checkpoint(checkpoints_, step, [&](CheckpointWriter &writer) {
+    return write_checkpoint(checkpoints_, step, [&](StateSink &writer) {
       add_rows(writer, "step", std::vector<std::uint64_t>{step});
       add_rows(writer, "field", std::vector<double>(20000, static_cast<double>(step)));
     });

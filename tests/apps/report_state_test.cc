@@ -30,7 +30,7 @@ struct Spheres {
 
 std::filesystem::path keep(const TestFolder &folder, const std::string &run, const Spheres &spheres) {
   write_checkpoint(folder / run / "checkpoint", 12,
-                   [&](CheckpointWriter &to) { save_part(to, "specimen", spheres); });
+                   [&](StateSink &to) { save_part(to, "specimen", spheres); });
   return folder / run;
 }
 

@@ -1,18 +1,21 @@
-// The file of one checkpoint, written by ranks that hold a part of its rows each.
+// The file of one checkpoint, written by ranks that hold a part of its rows each: the bytes that one process
+// writes, and any number of ranks goes on from it. Every rank has both models.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstring>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
-#include <random>
 
 #include "apps/io/checkpoint.h"
-#include "base/vector3.h"
-#include "dist/rank_file.h"
-#include "dist/spread_checksum.h"
+#include "apps/io/checkpoint_folder.h"
+#include "apps/io/rank_checkpoint.h"
+#include "apps/scene/rank.h"
+#include "dist/ranks.h"
+#include "tests/dist/cracking_block.h"
+#include "tests/same_state.h"
 
 using namespace platen;
 using namespace platen::apps;
@@ -21,114 +24,217 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t rows = 5000, rows_of_block = 512;
+using platen::dist::testing::block_of;
+using platen::dist::testing::run;
+using platen::dist::testing::with_all;
 
-struct Rows {
-  std::vector<Vector3> position = std::vector<Vector3>(rows);
-  std::vector<int> phase = std::vector<int>(rows);
-  Rows() {
-    std::mt19937_64 random(5);
-    for (std::size_t k = 0; k < rows; ++k) {
-      for (int axis = 0; axis < 3; ++axis)
-        position[k][axis] = static_cast<double>(random()) * 1e-20;
-      phase[k] = static_cast<int>(random() % 3);
-    }
-  }
-};
-const BlockType positions{BlockType::Kind::floating, 8, 3, "m"},
-    phases{BlockType::Kind::signed_integer, 4, 1, "1"};
+int rank_of_this() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
 
-// A file as it grows: this rank's pieces of it, and the headers, which rank 0 writes.
-class SpreadCheckpoint {
-public:
-  SpreadCheckpoint() {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
-    CheckpointHeader header{};
-    std::memcpy(header.magic, checkpoint_magic, sizeof header.magic);
-    header.version = checkpoint_version;
-    header.byte_order = checkpoint_byte_order;
-    put(&header, sizeof header);
-  }
-  // Every rank holds all rows here, and gives those of its blocks alone.
-  void add(const std::string &name, const BlockType &type, const void *data) {
-    std::vector<FilePiece> own;
-    const std::size_t row = type.bytes_per_row();
-    for (std::size_t first = 0, b = 0; first < rows; first += rows_of_block, ++b)
-      if (static_cast<int>(b * 3 % 10 * 7 % static_cast<std::size_t>(ranks_)) == rank_)
-        own.push_back({first * row, static_cast<const char *>(data) + first * row,
-                       std::min(rows_of_block, rows - first) * row});
-    CheckpointBlockHeader header{};
-    header.name_bytes = static_cast<std::uint32_t>(name.size());
-    header.unit_bytes = static_cast<std::uint32_t>(type.unit.size());
-    header.kind = static_cast<std::uint32_t>(type.kind);
-    header.number_bytes = type.bytes;
-    header.numbers = type.numbers;
-    header.bytes = rows * row;
-    header.checksum = xxh64_of(MPI_COMM_WORLD, {own})[0];
-    put(&header, sizeof header);
-    put(name.data(), name.size());
-    put(type.unit.data(), type.unit.size());
-    for (FilePiece piece : own) {
-      piece.offset += length_;
-      pieces_.push_back(piece);
-    }
-    length_ += rows * row;
-    ++blocks_;
-  }
-  void write(const std::string &path) {
-    CheckpointTrailer trailer{};
-    std::memcpy(trailer.magic, checkpoint_end, sizeof trailer.magic);
-    trailer.blocks = blocks_;
-    trailer.file_bytes = length_ + sizeof trailer;
-    put(&trailer, sizeof trailer - sizeof trailer.checksum);
-    trailer.checksum = xxh64_of(MPI_COMM_WORLD, {pieces_})[0];
-    put(&trailer.checksum, sizeof trailer.checksum);
-    write_rank_file(MPI_COMM_WORLD, path, pieces_);
-  }
+int number_of_ranks() {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
 
-private:
-  void put(const void *bytes, std::size_t count) {
-    const char *first = static_cast<const char *>(bytes);
-    words_.push_back(std::make_unique<std::vector<char>>(first, first + count));
-    if (rank_ == 0) pieces_.push_back({length_, words_.back()->data(), count});
-    length_ += count;
-  }
-  int rank_ = 0, ranks_ = 1;
-  std::uint64_t length_ = 0, blocks_ = 0;
-  std::vector<FilePiece> pieces_;
-  std::vector<std::unique_ptr<std::vector<char>>> words_;
-};
-
-std::vector<char> bytes_in(const fs::path &path) {
+std::string bytes_in(const fs::path &path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Checkpoint, of_ranks_is_the_file_that_one_process_writes) {
-  int number = static_cast<int>(::getpid()), rank = 0;
-  MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const fs::path folder =
-                     fs::temp_directory_path() / ("platen_checkpoint_of_ranks_" + std::to_string(number)),
-                 spread = folder / "spread.platen", serial = folder / "serial.platen";
-  const Rows state;
-  if (rank == 0) {
-    fs::create_directories(folder);
-    CheckpointWriter writer(serial);
-    writer.add("particles/position", positions, state.position.data(), rows);
-    writer.add("particles/phase", phases, state.phase.data(), rows);
-    writer.finish();
+// A block that is cut over these ranks.
+std::unique_ptr<dem::Model> cut_block(const dem::ModelSettings &settings, MPI_Comm over) {
+  auto model = block_of(settings);
+  model->share(std::make_unique<Ranks>(over));
+  return model;
+}
+
+// A text of another length on each rank, between rows of the specimen: rank 0's counts.
+void fill(StateSink &to, const dem::Model &model) {
+  const int rank = this_rank().number;
+  add_text(to, "begin", std::string(static_cast<std::size_t>(3 + 2 * rank), static_cast<char>('a' + rank)));
+  save_part(to, "specimen", model);
+  add_rows(to, "end", std::vector<double>{1, 2, 3}, "m");
+}
+
+fs::path write_of_ranks(dem::Model &model, const fs::path &folder, std::uint64_t step) {
+  const auto &ranks = dynamic_cast<const Ranks &>(*model.exchange());
+  model.settle_state();
+  return write_rank_checkpoint(ranks.communicator(), SpreadState(ranks, model, "specimen/"), folder, step,
+                               [&](StateSink &to) { fill(to, model); });
+}
+
+class Checkpoint : public ::testing::Test {
+protected:
+  void SetUp() override {
+    this_rank() = {rank_of_this(), number_of_ranks()};
+    int number = static_cast<int>(::getpid());
+    MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    folder_ = fs::temp_directory_path() / ("platen_checkpoint_of_ranks_" + std::to_string(number));
+    if (rank_of_this() == 0) fs::create_directories(folder_);
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+  void TearDown() override {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of_this() == 0) fs::remove_all(folder_);
+    this_rank() = {};
+  }
+  // By rank 0, read by all.
+  std::string bytes_of_one_process(const dem::Model &model, std::uint64_t step) const {
+    write_checkpoint(folder_ / "one", step, [&](StateSink &to) { fill(to, model); });
+    MPI_Barrier(MPI_COMM_WORLD);
+    return bytes_in(checkpoint_path(folder_ / "one", step));
+  }
+  void expect_the_same_file(const dem::Model &alone, dem::Model &cut, std::uint64_t step) const {
+    ASSERT_TRUE(cut.is_cut());
+    const std::string one = bytes_of_one_process(alone, step),
+                      many = bytes_in(write_of_ranks(cut, folder_ / "many", step));
+    MPI_Barrier(MPI_COMM_WORLD);
+    ASSERT_GT(one.size(), 100000u);
+    EXPECT_EQ(one.size(), many.size()) << "step " << step;
+    if (one == many) return;
+    const auto difference = first_difference(CheckpointReader(checkpoint_path(folder_ / "one", step)),
+                                             CheckpointReader(checkpoint_path(folder_ / "many", step)));
+    ADD_FAILURE() << "step " << step << ": one and many: " << difference.value_or("the checksums alone");
+  }
+  // Three of them: in the middle of it, where bonds have broken in the last step, and later on.
+  void expect_the_same_files(const dem::ModelSettings &settings) const {
+    const auto alone = block_of(settings), cut = cut_block(settings, MPI_COMM_WORLD);
+    const double dt = .5 * alone->stable_step({}, 0).limit;
+    run(*alone, 20, dt), run(*cut, 20, dt);
+    expect_the_same_file(*alone, *cut, 20);
+    int steps = 20;
+    do {
+      run(*alone, 1, dt), run(*cut, 1, dt); // begins each step anew
+      alone->end_step(dt), cut->end_step(dt);
+    } while (alone->breaks == 0 && ++steps < 400);
+    ASSERT_GT(alone->breaks, 0) << "nothing broke in 400 steps";
+    expect_the_same_file(*alone, *cut, 400);
+    run(*alone, 20, dt), run(*cut, 20, dt);
+    expect_the_same_file(*alone, *cut, 440);
+    cut->gather();
+    EXPECT_TRUE(same_state(*alone, *cut)) << "after the checkpoints";
+    EXPECT_EQ(alone->energy().residual(), cut->energy().residual());
+  }
+  fs::path folder_;
+};
+
+TEST_F(Checkpoint, of_a_cracking_block_with_all_effects_is_the_file_of_one_process) {
+  expect_the_same_files(with_all());
+}
+
+TEST_F(Checkpoint, with_a_history_of_friction_and_rolling_is_the_file_of_one_process) {
+  dem::ModelSettings settings = with_all();
+  settings.bond_dashpot = 0;
+  settings.contact->normal = dem::NormalContact::hertz;
+  settings.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
+  settings.contact->rolling_friction = .2;
+  expect_the_same_files(settings);
+}
+
+TEST_F(Checkpoint, of_bonds_that_remember_is_the_file_of_one_process) {
+  expect_the_same_files(dem::examples::interfaces());
+}
+
+TEST_F(Checkpoint, without_bonds_or_without_contacts_is_the_file_of_one_process) {
+  dem::ModelSettings settings = dem::examples::breakable();
+  settings.contact.reset();
+  settings.rotation = false;
+  expect_the_same_files(settings);
+  settings = dem::examples::breakable();
+  settings.bond.reset();
+  const auto alone = block_of(settings), cut = cut_block(settings, MPI_COMM_WORLD);
+  run(*alone, 20, 1e-7), run(*cut, 20, 1e-7);
+  expect_the_same_file(*alone, *cut, 20);
+}
+
+// Two groups of ranks, the first smaller, and one process go on from the file of all.
+TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
+  const auto before = cut_block(with_all(), MPI_COMM_WORLD);
+  const double dt = .5 * before->stable_step({}, 0).limit;
+  run(*before, 60, dt);
+  const fs::path path = write_of_ranks(*before, folder_, 60);
+  run(*before, 20, dt);
+  before->gather();
+  MPI_Comm group = MPI_COMM_NULL;
+  const int first = (number_of_ranks() + 2) / 3;
+  MPI_Comm_split(MPI_COMM_WORLD, rank_of_this() < first, rank_of_this(), &group);
+  const auto resumed = cut_block(with_all(), group), alone = block_of(with_all());
+  for (dem::Model *model : {resumed.get(), alone.get()}) {
+    const CheckpointReader file(path);
+    LoadingArchive archive(file);
+    archive.part("specimen", *model);
+    run(*model, 20, dt);
+  }
+  resumed->gather();
+  EXPECT_TRUE(same_state(*before, *resumed)) << "on ranks";
+  EXPECT_TRUE(same_state(*before, *alone)) << "in one process";
+  EXPECT_GT(alone->broken_tension, 0);
+  MPI_Comm_free(&group);
+}
+
+// The last rank may write no byte beyond the first hundred of a file.
+TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
+  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  run(*cut, 10, 1e-8);
+  const std::string former = bytes_in(write_of_ranks(*cut, folder_, 10));
+  run(*cut, 10, 1e-8);
+  const int last = number_of_ranks() - 1;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank_of_this() == last) {
+    const rlimit small{100, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  std::string error;
+  try {
+    write_of_ranks(*cut, folder_, 20);
+  } catch (const OutputError &e) {
+    error = e.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  const fs::path path = checkpoint_path(folder_, 20);
+  EXPECT_EQ(error, part_path(path).string() + ": cannot be written: File too large (rank " +
+                       std::to_string(last) + ")");
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(part_path(path)));
+  EXPECT_TRUE(bytes_in(checkpoint_path(folder_, 10)) == former);
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(CheckpointReader(write_of_ranks(*cut, folder_, 30)).find("specimen/time")->rows,
+            1u); // room again
+}
+
+TEST_F(Checkpoint, whose_folder_cannot_be_made_is_told_on_all_ranks) {
+  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  run(*cut, 10, 1e-8);
+  const fs::path file = folder_ / "file";
+  if (rank_of_this() == 0) std::ofstream(file) << "no folder";
+  MPI_Barrier(MPI_COMM_WORLD);
+  try {
+    write_of_ranks(*cut, file, 10);
+    ADD_FAILURE() << "a file was taken for a folder";
+  } catch (const OutputError &e) {
+    EXPECT_EQ(std::string(e.what()).rfind(file.string() + ": cannot be created", 0), 0u) << e.what();
+  }
+}
+
+TEST_F(Checkpoint, of_ranks_keeps_the_two_newest) {
+  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  for (const std::uint64_t step : {10, 20, 30}) {
+    run(*cut, 10, 1e-8);
+    write_of_ranks(*cut, folder_, step);
   }
   MPI_Barrier(MPI_COMM_WORLD);
-  SpreadCheckpoint checkpoint;
-  checkpoint.add("particles/position", positions, state.position.data());
-  checkpoint.add("particles/phase", phases, state.phase.data());
-  checkpoint.write(spread.string());
-  EXPECT_TRUE(bytes_in(spread) == bytes_in(serial));
-  EXPECT_EQ(CheckpointReader(spread).names().size(), 2u); // it verifies both checksums
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank == 0) fs::remove_all(folder);
+  EXPECT_FALSE(fs::exists(checkpoint_path(folder_, 10)));
+  EXPECT_TRUE(fs::exists(checkpoint_path(folder_, 20)));
+  EXPECT_EQ(newest_whole_checkpoint(folder_).step, 30u);
 }
 
 } // namespace

@@ -7,44 +7,14 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "base/random.h"
-#include "dem/model.h"
 #include "dist/ranks.h"
-#include "tests/dem/examples.h"
+#include "tests/dist/cracking_block.h"
 #include "tests/same_state.h"
 
 namespace platen::dist {
 namespace {
 
-using namespace dem::examples;
-using dem::Model;
-using dem::ModelSettings;
-
-constexpr double side = 26; // of the block, in radii
-
-std::unique_ptr<Model> block_of(const ModelSettings &settings) {
-  auto model = std::make_unique<Model>(packed_box(side, side, side), settings);
-  dem::Particles &p = model->particles;
-  Random random(9);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.velocity[i] = .1 * (p.position[i] / radius) + 2 * random.direction();
-    if (p.has_rotation()) (*p.angular_velocity)[i] = (.1 / radius) * random.direction();
-  }
-  if (model->contacts) model->contacts->search(p, model->bonds.get(), 0);
-  return model;
-}
-
-// Ten steps in one go now and then.
-void run(Model &model, int steps, double dt) {
-  for (int s = 0; s < steps; ++s) {
-    if (s % 10 == 0)
-      model.begin_step(dt);
-    else
-      model.end_and_begin_step(dt, dt);
-    model.compute_forces(dt);
-    if (s % 10 == 9) model.end_step(dt);
-  }
-}
+using namespace testing;
 
 void expect_the_same_bytes(const ModelSettings &settings, long least_broken, int steps = 200) {
   const std::unique_ptr<Model> alone = block_of(settings), cut = block_of(settings);
@@ -79,18 +49,6 @@ void expect_the_same_bytes(const ModelSettings &settings, long least_broken, int
   EXPECT_GE(messages, 2 * steps);
   EXPECT_GE(rows, 5);
   EXPECT_GE(outer, settings.bond ? 1 : 0);
-}
-
-ModelSettings with_all() {
-  ModelSettings settings = breakable();
-  settings.contact->damping = .2;
-  settings.local_damping = .1;
-  settings.bond_dashpot = .05;
-  settings.gravity = {0, 0, -9.81};
-  settings.scheme = dem::Scheme::tchamwa_wielgosz;
-  settings.dissipation = 1.1;
-  settings.strength_scatter = dem::StrengthScatter{4, 2};
-  return settings;
 }
 
 TEST(model_on_ranks, a_cracking_block_with_all_effects_is_the_same_bytes) {

@@ -94,4 +94,25 @@ TEST(SpreadChecksum, of_a_text_with_a_gap_is_refused_on_all_ranks) {
   EXPECT_THROW(xxh64_of(MPI_COMM_WORLD, {pieces}), std::invalid_argument);
 }
 
+TEST(SpreadChecksum, of_a_text_that_grows_is_that_of_the_whole) {
+  for (const std::uint64_t share : {7, 300, 100000}) {
+    const std::string head = text_of(45), first = text_of(1000), middle = text_of(33), last = text_of(700);
+    SpreadHash hash(MPI_COMM_WORLD, share);
+    const auto expect = [&](const std::string &all) {
+      EXPECT_EQ(hash.value(), XXH64(all.data(), all.size(), 0))
+          << all.size() << " bytes, shares of " << share;
+    };
+    expect("");
+    hash.add_of_first(head.data(), head.size());
+    hash.add(in_turn(first, 300, 1));
+    expect(head + first);
+    hash.add({});
+    hash.add_of_first(middle.data(), middle.size());
+    hash.add_of_first("", 0);
+    expect(head + first + middle);
+    hash.add(in_turn(last, 32, 0));
+    expect(head + first + middle + last);
+  }
+}
+
 } // namespace

@@ -45,7 +45,7 @@ protected:
   std::string bytes_of(const coupling::PlatenTest &test) {
     return testing::content_of(
         write_checkpoint(folder_, static_cast<std::uint64_t>(test.steps()),
-                         [&](CheckpointWriter &to) { save_state(to, test, Results(false), FileMarks{}); }));
+                         [&](StateSink &to) { save_state(to, test, Results(false), FileMarks{}); }));
   }
   // On `first` threads until the stop, then, from the file, on each of `then`. Returns how many differ.
   int different(const dem::Specimen &specimen, const coupling::PlatenTestSettings &settings, const Stop &stop,

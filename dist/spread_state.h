@@ -1,0 +1,54 @@
+// Where the rows that ranks hold of a model stand in the state of the whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/block_type.h"
+#include "dist/rank_file.h"
+
+namespace platen::dem {
+class Model;
+}
+
+namespace platen::dist {
+
+class Ranks;
+
+// Columns of particles that a step changes: a rank has those of its own rows. The others are whole on all.
+bool is_moving(const std::string &column);
+
+// Rows of a block of a state, as one rank has them.
+struct SpreadRows {
+  struct Run {
+    std::size_t own, whole, count; // first row here, first row in the whole, rows
+  };
+  std::size_t whole = 0; // rows of all ranks
+  std::vector<Run> runs; // of this one, ascending
+
+  // What this rank has of the bytes of the whole, whose rows begin at `data` here.
+  std::vector<FilePiece> pieces(const void *data, std::size_t bytes_per_row) const;
+};
+
+// Of a model that is cut, as it is now, after settle_state(); by the names of Model::describe.
+class SpreadState {
+public:
+  // Collective. `name` is that of the model's part in the state, with a slash: "test/specimen/".
+  SpreadState(const Ranks &ranks, dem::Model &model, std::string name);
+
+  // Null: the block is whole on rank 0.
+  const SpreadRows *rows_of(const std::string &block) const;
+  // The number of rows that a table tells in a block of its own; none where the block is another one.
+  std::optional<std::uint64_t> size_told_by(const std::string &block) const;
+
+private:
+  std::string name_;
+  SpreadRows particles_;
+  std::map<std::string, SpreadRows> tables_, lists_; // by name
+};
+
+} // namespace platen::dist
