@@ -78,13 +78,14 @@ public:
 
   // Cuts the specimen over ranks, which all hold this same experiment and call the same from now on. Between
   // calls of advance() each knows its own part of the specimen, and all of it from gather() on until the next
-  // step: before energies, measures of the specimen or a state are asked for. settle() makes cracks and their
-  // number known to all; settle_state() too what a state of the first rank holds beside the rows that each
-  // rank has.
+  // step: before rows of bonds and contacts are asked for. gather_motion() is enough for energies and
+  // measures of places. settle() makes cracks and their number known to all; settle_state() too what a state
+  // of the first rank holds beside the rows that each rank has.
   void share(std::unique_ptr<dem::Exchange> exchange) { model.share(std::move(exchange)); }
   void gather();
+  void gather_motion();
   void settle() { model.settle(); }
-  void settle_state() { model.settle_state(); }
+  void settle_state();
 
 protected:
   // Of cracks: the strain of the test. Rows that the program's measures read in each step, ascending.
@@ -99,6 +100,7 @@ private:
   void begin_sharing();
   void gather_for_boundaries(const Step &step);
   void share_rows_of_boundaries();
+  void gather_rows();
   void send_loads();
   void receive_loads();
   bool any_rank(bool here) const;

@@ -33,14 +33,29 @@ void Experiment::begin_sharing() {
   share_rows_of_boundaries();
 }
 
-void Experiment::gather() {
+// What boundaries tell and keep of their rows.
+void Experiment::gather_rows() {
   if (!model.is_cut()) return;
   for (const auto &boundary : boundaries_) {
     std::vector<char> own;
     boundary->put_rows(own);
     boundary->take_rows(model.exchange()->all_bytes(own));
   }
+}
+
+void Experiment::gather() {
+  gather_rows();
   model.gather();
+}
+
+void Experiment::gather_motion() {
+  gather_rows();
+  model.gather_motion();
+}
+
+void Experiment::settle_state() {
+  gather_rows();
+  model.settle_state();
 }
 
 // Of all boundaries in one message: how many bytes each has, then these.

@@ -97,10 +97,10 @@ double PlatenTest::broken_bonds() const {
 }
 
 double PlatenTest::unbalanced_ratio() const {
-  if (!model.bonds || model.intact_bonds() == 0) return none;
-  const double sum = dem::bond_totals(model.particles, *model.bonds, model.settings().instruction_set).force;
-  const double bonds = sum / static_cast<double>(model.intact_bonds());
-  const double net = model.last_sums().unbalanced / static_cast<double>(model.particles.size());
+  const std::size_t intact = model.intact_bonds();
+  if (intact == 0) return none;
+  const double bonds = model.bond_totals().force / static_cast<double>(intact);
+  const double net = model.unbalanced() / static_cast<double>(model.particles.size());
   return bonds > 0 ? net / bonds : none;
 }
 

@@ -46,23 +46,26 @@ kernels::InterfaceColumns interface_columns_of(const Particles &p, const Bonds &
 
 // Rows whose first particle lies in a block of particles, some at a time: body(sum, first, last).
 template <class Body>
-BondTotals totals_by_blocks(const Particles &p, const Bonds &b, const Body &body) {
-  return ordered_sum<BondTotals>(p.size(), [&](std::size_t first_particle, std::size_t end_particle) {
-    const auto row_of = [&](std::size_t particle) {
-      const auto at = std::lower_bound(b.first.begin(), b.first.end(), static_cast<int>(particle));
-      return static_cast<std::size_t>(at - b.first.begin());
-    };
-    const std::size_t end = row_of(end_particle);
-    BondTotals sum;
-    for (std::size_t row = row_of(first_particle); row < end; row += block_rows)
-      body(sum, row, std::min(end, row + block_rows));
-    return sum;
-  });
+std::vector<BondTotals> totals_by_blocks(const Particles &p, const Bonds &b, const BlockList *listed,
+                                         const Body &body) {
+  std::vector<BondTotals> totals(number_of_blocks(p.size()));
+  for_listed_blocks(
+      listed, p.size(), [&](std::size_t first_particle, std::size_t end_particle, std::size_t block) {
+        const auto row_of = [&](std::size_t particle) {
+          const auto at = std::lower_bound(b.first.begin(), b.first.end(), static_cast<int>(particle));
+          return static_cast<std::size_t>(at - b.first.begin());
+        };
+        const std::size_t end = row_of(end_particle);
+        for (std::size_t row = row_of(first_particle); row < end; row += block_rows)
+          body(totals[block], row, std::min(end, row + block_rows));
+      });
+  return totals;
 }
 
-BondTotals interface_totals(const Particles &p, const Bonds &b, InstructionSet set) {
+std::vector<BondTotals> interface_totals(const Particles &p, const Bonds &b, InstructionSet set,
+                                         const BlockList *listed) {
   const kernels::InterfaceColumns columns = interface_columns_of(p, b);
-  return totals_by_blocks(p, b, [&](BondTotals &sum, std::size_t first, std::size_t last) {
+  return totals_by_blocks(p, b, listed, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows], dissipated[block_rows], damage[block_rows],
         plastic[block_rows];
     interface_kernel_of(set).measure(columns, b.law, {energy, force, dissipated, damage, plastic}, first,
@@ -205,15 +208,23 @@ ExactSum add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt
   return work;
 }
 
-BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
-  if (has_history(b.law)) return interface_totals(p, b, set);
+std::vector<BondTotals> bond_totals_of_blocks(const Particles &p, const Bonds &b, InstructionSet set,
+                                              const BlockList *listed) {
+  if (has_history(b.law)) return interface_totals(p, b, set, listed);
   const kernels::BondColumns columns = columns_of(p, b);
-  return totals_by_blocks(p, b, [&](BondTotals &sum, std::size_t first, std::size_t last) {
+  return totals_by_blocks(p, b, listed, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];
     kernels_of(set).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
     for (std::size_t k = 0; k < last - first; ++k)
       sum += {energy[k], force[k], 0, 0, 0};
   });
+}
+
+BondTotals bond_totals(const Particles &p, const Bonds &b, InstructionSet set) {
+  BondTotals sum;
+  for (const BondTotals &of_block : bond_totals_of_blocks(p, b, set))
+    sum += of_block;
+  return sum;
 }
 
 } // namespace platen::dem

@@ -253,7 +253,10 @@ struct BondTotals {
     return *this;
   }
 };
-// Added up block by block of particles, so that rows that are broken do not show in the last bit.
+// Of each block of particles, or of those that are listed.
+std::vector<BondTotals> bond_totals_of_blocks(const Particles &particles, const Bonds &bonds,
+                                              InstructionSet set, const BlockList *listed = nullptr);
+// Added up block by block, so that rows that are broken do not show in the last bit.
 BondTotals bond_totals(const Particles &particles, const Bonds &bonds,
                        InstructionSet set = best_instruction_set());
 

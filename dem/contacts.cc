@@ -44,7 +44,8 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
                    bool energy_ledger)
     : settings_(settings),
       layout_(layout),
-      search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)) {
+      search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)),
+      particles_(particles.size()) {
   require_in_range(settings);
   if (NormalContacts::with(settings.normal, [&](auto of) { return of.follows_bonds(settings); }))
     require_given(layout, "modulus", layout.modulus);
@@ -204,13 +205,22 @@ double Contacts::stored_energy(std::size_t k) const {
   return sum;
 }
 
-double Contacts::energy() const {
-  return ordered_sum<double>(table.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t k = begin; k < end; ++k)
-      if (touching[k]) sum += stored_energy(k);
-    return sum;
+std::vector<double> Contacts::energy_of_blocks(const BlockList *listed) const {
+  std::vector<double> energy(number_of_blocks(particles_));
+  for_listed_blocks(listed, particles_, [&](std::size_t from, std::size_t to, std::size_t block) {
+    std::size_t k = static_cast<std::size_t>(
+        std::lower_bound(first.begin(), first.end(), static_cast<int>(from)) - first.begin());
+    for (; k < table.size() && first[k] < static_cast<int>(to); ++k)
+      if (touching[k]) energy[block] += stored_energy(k);
   });
+  return energy;
+}
+
+double Contacts::energy() const {
+  double sum = 0;
+  for (const double of_block : energy_of_blocks())
+    sum += of_block;
+  return sum;
 }
 
 std::size_t Contacts::touching_count() const {

@@ -70,7 +70,10 @@ public:
   // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
   // is the contact's).
   void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt);
-  double energy() const; // J, stored in normal, tangential and rolling springs
+  // J, stored in normal, tangential and rolling springs; added up block by block of particles, so that it
+  // does not depend on who has which rows.
+  double energy() const;
+  std::vector<double> energy_of_blocks(const BlockList *listed = nullptr) const;
   std::size_t touching_count() const;
   // Stiffness of a pair that overlaps by `approach` (m), or soon will: Hertz' law, which has none at
   // touching, is taken at 0.2 % of the smaller radius at least.
@@ -116,6 +119,7 @@ private:
   ContactSettings settings_;
   BondLayout layout_;
   ContactSearch search_;
+  std::size_t particles_ = 0;
   double dashpot_ = 0; // fraction of critical
   Loop loop_ = nullptr;
   PairBlocks blocks_; // of the rows, as far as current

@@ -73,6 +73,9 @@ public:
   virtual long all(long own) = 0;     // their sum
   virtual long largest(long own) = 0; // of all ranks
 
+  // Something of so many bytes for each block of particles: every rank gives that of its own blocks and has
+  // all.
+  virtual void gather_blocks(void *of_blocks, std::size_t bytes) = 0;
   // Sums of the model that each rank has a part of: the first one has them all, the others nothing.
   virtual void sum_up(Model &model) = 0;
   // Tables as they were on one rank: every rank has all rows; and back to the own ones.

@@ -116,15 +116,24 @@ void set_weight(Particles &p, const Vector3 &gravity, const BlockList *listed) {
   });
 }
 
-double kinetic_energy(const Particles &p) {
-  return ordered_sum<double>(p.size(), [&](std::size_t first, std::size_t last) {
+std::vector<double> kinetic_energy_of_blocks(const Particles &p, const BlockList *listed) {
+  std::vector<double> energy(number_of_blocks(p.size()));
+  for_listed_blocks(listed, p.size(), [&](std::size_t first, std::size_t last, std::size_t block) {
     double sum = 0;
     for (std::size_t i = first; i < last; ++i) {
       sum += 0.5 * p.mass[i] * norm_squared(p.velocity[i]);
       if (p.has_rotation()) sum += 0.5 * (*p.inertia)[i] * norm_squared((*p.angular_velocity)[i]);
     }
-    return sum;
+    energy[block] = sum;
   });
+  return energy;
+}
+
+double kinetic_energy(const Particles &p) {
+  double sum = 0;
+  for (const double of_block : kinetic_energy_of_blocks(p))
+    sum += of_block;
+  return sum;
 }
 
 } // namespace platen::dem

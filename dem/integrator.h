@@ -64,5 +64,7 @@ struct Integrator {
 void set_weight(Particles &particles, const Vector3 &gravity, const BlockList *listed = nullptr);
 
 double kinetic_energy(const Particles &particles);
+// Of each block of particles, or of those that are listed; J.
+std::vector<double> kinetic_energy_of_blocks(const Particles &particles, const BlockList *listed = nullptr);
 
 } // namespace platen::dem

@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -250,6 +251,12 @@ void Model::settle() {
   }
 }
 
+void Model::gather_motion() {
+  if (!exchange_ || !cut_) return;
+  settle();
+  exchange_->gather_motion(particles);
+}
+
 void Model::settle_state() {
   if (!exchange_ || !cut_) return;
   settle();
@@ -304,24 +311,57 @@ void Model::end_and_begin_step(double finished, double next) {
   begun(next);
 }
 
+// Added in the order of blocks.
+template <class Part>
+Part Model::sum_of_blocks(std::vector<Part> parts) const {
+  static_assert(std::is_trivially_copyable_v<Part>, "sent as bytes");
+  if (cut_) exchange_->gather_blocks(parts.data(), sizeof(Part));
+  Part sum{};
+  for (const Part &part : parts)
+    sum += part;
+  return sum;
+}
+
+double Model::whole(const ExactSum &sum) const {
+  return cut_ ? exchange_->all(sum) : sum;
+}
+
+std::size_t Model::whole(std::size_t count) const {
+  return cut_ ? static_cast<std::size_t>(exchange_->all(static_cast<long>(count))) : count;
+}
+
+BondTotals Model::bond_totals() const {
+  return sum_of_blocks(
+      bond_totals_of_blocks(particles, *bonds, settings_.instruction_set, cut_ ? own_blocks() : nullptr));
+}
+
+double Model::unbalanced() const {
+  return whole(sums_.unbalanced);
+}
+
+std::size_t Model::touching_count() const {
+  return contacts ? whole(contacts->touching_count()) : 0;
+}
+
 EnergyLedger Model::energy() const {
   EnergyLedger e;
-  if (cut_) throw std::logic_error("energies are asked of a part of a specimen");
+  if (!unsettled_.empty()) throw std::logic_error("energies are asked of a specimen with unsettled cracks");
   if (!settings_.energy_ledger) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     return {none, none, none, none, none, none, none, none, none};
   }
-  e.kinetic = kinetic_energy(particles);
-  e.damping = works.damping;
+  const BlockList *own = cut_ ? own_blocks() : nullptr;
+  e.kinetic = sum_of_blocks(kinetic_energy_of_blocks(particles, own));
+  e.damping = whole(works.damping);
   e.fracture = works.fracture;
-  e.boundary = works.weight;
+  e.boundary = whole(works.weight);
   if (contacts) {
-    e.contacts = contacts->energy();
-    e.damping += contacts->damping_work;
-    e.friction = contacts->friction_work;
+    e.contacts = sum_of_blocks(contacts->energy_of_blocks(own));
+    e.damping += whole(contacts->damping_work);
+    e.friction = whole(contacts->friction_work);
   }
   if (bonds) {
-    const BondTotals totals = bond_totals(particles, *bonds, settings_.instruction_set);
+    const BondTotals totals = bond_totals();
     e.bonds = totals.energy;
     e.fracture += totals.damage;
     e.friction += totals.friction;
@@ -335,7 +375,7 @@ std::vector<Crack> Model::take_cracks() {
 }
 
 std::size_t Model::intact_bonds() const {
-  return bonds ? bonds->size() - bonds->broken_rows - bonds->failed_rows : 0;
+  return bonds ? whole(bonds->size() - bonds->broken_rows - bonds->failed_rows) : 0;
 }
 
 std::size_t Model::bytes() const {

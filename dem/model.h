@@ -115,12 +115,17 @@ public:
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
 
-  EnergyLedger energy() const; // without bodies and surfaces; not numbers without a ledger
+  // Without bodies and surfaces; not numbers without a ledger. This and what follows are of the whole
+  // specimen: where it is cut all ranks ask together, after settle().
+  EnergyLedger energy() const;
+  BondTotals bond_totals() const; // needs bonds
+  double unbalanced() const;      // N, sum of the sizes of net forces at the end of the last step
+  std::size_t touching_count() const;
+  std::size_t intact_bonds() const;
   const KickSums &last_sums() const { return sums_; }
   const Motion &last_motion() const { return motion_; }
   const ModelSettings &settings() const { return settings_; }
   std::vector<Crack> take_cracks();
-  std::size_t intact_bonds() const;
   std::size_t bytes() const; // of all columns and search lists
   std::size_t broken(BondState mode) const;
   StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const;
@@ -154,6 +159,9 @@ public:
   void gather();
   void scatter();
   void settle();
+  // Motion of all particles, and what settle() does: enough for sums and measures of places, not for those of
+  // rows of bonds and contacts.
+  void gather_motion();
   // Before a state is written by all ranks together, each its own rows: what is in no row is known to the
   // first rank then, and broken rows are dropped.
   void settle_state();
@@ -181,6 +189,10 @@ private:
   void compute_shared(double dt, const Loop &beside, const std::function<void()> &done);
   void receive_ghosts();
   void add_sums();
+  template <class Part>
+  Part sum_of_blocks(std::vector<Part> parts) const;
+  double whole(const ExactSum &sum) const;
+  std::size_t whole(std::size_t count) const;
   const BlockList *own_blocks() const { return exchange_ ? &exchange_->blocks().all : nullptr; }
   double last_step_ = 0; // s
   Ghosts ghosts() const;

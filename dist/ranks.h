@@ -71,6 +71,7 @@ public:
   ExactSum all(ExactSum own) override;
   long all(long own) override;
   long largest(long own) override;
+  void gather_blocks(void *of_blocks, std::size_t bytes) override;
   void sum_up(dem::Model &model) override;
   void gather(dem::Model &model) override;
   void scatter(dem::Model &model) override;

@@ -108,6 +108,18 @@ void Ranks::gather(dem::Model &model) {
   model.visit_sums([&](ExactSum &sum) { sum = all(sum); });
 }
 
+void Ranks::gather_blocks(void *of_blocks, std::size_t bytes) {
+  std::vector<char> own;
+  const char *first = static_cast<const char *>(of_blocks);
+  for (const int block : blocks_.all) {
+    const char *of_block = first + static_cast<std::size_t>(block) * bytes;
+    own.insert(own.end(), of_block, of_block + bytes);
+  }
+  const std::vector<char> all =
+      gather_bytes(own.data(), bytes, std::vector<std::int64_t>(partition_.rank.size(), 1));
+  std::memcpy(of_blocks, all.data(), all.size());
+}
+
 void Ranks::sum_up(dem::Model &model) {
   model.visit_sums([&](ExactSum &sum) {
     sum = all(sum);

@@ -86,8 +86,10 @@ void CompressionRun::loop() {
     look_around();
     const bool row = due(scene_.output.every, automatic_rows);
     const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
-    if (row || frame || signal_ != 0 || finished())
+    if (frame || signal_ != 0 || finished())
       test_->gather();
+    else if (row)
+      test_->gather_motion();
     else
       test_->settle();
     if (!test_->model.cracks.empty()) write_cracks();

@@ -146,6 +146,7 @@ void CompressionRun::sample() {
 
 void CompressionRun::keep(const Sample &s) {
   history_->row(history_row(s, test_.get()));
+  if (results_.falls_with(s)) test_->gather(); // all ranks have the same sample
   const bool fallen = results_.add(s, *test_);
   if (fallen && fields_)
     fields_->write(*test_, results_.moves_with(*test_)); // the state that damage and opening are measured in
@@ -175,6 +176,7 @@ void CompressionRun::checkpoint() {
   marks.target_strain = scene_.loading.target_strain;
   const auto step = static_cast<std::uint64_t>(test_->steps());
   const auto fill = [&](StateSink &to) { save_state(to, *test_, results_, marks); };
+  test_->settle_state();
   if (test_->model.is_cut())
     write_checkpoint_of_ranks(test_->model, specimen_part, paths_.checkpoints(), step, fill);
   else

@@ -127,11 +127,7 @@ const std::vector<HistoryColumn> &history_columns() {
       {"platen_speed_m_s", "m/s", &S::platen_speed, [](const Seen &s) { return s.problem.platen_speed(); }},
       {"time_step_s", "s", &S::time_step, [](const Seen &s) { return s.problem.time_step(); }},
       {"grain_contacts", "1", &S::touching,
-       [](const Seen &s) {
-         const auto &contacts = s.problem.model.contacts;
-         return contacts ? static_cast<double>(contacts->touching_count()) : 0.0;
-       },
-       count},
+       [](const Seen &s) { return static_cast<double>(s.problem.model.touching_count()); }, count},
       {"plastic_work_j", "J", &S::plastic, [](const Seen &s) { return s.energy.plastic; }},
       {"deviator_pa", "Pa", nullptr,
        [](const Seen &s) {

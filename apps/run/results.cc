@@ -42,7 +42,13 @@ std::vector<int> Results::moves_with(const coupling::PlatenTest &problem) const 
   return with;
 }
 
+bool Results::falls_with(const Sample &sample) const {
+  return sample.axial_stage != 0 && sample.cycling == 0 && peak_ > 0 &&
+         stress(sample) < pattern_share * peak_ && measured_for_ != peak_;
+}
+
 bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
+  const bool falls = falls_with(sample);
   samples_.push_back(sample);
   if (sample.axial_stage == 0 || sample.cycling != 0) return false;
   const double now = stress(sample);
@@ -55,12 +61,10 @@ bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
           dem::barrel(dem::skin_opening(problem.model.particles, *problem.model.bonds, problem.shape()));
     return false;
   }
-  if (peak_ > 0 && now < pattern_share * peak_ && measured_for_ != peak_) {
-    measured_for_ = peak_;
-    at_eighty_ = measure_pattern(problem);
-    return true;
-  }
-  return false;
+  if (!falls) return false;
+  measured_for_ = peak_;
+  at_eighty_ = measure_pattern(problem);
+  return true;
 }
 
 void Results::listen(const dem::Crack &c) {

@@ -57,6 +57,9 @@ public:
         follows_motion_(tells_pattern && axis == 2),
         strain_may_fall_(strain_may_fall) {}
 
+  // Whether add() will measure the pattern with this sample, which needs all of the specimen; else places and
+  // broken bonds are enough.
+  bool falls_with(const Sample &sample) const;
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
   bool add(const Sample &sample, const coupling::PlatenTest &problem);
