@@ -11,6 +11,7 @@
 
 #include "apps/io/checkpoint_folder.h"
 #include "apps/io/machine.h"
+#include "apps/run/ranks.h"
 #include "apps/scene/rank.h"
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -66,11 +67,14 @@ void measure(const Options &o) {
   stage.done("first step");
   bench::run(*test, o.steps);
   stage.done("a step", o.steps);
-  test->gather();
-  stage.done("gathered");
-  const std::filesystem::path file =
-      apps::write_checkpoint(o.folder, static_cast<std::uint64_t>(test->steps()),
-                             [&](apps::CheckpointWriter &to) { save_part(to, "test", *test); });
+  const auto fill = [&](StateSink &to) { save_part(to, "test", *test); };
+  const auto number = static_cast<std::uint64_t>(test->steps());
+  test->settle_state();
+  if (test->model.is_cut())
+    apps::write_checkpoint_of_ranks(test->model, "test/specimen/", o.folder, number, fill);
+  else
+    apps::write_checkpoint(o.folder, number, fill);
+  const std::filesystem::path file = apps::newest_whole_checkpoint(o.folder).path;
   stage.done("checkpoint");
   if (apps::this_rank().is_silent()) return;
   std::printf(

@@ -64,7 +64,14 @@ struct Fake : dem::Exchange {
   explicit Fake(std::vector<dem::InstructionSet> of_others) : others(std::move(of_others)) {}
   std::vector<dem::InstructionSet> others;
   dem::OwnBlocks none;
+  int ranks() const override { return 1 + static_cast<int>(others.size()); }
   const dem::OwnBlocks &blocks() const override { return none; }
+  void progress() override {}
+  void send_to_all(const std::vector<char> &, std::size_t) override {}
+  std::vector<Received> receive_from_all() override { return {}; }
+  std::vector<char> all_bytes(const std::vector<char> &own) override { return own; }
+  void gather_blocks(void *, std::size_t) override {}
+  void sum_up(dem::Model &) override {}
   void send_motion(const dem::Particles &) override {}
   void start_sums(const dem::StepSums &) override {}
   void receive_motion(dem::Particles &) override {}
