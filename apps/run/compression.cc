@@ -94,6 +94,7 @@ void CompressionRun::loop() {
       test_->settle();
     if (!test_->model.cracks.empty()) write_cracks();
     if (row) sample();
+    if (finished()) test_->gather(); // what a row shows may end the test
     // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
     if (fields_ && (finished() || frame)) {
       dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);

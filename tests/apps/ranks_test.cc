@@ -30,6 +30,16 @@ TEST_F(Ranks, their_number_threads_and_late_messages_change_no_byte) {
   EXPECT_EQ(unlike("one", "three"), "");
 }
 
+// What ends it is seen in a row of history.csv, for which less is gathered than for the last frame.
+TEST_F(Ranks, a_test_that_ends_at_a_share_of_its_peak_ends_in_the_same_bytes) {
+  const std::vector<std::string> fallen{"-s", "Loading/Stop at residual = 0.7", "-s",
+                                        "Loading/Target strain = 0.02"};
+  run_whole("one", fallen);
+  EXPECT_EQ(summary_in(folder_ / "one")["ended_by"], "stop at residual");
+  run_on(2, "two", fallen);
+  EXPECT_EQ(unlike("one", "two"), "");
+}
+
 TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
   const std::vector<std::string> around{"-s", "Platens/Kind = deformable",
                                         "-s", "Loading/Confinement = sleeve",
