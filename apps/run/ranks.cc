@@ -72,7 +72,6 @@ void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,
                                const std::filesystem::path &folder, std::uint64_t step,
                                const std::function<void(StateSink &)> &fill) {
   const auto &ranks = dynamic_cast<const dist::Ranks &>(*specimen.exchange());
-  specimen.settle_state();
   write_rank_checkpoint(ranks.communicator(), dist::SpreadState(ranks, specimen, part), folder, step, fill);
 }
 

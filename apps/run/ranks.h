@@ -36,7 +36,8 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchang
 void require_same_on_ranks(const std::string &text);
 
 // write_checkpoint (apps/io/checkpoint_folder.h) of a run whose specimen is cut: all ranks write it, each its
-// own rows. `part` is the name of the specimen in the state that `fill` adds on each rank.
+// own rows, after settle_state() of the experiment. `part` is the name of the specimen in the state that
+// `fill` adds on each rank.
 void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,
                                const std::filesystem::path &folder, std::uint64_t step,
                                const std::function<void(StateSink &)> &fill);
