@@ -77,6 +77,10 @@ std::string OutputPaths::frame_name(const std::string &series, int index) {
   return fmt::format("{}/{}_{:06}.vtu", frames_folder, series, index);
 }
 
+std::string OutputPaths::frame_of_pieces(const std::string &series, int index) {
+  return fmt::format("{}/{}_{:06}.pvtu", frames_folder, series, index);
+}
+
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
       "((scene|found)(\\.part)?\\.prm"
@@ -86,8 +90,9 @@ bool is_output_name(const fs::path &relative) {
       "|(summary|study|plan)(\\.part)?\\.json|run\\.log|(specimen|cracks)(\\.part)?\\.vtu"
       "|view(\\.part)?\\.py|(specimen|bonds|platens|sleeve|contacts|fields)(\\.part)?\\.pvd)");
   static const std::regex frame(
-      "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu|fields_[0-9]{6,}(\\.part)?\\."
-      "vti)");
+      "((specimen|bonds|platens|sleeve|contacts)_[0-9]{6,}(\\.part)?\\.vtu"
+      "|(specimen|bonds)_[0-9]{6,}(_[0-9]{4,}(\\.part)?\\.vtu|(\\.part)?\\.pvtu)"
+      "|fields_[0-9]{6,}(\\.part)?\\.vti)");
   static const std::regex packing(R"([0-9a-f]{16}(\.[^/]+\.part)?\.csv|in_use)");
   static const std::regex record(R"([^/]+\.run(\.part)?\.json)");
   const std::string name = relative.filename().string();

@@ -41,6 +41,7 @@ struct OutputPaths {
   std::filesystem::path checkpoints() const { return folder / "checkpoint"; }
   // "frames/specimen_000012.vtu": relative to the folder, as a .pvd names it.
   static std::string frame_name(const std::string &series, int index);
+  static std::string frame_of_pieces(const std::string &series, int index); // "frames/specimen_000012.pvtu"
 };
 
 // Whether a path relative to an output folder is one that the apps write there (OutputPaths, frames,

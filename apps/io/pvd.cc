@@ -1,36 +1,31 @@
 #include "apps/io/pvd.h"
 
 #include <fmt/format.h>
-#include <vtkObject.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
 
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 #include "apps/io/errors.h"
 #include "apps/io/file.h"
 #include "apps/io/numbers.h"
+#include "apps/io/pvtu.h"
+#include "apps/io/vtk_xml.h"
 #include "apps/scene/rank.h"
 
 namespace platen::apps {
 namespace {
 
-std::string escaped(const std::string &text) {
-  std::ostringstream result;
-  vtkXMLUtilities::EncodeString(text.c_str(), VTK_ENCODING_NONE, result, VTK_ENCODING_NONE, 1);
-  return result.str();
-}
-
-// What is wrong with a file is said by what is thrown; VTK would print its own words besides.
-vtkSmartPointer<vtkXMLDataElement> read_xml(const std::filesystem::path &path) {
-  const int warnings = vtkObject::GetGlobalWarningDisplay();
-  vtkObject::SetGlobalWarningDisplay(0);
-  auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
-  vtkObject::SetGlobalWarningDisplay(warnings);
-  return root;
+void require_frame(const std::filesystem::path &pvd, const std::filesystem::path &file) {
+  const std::filesystem::path frame = pvd.parent_path() / file;
+  const auto refuse = [&](const std::string &what) {
+    throw CheckpointError(fmt::format("{}: the frame {} {}", pvd.string(), file.string(), what));
+  };
+  if (!std::filesystem::exists(frame)) refuse("is missing");
+  if (frame.extension() != ".pvtu") return;
+  const std::vector<std::filesystem::path> pieces = pieces_of(frame);
+  if (pieces.empty()) refuse("is damaged");
+  for (const std::filesystem::path &piece : pieces)
+    if (!std::filesystem::exists(piece)) refuse("lacks its piece " + piece.filename().string());
 }
 
 } // namespace
@@ -60,8 +55,7 @@ void PvdSeries::resume(double up_to_time) {
     const auto time = number_of(time_text == nullptr ? "" : time_text);
     if (!time || file == nullptr) throw CheckpointError(path_.string() + ": an entry without file or time");
     if (*time > up_to_time) continue;
-    if (!std::filesystem::exists(path_.parent_path() / file))
-      throw CheckpointError(fmt::format("{}: the frame {} is missing", path_.string(), file));
+    require_frame(path_, file);
     kept.push_back({*time, file});
   }
   frames_ = std::move(kept);
@@ -78,7 +72,7 @@ void PvdSeries::write() const {
     part = k > 0 && frames_[k].time == frames_[k - 1].time ? part + 1 : 0;
     fmt::format_to(std::back_inserter(text),
                    "    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", frames_[k].time,
-                   part, escaped(frames_[k].file));
+                   part, escaped_xml(frames_[k].file));
   }
   write_text_aside(path_, text + "  </Collection>\n</VTKFile>\n");
 }

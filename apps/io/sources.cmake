@@ -9,6 +9,8 @@ set(PLATEN_IO_SOURCES
   io/csv_writer.cc
   io/vtu.cc
   io/pvd.cc
+  io/pvtu.cc
+  io/vtk_xml.cc
   io/output_folder.cc
   io/sha256.cc
   io/summary.cc

@@ -104,10 +104,11 @@ std::string CompressionRun::description() const {
 }
 
 void CompressionRun::open_files() {
+  const auto in_a_piece = static_cast<std::size_t>(scene_.output.spheres_in_a_piece);
   if (!command_.resume) {
     history_.emplace(paths_.history(), history_names(test_.get()));
     if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
-    if (scene_.output.fields) fields_.emplace(paths_.folder);
+    if (scene_.output.fields) fields_.emplace(paths_.folder, in_a_piece);
     if (as_packed_) keep(*as_packed_);
     sample();
     if (fields_) fields_->write(*test_, results_.moves_with(*test_));
@@ -122,7 +123,7 @@ void CompressionRun::open_files() {
   reopen_history();
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
-    fields_.emplace(paths_.folder);
+    fields_.emplace(paths_.folder, in_a_piece);
     fields_->resume(marks.last_frame, static_cast<int>(marks.frames));
   }
   earlier_seconds_ = marks.wall_seconds;

@@ -7,7 +7,9 @@
 
 #include "apps/io/file.h"
 #include "apps/io/output_folder.h"
+#include "apps/io/pvtu.h"
 #include "apps/io/vtu.h"
+#include "apps/run/ranks.h"
 #include "apps/run/view_script.h"
 #include "coupling/program_of_test.h"
 #include "dem/measure/damage.h"
@@ -16,6 +18,9 @@
 
 namespace platen::apps {
 namespace {
+
+constexpr std::size_t bonds_a_sphere =
+    4; // pieces of bonds are then of about as many bytes as those of spheres
 
 std::vector<Vector3> vectors(const Column<Vector3> &column) {
   return {column.begin(), column.end()};
@@ -61,14 +66,15 @@ std::string with_scalars_named(std::string text) {
 
 } // namespace
 
-FieldSeries::FieldSeries(const std::filesystem::path &folder)
+FieldSeries::FieldSeries(const std::filesystem::path &folder, std::size_t spheres_in_a_piece)
     : folder_(folder),
+      in_a_piece_(spheres_in_a_piece),
       specimen_(folder / "specimen.pvd"),
       bonds_(folder / "bonds.pvd"),
       platens_(folder / "platens.pvd"),
       sleeve_(folder / "sleeve.pvd"),
       contacts_(folder / "contacts.pvd") {
-  create_folder(folder / "frames");
+  write_shared_out(1, [&](std::size_t) { create_folder(folder / "frames"); }); // before others write there
   write_text_aside(OutputPaths(folder).view(), view_script);
 }
 
@@ -135,9 +141,20 @@ void FieldSeries::write_specimen(const coupling::PlatenTest &problem, const std:
     fields.emplace_back("fragment", dem::find_fragments(p, model.bonds.get()).of_particle);
   }
   if (!moves_with.empty()) fields.emplace_back("moves_with", moves_with);
-  write_points(folder_ / OutputPaths::frame_name("specimen", count_), problem.time(), vectors(p.position),
-               fields, values_of(problem));
-  specimen_.append(problem.time(), OutputPaths::frame_name("specimen", count_));
+  const Pieces pieces{n, in_a_piece_};
+  const std::vector<Vector3> points = vectors(p.position);
+  const FrameValues values = values_of(problem);
+  std::string name = OutputPaths::frame_name("specimen", count_);
+  if (pieces.count() <= 1) {
+    write_points(folder_ / name, problem.time(), points, fields, values);
+  } else {
+    name = OutputPaths::frame_of_pieces("specimen", count_);
+    write_shared_out(pieces.count(), [&](std::size_t piece) {
+      write_piece_of_points(folder_ / name, problem.time(), points, fields, values, pieces, piece);
+    });
+    write_pvtu(folder_ / name, problem.time(), fields, {}, values, pieces.count());
+  }
+  specimen_.append(problem.time(), name);
 }
 
 void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
@@ -168,18 +185,28 @@ void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
     shear[record] = response.shear_force;
     force[record] = {response.force.x, response.force.y, response.force.z};
   }
-  write_lines(folder_ / OutputPaths::frame_name("bonds", count_), problem.time(), vectors(p.position), lines,
-              {},
-              {{"state", std::move(state)},
-               {"damage", std::move(damage)},
-               {"normal_force", std::move(normal)},
-               {"shear_force", std::move(shear)},
-               {"force", force},
-               {"break_time", std::move(when)},
-               {"particle_a", std::move(first)},
-               {"particle_b", std::move(second)}},
-              values_of(problem));
-  bonds_.append(problem.time(), OutputPaths::frame_name("bonds", count_));
+  const std::vector<Field> fields{{"state", std::move(state)},
+                                  {"damage", std::move(damage)},
+                                  {"normal_force", std::move(normal)},
+                                  {"shear_force", std::move(shear)},
+                                  {"force", force},
+                                  {"break_time", std::move(when)},
+                                  {"particle_a", std::move(first)},
+                                  {"particle_b", std::move(second)}};
+  const Pieces pieces{n, bonds_a_sphere * in_a_piece_};
+  const std::vector<Vector3> points = vectors(p.position);
+  const FrameValues values = values_of(problem);
+  std::string name = OutputPaths::frame_name("bonds", count_);
+  if (pieces.count() <= 1) {
+    write_lines(folder_ / name, problem.time(), points, lines, {}, fields, values);
+  } else {
+    name = OutputPaths::frame_of_pieces("bonds", count_);
+    write_shared_out(pieces.count(), [&](std::size_t piece) {
+      write_piece_of_lines(folder_ / name, problem.time(), points, lines, fields, values, pieces, piece);
+    });
+    write_pvtu(folder_ / name, problem.time(), {}, fields, values, pieces.count());
+  }
+  bonds_.append(problem.time(), name);
 }
 
 // As many files a frame as boundaries belong to a series: its parts.

@@ -1,6 +1,7 @@
 // Frames for ParaView: specimen, bonds, platens, sleeve and the contacts with them on one clock.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace platen::apps {
 
 class FieldSeries {
 public:
-  // Frames land in `folder`/frames, the .pvd files and the script that shows them in `folder`.
-  explicit FieldSeries(const std::filesystem::path &folder);
+  // Frames land in `folder`/frames, the .pvd files and the script that shows them in `folder`. Specimens of
+  // more spheres than are in a piece are written in pieces, which ranks share out. Collective.
+  FieldSeries(const std::filesystem::path &folder, std::size_t spheres_in_a_piece);
 
   // Writes one frame of everything; a second call at the same time does nothing. `moves_with`
   // (Results::moves_with) is left out where it is empty. Throws OutputError.
@@ -29,6 +31,7 @@ private:
   void write_contacts(const coupling::PlatenTest &problem);
 
   std::filesystem::path folder_;
+  std::size_t in_a_piece_;
   PvdSeries specimen_, bonds_, platens_, sleeve_, contacts_;
   double last_time_ = -1;
   int count_ = 0;

@@ -1,6 +1,7 @@
 // The apps that run on several ranks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,10 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchang
 // Throws InputError where ranks have different texts: command lines, or scenes of one name on several
 // machines.
 void require_same_on_ranks(const std::string &text);
+
+// Calls write(k) for k below `count`, on one rank each: files that are alike whoever writes them. Returns
+// when all are there; where any fails all ranks throw the same OutputError. Collective.
+void write_shared_out(std::size_t count, const std::function<void(std::size_t)> &write);
 
 // write_checkpoint (apps/io/checkpoint_folder.h) of a run whose specimen is cut: all ranks write it, each its
 // own rows, after settle_state() of the experiment. `part` is the name of the specimen in the state that

@@ -51,11 +51,15 @@ protected:
     }
     put(output_ / "summary.part.json", "killed while writing");
     put(output_ / "frames" / "bonds_000003.part.vtu", "killed while writing");
+    for (const char *of_pieces : {"specimen_000001.pvtu", "bonds_000001.part.pvtu", "bonds_000001_0000.vtu",
+                                  "specimen_000001_12345.part.vtu"})
+      put(output_ / "frames" / of_pieces, "run");
   }
 };
 
 TEST_F(OutputFolder, numbers_its_frames) {
   EXPECT_EQ(OutputPaths::frame_name("bonds", 12), "frames/bonds_000012.vtu");
+  EXPECT_EQ(OutputPaths::frame_of_pieces("bonds", 12), "frames/bonds_000012.pvtu");
 }
 
 TEST_F(OutputFolder, is_created_with_its_parents) {
@@ -98,6 +102,8 @@ TEST_F(OutputFolder, overwritten_loses_what_the_run_wrote_and_nothing_else) {
                                    "checkpoint/history.csv",
                                    "mesh/platens.pvd",
                                    "rock_000001.vtu",
+                                   "frames/platens_000001.pvtu",
+                                   "frames/specimen_000001_7.vtu",
                                    "specimen_000001.vtu"};
   write_run();
   for (const std::string &name : mine)

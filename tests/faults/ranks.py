@@ -3,16 +3,18 @@
 
     ranks.py kills FOLDER_OF_APPS --mpiexec MPIEXEC [--environment "NAME=VALUE ..."] [--kills 50] [--seed 1]
     ranks.py table FOLDER_OF_APPS --mpiexec MPIEXEC [--only CASE ...] [--ranks 2 3 4 7 16] [--delay LIBRARY]
-    ranks.py large FOLDER_OF_APPS --mpiexec MPIEXEC [--ranks 2 3 4 7 16]
+    ranks.py large FOLDER_OF_APPS --mpiexec MPIEXEC [--only CASE ...] [--ranks 2 3 4 7 16]
 
 kills: a run on 1 to 4 ranks loses one of them by SIGKILL, is resumed on another number, loses one again and so on until it
 ends. At least two of five kills come while a checkpoint is being written, the others at any moment. table: boundaries and
 laws on some 3 000 spheres (7 blocks); with a library of delays (tests/dist/delay) each message waits for a random moment.
-large: 11 000 spheres (16 ranks have work) through the peak. One line of result a case. Exit status: 0; 1 where a byte
-differs, a run hangs or ends otherwise. kills and large take ten minutes each on two idle cores, the table an hour.
+large: the boundaries and laws with more than 10 000 spheres (16 ranks have work), 1 and 2 threads a rank. One line of
+result a run. Exit status: 0; 1 where a byte differs, a run hangs or ends otherwise. kills takes ten minutes on two idle
+cores, the table an hour, large two.
 """
 
 import argparse
+import json
 import os
 import pathlib
 import random
@@ -73,9 +75,13 @@ CASES = {
     "stages": ("platen-compress", STAGES, ["Specimen/Sphere radius = 2.8 mm"]),
     "class_two": ("platen-compress", CLASS_TWO, ["Specimen/Sphere radius = 2.8 mm"]),
 }
-LARGE = ("platen-compress", SCENES / "crushed.prm", [
-    "Specimen/Sphere radius = 0.39 mm", "Loading/Axial rate = 1 m/s", "Loading/Target strain = 0.006",
-    "Output/Every = 25", "Output/Fields every = 800", "Checkpoint/Every = 800"])
+# Cases with more than 10 000 spheres (16 ranks have work), through the peak and to the end.
+FINE = ["Specimen/Sphere radius = 0.39 mm", "Loading/Target strain = 0.006", "Loading/Axial rate = 1.5 m/s",
+        "Output/Every = 25", "Output/Fields every = 800", "Checkpoint/Every = 800", "Output/Spheres in a piece = 4096"]
+LARGE = {name: (CASES[name][0], CASES[name][1], [*CASES[name][2], *FINE])
+         for name in ["rigid", "elastic_explicit", "elastic_quasi_static", "sleeve", "skin", "servo", "cohesive_beam",
+                      "elasto_damage_plastic", "yielding"]}
+LARGE["six_platens"] = ("platen-compress", TRUE_TRIAXIAL, ["Specimen/Sphere radius = 1.18 mm", *FINE[2:]])
 
 
 class Runs:
@@ -142,25 +148,27 @@ def checkpoints(folder, pattern):
     return set((folder / "checkpoint").glob(pattern))
 
 
-def compare(runs, name, case, numbers, scratch):
-    """One line a number of ranks."""
+def compare(runs, name, case, cuts, scratch):
+    """One line for each of `cuts`: so many ranks of so many threads."""
     whole = scratch / name
     status, said, seconds = runs.whole(case, whole, 0)
     if status not in (0, 1):  # few spheres: not the strength that a scene expects
         return runs.fail(f"{name}: status {status}: {said}")
     rows = (whole / "history.csv").read_bytes().count(b"\n") - 1
     cracks = (whole / "cracks.csv").read_bytes().count(b"\n") - 1 if (whole / "cracks.csv").exists() else 0
-    print(f"{name}: one process, {rows} rows, {cracks} cracks, {seconds:.1f} s", flush=True)
-    for ranks in numbers:
+    summary = json.loads((whole / "summary.json").read_text())
+    print(f"{name}: one process, {summary['particles']} spheres, {summary['steps']} steps, {rows} rows, {cracks} cracks, "
+          f"{'with' if summary.get('peak_reached') else 'without'} a peak, {seconds:.1f} s", flush=True)
+    for ranks, threads in cuts:
         folder = scratch / f"{name}_{ranks}"
-        on_ranks, said, seconds = runs.whole(case, folder, ranks, 2 if ranks == 2 else 1)
+        on_ranks, said, seconds = runs.whole(case, folder, ranks, threads)
         if on_ranks != status:
-            runs.fail(f"{name} on {ranks} ranks: status {on_ranks}, not {status}: {said[-2000:]}")
+            runs.fail(f"{name} on {ranks} ranks of {threads} threads: status {on_ranks}, not {status}: {said[-2000:]}")
             continue
         files = runs.unlike(whole, folder)
-        print(f"{name}: {ranks} ranks, {seconds:.1f} s, {'the same bytes' if not files else 'unlike'}", flush=True)
+        print(f"{name}: {ranks} ranks of {threads} threads, {seconds:.1f} s, {'the same bytes' if not files else 'unlike'}", flush=True)
         if files:
-            runs.fail(f"{name} on {ranks} ranks: not as in one process: {files}")
+            runs.fail(f"{name} on {ranks} ranks of {threads} threads: not as in one process: {files}")
         shutil.rmtree(folder)
     shutil.rmtree(whole)
 
@@ -245,7 +253,7 @@ def main():
     parser.add_argument("--mpiexec", required=True)
     parser.add_argument("--environment", default="", help="for mpirun: NAME=VALUE ...")
     parser.add_argument("--delay", default="", help="library that delays messages")
-    parser.add_argument("--only", nargs="*", choices=list(CASES), default=list(CASES))
+    parser.add_argument("--only", nargs="*", choices=list(CASES), default=[], help="of table and large")
     parser.add_argument("--ranks", type=int, nargs="*", default=RANKS)
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)
@@ -255,11 +263,15 @@ def main():
         scratch = pathlib.Path(scratch)
         if options.what == "kills":
             kill_and_resume(runs, options, scratch)
-        elif options.what == "table":
-            for name in options.only:
-                compare(runs, name, CASES[name], options.ranks, scratch)
         else:
-            compare(runs, "large", LARGE, options.ranks, scratch)
+            cases = CASES if options.what == "table" else LARGE
+            for name in options.only or cases:
+                # The small ones on one thread but for two ranks, the large ones on one and two.
+                cuts = [(ranks, threads) for ranks in options.ranks for threads in (1, 2)
+                        if options.what == "large" or threads == (2 if ranks == 2 else 1)]
+                if options.what == "large":
+                    cuts.insert(0, (1, 2))
+                compare(runs, name, cases[name], cuts, scratch)
     return 1 if runs.failures else 0
 
 
