@@ -110,7 +110,7 @@ TEST_F(OutputFolder, overwritten_loses_what_the_run_wrote_and_nothing_else) {
     put(output_ / name, "mine");
   open_output_folder(output_, FolderUse::overwrite);
   std::set<std::string> expected = mine;
-  expected.insert({"checkpoint", "mesh"}); // frames/ held nothing of the user's
+  expected.insert({"checkpoint", "frames", "mesh"});
   EXPECT_EQ(all(), expected);
   for (const std::string &name : mine)
     EXPECT_EQ(content_of(output_ / name), "mine");

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs every app on disks that are too small, from one page to one page less than it needs.
 
-    full_disk.py FOLDER_OF_APPS [--only APP ...] [--sizes 24] [--seed 1]
+    full_disk.py FOLDER_OF_APPS [--only APP ...] [--sizes 24] [--seed 1] [--mpiexec MPIEXEC] [--environment "NAME=VALUE ..."]
 
 Disks are tmpfs in a mount namespace of its own (unshare). A run must end with status 4 and one message that names a file and
 says what is wrong; every file under its own name is whole, none is left half written; with room on the disk the run goes
@@ -27,6 +27,7 @@ import faults
 PAGE = 4096
 AMPLE = "256m"
 SCENES = faults.SOURCE / "tests/apps/scenes"
+MPIRUN = []  # empty: nothing is run on ranks
 
 
 class Case:
@@ -58,7 +59,16 @@ def cases():
             "Calibrate/Compressive strength = 40 MPa"], ["trials.csv"], 12),
         Study("platen-study", "study", SCENES / "study.prm", ["Study/Sphere radius list = 2 mm"], ["study.json"], 12),
         Report("platen-report", "report", None, sizes=5),
+        OnRanks("platen-compress", "ranks", crushed, ["Loading/Axial rate = 2 m/s", "Loading/Target strain = 0.001",
+                "Checkpoint/Every = 40", "Output/Spheres in a piece = 512"], ["checkpoint"], 24),
     ]
+
+
+class OnRanks(Case):
+    """On three ranks, which write checkpoints together and a piece of a frame each."""
+
+    def command(self, apps, folder, *options):
+        return [*MPIRUN, "-n", "3", *super().command(apps, folder, "-t", "1", *options)]
 
 
 class Study(Case):
@@ -108,6 +118,9 @@ def is_whole(path):
     elif path.suffix == ".pvd":
         frames = xml.etree.ElementTree.fromstring(data).iter("DataSet")
         return all((path.parent / frame.get("file")).is_file() for frame in frames)
+    elif path.suffix == ".pvtu":
+        pieces = list(xml.etree.ElementTree.fromstring(data).iter("Piece"))
+        return pieces and all((path.parent / piece.get("Source")).is_file() for piece in pieces)
     elif path.suffix in (".vtu", ".vti"):
         return data.endswith(b"</VTKFile>\n")
     elif path.suffix == ".png":
@@ -169,7 +182,8 @@ class Trial:
             if done.returncode != 4:
                 say(f"status {done.returncode}: {done.stderr}")
             errors = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
-            if len(errors) != 1 or len(done.stderr.splitlines()) > 2 or "No space left" not in errors[0]:
+            others = 0 if isinstance(case, OnRanks) else 1  # mpirun has words of its own
+            if len(errors) != 1 or others * len(done.stderr.splitlines()) > 2 or "No space left" not in errors[0]:
                 say(f"told as: {done.stderr}")
             named = re.findall(re.escape(str(self.disk)) + r"\S*?([\w.]+):", done.stderr)
             self.kinds |= {re.sub(r"\d+", "N", name.replace(".part", "")) for name in named[-1:]}
@@ -221,7 +235,12 @@ def main():
     parser.add_argument("--only", nargs="+", metavar="CASE", help="names of cases: " + ", ".join(c.name for c in cases()))
     parser.add_argument("--sizes", type=int, default=24, help="disks a case [24]")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--mpiexec", help="starts ranks; without it nothing is run on ranks")
+    parser.add_argument("--environment", default="", help="for it: NAME=VALUE ...")
     options = parser.parse_args()
+    if options.mpiexec:
+        MPIRUN.append(options.mpiexec)
+        os.environ.update(word.split("=", 1) for word in options.environment.split())
     if "PLATEN_OWN_MOUNTS" not in os.environ:
         os.environ["PLATEN_OWN_MOUNTS"] = "1"
         may = subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True, text=True)
@@ -236,7 +255,7 @@ def main():
         trial = Trial(options.apps.resolve(), pathlib.Path(scratch), figures)
         run_before = pathlib.Path(scratch) / "run"
         for case in cases():
-            if options.only and case.name not in options.only:
+            if options.only and case.name not in options.only or isinstance(case, OnRanks) and not MPIRUN:
                 continue
             if isinstance(case, Report):
                 faults.run(faults.command(trial.apps / "platen-compress", faults.CRUSHED, run_before, faults.TINY))

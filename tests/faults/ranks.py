@@ -84,17 +84,14 @@ LARGE = {name: (CASES[name][0], CASES[name][1], [*CASES[name][2], *FINE])
 LARGE["six_platens"] = ("platen-compress", TRUE_TRIAXIAL, ["Specimen/Sphere radius = 1.18 mm", *FINE[2:]])
 
 
-class Runs:
+class Runs(faults.Figures):
     """Starts runs in one process and on ranks."""
 
     def __init__(self, options):
+        super().__init__(63 if options.what == "kills" else 62)
+        self.compared = 0
         self.apps, self.mpiexec, self.delay = options.apps, options.mpiexec, options.delay
         self.environment = dict(os.environ, **dict(word.split("=", 1) for word in options.environment.split()))
-        self.failures = []
-
-    def fail(self, text):
-        print("FAILED " + text, flush=True)
-        self.failures.append(text)
 
     def command(self, case, folder, ranks, threads=1, *options):
         app, scene, entries = case
@@ -166,6 +163,7 @@ def compare(runs, name, case, cuts, scratch):
             runs.fail(f"{name} on {ranks} ranks of {threads} threads: status {on_ranks}, not {status}: {said[-2000:]}")
             continue
         files = runs.unlike(whole, folder)
+        runs.compared += 1
         print(f"{name}: {ranks} ranks of {threads} threads, {seconds:.1f} s, {'the same bytes' if not files else 'unlike'}", flush=True)
         if files:
             runs.fail(f"{name} on {ranks} ranks of {threads} threads: not as in one process: {files}")
@@ -242,8 +240,11 @@ def kill_and_resume(runs, options, scratch):
         if files:
             runs.fail(f"after {kills} kills: not as in the run that was not killed: {files}")
         shutil.rmtree(folder)
-    print(f"kills {kills}, in the write of a checkpoint {in_write}, chains {chains}, "
-          f"mpirun ended {longest:.1f} s after a kill at the latest", flush=True)
+    runs.at_least("kills of a rank", kills, options.kills)
+    runs.at_least("kills while a checkpoint was written", in_write, 0.4 * options.kills)
+    runs.note("runs that ended after their kills, compared with one that was not killed", chains, "any")
+    runs.note("seconds that mpirun went on after a kill, at most", round(longest, 1), "< 60")
+    runs.exactly("kills without a whole checkpoint, another status, runs unlike", len(runs.failures), 0)
 
 
 def main():
@@ -272,7 +273,11 @@ def main():
                 if options.what == "large":
                     cuts.insert(0, (1, 2))
                 compare(runs, name, cases[name], cuts, scratch)
-    return 1 if runs.failures else 0
+            size = "above 10 000" if options.what == "large" else "some 3 000"
+            runs.note(f"runs on ranks compared, {size} spheres{', late messages' if runs.delay else ''}", runs.compared, "any")
+            runs.exactly(f"runs on ranks unlike, {size} spheres{', late messages' if runs.delay else ''}",
+                         len(runs.failures), 0)
+    return runs.status()
 
 
 if __name__ == "__main__":
