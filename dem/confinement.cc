@@ -123,18 +123,19 @@ double Confinement::power(const Particles &p) const {
   return sum;
 }
 
-void Confinement::add_forces(Particles &p, const Bonds *bonds, const EndPlanes &planes, double pressure,
-                             double dt, double distance, bool update) {
+// The work goes by the trapezoid over the drift: the old areas and pressure at its beginning, the new ones at
+// its end.
+void Confinement::update(const Particles &p, const Bonds *bonds, const EndPlanes &planes, double dt,
+                         double distance, bool due) {
   moved_ += distance;
-  // By the trapezoid over the drift: the old areas and pressure at its beginning, the new ones at its end.
-  double swelling = power(p);
-  work_ -= 0.5 * dt * pressure_ * swelling;
-  if (update && (moved_ > move_of_areas * mean_radius_ || broken_bonds(bonds) != broken_)) {
+  work_ -= 0.5 * dt * pressure_ * power(p);
+  if (due && (moved_ > move_of_areas * mean_radius_ || broken_bonds(bonds) != broken_))
     find(p, bonds, planes);
-    swelling = power(p);
-  }
+}
+
+void Confinement::add_forces(Particles &p, double pressure, double dt) {
   pressure_ = pressure;
-  work_ -= 0.5 * dt * pressure_ * swelling;
+  work_ -= 0.5 * dt * pressure_ * power(p);
   for (std::size_t k = 0; k < particle_.size(); ++k)
     p.force[particle_[k]] -= pressure_ * area_[k];
 }

@@ -31,10 +31,12 @@ public:
   Confinement(const Particles &particles, const Bonds *bonds, const Shape &shape, const EndPlanes &planes,
               ConfinementArea kind);
 
-  // Once a step, after the drift of dt (s): `distance` (m) bounds what any particle moved. Presses with
-  // `pressure` (Pa) and adds its work. `update`: areas may be updated in this step.
-  void add_forces(Particles &particles, const Bonds *bonds, const EndPlanes &planes, double pressure,
-                  double dt, double distance, bool update);
+  // Once a step, after the drift of dt (s), before bonds are computed: `distance` (m) bounds what any
+  // particle moved. `due`: areas may be found anew in this step, from bonds that were broken before it.
+  void update(const Particles &particles, const Bonds *bonds, const EndPlanes &planes, double dt,
+              double distance, bool due);
+  // Then presses with `pressure` (Pa) and adds its work over dt (s).
+  void add_forces(Particles &particles, double pressure, double dt);
 
   double pressure() const { return pressure_; } // Pa, now
   double work() const { return work_; }         // J, done by the pressure since the start

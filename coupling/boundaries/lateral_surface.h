@@ -19,9 +19,13 @@ public:
         skin_(particles, bonds, shape, ends.planes(), area) {}
 
   void drift(const Step &, const Command &command) override { asked_ = command.pressure; }
+  // Before bonds are computed: ranks know no more of them then.
+  std::size_t prepare(const dem::Particles &particles, const Step &step) override {
+    skin_.update(particles, bonds_, ends_.planes(), step.dt, step.farthest, reads_all(step));
+    return 0;
+  }
   void apply_forces(dem::Particles &particles, const Step &step) override {
-    skin_.add_forces(particles, bonds_, ends_.planes(), asked_, step.dt, step.farthest,
-                     step.number % steps_between_skins == 0);
+    skin_.add_forces(particles, asked_, step.dt);
   }
   void add_energy(dem::EnergyLedger &energy) const override { energy.boundary += skin_.work(); }
   double pressure() const override { return skin_.pressure(); }

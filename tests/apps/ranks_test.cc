@@ -65,6 +65,19 @@ TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
   EXPECT_EQ(unlike("one", "three"), "");
 }
 
+// Its areas are found anew in every 400th step, in which many bonds break: ranks know only of those before.
+TEST_F(Ranks, a_pressed_skin_with_pieces_that_come_loose_changes_no_byte) {
+  const std::vector<std::string> around{
+      "-s", "Loading/Confinement = particles",  "-s", "Loading/Confining pressure = 5 MPa",
+      "-s", "Loading/Confining ramp = 0.02 ms", "-s", "Specimen/Sphere radius = 0.7 mm",
+      "-s", "Loading/Axial rate = 4 m/s",       "-s", "Loading/Target strain = 0.008"};
+  run_whole("one", around);
+  EXPECT_GT(summary_in(folder_ / "one")["steps"], 400);
+  EXPECT_GT(summary_in(folder_ / "one")["broken_tension"], 3000);
+  run_on(3, "three", around);
+  EXPECT_EQ(unlike("one", "three"), "");
+}
+
 TEST_F(Ranks, a_run_resumed_on_four_three_one_and_seven_ranks_ends_as_if_it_had_not_been_stopped) {
   run_whole("whole");
   const auto part = [&](int ranks, long rows, const std::vector<std::string> &more) {

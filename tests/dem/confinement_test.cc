@@ -45,6 +45,11 @@ Specimen packed_box() {
   return random_close_packing(box(16e-3, 20e-3, 20e-3), 1e-3, 0.25, 4);
 }
 
+void press(Confinement &c, Body &body, double pressure, double dt, double distance, bool due) {
+  c.update(body.particles, &body.bonds, body.planes(), dt, distance, due);
+  c.add_forces(body.particles, pressure, dt);
+}
+
 Vector3 sum_of_areas(const Confinement &c) {
   Vector3 sum;
   for (std::size_t k = 0; k < c.size(); ++k)
@@ -159,7 +164,7 @@ TEST(confinement, areas_follow_the_deformed_surface) {
     body.particles.position[i].x *= 1.1;
     body.particles.position[i].y *= 1.1;
   }
-  c.add_forces(body.particles, &body.bonds, body.planes(), 0, 0, 1e-3, true);
+  press(c, body, 0, 0, 1e-3, true);
   const double r = 10e-3, sphere = 1e-3, expected = (1.1 * (r - sphere) + 2 * sphere) / (r + sphere);
   EXPECT_NEAR(c.coverage(body.particles, body.planes()), expected, 0.01);
 }
@@ -178,18 +183,18 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
       breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
   ASSERT_FALSE(breaks.empty());
   body.bonds.break_rows(breaks, body.particles, 0.0);
-  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, false);
+  press(c, body, 1e6, 0, 0, false);
   EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0)
       << "areas have not been updated yet";
   for (Vector3 &f : body.particles.force)
     f = {};
-  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 0, true);
+  press(c, body, 1e6, 0, 0, true);
   EXPECT_EQ(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0);
   EXPECT_NEAR(c.coverage(body.particles, body.planes()), before, 0.01); // its share has gone to others
   // Ejected, far away, it changes nothing more.
   const std::size_t size = c.size();
   body.particles.position[static_cast<std::size_t>(loose)] += {0.1, 0, 0};
-  c.add_forces(body.particles, &body.bonds, body.planes(), 1e6, 0, 1e-3, true);
+  press(c, body, 1e6, 0, 1e-3, true);
   EXPECT_EQ(c.size(), size);
 }
 
@@ -211,7 +216,7 @@ TEST(confinement, two_large_pieces_are_both_pressed_and_pushed_nowhere) {
       for (std::size_t i = 0; i < body.particles.size(); ++i)
         body.particles.position[i].x += (right(static_cast<int>(i)) ? .5 : -.5) * opening;
       const double p = 1e6;
-      c.add_forces(body.particles, &body.bonds, body.planes(), p, 0, 0, true);
+      press(c, body, p, 0, 0, true);
       Vector3 all, piece[2], outer[2]; // outer: of spheres far from the cut
       for (std::size_t i = 0; i < body.particles.size(); ++i) {
         const int side = right(static_cast<int>(i)) ? 1 : 0;
@@ -242,11 +247,11 @@ TEST(confinement, work_is_pressure_times_the_volume_that_is_lost) {
     body.particles.velocity[i] = {-1e-4 * x.x, -1e-4 * x.y, 0};
   }
   const double p = 5e6, lost = 2e-4 * body.specimen.shape.volume();
-  c.add_forces(body.particles, &body.bonds, body.planes(), p, 1.0, 0, false);
+  press(c, body, p, 1.0, 0, false);
   EXPECT_NEAR(c.work(), 0.5 * p * c.coverage(body.particles, body.planes()) * lost, 0.06 * p * lost)
       << "the pressure has risen from 0 in the step; centres lie a radius (10 %) inside the surface";
   const double first = c.work();
-  c.add_forces(body.particles, &body.bonds, body.planes(), p, 1.0, 0, false);
+  press(c, body, p, 1.0, 0, false);
   EXPECT_NEAR(c.work() - first, 2 * first, 1e-12 * first);
 }
 
