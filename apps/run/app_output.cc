@@ -25,8 +25,8 @@ void clear(Json &summary, std::initializer_list<const char *> keys) {
 } // namespace
 
 int threads_of(const CommandLine &command) {
-  if (command.threads > 0 || this_rank().here == 1) return command.threads;
-  return std::max(1, hardware_threads() / this_rank().here);
+  const int cores = hardware_threads();
+  return command.threads > 0 ? std::min(command.threads, cores) : std::max(1, cores / this_rank().here);
 }
 
 Loudness loudness_of(const CommandLine &command) {
@@ -88,6 +88,9 @@ void AppOutput::open(int working_threads) {
       write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
     }
     log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
+    if (command_.threads > hardware_threads())
+      log.info("{} threads were asked for, {} are used: more than there are cores only wait for each other",
+               command_.threads, threads_of(command_));
   } catch (const OutputError &) { // a full disk: no folder is left in which nothing is
     if (!was_there)
       for (const std::filesystem::path &made : {paths.log(), paths.scene(), paths.folder})

@@ -21,7 +21,8 @@ namespace platen::apps {
 
 // As loud as the command line wants it.
 Loudness loudness_of(const CommandLine &command);
-// That a run works with; 0: all that the machine has. Ranks on one machine share its cores.
+// That a run works with: those asked for, as far as there are cores, or all. Ranks on one machine share its
+// cores.
 int threads_of(const CommandLine &command);
 // The scene's title, or its file's name.
 std::string title_of(const Scene &scene);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,5 +55,10 @@ using AppBody = std::function<int(const CommandLine &, const Scene &)>;
 // everything else 3. The message goes to standard error once, without a stack trace. Notes on entries without
 // effect go to standard error unless --quiet.
 int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body);
+
+// The same but for the body: the exit status where --help, --version or --print-parameters was asked for, or
+// where command line or scene are refused; none where there is work to do. None too on one of several ranks,
+// which tell what is wrong once.
+std::optional<int> answer_at_once(int argc, char **argv, const AppDescription &app);
 
 } // namespace platen::apps

@@ -32,6 +32,10 @@ Rank &this_rank() {
   return rank;
 }
 
+bool launched_with_others() {
+  return launched().of > 1;
+}
+
 void require_one_process(const std::string &app) {
   const Rank rank = launched();
   if (rank.of < 2) return;

@@ -26,6 +26,9 @@ public:
   RankThatWrites &operator=(const RankThatWrites &) = delete;
 };
 
+// Whether a launcher has started several processes of this program.
+bool launched_with_others();
+
 // Throws InputError where mpirun has started several processes of an app that runs in one. The first of them
 // tells it.
 void require_one_process(const std::string &app);

@@ -98,9 +98,6 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
     print_parameters(scene, app, line.part, line.json, std::cout);
     return status_done;
   }
-  if (!line.quiet && !this_rank().is_silent())
-    for (const std::string &note : scene.notes)
-      std::cerr << note << '\n';
   try {
     return body(line, scene);
   } catch (const BadParameter &error) { // of the library, which knows no file
@@ -110,13 +107,10 @@ int run(const CommandLine &line, const AppDescription &app, const AppBody &body)
   }
 }
 
-} // namespace
-
-int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
-  obey_early_signals();
+// What `act` returns, or the status of what it throws, which is told.
+int with_status(const std::function<int()> &act) {
   try {
-    require_ranks(argc, argv, app);
-    return run(read_command_line(argc, argv, app), app, body);
+    return act();
   } catch (const PrintAndExit &asked) {
     if (!this_rank().is_silent()) std::cout << asked.text;
     return status_done;
@@ -134,6 +128,34 @@ int run_app(int argc, char **argv, const AppDescription &app, const AppBody &bod
   } catch (const std::exception &error) {
     return tell(std::string("error: ") + error.what(), status_numerics);
   }
+}
+
+} // namespace
+
+int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
+  obey_early_signals();
+  return with_status([&] {
+    require_ranks(argc, argv, app);
+    return run(read_command_line(argc, argv, app), app, [&](const CommandLine &line, const Scene &scene) {
+      if (!line.quiet && !this_rank().is_silent())
+        for (const std::string &note : scene.notes)
+          std::cerr << note << '\n';
+      return body(line, scene);
+    });
+  });
+}
+
+std::optional<int> answer_at_once(int argc, char **argv, const AppDescription &app) {
+  obey_early_signals();
+  if (launched_with_others()) return std::nullopt;
+  bool has_work = false;
+  const int status = with_status([&] {
+    return run(read_command_line(argc, argv, app), app, [&](const CommandLine &, const Scene &) {
+      has_work = true;
+      return status_done;
+    });
+  });
+  return has_work ? std::nullopt : std::optional<int>(status);
 }
 
 } // namespace platen::apps

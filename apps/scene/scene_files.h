@@ -18,9 +18,9 @@ void read_scene_file(const std::string &path, Parameters &parameters);
 void read_prm_text(const std::string &text, const std::string &name, Parameters &parameters);
 void read_json_text(const std::string &text, const std::string &name, Parameters &parameters);
 
-// Write all entries: as .prm, by deal.II's ParameterHandler, with or without the documentation; as JSON, an
-// object for each entry with value, default, unit, what is allowed and documentation. Both can be read as
-// scenes.
+// Write all entries: as .prm, which deal.II's ParameterHandler reads too, with or without documentation; as
+// JSON, an object for each entry with value, default, unit, what is allowed and documentation. Both can be
+// read as scenes.
 void write_prm(const std::vector<Entry> &entries, bool with_documentation, std::ostream &out);
 void write_json(const std::vector<Entry> &entries, std::ostream &out);
 

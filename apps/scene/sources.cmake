@@ -1,4 +1,3 @@
-# parameter_writer.cc is the only file with heavy deal.II headers.
 set(PLATEN_SCENE_SOURCES
   scene/units.cc
   scene/values.cc
@@ -40,6 +39,7 @@ set(PLATEN_SCENE_SOURCES
   scene/surfaces.cc
   scene/layers.cc
   scene/expect.cc
+  scene/apps.cc
   scene/command_line.cc
   scene/run_app.cc
   scene/version.cc)

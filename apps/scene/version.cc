@@ -1,8 +1,5 @@
 #include "apps/scene/version.h"
 
-#include <deal.II/base/config.h> // macros only
-#include <vtkVersionMacros.h>
-
 #ifdef PLATEN_COMMIT_HEADER
 #include PLATEN_COMMIT_HEADER // defines PLATEN_COMMIT; written at each build
 #endif
@@ -14,6 +11,11 @@
 #endif
 #ifndef PLATEN_BUILD_TYPE
 #define PLATEN_BUILD_TYPE "unknown build type"
+#endif
+#ifndef PLATEN_DEAL_II
+#define PLATEN_DEAL_II "unknown"
+#define PLATEN_TRILINOS "unknown"
+#define PLATEN_VTK "unknown"
 #endif
 
 namespace platen::apps {
@@ -28,15 +30,9 @@ std::string version_text() {
 #else
   const std::string compiler = "GCC " __VERSION__;
 #endif
-#ifdef DEAL_II_TRILINOS_VERSION_MAJOR
-  const std::string trilinos = ", Trilinos " + std::to_string(DEAL_II_TRILINOS_VERSION_MAJOR) + "." +
-                               std::to_string(DEAL_II_TRILINOS_VERSION_MINOR) + "." +
-                               std::to_string(DEAL_II_TRILINOS_VERSION_SUBMINOR);
-#else
-  const std::string trilinos = ", no Trilinos";
-#endif
-  return version_line() + "\ncompiler " + compiler + "\ndeal.II " DEAL_II_PACKAGE_VERSION + trilinos +
-         ", VTK " VTK_VERSION;
+  const std::string trilinos = PLATEN_TRILINOS;
+  return version_line() + "\ncompiler " + compiler + "\ndeal.II " PLATEN_DEAL_II +
+         (trilinos.empty() ? ", no Trilinos" : ", Trilinos " + trilinos) + ", VTK " PLATEN_VTK;
 }
 
 } // namespace platen::apps

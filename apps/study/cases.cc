@@ -1,9 +1,11 @@
 #include "apps/study/cases.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "apps/run/shared_packing.h"
+#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
@@ -91,35 +93,20 @@ StudyPlan plan_rate(const Scene &scene) {
   return plan;
 }
 
-struct KindOfStudy {
-  const char *word;
-  StudyPlan (*plan)(const Scene &);
-};
+using Plan = StudyPlan (*)(const Scene &);
 
 // As StudyKind.
-constexpr KindOfStudy kinds[] = {{"friction", plan_friction}, {"slenderness", plan_slenderness},
-                                 {"size", plan_size},         {"packing", plan_packing},
-                                 {"rate", plan_rate},         {"accuracy", plan_accuracy}};
-
-const KindOfStudy &row_of(StudyKind kind) {
-  return kinds[static_cast<std::size_t>(kind)];
-}
+constexpr std::array<Plan, study_words.size()> plans{plan_friction, plan_slenderness, plan_size,
+                                                     plan_packing,  plan_rate,        plan_accuracy};
 
 } // namespace
 
 const char *word(StudyKind kind) {
-  return row_of(kind).word;
-}
-
-std::vector<std::string> study_kinds() {
-  std::vector<std::string> words;
-  for (const KindOfStudy &kind : kinds)
-    words.emplace_back(kind.word);
-  return words;
+  return study_words[static_cast<std::size_t>(kind)];
 }
 
 StudyKind study_kind(const std::string &word) {
-  return static_cast<StudyKind>(read_word(word, study_kinds()));
+  return static_cast<StudyKind>(read_word(word, {study_words.begin(), study_words.end()}));
 }
 
 std::string as_name(const std::string &words) {
@@ -156,7 +143,7 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
 }
 
 StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
-  StudyPlan plan = row_of(kind).plan(scene);
+  StudyPlan plan = plans[static_cast<std::size_t>(kind)](scene);
   plan.kind = kind;
   for (int k = 0; k < scene.study.seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));

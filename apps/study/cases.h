@@ -47,8 +47,7 @@ struct StudyPlan {
 };
 
 const char *word(StudyKind kind);
-// The words of all kinds, and the kind of a word: the command line has refused any other.
-std::vector<std::string> study_kinds();
+// Of a word of study_words (apps/scene/apps.h): the command line has refused any other.
 StudyKind study_kind(const std::string &word);
 
 // Throws InputError where the scene leaves a kind nothing to vary, or where a case is a scene that

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <regex>
 
+#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
 
@@ -20,7 +21,7 @@ std::string kind_in(const std::filesystem::path &scene) {
   for (std::string line; std::getline(file, line);)
     if (std::regex_search(line, found, run)) return found[1];
   ADD_FAILURE() << scene << " does not say by which platen-study it is run";
-  return study_kinds().front();
+  return study_words.front();
 }
 
 TEST(StudyScenes, lead_to_cases_that_can_be_run) {

@@ -77,7 +77,7 @@ def main():
             if options.only and name not in options.only:
                 continue
             report = folder / "report.xml"
-            done = faults.run(["valgrind", "--leak-check=no", "--num-callers=20", "--xml=yes", f"--xml-file={report}", *command])
+            done = faults.run(["valgrind", "--trace-children=yes", "--leak-check=no", "--num-callers=20", "--xml=yes", f"--xml-file={report}", *command])
             ours, others = errors_of(report, build)
             print(f"{name}: {len(ours)} errors, {len(others)} of libraries", flush=True)
             for text in ours + others:

@@ -1,0 +1,37 @@
+// What a user starts of an app. It answers --help, --version and --print-parameters and refuses command lines
+// and scenes by itself, in some milliseconds; for all else it becomes the engine, the program with finite
+// elements, solvers and VTK in it, whose hundreds of libraries take a fifth of a second to load.
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "apps/scene/apps.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside this program where it was built, or where it was installed.
+fs::path engine(const std::string &name) {
+  std::error_code none;
+  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path built = here / "engine" / name;
+  return fs::exists(built, none) ? built : here / PLATEN_ENGINES / name;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  using namespace platen::apps;
+  const AppDescription app = description_of(AppKind::PLATEN_APP);
+  if (const std::optional<int> status = answer_at_once(argc, argv, app)) return *status;
+  const fs::path program = engine(app.name);
+  ::execv(program.c_str(), argv);
+  std::cerr << "error: " << program.string() << " cannot be started: " << std::strerror(errno)
+            << ". It belongs to " << app.name << ": install both anew\n";
+  return status_numerics;
+}
