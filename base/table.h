@@ -2,6 +2,7 @@
 // resizing, checkpoints and output are written once for every present and future column.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@ public:
   virtual void resize(std::size_t n) = 0;
   // Row k becomes the former row order[k]; order may be shorter than the column (gather).
   virtual void permute(const std::vector<int> &order) = 0;
+  // The same within the rows from `first` on: row first + k becomes the former row first + order[k].
+  virtual void permute_from(std::size_t first, const std::vector<int> &order) = 0;
   virtual BlockType type() const = 0;
   virtual std::size_t bytes_per_row() const = 0;
   virtual void *bytes() = 0;
@@ -62,6 +65,12 @@ public:
     for (std::size_t k = 0; k < order.size(); ++k)
       moved[k] = values_[order[k]];
     values_.swap(moved);
+  }
+  void permute_from(std::size_t first, const std::vector<int> &order) override {
+    std::vector<T> moved(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+      moved[k] = values_[first + static_cast<std::size_t>(order[k])];
+    std::copy(moved.begin(), moved.end(), values_.begin() + static_cast<std::ptrdiff_t>(first));
   }
   BlockType type() const override { return block_type<T>(unit()); }
   std::size_t bytes_per_row() const override { return sizeof(T); }
@@ -103,6 +112,10 @@ public:
     for (auto &column : columns_)
       column->permute(order);
     size_ = order.size();
+  }
+  void permute_from(std::size_t first, const std::vector<int> &order) {
+    for (auto &column : columns_)
+      column->permute_from(first, order);
   }
   std::size_t bytes_per_row() const {
     std::size_t sum = 0;

@@ -49,16 +49,19 @@ template <class Body>
 std::vector<BondTotals> totals_by_blocks(const Particles &p, const Bonds &b, const BlockList *listed,
                                          const Body &body) {
   std::vector<BondTotals> totals(number_of_blocks(p.size()));
-  for_listed_blocks(
-      listed, p.size(), [&](std::size_t first_particle, std::size_t end_particle, std::size_t block) {
-        const auto row_of = [&](std::size_t particle) {
-          const auto at = std::lower_bound(b.first.begin(), b.first.end(), static_cast<int>(particle));
-          return static_cast<std::size_t>(at - b.first.begin());
-        };
-        const std::size_t end = row_of(end_particle);
-        for (std::size_t row = row_of(first_particle); row < end; row += block_rows)
-          body(totals[block], row, std::min(end, row + block_rows));
-      });
+  for_listed_blocks(listed, p.size(),
+                    [&](std::size_t first_particle, std::size_t end_particle, std::size_t block) {
+                      // Blocks may not be cut yet: within them rows may stand in any order, but those of one
+                      // block together.
+                      const auto row_of = [&](std::size_t particle) {
+                        const auto before = [&](int row) { return static_cast<std::size_t>(row) < particle; };
+                        const auto at = std::partition_point(b.first.begin(), b.first.end(), before);
+                        return static_cast<std::size_t>(at - b.first.begin());
+                      };
+                      const std::size_t end = row_of(end_particle);
+                      for (std::size_t row = row_of(first_particle); row < end; row += block_rows)
+                        body(totals[block], row, std::min(end, row + block_rows));
+                    });
   return totals;
 }
 
@@ -176,10 +179,14 @@ void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const 
       beside);
   for (std::size_t block = 0; block < failed.size(); ++block) {
     if (!failed[block]) continue;
+    const auto before = static_cast<std::ptrdiff_t>(breaks.size());
     for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
       if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))
         breaks.push_back({static_cast<int>(k), b.failed_in_tension(k) ? BondState::broken_in_tension
                                                                       : BondState::broken_in_shear});
+    std::sort(breaks.begin() + before, breaks.end(), [&](const BondBreak &one, const BondBreak &other) {
+      return b.record[one.row] < b.record[other.row];
+    });
   }
 }
 

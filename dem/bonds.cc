@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -112,7 +113,7 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
     break_time[k] = std::numeric_limits<double>::quiet_NaN();
   }
   if (has_history(law)) add_history();
-  cut_blocks();
+  count_and_cut();
 }
 
 void Bonds::add_history() {
@@ -173,8 +174,40 @@ void Bonds::count_and_cut() {
 void Bonds::count_rows() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
   failed_rows = 0;
-  for (std::size_t k = 0; has_history(law) && k < size(); ++k)
-    failed_rows += has_failed(k);
+  failed_.clear();
+  if (!has_history(law)) return;
+  if (failed_rows_last(law)) failed_.resize(number_of_blocks(particles_));
+  for (std::size_t k = 0; k < size();) {
+    const std::size_t begin = k, block = static_cast<std::size_t>(first[k]) / block_rows;
+    Failed failed;
+    for (; k < size() && static_cast<std::size_t>(first[k]) / block_rows == block; ++k)
+      failed.all += has_failed(k);
+    failed_rows += static_cast<std::size_t>(failed.all);
+    count_last(failed, begin, k);
+    if (!failed_.empty()) failed_[block] = failed;
+  }
+}
+
+void Bonds::count_last(Failed &failed, std::size_t begin, std::size_t end) const {
+  while (static_cast<std::size_t>(failed.last) < end - begin &&
+         has_failed(end - 1 - static_cast<std::size_t>(failed.last)))
+    ++failed.last;
+}
+
+// Each decides by its own rows alone: neither threads, ranks nor a stop change when.
+void Bonds::order_failed() {
+  constexpr int enough = 8; // a pack's worth
+  for (std::size_t b = 0; b < failed_.size(); ++b) {
+    if (failed_[b].all - failed_[b].last < enough) continue;
+    failed_[b].last = failed_[b].all;
+    const std::size_t begin = blocks.first_pair[b], count = blocks.first_pair[b + 1] - begin;
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_partition(order.begin(), order.end(),
+                          [&](int k) { return !has_failed(begin + static_cast<std::size_t>(k)); });
+    table.permute_from(begin, order);
+    blocks.permute_pairs(begin, order);
+  }
 }
 
 void Bonds::compact() {
@@ -231,6 +264,12 @@ std::vector<BrokenBond> Bonds::fail_rows(const std::vector<BondBreak> &breaks, c
     });
   }
   failed_rows += breaks.size();
+  for (const BondBreak &b : breaks)
+    if (!failed_.empty()) {
+      const std::size_t block = static_cast<std::size_t>(first[b.row]) / block_rows;
+      ++failed_[block].all;
+      count_last(failed_[block], blocks.first_pair[block], blocks.first_pair[block + 1]);
+    }
   return failed;
 }
 

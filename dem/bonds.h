@@ -138,6 +138,9 @@ struct Bonds {
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit, nor does any sum.
   void compact();
+  // Of laws that keep failed rows last: puts them behind the whole ones in every block where enough of them
+  // stand among these. Sums of a block are then added in another order.
+  void order_failed();
   // Keeps the rows of the blocks of particles that are marked, and drops the others; the records stay.
   void keep_blocks(const std::vector<char> &marked);
   // After rows were put into `table` from elsewhere: counts the broken ones; and cuts the blocks.
@@ -171,8 +174,14 @@ private:
   template <class F>
   auto with_memory(std::size_t row, const F &f) const;
   void add_history();
+  struct Failed { // rows of a block
+    int all = 0;
+    int last = 0; // of them, behind the last whole one
+  };
+  void count_last(Failed &failed, std::size_t begin, std::size_t end) const;
   std::size_t particles_ = 0;
   bool rotation_ = false;
+  std::vector<Failed> failed_; // of each block of particles; of laws that keep failed rows last
   void cut_blocks();
 };
 

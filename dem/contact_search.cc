@@ -7,14 +7,18 @@
 namespace platen::dem {
 namespace {
 
-// Drops the pairs that an intact bond holds together. Both are sorted by (first, second).
+// Drops the pairs that an intact bond holds together, or that one that remembers is the contact of: those
+// stay as long as there are records. Both are sorted by (first, second).
 void drop_bonded(std::vector<IndexPair> &pairs, const Bonds &bonds) {
+  const bool of_records = has_history(bonds.law);
+  const Column<int> &first = of_records ? bonds.record_first : bonds.first,
+                    &second = of_records ? bonds.record_second : bonds.second;
   std::size_t row = 0;
   const auto bonded = [&](IndexPair p) {
-    while (row < bonds.size() && IndexPair{bonds.first[row], bonds.second[row]} < p)
+    while (row < first.size() && IndexPair{first[row], second[row]} < p)
       ++row;
-    return row < bonds.size() && IndexPair{bonds.first[row], bonds.second[row]} == p &&
-           bonds.normal_stiffness[row] != 0.0;
+    return row < first.size() && IndexPair{first[row], second[row]} == p &&
+           (of_records || bonds.normal_stiffness[row] != 0.0);
   };
   std::size_t kept = 0;
   for (const IndexPair p : pairs)

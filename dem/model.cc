@@ -93,6 +93,10 @@ void Model::begun(double dt) {
     StageClock::Lap lap(clock, Stage::bonds);
     bonds->compact();
   }
+  if (bonds) {
+    StageClock::Lap lap(clock, Stage::bonds);
+    bonds->order_failed();
+  }
   known_breaks_ = broken_tension + broken_shear;
   if (exchange_) start_exchange(dt);
 }

@@ -52,6 +52,13 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
   order_returns(count);
 }
 
+void PairBlocks::permute_pairs(std::size_t begin, const std::vector<int> &order) {
+  std::vector<Ends> moved(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    moved[k] = ends[begin + static_cast<std::size_t>(order[k])];
+  std::copy(moved.begin(), moved.end(), ends.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
 void PairBlocks::order_returns(std::size_t count) {
   struct From {
     int particle, block, ghost;

@@ -35,9 +35,11 @@ struct PairBlocks {
   std::vector<std::size_t> first_return;          // of each block, and the end
   std::vector<Return> returns;                    // to the particles of each block, ascending
 
-  // From columns of `pairs` rows, sorted by first.
+  // From columns of `pairs` rows, those of one block of first particles together, blocks ascending.
   void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation,
                int row_size = 1);
+  // Pair begin + k becomes the former pair begin + order[k], all of them of one block.
+  void permute_pairs(std::size_t begin, const std::vector<int> &order);
   std::size_t blocks() const { return first_pair.empty() ? 0 : first_pair.size() - 1; }
   std::size_t own_ghosts() const { return ghost_particle.size(); }
   // Index of the ghost of a particle in a block; -1 where there is none.

@@ -90,7 +90,7 @@ PLATEN_INLINE BondMotion<Pack> pose_of(const Ends &ends) {
 
 // What the pair has done since its last state, at the velocities of the drift that led here. Without
 // rotation the orientations that a law needs are those of the reference.
-template <bool rotation, bool needs_orientations>
+template <bool rotation, bool needs_orientations, bool from_the_middle = needs_orientations>
 PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                               const Pack &lever, double dt) {
   const int *i = c.first + k, *j = c.second + k;
@@ -102,7 +102,7 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
   if constexpr (rotation) {
     const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
     // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
-    const Triple<Pack> arm = needs_orientations ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
+    const Triple<Pack> arm = from_the_middle ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
     v = v + cross(arm, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
     const Pack length = root(dot(m.distance, m.distance));
     m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
@@ -155,6 +155,20 @@ template <bool rotation, bool factors, class Law>
   return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
 }
 
+// A pack that is broken as a whole.
+template <bool rotation, bool factors, class Law>
+[[gnu::noinline]] void add_pack_of_broken(const InterfaceColumns &c, const Law &law, std::size_t k,
+                                          const Ends &ends, double dt) {
+  const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
+  typename Law::template State<Pack> s;
+  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+  if (law.stays_apart(s, g, distances(ends))) return;
+  const InterfaceMotion<Pack> m = motion_of<rotation, false, true>(c.bonds, k, ends, g.lever, dt);
+  const InterfaceResponse<Pack> response = law.advance_broken(s, g, m);
+  for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
+  scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+}
+
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
                             double dt) {
@@ -163,6 +177,11 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
     for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
     InterfaceResponse<Pack> response;
     bool changed = false;
+    if constexpr (keeps_failed_last<Law>)
+      if (!any_positive(Pack(0.5) - s.broken)) {
+        add_pack_of_broken<rotation, factors>(c, law, k, ends, dt);
+        return Pack(0.0);
+      }
     if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), pose_of<rotation>(ends), response, changed))
       return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);

@@ -44,6 +44,16 @@ inline bool has_history(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.has_history; }, law);
 }
 
+// Of bonds that remember: whether rows that have failed are kept behind the whole ones of their block, so
+// that packs of a kernel are of one kind.
+template <class Law, class = void>
+constexpr bool keeps_failed_last = false;
+template <class Law>
+constexpr bool keeps_failed_last<Law, std::enable_if_t<Law::failed_rows_last>> = true;
+inline bool failed_rows_last(const BondLaw &law) {
+  return std::visit([](const auto &l) { return keeps_failed_last<std::decay_t<decltype(l)>>; }, law);
+}
+
 // Pairs within a share of the sum of their radii are bonded, whatever their gap.
 inline bool bonds_by_range(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.bonds_by_range; }, law);

@@ -86,6 +86,17 @@ struct YieldingParallelBond {
   template <class Real>
   bool advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose,
                      InterfaceResponse<Real> &r, bool &changed) const;
+  // What has broken stands behind what is whole: packs are then of one kind.
+  static constexpr bool failed_rows_last = true;
+  // Of a pack that is broken as a whole: whether all of them are apart and were before, so that nothing acts
+  // and nothing changes.
+  template <class Real>
+  bool stays_apart(const State<Real> &s, const InterfaceGeometry<Real> &g,
+                   const Triple<Real> &distance) const;
+  // The first of these for such a pack, which needs no orientations.
+  template <class Real>
+  InterfaceResponse<Real> advance_broken(State<Real> &s, const InterfaceGeometry<Real> &g,
+                                         const InterfaceMotion<Real> &m) const;
   // How much more the motion from a state to the present is resisted when it goes on: that of the branch
   // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
   // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
@@ -258,6 +269,32 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Rea
   r.normal = where_positive(s.broken, contact.normal_force, bond.normal_force);
   r.energy = where_positive(s.broken, contact.energy, bond.energy);
   r.failed_now = breaks;
+  return r;
+}
+
+template <class Real>
+PLATEN_INLINE bool YieldingParallelBond::stays_apart(const State<Real> &s, const InterfaceGeometry<Real> &g,
+                                                     const Triple<Real> &distance) const {
+  const Real length = root(dot(distance, distance));
+  const Real pressed = g.normal_stiffness * (g.rest_length - length) - s.plastic;
+  return !any_positive(pressed) && !any_positive(dot(s.slider, s.slider));
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance_broken(
+    State<Real> &s, const InterfaceGeometry<Real> &g, const InterfaceMotion<Real> &m) const {
+  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
+  const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
+  s.plastic = s.plastic + yields(s.plastic, elastic);
+  PlaneMotion<Real> plane(m, length);
+  plane.take_from_the_middle(m.moved);
+  const Triple<Real> carried = plane.carried(s.slider), before = carried - plane.moved;
+  const Real cap = grain_friction * positive_part(Real(elastic - s.plastic)); // Pa
+  const Real let_slip = slipping_share(carried, ks, cap);
+  s.slider = scale(Real(1.0 - let_slip), carried);
+  s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, carried));
+  InterfaceResponse<Real> r;
+  tell_whole(broken(s, g, m.distance), Real(s.plastic - elastic), r);
   return r;
 }
 
