@@ -1,6 +1,7 @@
 // What a user starts of an app. It answers --help, --version and --print-parameters and refuses command lines
 // and scenes by itself, in some milliseconds; for all else it becomes the engine, the program with finite
 // elements, solvers and VTK in it, whose hundreds of libraries take a fifth of a second to load.
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,6 +24,15 @@ fs::path engine(const std::string &name) {
   return fs::exists(built, none) ? built : here / PLATEN_ENGINES / name;
 }
 
+// What comes while the engine is loaded waits until it can obey (run_app).
+void hold_signals_back() {
+  sigset_t wait;
+  sigemptyset(&wait);
+  sigaddset(&wait, SIGINT);
+  sigaddset(&wait, SIGTERM);
+  sigprocmask(SIG_BLOCK, &wait, nullptr);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -30,6 +40,7 @@ int main(int argc, char **argv) {
   const AppDescription app = description_of(AppKind::PLATEN_APP);
   if (const std::optional<int> status = answer_at_once(argc, argv, app)) return *status;
   const fs::path program = engine(app.name);
+  hold_signals_back();
   ::execv(program.c_str(), argv);
   std::cerr << "error: " << program.string() << " cannot be started: " << std::strerror(errno)
             << ". It belongs to " << app.name << ": install both anew\n";

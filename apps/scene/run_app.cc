@@ -79,10 +79,12 @@ extern "C" void obey_early_signals() {
     action.sa_handler = end_at_once;
     sigaction(number, &action, nullptr);
   }
-  sigset_t waits;
-  sigemptyset(&waits);
+  sigset_t waits, obeyed; // the latter were held back while this program was loaded (apps/front.cc)
+  sigemptyset(&waits), sigemptyset(&obeyed);
   sigaddset(&waits, SIGUSR1);
+  sigaddset(&obeyed, SIGINT), sigaddset(&obeyed, SIGTERM);
   sigprocmask(SIG_BLOCK, &waits, nullptr);
+  sigprocmask(SIG_UNBLOCK, &obeyed, nullptr);
 }
 
 // Before the libraries initialise, which takes most of the first fifth of a second. Sanitizers have to come
