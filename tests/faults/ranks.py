@@ -68,7 +68,7 @@ CASES = {
                                     "Integration/Scheme = tchamwa wielgosz", "Integration/Dissipation = 1.2"),
     "no_rotation": crushed("Effects/Rotation = off"),
     "start_strain": crushed("Loading/Start strain = 4e-4"),
-    "tension": crushed("Loading/Test = tension", "Loading/Target strain = 0.002"),
+    "tension": crushed("Loading/Test = tension", "Platens/Attachment = glued", "Loading/Target strain = 0.002"),
     "bending": ("platen-compress", SCENES / "bent.prm", []),
     "brazilian": ("platen-brazilian", SCENES / "split.prm", []),
     "six_platens": ("platen-compress", TRUE_TRIAXIAL, ["Specimen/Sphere radius = 2.4 mm"]),
