@@ -46,7 +46,7 @@ CASES = {
                                "Effects/Bond = elasto damage plastic", long=True),
     "study_friction_quick": Case("platen-study", "friction", SCENES / "study_friction_quick.prm", long=True),
     "packing 5 018": Case("platen-pack", SCENES / "demo_dry.prm"),
-    "packing 22 500": Case("platen-pack", SCENES / "concrete_dry.prm", "-s", "Specimen/Sphere radius = 1.92 mm"),
+    "packing 22 500": Case("platen-pack", SCENES / "demo_dry.prm", "-s", "Specimen/Sphere radius = 1.08 mm"),
 }
 
 
