@@ -94,6 +94,22 @@ TEST_F(Ranks, a_run_resumed_on_four_three_one_and_seven_ranks_ends_as_if_it_had_
   EXPECT_EQ(unlike("whole", "stopped"), "");
 }
 
+// Broken rows of yielding bonds are put behind whole ones as a run goes on.
+TEST_F(Ranks, yielding_bonds_stopped_on_one_and_resumed_on_three_end_in_the_same_bytes) {
+  const std::vector<std::string> yielding{"-s", "Effects/Bond = yielding parallel bond",
+                                          "-s", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
+                                          "-s", "Bond/Compression slopes = 3, 12, 22"};
+  run_whole("whole", yielding);
+  EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 300);
+  const int status = disturb(crush("stopped", yielding), "stopped", 40,
+                             [](Program &program) { kill(program.id(), SIGTERM); });
+  ASSERT_EQ(status, 143) << said();
+  std::vector<std::string> resumed = yielding;
+  resumed.emplace_back("--resume");
+  run_on(3, "stopped", resumed);
+  EXPECT_EQ(unlike("whole", "stopped"), "");
+}
+
 // Ranks of which this one has `own`, as the others have `others`.
 struct Fake : dem::Exchange {
   explicit Fake(std::vector<dem::InstructionSet> of_others) : others(std::move(of_others)) {}
