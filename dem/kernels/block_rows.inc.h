@@ -11,7 +11,19 @@ namespace {
 
 // Rows of both ends of a pack of bonds.
 struct Ends {
-  double *first[lanes], *second[lanes];
+  double *rows; // of the block
+  const PairBlocks::Ends *at;
+  PLATEN_INLINE double *first(int lane) const { return rows + static_cast<unsigned>(at[lane].first); }
+  PLATEN_INLINE double *second(int lane) const { return rows + static_cast<unsigned>(at[lane].second); }
+  // The same, to be read once more: sixteen addresses do not fit the registers, and the compiler would keep
+  // them on the stack from their first use to their last.
+  PLATEN_INLINE Ends again() const {
+    const PairBlocks::Ends *same = at;
+#if defined(__GNUC__)
+    asm("" : "+r"(same));
+#endif
+    return {rows, same};
+  }
 };
 
 template <bool rotation>
@@ -20,29 +32,24 @@ PLATEN_INLINE double *row_of(const BlockColumns &block, int row) {
 }
 
 PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std::size_t k) {
-  Ends ends;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    ends.first[l] = block.rows + static_cast<unsigned>(c.ends[k + l].first);
-    ends.second[l] = block.rows + static_cast<unsigned>(c.ends[k + l].second);
-  }
-  return ends;
+  return {block.rows, c.ends + k};
 }
 
 // Ends of bonds [k, last), fewer than a pack. The lanes left over stand between the spare rows, which become
 // copies of the ends of the last bond.
+struct TailEnds {
+  PairBlocks::Ends at[lanes];
+};
 template <bool rotation>
-Ends tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t k, std::size_t last) {
+TailEnds tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t k, std::size_t last) {
   constexpr int stride = row_stride(rotation);
-  double *spare = row_of<rotation>(block, block.own + block.ghosts);
+  const int spare = (block.own + block.ghosts) * stride;
   const double *first = block.rows + c.ends[last - 1].first, *second = block.rows + c.ends[last - 1].second;
   for (int n = 0; n < sums_at(rotation); ++n)
-    spare[n] = first[n], spare[n + stride] = second[n];
-  Ends ends;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const bool real = k + l < last;
-    ends.first[l] = real ? block.rows + c.ends[k + l].first : spare;
-    ends.second[l] = real ? block.rows + c.ends[k + l].second : spare + stride;
-  }
+    block.rows[spare + n] = first[n], block.rows[spare + stride + n] = second[n];
+  TailEnds ends;
+  for (std::size_t l = 0; l < lanes; ++l)
+    ends.at[l] = k + l < last ? c.ends[k + l] : PairBlocks::Ends{spare, spare + stride};
   return ends;
 }
 
@@ -84,23 +91,53 @@ struct Tail {
 };
 
 // From the first to the second ends.
-PLATEN_INLINE Triple<Pack> distances(const Ends &ends) {
+PLATEN_INLINE Triple<Pack> distances(const Ends &of) {
+  const Ends ends = of.again();
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(ends.second[l]) - load_row(ends.first[l]);
+    rows[l] = load_row(ends.second(l)) - load_row(ends.first(l));
   return to_vectors(rows);
 }
-PLATEN_INLINE Rotation<Pack> orientations(double *const *ends) {
+PLATEN_INLINE Rotation<Pack> first_orientations(const Ends &of) {
+  const Ends ends = of.again();
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(ends[l] + 4);
+    rows[l] = load_row(ends.first(l) + 4);
+  return to_columns(rows);
+}
+PLATEN_INLINE Rotation<Pack> second_orientations(const Ends &of) {
+  const Ends ends = of.again();
+  Row rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_row(ends.second(l) + 4);
   return to_columns(rows);
 }
 
 // Adds force and torques to the sums of both ends, bond by bond in row order.
+#if PLATEN_LANES == 8
+PLATEN_INLINE void scatter_with_torques(const Ends &of, const Triple<Pack> &force,
+                                        const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
+  const Ends ends = of.again();
+  const RowPairs f = to_pairs(force), ti = to_pairs(torque_i), tj = to_pairs(torque_j);
+  constexpr int at = sums_at(true);
+  const auto add = [&](int l, const Native &to_first, const Native &to_second) {
+    double *a = ends.first(l) + at, *b = ends.second(l) + at;
+    store_native(a, load_native(a) + to_first);
+    store_native(b, load_native(b) + to_second);
+  };
+  for (int h = 0; h < 4; ++h)
+    add(h, lower(f.of[h], ti.of[h]), lower(-f.of[h], tj.of[h]));
+  for (int h = 0; h < 4; ++h)
+    add(h + 4, upper(f.of[h], ti.of[h]), upper(-f.of[h], tj.of[h]));
+}
+#endif
 template <bool rotation>
-PLATEN_INLINE void scatter(const Ends &ends, const Triple<Pack> &force, const Triple<Pack> &torque_i,
+PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Triple<Pack> &torque_i,
                            const Triple<Pack> &torque_j) {
+  const Ends ends = of.again();
+#if PLATEN_LANES == 8
+  if constexpr (rotation) return scatter_with_torques(ends, force, torque_i, torque_j);
+#endif
   constexpr int at = sums_at(rotation);
   Row f[lanes], ti[lanes], tj[lanes];
   to_rows(force, f);
@@ -109,7 +146,7 @@ PLATEN_INLINE void scatter(const Ends &ends, const Triple<Pack> &force, const Tr
     to_rows(torque_j, tj);
   }
   for (int l = 0; l < lanes; ++l) {
-    double *a = ends.first[l] + at, *b = ends.second[l] + at;
+    double *a = ends.first(l) + at, *b = ends.second(l) + at;
     store_row(a, load_row(a) + f[l]);
     store_row(b, load_row(b) - f[l]);
     if constexpr (rotation) {

@@ -29,7 +29,7 @@ PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k,
   BondResponse<Pack> r;
   if constexpr (rotation)
     r = law.template turning<turning == Turning::moments>(
-        geometry<factors>(c, k), BondMotion<Pack>{d, orientations(ends.first), orientations(ends.second)});
+        geometry<factors>(c, k), BondMotion<Pack>{d, first_orientations(ends), second_orientations(ends)});
   else
     r = law.without_rotation(geometry<factors>(c, k), d);
   scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
@@ -40,8 +40,8 @@ template <Turning turning, bool factors, class Law>
 [[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
                                 std::size_t k, std::size_t last) {
   Tail tail(c, k, last);
-  return add_pack<turning, factors>(tail.columns(c), law, 0,
-                                    tail_ends<turning != Turning::none>(c, block, k, last));
+  const TailEnds ends = tail_ends<turning != Turning::none>(c, block, k, last);
+  return add_pack<turning, factors>(tail.columns(c), law, 0, Ends{block.rows, ends.at});
 }
 
 template <Turning turning, bool factors, class Law>
@@ -199,8 +199,9 @@ double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t
     power.add(add_dashpot_pack<turning>(c, k, ends_of(c, block, k)), c.record + k, lanes);
   if (k < last) {
     Tail tail(c, k, last);
-    power.add(add_dashpot_pack<turning>(tail.columns(c), 0, tail_ends<rotation>(c, block, k, last)),
-              c.record + k, last - k);
+    const TailEnds ends = tail_ends<rotation>(c, block, k, last);
+    power.add(add_dashpot_pack<turning>(tail.columns(c), 0, Ends{block.rows, ends.at}), c.record + k,
+              last - k);
     for (std::size_t l = 0; k + l < last; ++l) {
       c.dashpot_force[k + l] = tail.dashpot_force[l];
       if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];

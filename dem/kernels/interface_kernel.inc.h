@@ -39,7 +39,7 @@ struct MemoryTail {
   }
 };
 
-inline void store(double *to, const Pack &a) {
+PLATEN_INLINE void store(double *to, const Pack &a) {
   for (int l = 0; l < lanes; ++l)
     to[l] = a.v[l];
 }
@@ -79,13 +79,13 @@ constexpr bool is_quick_while_whole<Law, std::enable_if_t<Law::quick_while_whole
 
 // Without rotation orientations are those of the reference.
 template <bool rotation>
-PLATEN_INLINE BondMotion<Pack> pose_of(const Ends &ends) {
+PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends &ends) {
   const Pack none(0.0);
   const Rotation<Pack> unturned{Pack(1.0), none, none, none};
   if constexpr (rotation)
-    return {distances(ends), orientations(ends.first), orientations(ends.second)};
+    return {distance, first_orientations(ends), second_orientations(ends)};
   else
-    return {distances(ends), unturned, unturned};
+    return {distance, unturned, unturned};
 }
 
 // What the pair has done since its last state, at the velocities of the drift that led here. Without
@@ -107,7 +107,7 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
     const Pack length = root(dot(m.distance, m.distance));
     m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
     if constexpr (needs_orientations) {
-      m.turn_i = orientations(ends.first), m.turn_j = orientations(ends.second);
+      m.turn_i = first_orientations(ends), m.turn_j = second_orientations(ends);
       m.turned_i = scale(Pack(dt), wi), m.turned_j = scale(Pack(dt), wj);
     }
   } else if constexpr (needs_orientations) {
@@ -178,11 +178,13 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
     InterfaceResponse<Pack> response;
     bool changed = false;
     if constexpr (keeps_failed_last<Law>)
-      if (!any_positive(Pack(0.5) - s.broken)) {
+      if (all_positive(s.broken - Pack(0.5))) {
         add_pack_of_broken<rotation, factors>(c, law, k, ends, dt);
         return Pack(0.0);
       }
-    if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), pose_of<rotation>(ends), response, changed))
+    const Triple<Pack> distance = distances(ends);
+    const auto pose = [&] { return pose_of<rotation>(distance, ends); };
+    if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
       return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
     scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
@@ -203,9 +205,9 @@ bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const 
   if (k < last) {
     Tail tail(c.bonds, k, last);
     MemoryTail memory(c.memory, k, last);
+    const TailEnds ends = tail_ends<rotation>(c.bonds, block, k, last);
     const InterfaceColumns rest{tail.columns(c.bonds), memory.columns()};
-    failed = larger(
-        failed, add_pack<rotation, factors>(rest, law, 0, tail_ends<rotation>(c.bonds, block, k, last), dt));
+    failed = larger(failed, add_pack<rotation, factors>(rest, law, 0, Ends{block.rows, ends.at}, dt));
     memory.give_back(c.memory, k, last);
   }
   scatter<rotation, false>(block);

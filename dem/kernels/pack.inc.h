@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include "base/vector3.h"
 #include "dem/laws/parallel_bond.h"
@@ -23,6 +26,7 @@ struct Pack {
   Pack(double a) : v(a - Native{}) {}
 };
 // Beside those of double, which the ones below would hide.
+using dem::all_positive;
 using dem::any_positive;
 using dem::larger;
 using dem::magnitude;
@@ -30,50 +34,66 @@ using dem::positive_part;
 using dem::root;
 using dem::where_positive;
 
-inline Pack operator+(const Pack &a, const Pack &b) {
+PLATEN_INLINE Pack operator+(const Pack &a, const Pack &b) {
   return a.v + b.v;
 }
-inline Pack operator-(const Pack &a, const Pack &b) {
+PLATEN_INLINE Pack operator-(const Pack &a, const Pack &b) {
   return a.v - b.v;
 }
-inline Pack operator*(const Pack &a, const Pack &b) {
+PLATEN_INLINE Pack operator*(const Pack &a, const Pack &b) {
   return a.v * b.v;
 }
-inline Pack operator/(const Pack &a, const Pack &b) {
+PLATEN_INLINE Pack operator/(const Pack &a, const Pack &b) {
   return a.v / b.v;
 }
-inline Pack operator-(const Pack &a) {
+PLATEN_INLINE Pack operator-(const Pack &a) {
   return -a.v;
 }
-inline Pack root(const Pack &a) {
+PLATEN_INLINE Pack root(const Pack &a) {
   Pack r;
   for (int l = 0; l < lanes; ++l)
     r.v[l] = __builtin_sqrt(a.v[l]);
   return r;
 }
-inline Pack magnitude(const Pack &a) {
+PLATEN_INLINE Pack magnitude(const Pack &a) {
   return a.v < 0.0 ? -a.v : a.v;
 }
-inline Pack positive_part(const Pack &a) {
+PLATEN_INLINE Pack positive_part(const Pack &a) {
   return a.v > 0.0 ? a.v : Native{};
 }
-inline Pack larger(const Pack &a, const Pack &b) {
+PLATEN_INLINE Pack larger(const Pack &a, const Pack &b) {
   return a.v > b.v ? a.v : b.v;
 }
-inline bool any_positive(const Pack &a) {
-  bool any = false;
+// Which lanes are above 0, a bit each.
+PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
+#if PLATEN_LANES == 8
+  return _mm512_cmp_pd_mask((__m512d)a.v, _mm512_setzero_pd(), _CMP_GT_OQ);
+#elif PLATEN_LANES == 4
+  return static_cast<unsigned>(
+      _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a.v, _mm256_setzero_pd(), _CMP_GT_OQ)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd((__m128d)a.v, _mm_setzero_pd())));
+#else
+  unsigned bits = 0;
   for (int l = 0; l < lanes; ++l)
-    any |= a.v[l] > 0.0;
-  return any;
+    bits |= (a.v[l] > 0.0 ? 1u : 0u) << l;
+  return bits;
+#endif
 }
-inline Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
+PLATEN_INLINE bool any_positive(const Pack &a) {
+  return positive_lanes(a) != 0;
+}
+PLATEN_INLINE bool all_positive(const Pack &a) {
+  return positive_lanes(a) == (1u << lanes) - 1;
+}
+PLATEN_INLINE Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
   return x.v > 0.0 ? a.v : b.v;
 }
 // `size`, which is not negative, with the sign of `of`.
-inline double with_sign(double size, double of) {
+PLATEN_INLINE double with_sign(double size, double of) {
   return __builtin_copysign(size, of);
 }
-inline Pack with_sign(const Pack &size, const Pack &of) {
+PLATEN_INLINE Pack with_sign(const Pack &size, const Pack &of) {
   typedef long long Bits __attribute__((vector_size(8 * PLATEN_LANES)));
   const Bits sign = (Bits)(-0.0 - Native{});
   return (Native)((Bits)size.v | ((Bits)of.v & sign));
@@ -84,6 +104,8 @@ inline Pack with_sign(const Pack &size, const Pack &of) {
 
 #if PLATEN_LANES == 2
 #include "dem/kernels/rows_of_two.inc.h"
+#elif PLATEN_LANES == 8
+#include "dem/kernels/rows_of_eight.inc.h"
 #else
 #include "dem/kernels/rows_of_four.inc.h"
 #endif
@@ -91,12 +113,12 @@ inline Pack with_sign(const Pack &size, const Pack &of) {
 namespace platen::dem::kernels {
 namespace {
 
-inline Triple<Pack> to_vectors(const Row *rows) {
+PLATEN_INLINE Triple<Pack> to_vectors(const Row *rows) {
   const Rotation<Pack> columns = to_columns(rows);
   return {columns.w, columns.x, columns.y};
 }
 
-inline Rotation<Pack> load(const Quaternion *from) {
+PLATEN_INLINE Rotation<Pack> load(const Quaternion *from) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&from[l].w);
@@ -105,20 +127,20 @@ inline Rotation<Pack> load(const Quaternion *from) {
 
 // Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
 // four doubles.
-inline Rotation<Pack> gather(const Quaternion *column, const int *at) {
+PLATEN_INLINE Rotation<Pack> gather(const Quaternion *column, const int *at) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[at[l]].w);
   return to_columns(rows);
 }
-inline Triple<Pack> gather(const Vector3 *column, const int *at) {
+PLATEN_INLINE Triple<Pack> gather(const Vector3 *column, const int *at) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[at[l]].x);
   return to_vectors(rows);
 }
 // column[b[l]] - column[a[l]].
-inline Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
+PLATEN_INLINE Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[b[l]].x) - load_row(&column[a[l]].x);

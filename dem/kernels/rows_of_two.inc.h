@@ -7,72 +7,72 @@ namespace {
 
 typedef double TwoInMemory __attribute__((vector_size(16), aligned(8), may_alias));
 
-inline Native load_two(const double *from) {
+PLATEN_INLINE Native load_two(const double *from) {
   return *reinterpret_cast<const TwoInMemory *>(from);
 }
-inline void store_two(double *to, const Native &a) {
+PLATEN_INLINE void store_two(double *to, const Native &a) {
   *reinterpret_cast<TwoInMemory *>(to) = a;
 }
-inline Native first_of(const Native &a, const Native &b) {
+PLATEN_INLINE Native first_of(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 0, 2);
 }
-inline Native second_of(const Native &a, const Native &b) {
+PLATEN_INLINE Native second_of(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 1, 3);
 }
-inline Native ends_of(const Native &a, const Native &b) {
+PLATEN_INLINE Native ends_of(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 0, 3);
 }
-inline Native middle_of(const Native &a, const Native &b) {
+PLATEN_INLINE Native middle_of(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 1, 2);
 }
 
 struct Row {
   Native low, high;
 };
-inline Row operator+(const Row &a, const Row &b) {
+PLATEN_INLINE Row operator+(const Row &a, const Row &b) {
   return {a.low + b.low, a.high + b.high};
 }
-inline Row operator-(const Row &a, const Row &b) {
+PLATEN_INLINE Row operator-(const Row &a, const Row &b) {
   return {a.low - b.low, a.high - b.high};
 }
-inline Row load_row(const double *from) {
+PLATEN_INLINE Row load_row(const double *from) {
   return {load_two(from), load_two(from + 2)};
 }
-inline void store_row(double *to, const Row &a) {
+PLATEN_INLINE void store_row(double *to, const Row &a) {
   store_two(to, a.low);
   store_two(to + 2, a.high);
 }
 
 // One column of two rows that follow each other.
-inline Pack load(const double *from) {
+PLATEN_INLINE Pack load(const double *from) {
   return load_two(from);
 }
 
 // Two vectors that follow each other in memory.
-inline Triple<Pack> load(const Vector3 *from) {
+PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
   const double *at = &from->x;
   const Native a = load_two(at), b = load_two(at + 2), c = load_two(at + 4); // x0 y0, z0 x1, y1 z1
   return {ends_of(a, b), middle_of(a, c), ends_of(b, c)};
 }
-inline void store(Vector3 *to, const Triple<Pack> &t) {
+PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
   double *at = &to->x;
   store_two(at, first_of(t.x.v, t.y.v));
   store_two(at + 2, ends_of(t.z.v, t.x.v));
   store_two(at + 4, second_of(t.y.v, t.z.v));
 }
 
-inline Rotation<Pack> to_columns(const Row *rows) {
+PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
   const Row &a = rows[0], &b = rows[1];
   return {first_of(a.low, b.low), second_of(a.low, b.low), first_of(a.high, b.high),
           second_of(a.high, b.high)};
 }
-inline void store(Quaternion *to, const Rotation<Pack> &q) {
+PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
   store_row(&to[0].w, {first_of(q.w.v, q.x.v), first_of(q.y.v, q.z.v)});
   store_row(&to[1].w, {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)});
 }
 
 // Lanes as rows {x, y, z, any}.
-inline void to_rows(const Triple<Pack> &t, Row *rows) {
+PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
   rows[0] = {first_of(t.x.v, t.y.v), first_of(t.z.v, t.z.v)};
   rows[1] = {second_of(t.x.v, t.y.v), second_of(t.z.v, t.z.v)};
 }

@@ -46,6 +46,10 @@ inline double where_positive(double x, double a, double b) {
 inline bool any_positive(double a) {
   return a > 0.0;
 }
+// Of a pack: of every lane.
+inline bool all_positive(double a) {
+  return a > 0.0;
+}
 // Vector of any real type: double, or a pack of doubles in the vectorised kernels.
 template <class Real>
 struct Triple {
@@ -57,27 +61,27 @@ struct Rotation {
 };
 
 template <class Real>
-inline Triple<Real> operator+(const Triple<Real> &a, const Triple<Real> &b) {
+PLATEN_INLINE Triple<Real> operator+(const Triple<Real> &a, const Triple<Real> &b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class Real>
-inline Triple<Real> operator-(const Triple<Real> &a, const Triple<Real> &b) {
+PLATEN_INLINE Triple<Real> operator-(const Triple<Real> &a, const Triple<Real> &b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class Real>
-inline Triple<Real> scale(const Real &s, const Triple<Real> &a) {
+PLATEN_INLINE Triple<Real> scale(const Real &s, const Triple<Real> &a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class Real>
-inline Real dot(const Triple<Real> &a, const Triple<Real> &b) {
+PLATEN_INLINE Real dot(const Triple<Real> &a, const Triple<Real> &b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class Real>
-inline Triple<Real> cross(const Triple<Real> &a, const Triple<Real> &b) {
+PLATEN_INLINE Triple<Real> cross(const Triple<Real> &a, const Triple<Real> &b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class Real>
-inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
+PLATEN_INLINE Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
   const Triple<Real> u{q.x, q.y, q.z};
   Triple<Real> t = cross(u, v);
   t = t + t;
@@ -87,7 +91,7 @@ inline Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v) {
 
 // q conj(p): from p to q.
 template <class Real>
-inline Rotation<Real> relative_turn(const Rotation<Real> &p, const Rotation<Real> &q) {
+PLATEN_INLINE Rotation<Real> relative_turn(const Rotation<Real> &p, const Rotation<Real> &q) {
   return {q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z, q.x * p.w - q.w * p.x - q.y * p.z + q.z * p.y,
           q.y * p.w - q.w * p.y + q.x * p.z - q.z * p.x, q.z * p.w - q.w * p.z - q.x * p.y + q.y * p.x};
 }

@@ -24,7 +24,8 @@ void describe_compression(Visitor &&v, Parameters &p) {
 
 struct CompressionBranches {
   struct Branch {
-    double limit = 0, slope = 1; // Pa; modulus over that of the branch, 1: no yield
+    double limit = 0, slope = 1;     // Pa; modulus over that of the branch, 1: no yield
+    double begin = 0, per_slope = 1; // Pa, elastic stress where it begins; 1 / slope
   };
   static constexpr std::size_t most = 3;
   Branch branches[most] = {}; // where fewer are given, the last goes on
@@ -63,8 +64,9 @@ inline CompressionBranches::CompressionBranches(const char *law, const std::vect
            "descends: compression would grow stiffer again. Allowed: ascending numbers.");
   Branch last;
   for (std::size_t b = 0; b < most; ++b) {
-    if (b < limits.size()) last = {limits[b], slopes[b]};
+    if (b < limits.size()) last = {limits[b], slopes[b], 0, 1 / slopes[b]};
     branches[b] = last;
+    branches[b].begin = begin_of(b);
   }
 }
 
@@ -74,7 +76,7 @@ PLATEN_INLINE Real CompressionBranches::envelope(const Real &elastic) const {
   Real lowest = elastic;
   for (int b = 0; b < 3; ++b) {
     const Branch &branch = branches[b];
-    const Real line = branch.limit + (elastic - begin_of(b)) * (1.0 / branch.slope);
+    const Real line = branch.limit + (elastic - branch.begin) * branch.per_slope;
     lowest = lowest - positive_part(Real(lowest - line));
   }
   return lowest;

@@ -80,12 +80,13 @@ struct YieldingParallelBond {
   InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
                                      const InterfaceMotion<Real> &m) const;
   // The same for what is whole and stays so, from its pose alone: most bonds at most times. False where one
-  // of a pack is broken, or breaks in this step: then nothing is changed or told.
+  // of a pack is broken, or breaks in this step: then nothing is changed or told. `pose()` is a BondMotion at
+  // `distance`; it is asked for once the yield is known, because not all of it fits the registers.
   static constexpr bool quick_while_whole = true;
   static constexpr std::size_t scalars_while_whole = 1; // of its State, from the first: those that it changes
-  template <class Real>
-  bool advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose,
-                     InterfaceResponse<Real> &r, bool &changed) const;
+  template <class Real, class Pose>
+  bool advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g, const Triple<Real> &distance,
+                     const Pose &pose, InterfaceResponse<Real> &r, bool &changed) const;
   // What has broken stands behind what is whole: packs are then of one kind.
   static constexpr bool failed_rows_last = true;
   // Of a pack that is broken as a whole: whether all of them are apart and were before, so that nothing acts
@@ -199,17 +200,17 @@ PLATEN_INLINE Real YieldingParallelBond::yields(const Real &plastic, const Real 
   return positive_part(Real(elastic - compression.envelope(elastic) - plastic));
 }
 
-template <class Real>
+template <class Real, class Pose>
 PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                                       const BondMotion<Real> &pose,
+                                                       const Triple<Real> &distance, const Pose &pose,
                                                        InterfaceResponse<Real> &r, bool &changed) const {
   if (any_positive(s.broken)) return false;
-  const Real length = root(dot(pose.distance, pose.distance));
+  const Real length = root(dot(distance, distance));
   const Real elastic = g.normal_stiffness * (g.rest_length - length);
   const Real yield = yields(s.plastic, elastic), plastic = s.plastic + yield;
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(plastic, g, pose, slip);
-  if (any_positive(reached(bond))) return false;
+  const BondResponse<Real> bond = whole(plastic, g, pose(), slip);
+  if (!all_positive(Real(-bond.excess))) return false;
   changed = any_positive(yield);
   s.plastic = plastic;
   tell_whole(bond, Real(plastic - elastic), r);

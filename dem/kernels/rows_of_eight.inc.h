@@ -1,0 +1,115 @@
+// Rows of four doubles for packs of eight lanes: two rows stand in one vector, lane l beside lane l + 4, so
+// that transpositions and sums take half the instructions of rows one by one (pack.inc.h).
+#pragma once
+
+namespace platen::dem::kernels {
+namespace {
+
+typedef double Row __attribute__((vector_size(32)));
+typedef double RowInMemory __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double NativeInMemory __attribute__((vector_size(64), aligned(8), may_alias));
+
+PLATEN_INLINE Row load_row(const double *from) {
+  return *reinterpret_cast<const RowInMemory *>(from);
+}
+PLATEN_INLINE void store_row(double *to, const Row &a) {
+  *reinterpret_cast<RowInMemory *>(to) = a;
+}
+PLATEN_INLINE Native load_native(const double *from) {
+  return *reinterpret_cast<const NativeInMemory *>(from);
+}
+PLATEN_INLINE void store_native(double *to, const Native &a) {
+  *reinterpret_cast<NativeInMemory *>(to) = a;
+}
+
+PLATEN_INLINE Native join(const Row &low, const Row &high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+// Lower halves, and upper halves, of both.
+PLATEN_INLINE Native lower(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+}
+PLATEN_INLINE Native upper(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+PLATEN_INLINE Native even(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+}
+PLATEN_INLINE Native odd(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+PLATEN_INLINE Native first_twos(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+PLATEN_INLINE Native second_twos(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+// Rows l and l + 4 of four doubles, l = 0 ... 3, become columns of eight, or back.
+struct RowPairs {
+  Native of[4];
+};
+PLATEN_INLINE Rotation<Pack> to_columns(const RowPairs &rows) {
+  const Native a = even(rows.of[0], rows.of[1]), b = odd(rows.of[0], rows.of[1]);
+  const Native c = even(rows.of[2], rows.of[3]), d = odd(rows.of[2], rows.of[3]);
+  return {first_twos(a, c), first_twos(b, d), second_twos(a, c), second_twos(b, d)};
+}
+PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
+  return to_columns(RowPairs{join(rows[0], rows[4]), join(rows[1], rows[5]), join(rows[2], rows[6]),
+                             join(rows[3], rows[7])});
+}
+PLATEN_INLINE RowPairs to_pairs(const Rotation<Pack> &t) {
+  const Native a = even(t.w.v, t.x.v), b = odd(t.w.v, t.x.v);
+  const Native c = even(t.y.v, t.z.v), d = odd(t.y.v, t.z.v);
+  return {first_twos(a, c), first_twos(b, d), second_twos(a, c), second_twos(b, d)};
+}
+// Rows {x, y, z, any}.
+PLATEN_INLINE RowPairs to_pairs(const Triple<Pack> &t) {
+  return to_pairs(Rotation<Pack>{t.x, t.y, t.z, t.z});
+}
+
+// One column of eight rows that follow each other.
+PLATEN_INLINE Pack load(const double *from) {
+  return load_native(from);
+}
+
+// Eight vectors that follow each other in memory: x0 y0 z0 x1 y1 z1 x2 y2, z2 x3 ... x5, y5 z5 ... z7.
+PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
+  const double *at = &from->x;
+  const Native a = load_native(at), b = load_native(at + 8), c = load_native(at + 16);
+  const Native x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
+  const Native y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
+  const Native z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+  return {Native(__builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13)),
+          Native(__builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14)),
+          Native(__builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15))};
+}
+PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
+  const Native &x = t.x.v, &y = t.y.v, &z = t.z.v;
+  const Native a = __builtin_shufflevector(x, y, 0, 8, 0, 1, 9, 0, 2, 10);
+  const Native b = __builtin_shufflevector(x, y, 0, 3, 11, 0, 4, 12, 0, 5);
+  const Native c = __builtin_shufflevector(x, y, 13, 0, 6, 14, 0, 7, 15, 0);
+  double *at = &to->x;
+  store_native(at, __builtin_shufflevector(a, z, 0, 1, 8, 3, 4, 9, 6, 7));
+  store_native(at + 8, __builtin_shufflevector(b, z, 10, 1, 2, 11, 4, 5, 12, 7));
+  store_native(at + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15));
+}
+PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
+  const RowPairs rows = to_pairs(q);
+  for (int h = 0; h < 4; h += 2) {
+    store_native(&to[h].w, lower(rows.of[h], rows.of[h + 1]));
+    store_native(&to[4 + h].w, upper(rows.of[h], rows.of[h + 1]));
+  }
+}
+
+// Lanes as rows {x, y, z, any}.
+PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
+  const RowPairs pairs = to_pairs(t);
+  for (int h = 0; h < 4; ++h) {
+    rows[h] = __builtin_shufflevector(pairs.of[h], pairs.of[h], 0, 1, 2, 3);
+    rows[h + 4] = __builtin_shufflevector(pairs.of[h], pairs.of[h], 4, 5, 6, 7);
+  }
+}
+
+} // namespace
+} // namespace platen::dem::kernels
