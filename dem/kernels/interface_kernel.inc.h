@@ -77,6 +77,30 @@ constexpr bool is_quick_while_whole = false;
 template <class Law>
 constexpr bool is_quick_while_whole<Law, std::enable_if_t<Law::quick_while_whole>> = true;
 
+// Laws that tell of sound bonds by their motion without what damage needs.
+template <class Law, class = void>
+constexpr bool is_quick_while_sound = false;
+template <class Law>
+constexpr bool is_quick_while_sound<Law, std::enable_if_t<Law::quick_while_sound>> = true;
+
+// Members of a state that the law changes of sound bonds, to their columns.
+template <class Law, class State>
+PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State &state) {
+  std::size_t scalars = 0, vectors = 0, member_at = 0;
+  State::describe(
+      [&](const char *, const char *, auto &member) {
+        const bool changes = Law::sound_members[member_at++];
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>) {
+          double *column = columns.scalar[scalars++];
+          if (changes) store(column + k, member);
+        } else {
+          Vector3 *column = columns.vector[vectors++];
+          if (changes) store(column + k, member);
+        }
+      },
+      state);
+}
+
 // Without rotation orientations are those of the reference.
 template <bool rotation>
 PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends &ends) {
@@ -129,6 +153,17 @@ PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t
   return g;
 }
 
+template <bool rotation, class Law>
+PLATEN_INLINE void scatter_response(const Ends &ends, const InterfaceGeometry<Pack> &g,
+                                    const Triple<Pack> &distance, const InterfaceResponse<Pack> &response) {
+  if constexpr (Law::needs_orientations) {
+    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+  } else { // only what is across the distance has a moment: d x F = d x F_s
+    const Triple<Pack> moment = cross(distance, response.force);
+    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+  }
+}
+
 // What a pair does by all it remembers and has done.
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law, std::size_t k,
@@ -139,12 +174,7 @@ PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law,
   const InterfaceMotion<Pack> m = motion_of<rotation, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
-  if constexpr (Law::needs_orientations) {
-    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
-  } else { // only what is across the distance has a moment: d x F = d x F_s
-    const Triple<Pack> moment = cross(m.distance, response.force);
-    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
-  }
+  scatter_response<rotation, Law>(ends, g, m.distance, response);
   return response.failed_now;
 }
 
@@ -163,7 +193,8 @@ template <bool rotation, bool factors, class Law>
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if (law.stays_apart(s, g, distances(ends))) return;
-  const InterfaceMotion<Pack> m = motion_of<rotation, false, true>(c.bonds, k, ends, g.lever, dt);
+  const InterfaceMotion<Pack> m =
+      motion_of<rotation, false, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law.advance_broken(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
   scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
@@ -172,26 +203,33 @@ template <bool rotation, bool factors, class Law>
 template <bool rotation, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
                             double dt) {
+  typename Law::template State<Pack> s;
+  for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
+  if constexpr (keeps_failed_last<Law>)
+    if (all_positive(law.failed(s))) {
+      add_pack_of_broken<rotation, factors>(c, law, k, ends, dt);
+      return Pack(0.0);
+    }
+  InterfaceResponse<Pack> response;
   if constexpr (is_quick_while_whole<Law>) {
-    typename Law::template State<Pack> s;
-    for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-    InterfaceResponse<Pack> response;
     bool changed = false;
-    if constexpr (keeps_failed_last<Law>)
-      if (all_positive(s.broken - Pack(0.5))) {
-        add_pack_of_broken<rotation, factors>(c, law, k, ends, dt);
-        return Pack(0.0);
-      }
     const Triple<Pack> distance = distances(ends);
     const auto pose = [&] { return pose_of<rotation>(distance, ends); };
     if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
       return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
     scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
-    return Pack(0.0);
+  } else if constexpr (is_quick_while_sound<Law>) {
+    const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
+    const InterfaceMotion<Pack> m =
+        motion_of<rotation, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+    if (!law.advance_sound(s, g, m, response)) return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
+    keep_sound<Law>(c.memory, k, s);
+    scatter_response<rotation, Law>(ends, g, m.distance, response);
   } else {
     return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
   }
+  return Pack(0.0);
 }
 
 template <bool rotation, bool factors, class Law>

@@ -104,6 +104,36 @@ struct ElastoDamagePlastic {
   InterfaceResponse<Real> advance_under(const SkinStress<Real> &skin, InterfaceState<Real> &s,
                                         const InterfaceGeometry<Real> &g,
                                         const InterfaceMotion<Real> &m) const;
+  // The same for what has no damage and gets none in this step: most at most times. False where one of a pack
+  // has some, or may get it: then nothing is told, and the state is to be thrown away. `sound_members` of the
+  // state, in the order of its description, are those that it changes.
+  static constexpr bool quick_while_sound = true;
+  static constexpr bool sound_members[] = {true, false, false, false, true, true};
+  template <bool moments, class Real>
+  bool advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const;
+  template <class Real>
+  PLATEN_INLINE bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const {
+    return advance_sound<false>(SkinStress<Real>{}, s, g, m, r);
+  }
+  // What has failed stands behind the others: packs are then of one kind.
+  static constexpr bool failed_rows_last = true;
+  // Positive of what has failed, else 0.
+  template <class Real>
+  static Real failed(const InterfaceState<Real> &s) {
+    const Real zero = s.tension_damage * 0.0;
+    return where_positive(Real(1.0 - damage_of(s)), zero, Real(zero + 1.0));
+  }
+  // Of a pack that has failed as a whole: whether all of them are apart and were before, so that nothing acts
+  // and nothing changes.
+  template <class Real>
+  bool stays_apart(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                   const Triple<Real> &distance) const;
+  // The first of these for such a pack, torques included.
+  template <class Real>
+  InterfaceResponse<Real> advance_broken(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                         const InterfaceMotion<Real> &m) const;
   // Of moments what is left of them: they lose what the stress of the section loses that has lost more.
   template <class Real>
   Real share_of_moments(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
@@ -162,6 +192,19 @@ private:
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
   }
+  // What a step does before damage is looked at.
+  template <class Real>
+  struct Step {
+    PlaneMotion<Real> plane;
+    Real length, tension;                           // m; Pa
+    Triple<Real> shear_before, slider_before, slip; // m: turned alone; of the slider, lost
+  };
+  template <class Real>
+  Step<Real> bring(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                   const InterfaceMotion<Real> &m) const;
+  template <bool moments, class Real>
+  bool may_be_damaged(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Real &tension,
+                      const SkinStress<Real> &skin) const;
   template <bool moments, class Real>
   void damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Softening<Real> &delta,
               const Real &tension, const SkinStress<Real> &skin) const;
@@ -275,26 +318,38 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
   return r;
 }
 
+// The state but for damage and what it takes.
+template <class Real>
+PLATEN_INLINE auto ElastoDamagePlastic::bring(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                              const InterfaceMotion<Real> &m) const -> Step<Real> {
+  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
+  const Real length = root(dot(m.distance, m.distance));
+  const PlaneMotion<Real> plane(m, length);
+  const Real elastic = kn * (g.rest_length - length);
+  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
+  const Real tension = s.plastic - elastic;
+  s.shear = plane.carried(s.shear);
+  s.slider = plane.carried(s.slider);
+  const Triple<Real> shear_before = s.shear - plane.moved, slider_before = s.slider - plane.moved;
+  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
+  const Real let_slip = slipping_share(s.slider, ks, cap);
+  const Triple<Real> slip = scale(let_slip, s.slider);
+  s.slider = scale(Real(1.0 - let_slip), s.slider);
+  return {plane, length, tension, shear_before, slider_before, slip};
+}
+
 template <bool moments, class Real>
 PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
     const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
     const InterfaceMotion<Real> &m) const {
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
-  const Real length = root(dot(m.distance, m.distance));
-  const PlaneMotion<Real> plane(m, length);
-  const Real elastic = kn * (g.rest_length - length);
   const Softening<Real> delta = softening(g);
   const InterfaceState<Real> last = s;
-  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
-  const Real tension = s.plastic - elastic, zero = tension * 0.0, one = zero + 1.0;
-  s.shear = plane.carried(s.shear);
-  s.slider = plane.carried(s.slider);
-  const Triple<Real> shear_before = s.shear - plane.moved,
-                     slider_before = s.slider - plane.moved;                    // turned alone
-  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
-  const Real let_slip = slipping_share(s.slider, ks, cap);
-  const Triple<Real> slip = scale(let_slip, s.slider);
-  s.slider = scale(Real(1.0 - let_slip), s.slider);
+  const Step<Real> step = bring(s, g, m);
+  const PlaneMotion<Real> &plane = step.plane;
+  const Real &length = step.length, &tension = step.tension;
+  const Triple<Real> &shear_before = step.shear_before, &slider_before = step.slider_before;
+  const Real zero = tension * 0.0, one = zero + 1.0;
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
   damage<moments>(s, g, delta, tension, skin);
 
@@ -307,11 +362,84 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
   const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / divisor(kn);
   const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
                           (was.friction - is.friction) * dot(slider_before, s.slider) +
-                          dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), slip);
+                          dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), step.slip);
   s.dissipated = s.dissipated + 0.5 * g.area * (normal_work + ks * shear_work);
   InterfaceResponse<Real> r = response(s, g, m.distance);
   const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
   r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
+  // What has failed has no such spring.
+  s.shear = {where_positive(whole_now, s.shear.x, zero), where_positive(whole_now, s.shear.y, zero),
+             where_positive(whole_now, s.shear.z, zero)};
+  return r;
+}
+
+// Whether any of them may have damage after this step, without a quotient; the margin makes up for its
+// round-off.
+template <bool moments, class Real>
+PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const InterfaceState<Real> &s,
+                                                       const InterfaceGeometry<Real> &g, const Real &tension,
+                                                       const SkinStress<Real> &skin) const {
+  constexpr double margin = 1 + 1e-12;
+  const Real ks = shear_ratio() * g.normal_stiffness;
+  const Real closing = positive_part(Real(-tension));
+  const Real tensile = g.strength_factor * tensile_strength_;
+  const Real strength = g.strength_factor * shear_strength_ + parameters.friction_static * closing;
+  Real opening = positive_part(tension), left = strength, slip = ks * ks * dot(s.shear, s.shear);
+  if constexpr (moments) opening = positive_part(Real(tension + skin.bending));
+  if (parameters.failure_line == FailureLine::coupled) {
+    left = strength * (tensile - opening);
+    slip = slip * tensile * tensile;
+    if constexpr (moments) left = left - skin.twisting * tensile;
+  } else if constexpr (moments) {
+    left = left - skin.twisting;
+  }
+  return !all_positive(Real(tensile - margin * opening)) ||
+         !all_positive(Real(left * magnitude(left) - margin * slip));
+}
+
+template <bool moments, class Real>
+PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s,
+                                                      const InterfaceGeometry<Real> &g,
+                                                      const InterfaceMotion<Real> &m,
+                                                      InterfaceResponse<Real> &r) const {
+  if (any_positive(larger(s.tension_damage, s.shear_damage))) return false;
+  const Real ks = shear_ratio() * g.normal_stiffness;
+  const Step<Real> step = bring(s, g, m);
+  if (may_be_damaged<moments>(s, g, step.tension, skin)) return false;
+  r.tension = step.tension;
+  r.normal = g.area * step.tension;
+  r.shear = scale(Real(g.area * ks), s.shear);
+  r.force = scale(Real(r.normal / step.length), m.distance) + r.shear;
+  r.failed_now = step.tension * 0.0;
+  return true;
+}
+
+template <class Real>
+PLATEN_INLINE bool ElastoDamagePlastic::stays_apart(const InterfaceState<Real> &s,
+                                                    const InterfaceGeometry<Real> &g,
+                                                    const Triple<Real> &distance) const {
+  const Real length = root(dot(distance, distance));
+  const Real pressed = g.normal_stiffness * (g.rest_length - length) - s.plastic;
+  return !any_positive(pressed) && !any_positive(dot(s.slider, s.slider));
+}
+
+template <class Real>
+PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_broken(
+    InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const InterfaceMotion<Real> &m) const {
+  const Real ks = shear_ratio() * g.normal_stiffness;
+  const Step<Real> step = bring(s, g, m);
+  const Real closing = positive_part(Real(-step.tension)), zero = closing * 0.0;
+  s.shear = {zero, zero, zero};
+  s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(step.slider_before + s.slider, step.slip);
+  InterfaceResponse<Real> r;
+  r.tension = step.tension;
+  r.normal = -g.area * closing;
+  r.shear = scale(Real(g.area * ks), s.slider);
+  r.force = scale(Real(r.normal / step.length), m.distance) + r.shear;
+  r.failed_now = zero;
+  const Triple<Real> moment = cross(m.distance, r.force);
+  r.torque_i = scale(g.lever, moment);
+  r.torque_j = scale(Real(1.0 - g.lever), moment);
   return r;
 }
 

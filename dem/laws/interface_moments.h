@@ -29,6 +29,26 @@ struct BendingInterface {
   template <class Real>
   InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
                                      const InterfaceMotion<Real> &m) const;
+  // As of the law without moments.
+  static constexpr bool quick_while_sound = true, failed_rows_last = true;
+  static constexpr const auto &sound_members = ElastoDamagePlastic::sound_members;
+  template <class Real>
+  bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const;
+  template <class Real>
+  static Real failed(const InterfaceState<Real> &s) {
+    return ElastoDamagePlastic::failed(s);
+  }
+  template <class Real>
+  bool stays_apart(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                   const Triple<Real> &distance) const {
+    return law.stays_apart(s, g, distance);
+  }
+  template <class Real>
+  InterfaceResponse<Real> advance_broken(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                         const InterfaceMotion<Real> &m) const {
+    return law.advance_broken(s, g, m); // it has no moments
+  }
   template <class Real>
   HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
                         const BondMotion<Real> &pose) const {
@@ -86,6 +106,19 @@ PLATEN_INLINE InterfaceResponse<Real> BendingInterface::operator()(InterfaceStat
   r.force = r.force + scale(is, moments.force);
   r.energy = r.energy + is * moments.energy;
   return r;
+}
+
+template <class Real>
+PLATEN_INLINE bool BendingInterface::advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+                                                   const InterfaceMotion<Real> &m,
+                                                   InterfaceResponse<Real> &r) const {
+  const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
+  if (!law.template advance_sound<true>(w.skin, s, g, m, r)) return false;
+  const Triple<Real> moment = cross(m.distance, r.force);
+  r.torque_i = scale(g.lever, moment) + w.moments.torque_i;
+  r.torque_j = scale(Real(1.0 - g.lever), moment) + w.moments.torque_j;
+  r.force = r.force + w.moments.force;
+  return true;
 }
 
 inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,

@@ -68,6 +68,11 @@ struct YieldingParallelBond {
     const Real zero = s.broken * 0.0;
     return where_positive(s.broken, Real(zero + 1.0), zero);
   }
+  // Positive of what has failed, else 0.
+  template <class Real>
+  static Real failed(const State<Real> &s) {
+    return s.broken;
+  }
   static bool failed_in_tension(const State<double> &s) { return s.broken == 1; }
 
   bool bends() const { return parameters.moments; }

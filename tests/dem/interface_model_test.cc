@@ -40,7 +40,8 @@ struct ByHand {
       }
       const InterfaceGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
                                         pi * b.bond_radius[k] * b.bond_radius[k]};
-      law(states[k], g, {triple(d), triple(dt * v), triple(dt * slip), dt * spin});
+      law(states[static_cast<std::size_t>(b.record[k])], g,
+          {triple(d), triple(dt * v), triple(dt * slip), dt * spin});
     }
   }
 };
@@ -70,7 +71,8 @@ TEST_P(InterfaceKernels, follow_the_law_on_every_instruction_set) {
     EXPECT_GT(b.failed_rows, 100u);
     std::size_t yielded = 0, damaged = 0;
     for (std::size_t k = 0; k < b.size(); ++k) {
-      const InterfaceState<double> &s = hand.states[k], own = b.memory<InterfaceState<double>>(k);
+      const InterfaceState<double> &s = hand.states[static_cast<std::size_t>(b.record[k])];
+      const InterfaceState<double> own = b.memory<InterfaceState<double>>(k);
       // Round-off of positions, eps times some centimetres, over the limits of some micrometres: 1e-11.
       ASSERT_NEAR(own.plastic, s.plastic, 1e-8 * 20e6) << name(set) << " row " << k;
       ASSERT_NEAR(own.tension_damage, s.tension_damage, 1e-8);
