@@ -33,7 +33,7 @@ public:
   int run(); // the exit status; throws NumericsError
 
 private:
-  KeepPacking keep_packing(); // where the command line names a folder for it
+  KeepPacking keep_packing();
   void require_memory(const dem::Shape &shape);
   std::string description() const;
   double every(const Interval &interval, double automatic) const;

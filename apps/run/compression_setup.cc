@@ -14,7 +14,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/ranks.h"
 #include "apps/run/run_state.h"
-#include "apps/run/shared_packing.h"
+#include "apps/run/packing_cache.h"
 #include "apps/run/specimen_check.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
@@ -128,11 +128,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
 }
 
 KeepPacking CompressionRun::keep_packing() {
-  if (command_.packings.empty()) return {};
-  return [this](const std::function<dem::Specimen()> &pack) {
-    const bool writes = !command_.dry_run && !this_rank().is_silent();
-    return shared_packing(scene_, command_.packings, pack, writes, log_);
-  };
+  return apps::keep_packing(command_, scene_, !command_.dry_run && !this_rank().is_silent(), log_);
 }
 
 void CompressionRun::require_files_of_checkpoint() {

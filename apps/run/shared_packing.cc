@@ -29,8 +29,8 @@ constexpr const char *lock_name = "in_use";
 constexpr std::chrono::hours patience{1};
 
 // Of the specimen, but not of where its spheres are.
-constexpr std::array<const char *, 4> no_part_of_it{"Specimen/File", "Specimen/Ends", "Specimen/End layer",
-                                                    "Specimen/Seat"};
+constexpr std::array<const char *, 5> no_part_of_it{"Specimen/File", "Specimen/Ends", "Specimen/End layer",
+                                                    "Specimen/Seat", "Specimen/Cache"};
 
 // Of a file, what it holds.
 std::string recipe_text(const Entry &entry) {

@@ -14,6 +14,7 @@ set(PLATEN_RUN_SOURCES
   run/model_setup.cc
   run/needs.cc
   run/pack.cc
+  run/packing_cache.cc
   run/peak.cc
   run/pressure_path.cc
   run/problem_setup.cc

@@ -25,10 +25,12 @@ AppDescription description_of(AppKind kind) {
       app.name = "platen-compress";
       app.purpose = "Crushes, pulls by glued ends or bends a specimen of bonded spheres between two platens.";
       app.shares_packings = true;
+      app.caches_packings = true;
       return app;
     case AppKind::brazilian:
       app.name = "platen-brazilian";
       app.purpose = "Splits a disc of bonded spheres along its diameter between two flat platens or strips.";
+      app.caches_packings = true;
       return app;
     case AppKind::calibrate:
       app.name = "platen-calibrate";
@@ -40,6 +42,7 @@ AppDescription description_of(AppKind kind) {
           "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy "
           "for time, each on several seeds, and tables the results.";
       app.kinds = {study_words.begin(), study_words.end()};
+      app.caches_packings = true;
       app.plans_runs = true;
       return app;
   }

@@ -168,6 +168,9 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
                         "Takes its packing from this folder where one of the same recipe is there, else "
                         "packs and leaves it there; the results are the same bytes")
             ->type_name("DIR");
+  bool no_cache = false;
+  if (app.caches_packings)
+    parser.add_flag("--no-cache", no_cache, "Pack anew and keep it nowhere; as Specimen/Cache = none");
   std::string run;
   CLI::Option *planned = nullptr;
   if (app.plans_runs) {
@@ -197,6 +200,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   line.output_given = output->count() > 0;
   if (packings != nullptr && packings->count() > 0 && line.packings.empty())
     fail("--packings is empty. Allowed: the name of a folder.");
+  if (no_cache) line.overrides.emplace_back("Specimen/Cache = none");
   if (!threads.empty()) line.threads = read_threads(threads);
   if (planned != nullptr && planned->count() > 0) line.run = read_run(run);
   for (int k = 0; k < argc; ++k)

@@ -17,6 +17,7 @@ struct AppDescription {
   std::string purpose;                 // one sentence for --help
   std::vector<std::string> kinds = {}; // words, one of which comes first on the line; none: no such argument
   bool shares_packings = false;        // has --packings
+  bool caches_packings = false;        // has --no-cache
   bool plans_runs = false;             // has --plan, --run, --collect
   // Of an app that runs on ranks of mpirun: throws InputError where they were given different texts. Null: it
   // runs in one process.

@@ -60,6 +60,11 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
               "Depth of the ground layer in mean sphere radii; it decides the strength below 1.")
       .unless("Specimen/Ends", {"as packed"})
       .member("end_layer");
+  section
+      .text("Cache", specimen.cache,
+            "Folder where packings are kept for other runs, found by all that decides them. default: that of "
+            "the user, ~/.cache/platen/packings; none: each run packs.")
+      .unless("Specimen/Packing", {"file"});
   section.entry("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
 }
 

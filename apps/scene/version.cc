@@ -1,5 +1,7 @@
 #include "apps/scene/version.h"
 
+#include <string_view>
+
 #ifdef PLATEN_COMMIT_HEADER
 #include PLATEN_COMMIT_HEADER // defines PLATEN_COMMIT; written at each build
 #endif
@@ -22,6 +24,11 @@ namespace platen::apps {
 
 std::string version_line() {
   return "Platen " PLATEN_VERSION " (commit " PLATEN_COMMIT ", " PLATEN_BUILD_TYPE ")";
+}
+
+bool has_commit_of_its_own() {
+  const std::string_view commit = PLATEN_COMMIT;
+  return commit != "unknown" && commit.find("dirty") == std::string_view::npos;
 }
 
 std::string version_text() {

@@ -10,5 +10,7 @@ std::string version_text();
 
 // The first line only: for summary.json and logs.
 std::string version_line();
+// Whether that names the source: it is of a commit, and nothing was changed since.
+bool has_commit_of_its_own();
 
 } // namespace platen::apps

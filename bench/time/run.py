@@ -52,8 +52,9 @@ CASES = {
 
 def run(case, apps, folder, threads):
     begin = time.monotonic()
+    environment = dict(os.environ, PLATEN_CACHE="none")  # packings of earlier runs would be found
     done = subprocess.run(case.command(apps, folder, threads), capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                          cwd=folder.parent)
+                          cwd=folder.parent, env=environment)
     seconds = time.monotonic() - begin
     if done.returncode not in case.status:
         print(f"status {done.returncode}: {' '.join(done.args)}\n{done.stderr}", file=sys.stderr)

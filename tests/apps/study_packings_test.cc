@@ -6,9 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 
 #include "apps/io/byte_lock.h"
 #include "apps/io/sha256.h"
+#include "apps/run/packing_cache.h"
 #include "apps/run/shared_packing.h"
 #include "apps/study_runs.h"
 
@@ -156,6 +159,56 @@ TEST_F(SharedPacking, is_not_written_by_a_dry_run) {
   Outcome outcome = run_compress(arguments("dry", {"--packings", "kept", "--dry-run"}), folder_);
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_FALSE(fs::exists(folder_ / "kept"));
+}
+
+// A cache for as long as it stands.
+class Cache {
+public:
+  explicit Cache(const fs::path &folder) { setenv("PLATEN_CACHE", folder.c_str(), 1); }
+  ~Cache() { setenv("PLATEN_CACHE", "none", 1); }
+  Cache(const Cache &) = delete;
+  Cache &operator=(const Cache &) = delete;
+};
+
+TEST_F(SharedPacking, is_found_in_the_cache_by_later_runs_that_do_not_forbid_it) {
+  const Cache cache(folder_ / "kept");
+  run("first");
+  ASSERT_EQ(kept().size(), 1u);
+  const std::string text = content_of(kept().at(0));
+  run("other", {"-s", "Scene/Seed = 8", "--no-cache"});
+  ASSERT_EQ(kept().size(), 1u) << "--no-cache keeps nothing";
+  const std::string spheres = content_of(folder_ / "other/specimen.csv");
+  const std::string planted = text.substr(0, text.find('\n') + 1) + spheres;
+  put(kept().at(0), planted + "# sha256 of all above: " + sha256_of(planted) + "\n");
+  run("taken", {"-s", "Bond/Modulus = 30 GPa"});
+  EXPECT_EQ(content_of(folder_ / "taken/specimen.csv"), spheres);
+  for (const std::vector<std::string> &options :
+       {std::vector<std::string>{"--no-cache"}, {"-s", "Specimen/Cache = none"}}) {
+    run("packed", with(options, "--overwrite"));
+    EXPECT_EQ(content_of(folder_ / "packed/specimen.csv"), content_of(folder_ / "first/specimen.csv"));
+  }
+  run("own", {"-s", "Specimen/Cache = " + (folder_ / "mine").string()});
+  EXPECT_TRUE(fs::exists(folder_ / "mine" / kept().at(0).filename()));
+}
+
+TEST_F(SharedPacking, that_no_cache_can_keep_is_packed_without_a_word) {
+  put(folder_ / "file", "");
+  const Cache cache(folder_ / "file");
+  EXPECT_EQ(run("alone").error, "");
+}
+
+TEST_F(SharedPacking, those_not_used_for_longest_are_removed_from_a_full_cache) {
+  const auto now = fs::file_time_type::clock::now();
+  for (int k = 1; k <= 4; ++k) {
+    const fs::path file = folder_ / (std::to_string(k) + ".csv");
+    put(file, std::string(100, 'x'));
+    fs::last_write_time(file, now - std::chrono::hours(k));
+  }
+  put(folder_ / "in_use", std::string(1000, 'x'));
+  trim_packings(folder_, 250, folder_ / "4.csv");
+  for (const auto &[name, stays] : std::map<std::string, bool>{
+           {"1.csv", true}, {"2.csv", true}, {"3.csv", false}, {"4.csv", true}, {"in_use", true}})
+    EXPECT_EQ(fs::exists(folder_ / name), stays) << name;
 }
 
 TEST_F(Study, runs_on_one_seed_share_their_packing_and_change_no_byte) {

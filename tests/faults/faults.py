@@ -1,11 +1,13 @@
 """What the scripts of this folder share: small runs, what they leave behind, and figures."""
 
 import json
+import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
+os.environ.setdefault("PLATEN_CACHE", "none")  # what is tested is made here, not found
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 CRUSHED = SOURCE / "tests/apps/scenes/crushed.prm"
 
