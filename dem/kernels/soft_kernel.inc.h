@@ -12,6 +12,9 @@ typedef float FloatsInMemory __attribute__((vector_size(4 * PLATEN_LANES), align
 typedef float Quad __attribute__((vector_size(16)));
 typedef float QuadInMemory __attribute__((vector_size(16), may_alias));
 
+// Vectors stay in registers.
+#define PLATEN_SOFT_INLINE inline __attribute__((always_inline))
+
 constexpr float tiny = 1e-30F; // keeps the direction of two coincident spheres finite (zero)
 
 // The same shuffle of every four lanes; lanes of the second vector count from `lanes` on.
@@ -43,7 +46,7 @@ inline Floats root(const Floats &a) {
 
 // Rows k, k + 4, ... of a pack as one vector, and one of them again.
 template <class Place>
-Floats join(const SoftRow *column, const Place *at) {
+PLATEN_SOFT_INLINE Floats join(const SoftRow *column, const Place *at) {
 #if PLATEN_LANES == 4
   return load_row(column, at[0]);
 #else
@@ -66,7 +69,7 @@ struct Columns {
   Floats x, y, z, w;
 };
 // Four rows become four columns, or back, in every four lanes.
-inline Columns transposed(const Columns &in) {
+PLATEN_SOFT_INLINE Columns transposed(const Columns &in) {
   const Floats a = PLATEN_SHUFFLE(in.x, in.y, 0, lanes, 1, lanes + 1);
   const Floats b = PLATEN_SHUFFLE(in.x, in.y, 2, lanes + 2, 3, lanes + 3);
   const Floats c = PLATEN_SHUFFLE(in.z, in.w, 0, lanes, 1, lanes + 1);
@@ -75,7 +78,7 @@ inline Columns transposed(const Columns &in) {
           PLATEN_SHUFFLE(b, d, 0, 1, lanes, lanes + 1), PLATEN_SHUFFLE(b, d, 2, 3, lanes + 2, lanes + 3)};
 }
 template <class Place>
-Columns gather(const SoftRow *column, const Place *at) {
+PLATEN_SOFT_INLINE Columns gather(const SoftRow *column, const Place *at) {
   return transposed({join(column, at), join(column, at + 1), join(column, at + 2), join(column, at + 3)});
 }
 
@@ -83,7 +86,7 @@ inline void store_row(SoftRow *to, const Quad &a) {
   *reinterpret_cast<QuadInMemory *>(to) = a;
 }
 template <int quad = 0>
-void scatter(const Columns &rows, SoftRow *column, const int *at) {
+PLATEN_SOFT_INLINE void scatter(const Columns &rows, SoftRow *column, const int *at) {
   store_row(column + at[4 * quad], part<quad>(rows.x));
   store_row(column + at[4 * quad + 1], part<quad>(rows.y));
   store_row(column + at[4 * quad + 2], part<quad>(rows.z));

@@ -16,27 +16,29 @@ using kernels::soft_pack;
 // Of the extent: more than places lose in single precision.
 constexpr double relative_slack = 1e-6;
 
+// Of cells, in reaches of the ball that reaches farthest: most reach far less.
+constexpr double cell_edge = 1.25;
+
 // A ball in its cell.
 struct Member {
   float x, y, z, reach; // radius, and the way that it may go
   int ball;
 };
 
-// Cells as wide as the farthest partner is away, over the box around all balls.
+// Cells over the box around all balls.
 class Cells {
 public:
   explicit Cells(const std::vector<SoftBall> &balls) {
-    double largest = 0;
     std::array<double, 3> high;
     low_.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (const SoftBall &b : balls) {
-      largest = std::max(largest, b.radius + b.reach);
+      largest_ = std::max(largest_, b.radius + b.reach);
       for (int k = 0; k < 3; ++k)
         low_[k] = std::min(low_[k], b.centre[k]), high[k] = std::max(high[k], b.centre[k]);
     }
     const double most = 4.0 * static_cast<double>(balls.size()) + 64.0;
-    double edge = 2 * largest;
+    double edge = cell_edge * largest_;
     const auto along = [&](int k) { return std::floor((high[k] - low_[k]) / edge) + 1; };
     while (along(0) * along(1) * along(2) > most)
       edge *= 1.26;
@@ -47,24 +49,27 @@ public:
     fill(balls);
   }
 
-  // Adds the numbers of all balls that this one may touch, in the order of cells; itself left out.
-  void find(const SoftBall &own, int self, std::vector<int> &found) const {
-    const int x = slot(own.centre.x, 0), y = slot(own.centre.y, 1), z = slot(own.centre.z, 2);
-    const int left = std::max(x - 1, 0), right = std::min(x + 1, cells_[0] - 1);
+  // Writes the numbers of all balls that this one may touch from place `count` on, in the order of cells;
+  // itself left out. Returns the place after them. The room beyond it is spare.
+  std::size_t find(const SoftBall &own, int self, std::vector<int> &found, std::size_t count) const {
+    const double far = own.radius + own.reach + largest_;
+    std::array<int, 3> from, to;
+    for (int k = 0; k < 3; ++k)
+      from[k] = slot(own.centre[k] - far, k), to[k] = slot(own.centre[k] + far, k);
     const Member me = member_of(own, slack_);
-    std::size_t count = found.size();
-    for (int w = std::max(z - 1, 0); w <= std::min(z + 1, cells_[2] - 1); ++w)
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, cells_[1] - 1); ++v) {
-        const int from = start_[index(left, v, w)], to = start_[index(right, v, w) + 1];
-        found.resize(count + static_cast<std::size_t>(to - from));
-        for (int m = from; m < to; ++m) { // no branch: one in ten is near enough
+    for (int w = from[2]; w <= to[2]; ++w)
+      for (int v = from[1]; v <= to[1]; ++v) {
+        const int first = start_[index(from[0], v, w)], last = start_[index(to[0], v, w) + 1];
+        const std::size_t most = count + static_cast<std::size_t>(last - first);
+        if (found.size() < most) found.resize(2 * most);
+        for (int m = first; m < last; ++m) { // no branch: one in eight is near enough
           const Member &b = member_[m];
-          const float dx = b.x - me.x, dy = b.y - me.y, dz = b.z - me.z, far = me.reach + b.reach;
+          const float dx = b.x - me.x, dy = b.y - me.y, dz = b.z - me.z, reach = me.reach + b.reach;
           found[count] = b.ball;
-          count += (dx * dx + dy * dy + dz * dz < far * far) & (b.ball != self) ? 1 : 0;
+          count += (dx * dx + dy * dy + dz * dz < reach * reach) & (b.ball != self) ? 1 : 0;
         }
       }
-    found.resize(count);
+    return count;
   }
 
 private:
@@ -93,6 +98,7 @@ private:
   int index(int a, int b, int c) const { return (c * cells_[1] + b) * cells_[0] + a; }
 
   std::array<double, 3> low_;
+  double largest_ = 0; // reach of a ball
   double per_length_ = 1;
   double slack_ = 0;
   std::array<int, 3> cells_{{1, 1, 1}};
@@ -165,12 +171,13 @@ void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
   for_each_block(own, [&](std::size_t first, std::size_t last, std::size_t block) {
     Found found;
     const int rows = static_cast<int>(number_of_blocks(last - first, soft_pack) * soft_pack);
+    std::size_t count = 0;
     for (int r = 0; r < rows; ++r) {
       const std::size_t i = first + static_cast<std::size_t>(r);
-      found.first[r] = static_cast<int>(found.ball.size());
-      if (i < last) cells.find(balls[i], static_cast<int>(i), found.ball);
+      found.first[r] = static_cast<int>(count);
+      if (i < last) count = cells.find(balls[i], static_cast<int>(i), found.ball, count);
     }
-    found.first[rows] = static_cast<int>(found.ball.size());
+    found.first[rows] = static_cast<int>(count);
     sort_rows(found, rows);
     write(balls, static_cast<int>(first), rows, found, blocks[block]);
   });

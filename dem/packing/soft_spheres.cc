@@ -54,17 +54,6 @@ SoftRow row_of(const Vector3 &v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
-// Force along an axis on a sphere of radius r at x between walls at -half and half, both of which it may
-// touch.
-template <class Touch>
-double squeeze(double x, double r, double half, const Touch &touch) {
-  const double right = x + r - half, left = r - half - x;
-  double force = 0;
-  if (right > 0) force -= right, touch(right);
-  if (left > 0) force += left, touch(left);
-  return force;
-}
-
 // Neighbours in space become neighbours in memory; they stay so, since spheres move by a few radii at most.
 void sort_in_space(const Room &room, std::vector<Vector3> &centre, std::vector<double> &factor) {
   const double largest = factor.empty() ? 1.0 : *std::max_element(factor.begin(), factor.end());
@@ -145,19 +134,20 @@ void SoftSpheres::choose_reach() {
   });
 }
 
-void SoftSpheres::make_balls(std::vector<SoftBall> &balls) const {
-  balls.clear();
-  for (std::size_t i = 0; i < size(); ++i)
-    balls.push_back({centre_[i], scale_ * factor_[i], reach_[i], static_cast<int>(i)});
+void SoftSpheres::make_balls() {
+  balls_.resize(size());
+  for_each(size(), [&](std::size_t i) {
+    balls_[i] = {centre_[i], scale_ * factor_[i], reach_[i], static_cast<int>(i)};
+  });
   for (std::size_t k = 0; k < obstacles_.size(); ++k)
-    balls.push_back({obstacles_[k].centre, scale_ * obstacles_[k].factor, 0, static_cast<int>(rows_ + k)});
+    balls_.push_back({obstacles_[k].centre, scale_ * obstacles_[k].factor, 0, static_cast<int>(rows_ + k)});
   if (!room_.repeats) return;
   const double farthest = *std::max_element(reach_.begin(), reach_.end());
   const double reach = 2 * (scale_ * largest_factor_ + farthest);
-  for (std::size_t b = 0, inside = balls.size(); b < inside; ++b)
-    for_each_image(room_.shape, balls[b].centre, reach, [&](const Vector3 &shift) {
-      balls.push_back(balls[b]);
-      balls.back().centre += shift;
+  for (std::size_t b = 0, inside = balls_.size(); b < inside; ++b)
+    for_each_image(room_.shape, balls_[b].centre, reach, [&](const Vector3 &shift) {
+      balls_.push_back(balls_[b]);
+      balls_.back().centre += shift;
     });
 }
 
@@ -165,27 +155,26 @@ void SoftSpheres::make_balls(std::vector<SoftBall> &balls) const {
 void SoftSpheres::find_partners() {
   choose_reach();
   since_build_ = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
+  for_each(size(), [&](std::size_t i) {
     centre_[i] = room_.repeats ? within(room_.shape, place(i)) : place(i);
     way_[i] = {0, 0, 0, static_cast<float>(scale_ * factor_[i])};
-  }
+  });
   for (std::size_t k = 0; k < obstacles_.size(); ++k)
     way_[rows_ + k].w = static_cast<float>(scale_ * obstacles_[k].factor);
-  std::vector<SoftBall> balls;
-  make_balls(balls);
-  find_soft_partners(balls, size(), partners_);
+  make_balls();
+  find_soft_partners(balls_, size(), partners_);
   find_walls();
-  for (std::size_t b = 0; b < sums_.size(); ++b)
-    sums_[b].room = room_of(b * block_rows, std::min(size(), (b + 1) * block_rows));
+  for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
+    sums_[block].room = room_of(first, last);
+  });
   lists_are_good_ = true;
 }
 
 void SoftSpheres::find_walls() {
-  near_wall_.clear();
+  walls_.clear(room_.shape);
   for (std::size_t i = 0; i < size(); ++i) {
     outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]);
-    if (!room_.repeats && wall_clearance(room_.shape, centre_[i]) < scale_ * factor_[i] + 2 * reach_[i])
-      near_wall_.push_back(static_cast<int>(i));
+    if (!room_.repeats) walls_.add(static_cast<int>(i), centre_[i], scale_ * factor_[i], 2 * reach_[i]);
   }
 }
 
@@ -207,38 +196,8 @@ bool SoftSpheres::partners_are_stale() {
   return false;
 }
 
-template <class Touch>
-Vector3 SoftSpheres::wall_force(std::size_t i, const Touch &touch) const {
-  const Shape &shape = room_.shape;
-  const double half_height = 0.5 * shape.height, r = scale_ * factor_[i];
-  const Vector3 c = place(i);
-  Vector3 f;
-  f.z = squeeze(c.z - half_height, r, half_height, touch);
-  if (shape.kind == ShapeKind::box) {
-    f.x = squeeze(c.x, r, 0.5 * shape.width_x, touch);
-    f.y = squeeze(c.y, r, 0.5 * shape.width_y, touch);
-    return f;
-  }
-  const double across = c.x * c.x + c.y * c.y, inner = shape.radius - r;
-  if (inner > 0 && across <= inner * inner) return f;
-  const double distance = std::sqrt(across), force = squeeze(distance, r, shape.radius, touch);
-  if (distance > 0) f.x = force * c.x / distance, f.y = force * c.y / distance;
-  return f;
-}
-
 kernels::SoftColumns SoftSpheres::columns() {
   return {way_.data(), velocity_.data(), force_.data(), outside_.data()};
-}
-
-void SoftSpheres::add_wall_forces(std::size_t first, std::size_t last, BlockSums &sums) {
-  sums.wall_overlap = sums.wall_contacts = 0;
-  const auto touch = [&](double overlap) { sums.wall_overlap += overlap, ++sums.wall_contacts; };
-  const auto from = std::lower_bound(near_wall_.begin(), near_wall_.end(), static_cast<int>(first));
-  for (auto w = from; w != near_wall_.end() && *w < static_cast<int>(last); ++w) {
-    const std::size_t i = static_cast<std::size_t>(*w);
-    const Vector3 force = wall_force(i, touch);
-    outside_[i] = row_of(press_.empty() ? force : force + press_[i]);
-  }
 }
 
 // Forces, and the squares that a step downhill with `next_step` needs.
@@ -247,7 +206,9 @@ void SoftSpheres::compute_forces(double next_step) {
   ++since_build_;
   const kernels::SoftColumns c = columns();
   for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
-    add_wall_forces(first, last, sums_[block]);
+    walls_.for_each_row(first, last,
+                        [&](std::size_t i) { outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]); });
+    sums_[block].of_walls = walls_.add_forces(first, last, way_.data(), outside_.data());
     sums_[block].of_kernel = best().add_forces(c, partners_[block].lists(), static_cast<float>(next_step));
   });
   add_up();
@@ -259,8 +220,8 @@ void SoftSpheres::add_up() {
   double overlap = 0, contacts = 0;
   for (const BlockSums &s : sums_) {
     total_.push += s.of_kernel.push, total_.speed += s.of_kernel.speed, total_.power += s.of_kernel.power;
-    overlap += 0.5 * s.of_kernel.overlap + s.wall_overlap;
-    contacts += 0.5 * s.of_kernel.contacts + s.wall_contacts;
+    overlap += 0.5 * s.of_kernel.overlap + s.of_walls.overlap;
+    contacts += 0.5 * s.of_kernel.contacts + s.of_walls.contacts;
   }
   mean_overlap_ = contacts > 0 ? overlap / contacts : 0;
   residual_ = size() == 0 ? 0 : std::sqrt(total_.push / static_cast<double>(size()));
@@ -298,26 +259,25 @@ Overlaps SoftSpheres::overlaps() {
   });
   now.pairs = now.contacts = ends / 2;
   now.mean = 0.5 * sum;
-  for (const int w : near_wall_)
-    wall_force(static_cast<std::size_t>(w), [&](double overlap) {
-      ++now.contacts, now.mean += overlap;
-      now.max = std::max(now.max, overlap);
-    });
+  for (const BlockSums &s : sums_) {
+    now.contacts += static_cast<std::size_t>(s.of_walls.contacts), now.mean += s.of_walls.overlap;
+    now.max = std::max(now.max, s.of_walls.largest);
+  }
   if (now.contacts > 0) now.mean /= static_cast<double>(now.contacts);
   now.residual_force = residual_;
   return now;
 }
 
+bool SoftSpheres::touches_wall(std::size_t i) const {
+  return !room_.repeats && wall_clearance(room_.shape, centre_[i]) < scale_ * factor_[i];
+}
+
 std::vector<std::size_t> SoftSpheres::loose_spheres() const {
   std::vector<int> contacts(size(), 0);
   for_each_touch([&](std::size_t row, double) { ++contacts[row]; });
-  for (const int w : near_wall_) {
-    const std::size_t i = static_cast<std::size_t>(w);
-    contacts[i] += wall_clearance(room_.shape, centre_[i]) < scale_ * factor_[i] ? 1 : 0;
-  }
   std::vector<std::size_t> loose;
   for (std::size_t i = 0; i < size(); ++i)
-    if (contacts[i] < 4) loose.push_back(i);
+    if (contacts[i] + (touches_wall(i) ? 1 : 0) < 4) loose.push_back(i);
   return loose;
 }
 

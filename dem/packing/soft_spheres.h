@@ -9,6 +9,7 @@
 #include "base/vector3.h"
 #include "dem/kernels/soft_kernel.h"
 #include "dem/packing/soft_partners.h"
+#include "dem/packing/soft_walls.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -58,7 +59,7 @@ private:
   };
   struct BlockSums {
     kernels::SoftSums of_kernel;
-    double wall_overlap = 0, wall_contacts = 0;
+    WallSums of_walls;
     double fastest = 0;
     double room = 0; // how far its spheres may still go before each is looked at
   };
@@ -70,20 +71,18 @@ private:
   Vector3 place(std::size_t i) const { return centre_[i] + way(i); }
   void choose_reach();
   void find_partners();
-  void make_balls(std::vector<SoftBall> &balls) const;
+  void make_balls();
   void find_walls();
   bool partners_are_stale();
   double room_of(std::size_t first, std::size_t last) const;
   void compute_forces(double next_step);
-  void add_wall_forces(std::size_t first, std::size_t last, BlockSums &sums);
   void add_up();
   bool at_rest(double tolerance, double floor) const;
   void step_back(double step);
   void drift(double step, double mixing);
   std::vector<std::size_t> loose_spheres() const;
   std::vector<std::size_t> push_loose_spheres(double force, Random &random);
-  template <class Touch>
-  Vector3 wall_force(std::size_t i, const Touch &touch) const;
+  bool touches_wall(std::size_t i) const;
   template <class Visit>
   void for_each_touch(const Visit &visit) const;
   kernels::SoftColumns columns();
@@ -98,7 +97,8 @@ private:
   std::vector<kernels::SoftRow> way_, velocity_, force_, outside_;
   std::size_t rows_ = 0; // whole packs
   std::vector<SoftPartners> partners_;
-  std::vector<int> near_wall_;
+  std::vector<SoftBall> balls_; // of the last search; kept for their memory
+  SoftWalls walls_;
   std::vector<double> reach_; // how far each sphere may go until partners are looked for again
   bool lists_are_good_ = false;
   long since_build_ = 0;

@@ -125,11 +125,11 @@ TEST(SoftSpheres, go_where_a_plain_loop_over_all_pairs_takes_them) {
 
 TEST(SoftSpheres, come_to_rest_far_below_what_single_precision_makes_of_places) {
   // Places of some hundred radii are good to 1e-5 in single precision; overlaps and forces here are smaller.
-  const Shape shape = cylinder(8, 200);
+  const Shape shape = cylinder(4, 200);
   Random random(5);
   std::vector<Vector3> centre;
-  while (centre.size() < 6200) {
-    const Vector3 p{random.uniform(-8, 8), random.uniform(-8, 8), random.uniform(0, 200)};
+  while (centre.size() < 1500) {
+    const Vector3 p{random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(0, 200)};
     if (wall_clearance(shape, p) > 0.5) centre.push_back(p);
   }
   SoftSpheres soft({shape, false}, centre, std::vector<double>(centre.size(), 1.0));
@@ -138,7 +138,7 @@ TEST(SoftSpheres, come_to_rest_far_below_what_single_precision_makes_of_places) 
   const std::vector<Vector3> at = soft.centres();
   // The same force in double precision.
   double squares = 0;
-  PointGrid filled({-8, -8, 0}, {8, 8, 200}, 2.0);
+  PointGrid filled({-4, -4, 0}, {4, 4, 200}, 2.0);
   for (const Vector3 &p : at)
     filled.add(p);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -150,7 +150,7 @@ TEST(SoftSpheres, come_to_rest_far_below_what_single_precision_makes_of_places) 
     });
     force.z += std::max(0.0, 1 - at[i].z) - std::max(0.0, at[i].z - 199);
     const double out = std::hypot(at[i].x, at[i].y);
-    if (out > 7) force.x -= (out - 7) * at[i].x / out, force.y -= (out - 7) * at[i].y / out;
+    if (out > 3) force.x -= (out - 3) * at[i].x / out, force.y -= (out - 3) * at[i].y / out;
     squares += norm_squared(force);
   }
   const double residual = std::sqrt(squares / static_cast<double>(at.size()));
