@@ -1,60 +1,65 @@
 // Block kernels of soft spheres on their way to rest (dem/packing/soft_spheres.h). One source, compiled once
-// per instruction set (soft_kernel.inc.h), to the same last bit of every column. Lengths in mean radii.
+// per instruction set (soft_kernel.inc.h), to the same last bit of every column and sum. Lengths in mean
+// radii.
+//
+// Single precision is enough because nothing large is ever subtracted: spheres are known by the way that they
+// have gone since the lists of partners were made, pairs by what they were then, which was found in double
+// precision. An overlap is then right to some 1e-7 of the ways, not of the places.
 #pragma once
 
 #include <cstddef>
 
-#include "base/vector3.h"
-
 namespace platen::dem::kernels {
 
-// Lists of partners are cut into packs of so many spheres, whatever the instruction set.
-constexpr std::size_t soft_pack = 8;
+// Spheres of a block are taken in packs of so many, whatever the instruction set.
+constexpr std::size_t soft_pack = 16;
 
-struct Ball { // read as a vector of four
-  double radius = 0;
-  double x = 0, y = 0, z = 0;
+struct alignas(16) SoftRow { // read as a vector of four
+  float x = 0, y = 0, z = 0;
+  float w = 0;
 };
 
+// Rows fill whole packs; those left over have a radius and no partners.
 struct SoftColumns {
-  Ball *ball;
-  Vector3 *force, *velocity;
-  const Vector3 *press; // a constant force, or null
-  // Partners of the spheres of pack p, step by step: partner[first[p] + soft_pack k + l] is the k-th of
-  // lane l, in the order in which forces are added; lanes that have fewer end with a ball that touches none.
-  const int *partner;
-  const std::size_t *first;
-  const double *earlier; // of each sphere: how many of its partners belong to pairs that others have counted
-  double *force_square, *speed_square;
+  SoftRow *way;           // since the lists were made; w: the radius
+  SoftRow *velocity;      // w: 0
+  SoftRow *force;         // w: 0
+  const SoftRow *outside; // what acts on a sphere beside its partners; w: 0
 };
 
-// Of the contacts of pairs, each counted once.
-struct SoftContacts {
-  double overlap = 0, largest = 0, number = 0;
+// Who may touch whom in one block: soft_pack numbers a pack or a step, lane by lane.
+struct SoftLists {
+  std::size_t packs;
+  const int *row;          // the spheres of each pack
+  const int *steps;        // of each pack: the most partners that one of its spheres has
+  const unsigned *partner; // of each step: the row whose way the partner goes, in bytes from the first
+  // Of each step: from the sphere to its partner when the lists were made, x, y and z, and the square of this
+  // distance less that of the sum of radii. Lanes that have no partner left hold their own row, no distance
+  // and `no_partner`.
+  const float *apart;
 };
-SoftContacts add_soft_forces_baseline(SoftColumns, std::size_t first_pack, std::size_t last_pack);
-SoftContacts add_soft_forces_avx2(SoftColumns, std::size_t first_pack, std::size_t last_pack);
-SoftContacts add_soft_forces_avx512(SoftColumns, std::size_t first_pack, std::size_t last_pack);
-using SoftForces = SoftContacts (*)(SoftColumns, std::size_t, std::size_t);
+constexpr float no_partner = 1e30F;
 
-// Force times velocity, and the sum of the sizes of these products, which bounds the round-off of the first.
-struct SoftPower {
-  double sum = 0, size = 0;
+// Of the spheres of a block, every pair once for each of its ends there.
+struct SoftSums {
+  double overlap = 0, contacts = 0;
+  double push = 0,
+         speed = 0; // squares of the forces, and of the velocities that a kick by `step` would leave
+  double power = 0; // forces times velocities
 };
-// Fills the columns of squares: of the force, and of the velocity that a kick by `step` would leave.
-SoftPower soft_squares_baseline(SoftColumns, double step, std::size_t first_pack, std::size_t last_pack);
-SoftPower soft_squares_avx2(SoftColumns, double step, std::size_t first_pack, std::size_t last_pack);
-SoftPower soft_squares_avx512(SoftColumns, double step, std::size_t first_pack, std::size_t last_pack);
-using SoftSquares = SoftPower (*)(SoftColumns, double, std::size_t, std::size_t);
+SoftSums add_soft_forces_baseline(SoftColumns, SoftLists, float step);
+SoftSums add_soft_forces_avx2(SoftColumns, SoftLists, float step);
+SoftSums add_soft_forces_avx512(SoftColumns, SoftLists, float step);
+using SoftForces = SoftSums (*)(SoftColumns, SoftLists, float);
 
 // The kick, the turn of the velocity towards the force, and the drift.
 struct SoftMove {
-  double step = 0, mixing = 0, along = 0;
+  float step = 0, mixing = 0, along = 0;
 };
-// Returns the largest squared speed.
-double move_soft_baseline(SoftColumns, SoftMove, std::size_t first_pack, std::size_t last_pack);
-double move_soft_avx2(SoftColumns, SoftMove, std::size_t first_pack, std::size_t last_pack);
-double move_soft_avx512(SoftColumns, SoftMove, std::size_t first_pack, std::size_t last_pack);
-using SoftDrift = double (*)(SoftColumns, SoftMove, std::size_t, std::size_t);
+// Returns the largest squared speed of rows [first, last), whole packs.
+float move_soft_baseline(SoftColumns, SoftMove, std::size_t first, std::size_t last);
+float move_soft_avx2(SoftColumns, SoftMove, std::size_t first, std::size_t last);
+float move_soft_avx512(SoftColumns, SoftMove, std::size_t first, std::size_t last);
+using SoftDrift = float (*)(SoftColumns, SoftMove, std::size_t, std::size_t);
 
 } // namespace platen::dem::kernels

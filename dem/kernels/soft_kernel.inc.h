@@ -1,120 +1,177 @@
-// Bodies of the kernels of soft spheres; the including file sets PLATEN_LANES and the names. Compiled without
-// contraction: every instruction set gives the same columns. (Sums over lanes do not: who reads them allows
-// for their round-off.)
-#include "dem/kernels/pack.inc.h"
+// Bodies of the kernels of soft spheres; the including file sets PLATEN_LANES (4, 8 or 16 floats) and the
+// names. Compiled without contraction, and sums are kept lane by lane of a whole pack: every instruction set
+// gives the same columns and sums. Everything stays in an unnamed namespace (pack.inc.h says why).
 #include "dem/kernels/soft_kernel.h"
 
 namespace platen::dem::kernels {
 namespace {
 
-constexpr double tiny = 1e-300; // keeps the direction of two coincident spheres finite (zero)
+constexpr int lanes = PLATEN_LANES, quads = lanes / 4, parts = static_cast<int>(soft_pack) / lanes;
+typedef float Floats __attribute__((vector_size(4 * PLATEN_LANES)));
+typedef float FloatsInMemory __attribute__((vector_size(4 * PLATEN_LANES), aligned(4), may_alias));
+typedef float Quad __attribute__((vector_size(16)));
+typedef float QuadInMemory __attribute__((vector_size(16), may_alias));
 
-inline Rotation<Pack> load_balls(const Ball *from) { // w: radii
-  Row rows[lanes];
+// Vectors stay in registers.
+#define PLATEN_SOFT_INLINE inline __attribute__((always_inline))
+
+constexpr float tiny = 1e-30F; // keeps the direction of two coincident spheres finite (zero)
+
+// The same shuffle of every four lanes; lanes of the second vector count from `lanes` on.
+#if PLATEN_LANES == 4
+#define PLATEN_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#elif PLATEN_LANES == 8
+#define PLATEN_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4)
+#else
+#define PLATEN_SHUFFLE(a, b, i, j, k, l)                                                                    \
+  __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8, i + 12, \
+                          j + 12, k + 12, l + 12)
+#endif
+
+inline Floats load(const float *from) {
+  return *reinterpret_cast<const FloatsInMemory *>(from);
+}
+inline Quad load_row(const SoftRow *column, int row) {
+  return *reinterpret_cast<const QuadInMemory *>(column + row);
+}
+inline Quad load_row(const SoftRow *column, unsigned bytes) {
+  return *reinterpret_cast<const QuadInMemory *>(reinterpret_cast<const char *>(column) + bytes);
+}
+inline Floats root(const Floats &a) {
+  Floats r;
   for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&from[l].radius);
-  return to_columns(rows);
-}
-inline Rotation<Pack> gather_balls(const Ball *ball, const int *at) {
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(&ball[at[l]].radius);
-  return to_columns(rows);
+    r[l] = __builtin_sqrtf(a[l]);
+  return r;
 }
 
-inline Triple<Pack> where_equal(const Pack &a, const Pack &b, const Triple<Pack> &then,
-                                const Triple<Pack> &otherwise) {
-  return {a.v == b.v ? then.x.v : otherwise.x.v, a.v == b.v ? then.y.v : otherwise.y.v,
-          a.v == b.v ? then.z.v : otherwise.z.v};
+// Rows k, k + 4, ... of a pack as one vector, and one of them again.
+template <class Place>
+PLATEN_SOFT_INLINE Floats join(const SoftRow *column, const Place *at) {
+#if PLATEN_LANES == 4
+  return load_row(column, at[0]);
+#else
+  const auto two = [&](int i, int j) {
+    return __builtin_shufflevector(load_row(column, at[i]), load_row(column, at[j]), 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+#if PLATEN_LANES == 8
+  return two(0, 4);
+#else
+  return __builtin_shufflevector(two(0, 4), two(8, 12), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
+#endif
+}
+template <int quad>
+Quad part(const Floats &a) {
+  return __builtin_shufflevector(a, a, 4 * quad, 4 * quad + 1, 4 * quad + 2, 4 * quad + 3);
 }
 
-inline double sum_of(const Pack &a) {
+struct Columns {
+  Floats x, y, z, w;
+};
+// Four rows become four columns, or back, in every four lanes.
+PLATEN_SOFT_INLINE Columns transposed(const Columns &in) {
+  const Floats a = PLATEN_SHUFFLE(in.x, in.y, 0, lanes, 1, lanes + 1);
+  const Floats b = PLATEN_SHUFFLE(in.x, in.y, 2, lanes + 2, 3, lanes + 3);
+  const Floats c = PLATEN_SHUFFLE(in.z, in.w, 0, lanes, 1, lanes + 1);
+  const Floats d = PLATEN_SHUFFLE(in.z, in.w, 2, lanes + 2, 3, lanes + 3);
+  return {PLATEN_SHUFFLE(a, c, 0, 1, lanes, lanes + 1), PLATEN_SHUFFLE(a, c, 2, 3, lanes + 2, lanes + 3),
+          PLATEN_SHUFFLE(b, d, 0, 1, lanes, lanes + 1), PLATEN_SHUFFLE(b, d, 2, 3, lanes + 2, lanes + 3)};
+}
+template <class Place>
+PLATEN_SOFT_INLINE Columns gather(const SoftRow *column, const Place *at) {
+  return transposed({join(column, at), join(column, at + 1), join(column, at + 2), join(column, at + 3)});
+}
+
+inline void store_row(SoftRow *to, const Quad &a) {
+  *reinterpret_cast<QuadInMemory *>(to) = a;
+}
+template <int quad = 0>
+PLATEN_SOFT_INLINE void scatter(const Columns &rows, SoftRow *column, const int *at) {
+  store_row(column + at[4 * quad], part<quad>(rows.x));
+  store_row(column + at[4 * quad + 1], part<quad>(rows.y));
+  store_row(column + at[4 * quad + 2], part<quad>(rows.z));
+  store_row(column + at[4 * quad + 3], part<quad>(rows.w));
+  if constexpr (quad + 1 < quads) scatter<quad + 1>(rows, column, at);
+}
+
+inline Floats product(const Columns &a, const Columns &b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline double sum_of(const Floats *part) {
   double sum = 0;
-  for (int l = 0; l < lanes; ++l)
-    sum += a.v[l];
+  for (int p = 0; p < parts; ++p)
+    for (int l = 0; l < lanes; ++l)
+      sum += static_cast<double>(part[p][l]);
   return sum;
 }
-inline double largest_of(const Pack &a) {
-  double largest = a.v[0];
-  for (int l = 1; l < lanes; ++l)
-    largest = a.v[l] > largest ? a.v[l] : largest;
-  return largest;
-}
 
-struct Sums {
-  Pack overlap, largest, number;
+struct LaneSums {
+  Floats overlap[parts]{}, contacts[parts]{}, push[parts]{}, speed[parts]{}, power[parts]{};
 };
 
-// Spheres row ... row + lanes of a pack. Forces of earlier partners are added to the load itself, those of
-// later ones apart: the order in which a loop over pairs adds them.
-inline void add_forces(const SoftColumns &c, std::size_t row, const int *partner, std::size_t steps,
-                       Sums &sums) {
-  const Rotation<Pack> own = load_balls(c.ball + row);
-  const Pack earlier = load(c.earlier + row);
-  Triple<Pack> load_of_earlier{}, load_now{};
-  if (c.press) load_now = load(c.press + row);
-  const Triple<Pack> none{};
-  for (std::size_t k = 0; k < steps; ++k, partner += soft_pack) {
-    const Pack at = static_cast<double>(k);
-    load_of_earlier = where_equal(earlier, at, load_now, load_of_earlier);
-    load_now = where_equal(earlier, at, none, load_now);
-    const Rotation<Pack> other = gather_balls(c.ball, partner);
-    const Triple<Pack> d{other.x - own.x, other.y - own.y, other.z - own.z};
-    const Pack distance = root(dot(d, d));
-    const Pack overlap = positive_part(own.w + other.w - distance);
-    const Pack weight = overlap / (distance + tiny);
-    load_now = load_now - scale(weight, d);
-    const Pack counted = earlier.v <= at.v ? overlap.v : Native{};
-    sums.overlap = sums.overlap + counted;
-    sums.largest = larger(sums.largest, counted);
-    sums.number = sums.number + Pack(counted.v > 0.0 ? 1.0 - Native{} : Native{});
+// With u the way of the partner less the own, and the vector d apart: |d + u|^2 = |d|^2 + (d + (d + u)) . u.
+// The overlap is the difference of the squares of reach and distance over their sum.
+inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t pack,
+                       const unsigned *partner, const float *apart, float step, int p, LaneSums &sums) {
+  const int *row = lists.row + soft_pack * pack + static_cast<std::size_t>(lanes * p);
+  const Columns own = gather(c.way, row), velocity = gather(c.velocity, row);
+  Columns force = gather(c.outside, row);
+  Floats overlaps{}, contacts{};
+  for (int k = 0; k < lists.steps[pack]; ++k, partner += soft_pack, apart += 4 * soft_pack) {
+    const Columns other = gather(c.way, partner);
+    const Columns d{load(apart), load(apart + soft_pack), load(apart + 2 * soft_pack), {}};
+    const Columns u{other.x - own.x, other.y - own.y, other.z - own.z, {}};
+    const Columns now{d.x + u.x, d.y + u.y, d.z + u.z, {}};
+    const Columns both{d.x + now.x, d.y + now.y, d.z + now.z, {}};
+    const Floats outside = load(apart + 3 * soft_pack) + product(both, u);
+    const Floats distance = root(product(now, now));
+    const Floats inside = outside < 0.0F ? -outside : Floats{};
+    const Floats weight = inside / ((own.w + other.w + distance) * (distance + tiny));
+    force.x -= weight * now.x, force.y -= weight * now.y, force.z -= weight * now.z;
+    overlaps += weight * distance;
+    contacts += outside < 0.0F ? 1.0F - Floats{} : Floats{};
   }
-  const Pack at = static_cast<double>(steps);
-  load_of_earlier = where_equal(earlier, at, load_now, load_of_earlier);
-  load_now = where_equal(earlier, at, none, load_now);
-  store(c.force + row, load_of_earlier + load_now);
+  const Columns kicked{
+      velocity.x + step * force.x, velocity.y + step * force.y, velocity.z + step * force.z, {}};
+  sums.overlap[p] += overlaps, sums.contacts[p] += contacts;
+  sums.push[p] += product(force, force), sums.speed[p] += product(kicked, kicked);
+  sums.power[p] += product(force, velocity);
+  scatter(transposed(force), c.force, row);
 }
 
 } // namespace
 
-SoftContacts PLATEN_SOFT_FORCES(SoftColumns c, std::size_t first_pack, std::size_t last_pack) {
-  Sums sums;
-  for (std::size_t p = first_pack; p < last_pack; ++p) {
-    const std::size_t steps = (c.first[p + 1] - c.first[p]) / soft_pack;
-    for (std::size_t l = 0; l < soft_pack; l += lanes)
-      add_forces(c, soft_pack * p + l, c.partner + c.first[p] + l, steps, sums);
+SoftSums PLATEN_SOFT_FORCES(SoftColumns c, SoftLists lists, float step) {
+  LaneSums sums;
+  const unsigned *partner = lists.partner;
+  const float *apart = lists.apart;
+  for (std::size_t pack = 0; pack < lists.packs; ++pack) {
+    for (int p = 0; p < parts; ++p)
+      add_forces(c, lists, pack, partner + lanes * p, apart + lanes * p, step, p, sums);
+    const std::size_t entries = soft_pack * static_cast<std::size_t>(lists.steps[pack]);
+    partner += entries, apart += 4 * entries;
   }
-  return {sum_of(sums.overlap), largest_of(sums.largest), sum_of(sums.number)};
+  return {sum_of(sums.overlap), sum_of(sums.contacts), sum_of(sums.push), sum_of(sums.speed),
+          sum_of(sums.power)};
 }
 
-SoftPower PLATEN_SOFT_SQUARES(SoftColumns c, double step, std::size_t first_pack, std::size_t last_pack) {
-  Pack sum, size;
-  for (std::size_t row = soft_pack * first_pack; row < soft_pack * last_pack; row += lanes) {
-    const Triple<Pack> f = load(c.force + row), v = load(c.velocity + row);
-    const Triple<Pack> kicked = v + scale(Pack(step), f);
-    const Pack power = dot(f, v), f2 = dot(f, f), v2 = dot(kicked, kicked);
-    for (int l = 0; l < lanes; ++l)
-      c.force_square[row + static_cast<std::size_t>(l)] = f2.v[l],
-                           c.speed_square[row + static_cast<std::size_t>(l)] = v2.v[l];
-    sum = sum + power;
-    size = size + magnitude(f.x * v.x) + magnitude(f.y * v.y) + magnitude(f.z * v.z);
+// All four numbers of a row alike: forces and velocities have nothing where the radius stands.
+float PLATEN_SOFT_DRIFT(SoftColumns c, SoftMove m, std::size_t first, std::size_t last) {
+  Floats fastest{};
+  for (std::size_t row = first; row < last; row += quads) {
+    const Floats f = load(&c.force[row].x), kicked = load(&c.velocity[row].x) + m.step * f;
+    const Floats v = (1.0F - m.mixing) * kicked + m.along * f;
+    *reinterpret_cast<FloatsInMemory *>(&c.velocity[row].x) = v;
+    *reinterpret_cast<FloatsInMemory *>(&c.way[row].x) = load(&c.way[row].x) + m.step * v;
+    const Floats square = v * v;
+    const Floats pairs = square + PLATEN_SHUFFLE(square, square, 1, 0, 3, 2);
+    const Floats speed = pairs + PLATEN_SHUFFLE(pairs, pairs, 2, 3, 0, 1);
+    fastest = fastest > speed ? fastest : speed;
   }
-  return {sum_of(sum), sum_of(size)};
-}
-
-double PLATEN_SOFT_DRIFT(SoftColumns c, SoftMove m, std::size_t first_pack, std::size_t last_pack) {
-  Pack fastest;
-  for (std::size_t row = soft_pack * first_pack; row < soft_pack * last_pack; row += lanes) {
-    const Triple<Pack> f = load(c.force + row);
-    const Triple<Pack> kicked = load(c.velocity + row) + scale(Pack(m.step), f);
-    const Triple<Pack> v = scale(Pack(1 - m.mixing), kicked) + scale(Pack(m.along), f);
-    Rotation<Pack> ball = load_balls(c.ball + row);
-    ball.x = ball.x + m.step * v.x, ball.y = ball.y + m.step * v.y, ball.z = ball.z + m.step * v.z;
-    store(c.velocity + row, v);
-    store(reinterpret_cast<Quaternion *>(c.ball + row), ball); // four doubles each
-    fastest = larger(dot(v, v), fastest);
-  }
-  return largest_of(fastest);
+  float largest = 0;
+  for (int l = 0; l < lanes; ++l)
+    largest = largest > fastest[l] ? largest : fastest[l];
+  return largest;
 }
 
 } // namespace platen::dem::kernels

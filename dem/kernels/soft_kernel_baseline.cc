@@ -1,6 +1,5 @@
 // Kernels of soft spheres for the baseline instruction set; see soft_kernel.inc.h.
-#define PLATEN_LANES 2
+#define PLATEN_LANES 4
 #define PLATEN_SOFT_FORCES add_soft_forces_baseline
-#define PLATEN_SOFT_SQUARES soft_squares_baseline
 #define PLATEN_SOFT_DRIFT move_soft_baseline
 #include "dem/kernels/soft_kernel.inc.h"

@@ -35,7 +35,7 @@ int shrink(SoftSpheres &spheres, double at_rest, Random &random, GrowthReport &m
     }
     back = first_back;
     if (last && overlap <= 1.5 * final_overlap) {
-      made.loose_spheres = spheres.press_loose_spheres(seating_force * overlap, random);
+      made.loose_spheres = spheres.seat_loose_spheres(seating_force * overlap, random);
       made.iterations += spheres.relax(at_rest, 0, most_iterations);
       return stage;
     }

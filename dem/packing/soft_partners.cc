@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -12,133 +11,176 @@
 namespace platen::dem {
 namespace {
 
-using kernels::Ball;
 using kernels::soft_pack;
 
-constexpr std::size_t packs_of_block = block_rows / soft_pack;
+// Of the extent: more than places lose in single precision.
+constexpr double relative_slack = 1e-6;
 
-// A ball in its cell: where it is, how far it reaches (radius, and the way that it may go), and who it is.
+// Of cells, in reaches of the ball that reaches farthest: most reach far less.
+constexpr double cell_edge = 1.25;
+
+// A ball in its cell.
 struct Member {
-  double x, y, z, reach;
-  std::uint64_t
-      key; // sorts in the order of forces: by number, an image by its owner's; then the number itself
+  float x, y, z, reach; // radius, and the way that it may go
+  int ball;
 };
 
-// Cells as wide as the farthest partner is away, over the box around all balls.
+// Cells over the box around all balls.
 class Cells {
 public:
-  explicit Cells(const SoftBalls &balls) {
-    const std::size_t images = balls.all - balls.first_image;
-    std::vector<Member> all(balls.own + images);
-    double largest = 0;
+  explicit Cells(const std::vector<SoftBall> &balls) {
     std::array<double, 3> high;
     low_.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t m = 0; m < all.size(); ++m) {
-      const std::size_t i = m < balls.own ? m : balls.first_image + (m - balls.own);
-      const std::size_t place = m < balls.own ? m : static_cast<std::size_t>(balls.owner[m - balls.own]);
-      const Ball &b = balls.ball[i];
-      all[m] = {b.x, b.y, b.z, b.radius + balls.reach[place], std::uint64_t{place} << 32 | i};
-      largest = std::max(largest, all[m].reach);
-      const double at[3] = {b.x, b.y, b.z};
+    for (const SoftBall &b : balls) {
+      largest_ = std::max(largest_, b.radius + b.reach);
       for (int k = 0; k < 3; ++k)
-        low_[k] = std::min(low_[k], at[k]), high[k] = std::max(high[k], at[k]);
+        low_[k] = std::min(low_[k], b.centre[k]), high[k] = std::max(high[k], b.centre[k]);
     }
-    const double most = 4.0 * static_cast<double>(all.size()) + 64.0;
-    double edge = 2 * largest;
+    const double most = 4.0 * static_cast<double>(balls.size()) + 64.0;
+    double edge = cell_edge * largest_;
     const auto along = [&](int k) { return std::floor((high[k] - low_[k]) / edge) + 1; };
     while (along(0) * along(1) * along(2) > most)
       edge *= 1.26;
     for (int k = 0; k < 3; ++k)
       cells_[k] = static_cast<int>(along(k));
+    slack_ = relative_slack * norm(Vector3{high[0] - low_[0], high[1] - low_[1], high[2] - low_[2]});
     per_length_ = 1 / edge;
-    start_.assign(static_cast<std::size_t>(cells_[0]) * cells_[1] * cells_[2] + 1, 0);
-    std::vector<int> cell(all.size());
-    for (std::size_t m = 0; m < all.size(); ++m)
-      ++start_[(cell[m] = cell_of(all[m])) + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    std::vector<int> next(start_.begin(), start_.end() - 1);
-    member_.resize(all.size());
-    for (std::size_t m = 0; m < all.size(); ++m)
-      member_[next[cell[m]]++] = all[m];
+    fill(balls);
   }
 
-  // Keys of all that ball `i` of this reach may touch, sorted; itself left out.
-  void find(const Ball &own, double reach, std::size_t i, std::vector<std::uint64_t> &found) const {
-    const int x = slot(own.x, 0), y = slot(own.y, 1), z = slot(own.z, 2);
-    const int left = std::max(x - 1, 0), right = std::min(x + 1, cells_[0] - 1);
-    const std::uint64_t self = std::uint64_t{i} << 32 | i;
-    std::size_t count = 0;
-    for (int w = std::max(z - 1, 0); w <= std::min(z + 1, cells_[2] - 1); ++w)
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, cells_[1] - 1); ++v) {
-        const int from = start_[index(left, v, w)], to = start_[index(right, v, w) + 1];
-        found.resize(count + static_cast<std::size_t>(to - from));
-        for (int m = from; m < to; ++m) { // no branch: one in four is near enough
+  // Writes the numbers of all balls that this one may touch from place `count` on, in the order of cells;
+  // itself left out. Returns the place after them. The room beyond it is spare.
+  std::size_t find(const SoftBall &own, int self, std::vector<int> &found, std::size_t count) const {
+    const double far = own.radius + own.reach + largest_;
+    std::array<int, 3> from, to;
+    for (int k = 0; k < 3; ++k)
+      from[k] = slot(own.centre[k] - far, k), to[k] = slot(own.centre[k] + far, k);
+    const Member me = member_of(own, slack_);
+    for (int w = from[2]; w <= to[2]; ++w)
+      for (int v = from[1]; v <= to[1]; ++v) {
+        const int first = start_[index(from[0], v, w)], last = start_[index(to[0], v, w) + 1];
+        const std::size_t most = count + static_cast<std::size_t>(last - first);
+        if (found.size() < most) found.resize(2 * most);
+        for (int m = first; m < last; ++m) { // no branch: one in eight is near enough
           const Member &b = member_[m];
-          const double dx = b.x - own.x, dy = b.y - own.y, dz = b.z - own.z, far = reach + b.reach;
-          found[count] = b.key;
-          count += (dx * dx + dy * dy + dz * dz < far * far) & (b.key != self) ? 1 : 0;
+          const float dx = b.x - me.x, dy = b.y - me.y, dz = b.z - me.z, reach = me.reach + b.reach;
+          found[count] = b.ball;
+          count += (dx * dx + dy * dy + dz * dz < reach * reach) & (b.ball != self) ? 1 : 0;
         }
       }
-    found.resize(count);
-    std::sort(found.begin(), found.end());
+    return count;
   }
 
 private:
+  void fill(const std::vector<SoftBall> &balls) {
+    start_.assign(static_cast<std::size_t>(cells_[0]) * cells_[1] * cells_[2] + 1, 0);
+    std::vector<int> cell(balls.size());
+    for (std::size_t m = 0; m < balls.size(); ++m) {
+      const Vector3 &c = balls[m].centre;
+      ++start_[(cell[m] = index(slot(c.x, 0), slot(c.y, 1), slot(c.z, 2))) + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    member_.resize(balls.size());
+    for (std::size_t m = 0; m < balls.size(); ++m) {
+      Member &to = member_[next[cell[m]]++];
+      to = member_of(balls[m], 0), to.ball = static_cast<int>(m);
+    }
+  }
+  Member member_of(const SoftBall &b, double slack) const {
+    return {static_cast<float>(b.centre.x - low_[0]), static_cast<float>(b.centre.y - low_[1]),
+            static_cast<float>(b.centre.z - low_[2]), static_cast<float>(b.radius + b.reach + slack), 0};
+  }
   int slot(double x, int k) const {
     return std::clamp(static_cast<int>((x - low_[k]) * per_length_), 0, cells_[k] - 1);
   }
   int index(int a, int b, int c) const { return (c * cells_[1] + b) * cells_[0] + a; }
-  int cell_of(const Member &m) const { return index(slot(m.x, 0), slot(m.y, 1), slot(m.z, 2)); }
 
   std::array<double, 3> low_;
+  double largest_ = 0; // reach of a ball
   double per_length_ = 1;
+  double slack_ = 0;
   std::array<int, 3> cells_{{1, 1, 1}};
   std::vector<int> start_;
   std::vector<Member> member_; // of cell c: member_[start_[c] .. start_[c + 1])
 };
 
+// What one thread needs while it makes lists.
+struct Found {
+  std::vector<int> ball;
+  std::array<int, block_rows + soft_pack + 1> first;
+  std::array<int, block_rows + soft_pack> order;
+
+  int count(int row) const { return first[row + 1] - first[row]; }
+};
+
+// Of the block's rows, whole packs of them, those with most partners first: packs then hold few empty lanes.
+void sort_rows(Found &found, int rows) {
+  int most = 0;
+  for (int r = 0; r < rows; ++r)
+    most = std::max(most, found.count(r));
+  std::vector<int> next(static_cast<std::size_t>(most) + 2, 0); // place of the first row with so many
+  for (int r = 0; r < rows; ++r)
+    ++next[most - found.count(r) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (int r = 0; r < rows; ++r)
+    found.order[next[most - found.count(r)]++] = r;
+}
+
+unsigned offset(int row) {
+  return static_cast<unsigned>(row * sizeof(kernels::SoftRow));
+}
+
+void write(const std::vector<SoftBall> &balls, int first, int rows, const Found &found, SoftPartners &to) {
+  const int lanes = static_cast<int>(soft_pack);
+  to.row.clear(), to.steps.clear();
+  std::size_t steps = 0;
+  for (int r = 0; r < rows; ++r) {
+    to.row.push_back(first + found.order[r]);
+    if (r % lanes == 0) to.steps.push_back(found.count(found.order[r])), steps += to.steps.back();
+  }
+  to.partner.resize(soft_pack * steps), to.apart.resize(4 * soft_pack * steps);
+  unsigned *partner = to.partner.data();
+  float *apart = to.apart.data();
+  for (int r = 0; r < rows; r += lanes)
+    for (int k = 0; k < to.steps[r / lanes]; ++k, partner += lanes, apart += 4 * lanes)
+      for (int l = 0; l < lanes; ++l) {
+        const int row = found.order[r + l];
+        if (k >= found.count(row)) {
+          partner[l] = offset(first + row);
+          apart[l] = apart[lanes + l] = apart[2 * lanes + l] = 0, apart[3 * lanes + l] = kernels::no_partner;
+          continue;
+        }
+        const SoftBall &a = balls[first + row], &b = balls[found.ball[found.first[row] + k]];
+        const Vector3 d = b.centre - a.centre;
+        const double reach = a.radius + b.radius;
+        partner[l] = offset(b.row);
+        apart[l] = static_cast<float>(d.x), apart[lanes + l] = static_cast<float>(d.y);
+        apart[2 * lanes + l] = static_cast<float>(d.z);
+        apart[3 * lanes + l] = static_cast<float>(norm_squared(d) - reach * reach);
+      }
+}
+
 } // namespace
 
-void SoftPartners::build(const SoftBalls &balls) {
-  const std::size_t packs = number_of_blocks(balls.own, soft_pack);
-  const int none = static_cast<int>(balls.first_image) - 1;
+void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
+                        std::vector<SoftPartners> &blocks) {
   const Cells cells(balls);
-  earlier.assign(packs * soft_pack, 0.0);
-  first.assign(packs + 1, 0);
-  std::vector<std::vector<int>> rows(number_of_blocks(packs, packs_of_block));
-  for_each_block(
-      packs,
-      [&](std::size_t from, std::size_t to, std::size_t block) {
-        std::vector<int> &row = rows[block];
-        std::array<std::vector<std::uint64_t>, soft_pack> found;
-        for (std::size_t p = from; p < to; ++p) {
-          std::size_t steps = 0;
-          for (std::size_t l = 0; l < soft_pack; ++l) {
-            const std::size_t i = soft_pack * p + l;
-            found[l].clear();
-            if (i < balls.own) cells.find(balls.ball[i], balls.ball[i].radius + balls.reach[i], i, found[l]);
-            steps = std::max(steps, found[l].size());
-            earlier[i] = static_cast<double>(
-                std::lower_bound(found[l].begin(), found[l].end(), std::uint64_t{i} << 32) -
-                found[l].begin());
-          }
-          for (std::size_t k = 0; k < steps; ++k)
-            for (const std::vector<std::uint64_t> &lane : found)
-              row.push_back(k < lane.size() ? static_cast<int>(lane[k] & 0xffffffffu) : none);
-          first[p + 1] = steps * soft_pack;
-        }
-      },
-      packs_of_block);
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  partner.resize(first.back());
-  for_each_block(
-      packs,
-      [&](std::size_t from, std::size_t, std::size_t block) {
-        std::copy(rows[block].begin(), rows[block].end(),
-                  partner.begin() + static_cast<std::ptrdiff_t>(first[from]));
-      },
-      packs_of_block);
+  blocks.resize(number_of_blocks(own));
+  for_each_block(own, [&](std::size_t first, std::size_t last, std::size_t block) {
+    Found found;
+    const int rows = static_cast<int>(number_of_blocks(last - first, soft_pack) * soft_pack);
+    std::size_t count = 0;
+    for (int r = 0; r < rows; ++r) {
+      const std::size_t i = first + static_cast<std::size_t>(r);
+      found.first[r] = static_cast<int>(count);
+      if (i < last) count = cells.find(balls[i], static_cast<int>(i), found.ball, count);
+    }
+    found.first[rows] = static_cast<int>(count);
+    sort_rows(found, rows);
+    write(balls, static_cast<int>(first), rows, found, blocks[block]);
+  });
 }
 
 } // namespace platen::dem

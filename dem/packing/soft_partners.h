@@ -5,27 +5,33 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/vector3.h"
 #include "dem/kernels/soft_kernel.h"
 
 namespace platen::dem {
 
-// Balls as the lists see them: [0, own) have partners; images of them begin at `first_image`. The ball just
-// before these touches none and fills lanes up.
-struct SoftBalls {
-  const kernels::Ball *ball = nullptr;
-  std::size_t own = 0, first_image = 0, all = 0;
-  const int *owner = nullptr;    // of each image
-  const double *reach = nullptr; // how far each own one may go while the lists hold
+// A sphere, an image of one, or one that stands still.
+struct SoftBall {
+  Vector3 centre;
+  double radius = 0;
+  double reach = 0; // how far it may go while the lists hold
+  int row = 0;      // whose way it goes
 };
 
+// Lists of one block of rows; their memory is used again.
 struct SoftPartners {
-  std::vector<int> partner;
-  std::vector<std::size_t> first; // a pack each, and the end
-  std::vector<double> earlier;    // a sphere each
+  std::vector<int> row, steps;
+  std::vector<unsigned> partner;
+  std::vector<float> apart;
 
-  // Every pair whose gap both together may cross. Partners of a sphere stand in the order of their number,
-  // images in the place of their owner; a pair belongs to the sphere with the smaller number.
-  void build(const SoftBalls &balls);
+  kernels::SoftLists lists() const {
+    return {steps.size(), row.data(), steps.data(), partner.data(), apart.data()};
+  }
 };
+
+// For the first `own` balls, which are the rows of that number, every other ball whose gap both together may
+// cross. Spheres with as many partners share packs.
+void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
+                        std::vector<SoftPartners> &blocks);
 
 } // namespace platen::dem

@@ -11,8 +11,8 @@
 
 namespace platen::dem {
 
-using kernels::Ball;
 using kernels::soft_pack;
+using kernels::SoftRow;
 
 namespace {
 
@@ -24,25 +24,24 @@ constexpr double wanted_life = 450;
 constexpr double spare = 1.5; // reach of the calm ones, over what the mean sphere needs
 constexpr double forgotten =
     0.7; // what one search leaves of a reach: a loose sphere may have just turned back
+constexpr double rounded_up = 1 + 1e-5; // of speeds: above what single precision loses
 // FIRE, as published except for the largest step: 2 / w_max is about .55 for spheres with 6 to 12 contacts.
 constexpr double first_step = 0.1, largest_step = 0.45, smallest_step = 0.002;
 constexpr double step_growth = 1.1, step_cut = 0.5, first_mixing = 0.1, mixing_decay = 0.99;
 constexpr int steps_before_growth = 5;
-// Sums over lanes and blocks are off by round-off; what lies this near a limit is asked of exact sums.
-constexpr double relative_doubt = 1e-6, round_off = 1e-15;
+// Loose spheres go to their seats under a force that would press them in by this much, which takes few steps,
+// and then find the balance of the force asked for, near enough for the relaxation of all that follows.
+constexpr double swift_push = 1e-3;
+constexpr double seated = 0.02; // residual force over mean overlap
+constexpr long most_seating = 5000;
 
-constexpr std::size_t packs_of_block = block_rows / soft_pack;
 constexpr double tiny = 1e-300;
-constexpr double touches_none = -1e300; // a radius
 
 // The kernels for this processor; all give the same places.
 struct Kernels {
   kernels::SoftForces add_forces =
       for_set<kernels::SoftForces>(best_instruction_set(), kernels::add_soft_forces_baseline,
                                    kernels::add_soft_forces_avx2, kernels::add_soft_forces_avx512);
-  kernels::SoftSquares squares =
-      for_set<kernels::SoftSquares>(best_instruction_set(), kernels::soft_squares_baseline,
-                                    kernels::soft_squares_avx2, kernels::soft_squares_avx512);
   kernels::SoftDrift drift = for_set<kernels::SoftDrift>(best_instruction_set(), kernels::move_soft_baseline,
                                                          kernels::move_soft_avx2, kernels::move_soft_avx512);
 };
@@ -51,56 +50,69 @@ const Kernels &best() {
   return kernels;
 }
 
-// Force along an axis on a sphere of radius r at x between walls at -half and half, both of which it may
-// touch.
-template <class Touch>
-double squeeze(double x, double r, double half, const Touch &touch) {
-  const double right = x + r - half, left = r - half - x;
-  double force = 0;
-  if (right > 0) force -= right, touch(right);
-  if (left > 0) force += left, touch(left);
-  return force;
-}
-
-} // namespace
-
-SoftSpheres::SoftSpheres(Room room, const std::vector<Vector3> &centre, std::vector<double> factor)
-    : room_(std::move(room)), factor_(std::move(factor)) {
-  largest_factor_ = factor_.empty() ? 1.0 : *std::max_element(factor_.begin(), factor_.end());
-  rows_ = number_of_blocks(size(), soft_pack) * soft_pack;
-  std::vector<Vector3> sorted = centre;
-  sort_in_space(sorted);
-  ball_.resize(rows_ + 1);
-  for (std::size_t i = 0; i < size(); ++i)
-    ball_[i] = {factor_[i], sorted[i].x, sorted[i].y, sorted[i].z};
-  ball_[rows_].radius = touches_none;
-  force_.resize(rows_ + 1), velocity_.resize(rows_ + 1);
-  force_square_.resize(rows_), speed_square_.resize(rows_);
-  sums_.resize(number_of_blocks(rows_));
+SoftRow row_of(const Vector3 &v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
 // Neighbours in space become neighbours in memory; they stay so, since spheres move by a few radii at most.
-void SoftSpheres::sort_in_space(std::vector<Vector3> &centre) {
-  const BoundingBox bounds = bounding_box(room_.shape);
-  const PointGrid grid(bounds.low, bounds.high, 3.0 * largest_factor_);
+void sort_in_space(const Room &room, std::vector<Vector3> &centre, std::vector<double> &factor) {
+  const double largest = factor.empty() ? 1.0 : *std::max_element(factor.begin(), factor.end());
+  const BoundingBox bounds = bounding_box(room.shape);
+  const PointGrid grid(bounds.low, bounds.high, 3.0 * largest);
   std::vector<std::pair<std::size_t, std::size_t>> key(centre.size());
   for (std::size_t i = 0; i < key.size(); ++i)
     key[i] = {grid.cell_of(centre[i]), i};
   std::sort(key.begin(), key.end());
   std::vector<Vector3> placed(centre.size());
-  std::vector<double> factor(factor_.size());
+  std::vector<double> sorted(factor.size());
   for (std::size_t i = 0; i < key.size(); ++i)
-    placed[i] = centre[key[i].second], factor[i] = factor_[key[i].second];
-  centre.swap(placed), factor_.swap(factor);
+    placed[i] = centre[key[i].second], sorted[i] = factor[key[i].second];
+  centre.swap(placed), factor.swap(sorted);
+}
+
+// visit(shift) for every image that the room has within `reach` of its faces: what is nearer to a face than a
+// partner can be stands once more beyond the opposite one, in edges and corners too.
+template <class Visit>
+void for_each_image(const Shape &shape, const Vector3 &at, double reach, const Visit &visit) {
+  const Vector3 period = periods(shape);
+  const BoundingBox box = bounding_box(shape);
+  int from[3], to[3];
+  for (int k = 0; k < 3; ++k) {
+    from[k] = at[k] > box.high[k] - reach ? -1 : 0;
+    to[k] = at[k] < box.low[k] + reach ? 1 : 0;
+  }
+  for (int x = from[0]; x <= to[0]; ++x)
+    for (int y = from[1]; y <= to[1]; ++y)
+      for (int z = from[2]; z <= to[2]; ++z)
+        if (x != 0 || y != 0 || z != 0) visit(Vector3{x * period.x, y * period.y, z * period.z});
+}
+
+} // namespace
+
+SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor)
+    : SoftSpheres(std::move(room), std::move(centre), std::move(factor), {}) {
+  sort_in_space(room_, centre_, factor_);
+}
+
+SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor,
+                         std::vector<Obstacle> obstacles)
+    : room_(std::move(room)),
+      factor_(std::move(factor)),
+      obstacles_(std::move(obstacles)),
+      centre_(std::move(centre)) {
+  largest_factor_ = factor_.empty() ? 1.0 : *std::max_element(factor_.begin(), factor_.end());
+  for (const Obstacle &o : obstacles_)
+    largest_factor_ = std::max(largest_factor_, o.factor);
+  rows_ = number_of_blocks(size(), soft_pack) * soft_pack;
+  velocity_.resize(rows_), force_.resize(rows_), outside_.resize(rows_);
+  way_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need some radius
+  reach_.assign(size(), first_reach);
+  sums_.resize(number_of_blocks(size()));
 }
 
 void SoftSpheres::set_scale(double scale) {
   scale_ = scale;
-  for (std::size_t i = 0; i < size(); ++i)
-    ball_[i].radius = scale * factor_[i];
-  move_images();
-  for (BlockSums &s : sums_)
-    s.room = -1;
+  lists_are_good_ = false;
 }
 
 std::vector<Vector3> SoftSpheres::centres() const {
@@ -110,121 +122,82 @@ std::vector<Vector3> SoftSpheres::centres() const {
   return all;
 }
 
-// What is nearer to a face than a partner can be stands once more beyond the opposite one, in edges and
-// corners too.
-void SoftSpheres::make_images() {
-  const double reach = 2 * (scale_ * largest_factor_ + *std::max_element(reach_.begin(), reach_.end()));
-  const Vector3 period = periods(room_.shape);
-  const BoundingBox box = bounding_box(room_.shape);
-  owner_.clear(), shift_.clear();
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Vector3 at = within(room_.shape, place(i));
-    ball_[i].x = at.x, ball_[i].y = at.y, ball_[i].z = at.z;
-    int from[3], to[3];
-    for (int k = 0; k < 3; ++k) {
-      from[k] = at[k] > box.high[k] - reach ? -1 : 0;
-      to[k] = at[k] < box.low[k] + reach ? 1 : 0;
-    }
-    for (int x = from[0]; x <= to[0]; ++x)
-      for (int y = from[1]; y <= to[1]; ++y)
-        for (int z = from[2]; z <= to[2]; ++z) {
-          if (x == 0 && y == 0 && z == 0) continue;
-          owner_.push_back(static_cast<int>(i));
-          shift_.push_back({x * period.x, y * period.y, z * period.z});
-        }
-  }
-  ball_.resize(rows_ + 1 + owner_.size());
-  move_images();
-}
-
-void SoftSpheres::move_images() {
-  for_each(shift_.size(), [&](std::size_t k) {
-    const Ball &b = ball_[static_cast<std::size_t>(owner_[k])];
-    const Vector3 &s = shift_[k];
-    ball_[rows_ + 1 + k] = {b.radius, b.x + s.x, b.y + s.y, b.z + s.z};
-  });
-}
-
 void SoftSpheres::choose_reach() {
-  if (reach_.empty()) {
-    reach_.assign(size(), first_reach);
-    return;
-  }
+  if (since_build_ == 0) return;
   std::vector<double> moved(size());
-  for_each(size(), [&](std::size_t i) { moved[i] = norm(place(i) - centre_at_build_[i]); });
+  for_each(size(), [&](std::size_t i) { moved[i] = norm(way(i)); });
   const double mean = std::accumulate(moved.begin(), moved.end(), 0.0) / static_cast<double>(size());
-  const double longer =
-      std::min(wanted_life / static_cast<double>(std::max(since_build_, 1L)), mean_reach / (mean + tiny));
+  const double longer = std::min(wanted_life / static_cast<double>(since_build_), mean_reach / (mean + tiny));
   for_each(size(), [&](std::size_t i) {
     reach_[i] = std::clamp(longer * std::max(moved[i], spare * mean),
                            std::max(shortest_reach, forgotten * reach_[i]), longest_reach);
   });
 }
 
+void SoftSpheres::make_balls() {
+  balls_.resize(size());
+  for_each(size(), [&](std::size_t i) {
+    balls_[i] = {centre_[i], scale_ * factor_[i], reach_[i], static_cast<int>(i)};
+  });
+  for (std::size_t k = 0; k < obstacles_.size(); ++k)
+    balls_.push_back({obstacles_[k].centre, scale_ * obstacles_[k].factor, 0, static_cast<int>(rows_ + k)});
+  if (!room_.repeats) return;
+  const double farthest = *std::max_element(reach_.begin(), reach_.end());
+  const double reach = 2 * (scale_ * largest_factor_ + farthest);
+  for (std::size_t b = 0, inside = balls_.size(); b < inside; ++b)
+    for_each_image(room_.shape, balls_[b].centre, reach, [&](const Vector3 &shift) {
+      balls_.push_back(balls_[b]);
+      balls_.back().centre += shift;
+    });
+}
+
+// Ways begin anew here, so that they stay short.
 void SoftSpheres::find_partners() {
   choose_reach();
   since_build_ = 0;
-  if (room_.repeats) make_images();
-  partners_.build({ball_.data(), size(), rows_ + 1, ball_.size(), owner_.data(), reach_.data()});
-  near_wall_.clear();
-  centre_at_build_.resize(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    centre_at_build_[i] = place(i);
-    if (!room_.repeats && wall_clearance(room_.shape, place(i)) < ball_[i].radius + 2 * reach_[i])
-      near_wall_.push_back(static_cast<int>(i));
-  }
-  scale_at_build_ = scale_;
-  for (std::size_t b = 0; b < sums_.size(); ++b)
-    sums_[b].room = room_of(b * block_rows, std::min(size(), (b + 1) * block_rows));
+  for_each(size(), [&](std::size_t i) {
+    centre_[i] = room_.repeats ? within(room_.shape, place(i)) : place(i);
+    way_[i] = {0, 0, 0, static_cast<float>(scale_ * factor_[i])};
+  });
+  for (std::size_t k = 0; k < obstacles_.size(); ++k)
+    way_[rows_ + k].w = static_cast<float>(scale_ * obstacles_[k].factor);
+  make_balls();
+  find_soft_partners(balls_, size(), partners_);
+  find_walls();
+  for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
+    sums_[block].room = room_of(first, last);
+  });
+  lists_are_good_ = true;
 }
 
-// A pair off the list becomes a contact only after one end has moved, or grown, farther than its reach.
+void SoftSpheres::find_walls() {
+  walls_.clear(room_.shape);
+  for (std::size_t i = 0; i < size(); ++i) {
+    outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]);
+    if (!room_.repeats) walls_.add(static_cast<int>(i), centre_[i], scale_ * factor_[i], 2 * reach_[i]);
+  }
+}
+
+// A pair off the list becomes a contact only after one end has moved farther than its reach.
 double SoftSpheres::room_of(std::size_t first, std::size_t last) const {
-  const double growth = std::max(0.0, scale_ - scale_at_build_) * largest_factor_;
   double room = longest_reach;
   for (std::size_t i = first; i < last; ++i)
-    room = std::min(room, reach_[i] - growth - norm(place(i) - centre_at_build_[i]));
+    room = std::min(room, reach_[i] - norm(way(i)));
   return room;
 }
 
 bool SoftSpheres::partners_are_stale() {
-  if (partners_.first.empty()) return true;
-  for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
-    double &room = sums_[block].room;
-    if (room <= 0) room = room_of(first, last);
-  });
-  return std::any_of(sums_.begin(), sums_.end(), [](const BlockSums &s) { return s.room <= 0; });
-}
-
-template <class Touch>
-Vector3 SoftSpheres::wall_force(std::size_t i, const Touch &touch) const {
-  const Shape &shape = room_.shape;
-  const double half_height = 0.5 * shape.height, r = ball_[i].radius;
-  const Vector3 c = place(i);
-  Vector3 f;
-  f.z = squeeze(c.z - half_height, r, half_height, touch);
-  if (shape.kind == ShapeKind::box) {
-    f.x = squeeze(c.x, r, 0.5 * shape.width_x, touch);
-    f.y = squeeze(c.y, r, 0.5 * shape.width_y, touch);
-    return f;
+  if (!lists_are_good_) return true;
+  for (std::size_t b = 0; b < sums_.size(); ++b) {
+    double &room = sums_[b].room;
+    if (room <= 0) room = room_of(b * block_rows, std::min(size(), (b + 1) * block_rows));
+    if (room <= 0) return true;
   }
-  const double across = c.x * c.x + c.y * c.y, inner = shape.radius - r;
-  if (inner > 0 && across <= inner * inner) return f;
-  const double distance = std::sqrt(across), force = squeeze(distance, r, shape.radius, touch);
-  if (distance > 0) f.x = force * c.x / distance, f.y = force * c.y / distance;
-  return f;
+  return false;
 }
 
 kernels::SoftColumns SoftSpheres::columns() {
-  return {ball_.data(),
-          force_.data(),
-          velocity_.data(),
-          press_.empty() ? nullptr : press_.data(),
-          partners_.partner.data(),
-          partners_.first.data(),
-          partners_.earlier.data(),
-          force_square_.data(),
-          speed_square_.data()};
+  return {way_.data(), velocity_.data(), force_.data(), outside_.data()};
 }
 
 // Forces, and the squares that a step downhill with `next_step` needs.
@@ -232,138 +205,146 @@ void SoftSpheres::compute_forces(double next_step) {
   if (partners_are_stale()) find_partners();
   ++since_build_;
   const kernels::SoftColumns c = columns();
-  for_each_block(
-      rows_ / soft_pack,
-      [&](std::size_t first, std::size_t last, std::size_t block) {
-        BlockSums &sums = sums_[block];
-        sums.contacts = best().add_forces(c, first, last);
-        const auto touch = [&](double overlap) { sums.contacts.overlap += overlap, ++sums.contacts.number; };
-        const auto from = std::lower_bound(near_wall_.begin(), near_wall_.end(), soft_pack * first);
-        for (auto w = from; w != near_wall_.end() && *w < static_cast<int>(soft_pack * last); ++w)
-          force_[static_cast<std::size_t>(*w)] += wall_force(static_cast<std::size_t>(*w), touch);
-        sums.power = best().squares(c, next_step, first, last);
-      },
-      packs_of_block);
-  sum_squares();
+  for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
+    walls_.for_each_row(first, last,
+                        [&](std::size_t i) { outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]); });
+    sums_[block].of_walls = walls_.add_forces(first, last, way_.data(), outside_.data());
+    sums_[block].of_kernel = best().add_forces(c, partners_[block].lists(), static_cast<float>(next_step));
+  });
+  add_up();
 }
 
-void SoftSpheres::compute_squares(double next_step) {
-  const kernels::SoftColumns c = columns();
-  for_each_block(
-      rows_ / soft_pack,
-      [&](std::size_t first, std::size_t last, std::size_t block) {
-        sums_[block].power = best().squares(c, next_step, first, last);
-      },
-      packs_of_block);
-  sum_squares();
-}
-
-// One after the other, as the places depend on their last bit.
-void SoftSpheres::sum_squares() {
-  push_ = speed_ = 0;
-  for (std::size_t i = 0; i < size(); ++i)
-    push_ += force_square_[i], speed_ += speed_square_[i];
-  residual_ = size() == 0 ? 0 : std::sqrt(push_ / static_cast<double>(size()));
-}
-
-// Contacts one after the other, those of pairs before those of walls. Pairs on the list that do not touch add
-// nothing, so that the sums do not know how many of them there are.
-Overlaps SoftSpheres::exact_overlaps() const {
-  Overlaps now;
-  const auto touch = [&](double overlap) {
-    ++now.contacts;
-    now.mean += overlap; // the sum, divided below
-    now.max = std::max(now.max, overlap);
-  };
-  for (std::size_t i = 0; i < size(); ++i) {
-    const std::size_t pack = i / soft_pack, end = partners_.first[pack + 1];
-    std::size_t k = partners_.first[pack] + i % soft_pack;
-    for (k += soft_pack * static_cast<std::size_t>(partners_.earlier[i]); k < end; k += soft_pack) {
-      const Ball &a = ball_[i], &b = ball_[static_cast<std::size_t>(partners_.partner[k])];
-      const double distance = norm(Vector3{b.x, b.y, b.z} - place(i));
-      if (a.radius + b.radius - distance > 0) touch(a.radius + b.radius - distance);
-    }
+// Block after block, as places depend on the last bit. A pair is counted at both of its ends, a wall at one.
+void SoftSpheres::add_up() {
+  total_ = {};
+  double overlap = 0, contacts = 0;
+  for (const BlockSums &s : sums_) {
+    total_.push += s.of_kernel.push, total_.speed += s.of_kernel.speed, total_.power += s.of_kernel.power;
+    overlap += 0.5 * s.of_kernel.overlap + s.of_walls.overlap;
+    contacts += 0.5 * s.of_kernel.contacts + s.of_walls.contacts;
   }
-  now.pairs = now.contacts;
-  for (const int w : near_wall_)
-    wall_force(static_cast<std::size_t>(w), touch);
+  mean_overlap_ = contacts > 0 ? overlap / contacts : 0;
+  residual_ = size() == 0 ? 0 : std::sqrt(total_.push / static_cast<double>(size()));
+}
+
+// visit(row, overlap) for both ends of every pair that touches, as things were when the lists were made.
+template <class Visit>
+void SoftSpheres::for_each_touch(const Visit &visit) const {
+  for (const SoftPartners &block : partners_) {
+    const float *apart = block.apart.data();
+    const unsigned *partner = block.partner.data();
+    for (std::size_t pack = 0; pack < block.steps.size(); ++pack)
+      for (int k = 0; k < block.steps[pack]; ++k, partner += soft_pack, apart += 4 * soft_pack)
+        for (std::size_t l = 0; l < soft_pack; ++l) {
+          const double outside = static_cast<double>(apart[3 * soft_pack + l]);
+          if (!(outside < 0)) continue;
+          const Vector3 d{apart[l], apart[soft_pack + l], apart[2 * soft_pack + l]};
+          const int row = block.row[soft_pack * pack + l];
+          const double reach = static_cast<double>(way_[static_cast<std::size_t>(row)].w) +
+                               static_cast<double>(way_[partner[l] / sizeof(SoftRow)].w);
+          visit(static_cast<std::size_t>(row), -outside / (reach + norm(d)));
+        }
+  }
+}
+
+Overlaps SoftSpheres::overlaps() {
+  lists_are_good_ = false;
+  compute_forces(first_step);
+  Overlaps now;
+  std::size_t ends = 0;
+  double sum = 0;
+  for_each_touch([&](std::size_t, double overlap) {
+    ++ends, sum += overlap;
+    now.max = std::max(now.max, overlap);
+  });
+  now.pairs = now.contacts = ends / 2;
+  now.mean = 0.5 * sum;
+  for (const BlockSums &s : sums_) {
+    now.contacts += static_cast<std::size_t>(s.of_walls.contacts), now.mean += s.of_walls.overlap;
+    now.max = std::max(now.max, s.of_walls.largest);
+  }
   if (now.contacts > 0) now.mean /= static_cast<double>(now.contacts);
   now.residual_force = residual_;
   return now;
 }
 
-Overlaps SoftSpheres::overlaps() {
-  compute_forces(first_step);
-  return exact_overlaps();
+bool SoftSpheres::touches_wall(std::size_t i) const {
+  return !room_.repeats && wall_clearance(room_.shape, centre_[i]) < scale_ * factor_[i];
 }
 
-std::size_t SoftSpheres::press_loose_spheres(double force, Random &random) {
-  compute_forces(first_step); // the list of pairs must be of now
-  press_.assign(rows_ + 1, Vector3{});
-  std::size_t loose = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const std::size_t pack = i / soft_pack;
-    int contacts = !room_.repeats && wall_clearance(room_.shape, place(i)) < ball_[i].radius ? 1 : 0;
-    for (std::size_t k = partners_.first[pack] + i % soft_pack; k < partners_.first[pack + 1];
-         k += soft_pack) {
-      const Ball &b = ball_[static_cast<std::size_t>(partners_.partner[k])];
-      const double reach = ball_[i].radius + b.radius;
-      if (reach > 0 && norm_squared(place(i) - Vector3{b.x, b.y, b.z}) < reach * reach) ++contacts;
-    }
-    if (contacts >= 4) continue;
-    press_[i] = force * random.direction();
-    ++loose;
-  }
+std::vector<std::size_t> SoftSpheres::loose_spheres() const {
+  std::vector<int> contacts(size(), 0);
+  for_each_touch([&](std::size_t row, double) { ++contacts[row]; });
+  std::vector<std::size_t> loose;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (contacts[i] + (touches_wall(i) ? 1 : 0) < 4) loose.push_back(i);
   return loose;
 }
 
-bool SoftSpheres::at_rest(double tolerance, double floor) {
-  double overlap = 0, contacts = 0;
-  for (const BlockSums &s : sums_)
-    overlap += s.contacts.overlap, contacts += s.contacts.number;
-  const double limit = std::max(contacts > 0 ? tolerance * overlap / contacts : 0.0, floor);
-  if (std::abs(residual_ - limit) > relative_doubt * limit) return residual_ <= limit;
-  return residual_ <= std::max(tolerance * exact_overlaps().mean, floor);
+std::vector<std::size_t> SoftSpheres::push_loose_spheres(double force, Random &random) {
+  find_partners();
+  std::vector<std::size_t> loose = loose_spheres();
+  press_.assign(size(), Vector3{});
+  for (const std::size_t i : loose)
+    press_[i] = force * random.direction();
+  lists_are_good_ = false;
+  return loose;
 }
 
-bool SoftSpheres::goes_downhill() const {
-  double power = 0, size_of_terms = 0;
-  for (const BlockSums &s : sums_)
-    power += s.power.sum, size_of_terms += s.power.size;
-  if (std::abs(power) > round_off * static_cast<double>(size()) * size_of_terms) return power > 0;
-  power = 0;
-  for (std::size_t i = 0; i < size(); ++i)
-    power += dot(force_[i], velocity_[i]);
-  return power > 0;
+std::size_t SoftSpheres::seat_loose_spheres(double force, Random &random) {
+  const std::vector<std::size_t> loose = push_loose_spheres(force, random);
+  if (loose.empty()) return 0;
+  std::vector<Vector3> centre;
+  std::vector<double> factor;
+  std::vector<Obstacle> held;
+  for (std::size_t i = 0, k = 0; i < size(); ++i)
+    if (k < loose.size() && loose[k] == i)
+      centre.push_back(centre_[i]), factor.push_back(factor_[i]), ++k;
+    else
+      held.push_back({centre_[i], factor_[i]});
+  SoftSpheres alone(room_, std::move(centre), std::move(factor), std::move(held));
+  alone.set_scale(scale_);
+  for (const double push : {std::max(swift_push, force), force}) {
+    alone.press_.clear();
+    for (const std::size_t i : loose)
+      alone.press_.push_back((push / force) * press_[i]);
+    alone.lists_are_good_ = false;
+    alone.relax(seated, 0, most_seating);
+  }
+  for (std::size_t k = 0; k < loose.size(); ++k)
+    centre_[loose[k]] = alone.place(k);
+  return loose.size();
+}
+
+bool SoftSpheres::at_rest(double tolerance, double floor) const {
+  return residual_ <= std::max(tolerance * mean_overlap_, floor);
 }
 
 // Half of the last drift is taken back, and everything stands still.
 void SoftSpheres::step_back(double step) {
+  const float half = static_cast<float>(0.5 * step);
   for_each(size(), [&](std::size_t i) {
-    const Vector3 at = place(i) - (0.5 * step) * velocity_[i];
-    ball_[i].x = at.x, ball_[i].y = at.y, ball_[i].z = at.z;
-    velocity_[i] = Vector3{};
+    SoftRow &u = way_[i], &v = velocity_[i];
+    u.x -= half * v.x, u.y -= half * v.y, u.z -= half * v.z;
+    v = SoftRow{};
   });
   for (BlockSums &s : sums_)
     s.room -= 0.5 * step * s.fastest;
 }
 
 void SoftSpheres::drift(double step, double mixing) {
-  const kernels::SoftMove by{step, mixing, push_ > 0 ? mixing * std::sqrt(speed_ / push_) : 0.0};
+  const double along = total_.push > 0 ? mixing * std::sqrt(total_.speed / total_.push) : 0.0;
+  const kernels::SoftMove by{static_cast<float>(step), static_cast<float>(mixing), static_cast<float>(along)};
   const kernels::SoftColumns c = columns();
-  for_each_block(
-      rows_ / soft_pack,
-      [&](std::size_t first, std::size_t last, std::size_t block) {
-        BlockSums &sums = sums_[block];
-        sums.fastest = std::sqrt(best().drift(c, by, first, last));
-        sums.room -= step * sums.fastest;
-      },
-      packs_of_block);
-  move_images();
+  for_each_block(rows_, [&](std::size_t first, std::size_t last, std::size_t block) {
+    BlockSums &sums = sums_[block];
+    sums.fastest = rounded_up * std::sqrt(static_cast<double>(best().drift(c, by, first, last)));
+    sums.room -= step * sums.fastest;
+  });
 }
 
 long SoftSpheres::relax(double tolerance, double floor, long max_iterations) {
-  std::fill(velocity_.begin(), velocity_.end(), Vector3{});
+  std::fill(velocity_.begin(), velocity_.end(), SoftRow{});
   double step = first_step, mixing = first_mixing;
   int downhill = 0;
   for (long iteration = 0; iteration < max_iterations; ++iteration) {
@@ -371,7 +352,7 @@ long SoftSpheres::relax(double tolerance, double floor, long max_iterations) {
     const double next_step = grows ? std::min(step * step_growth, largest_step) : step;
     compute_forces(next_step);
     if (at_rest(tolerance, floor)) return iteration;
-    if (goes_downhill()) {
+    if (total_.power > 0) {
       ++downhill;
       step = next_step;
       if (grows) mixing *= mixing_decay;
@@ -379,7 +360,7 @@ long SoftSpheres::relax(double tolerance, double floor, long max_iterations) {
       step_back(step);
       if (iteration > 0) step = std::max(step * step_cut, smallest_step);
       mixing = first_mixing, downhill = 0;
-      compute_squares(step);
+      total_.speed = step * step * total_.push; // of a kick from rest
     }
     drift(step, mixing);
   }

@@ -9,6 +9,7 @@
 #include "base/vector3.h"
 #include "dem/kernels/soft_kernel.h"
 #include "dem/packing/soft_partners.h"
+#include "dem/packing/soft_walls.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -30,10 +31,10 @@ struct Room {
 // Spheres of radius scale * factor[i] that repel with unit stiffness where they overlap (energy overlap^2 / 2
 // per contact). Any length unit; the mean radius should be about 1, which the search skin and the steps
 // assume. Loops use the threads of all loops; places repeat to the last bit for any number of them and on any
-// processor: forces are added in the order of the spheres, and so are the two sums that a place depends on.
+// processor.
 class SoftSpheres {
 public:
-  SoftSpheres(Room room, const std::vector<Vector3> &centre, std::vector<double> factor);
+  SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor);
 
   void set_scale(double scale);
   double scale() const { return scale_; }
@@ -42,62 +43,68 @@ public:
   // overlap, or below floor (nothing left to push), or after max_iterations. Returns the iterations used.
   long relax(double tolerance, double floor, long max_iterations);
   Overlaps overlaps();
-  // Pushes every sphere that is not held (fewer than four contacts with spheres or walls) with the given
-  // force in a direction of its own, from now on, so that relax() seats it on its neighbours: no sphere
-  // floats. Returns how many there are.
-  std::size_t press_loose_spheres(double force, Random &random);
+  // Takes every sphere that is not held (fewer than four contacts with spheres or walls) to neighbours, in a
+  // direction of its own and while all others stand still, and pushes it there with the given force from now
+  // on: after relax() no sphere floats. Returns how many there are.
+  std::size_t seat_loose_spheres(double force, Random &random);
   // In order of space, not of the constructor. Of a repeating room: within the box.
   std::vector<Vector3> centres() const;
   const std::vector<double> &factor() const { return factor_; }
 
 private:
-  // Of one block of rows, in the order of lanes: good for what allows for their round-off.
+  // Spheres that others meet and that do not move themselves.
+  struct Obstacle {
+    Vector3 centre;
+    double factor;
+  };
   struct BlockSums {
-    kernels::SoftContacts contacts;
-    kernels::SoftPower power;
+    kernels::SoftSums of_kernel;
+    WallSums of_walls;
     double fastest = 0;
-    double room = -1; // how far its spheres may still go before each is looked at
+    double room = 0; // how far its spheres may still go before each is looked at
   };
 
+  SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor,
+              std::vector<Obstacle> obstacles);
   std::size_t size() const { return factor_.size(); }
-  Vector3 place(std::size_t i) const { return {ball_[i].x, ball_[i].y, ball_[i].z}; }
-  void sort_in_space(std::vector<Vector3> &centre);
-  void make_images();
-  void move_images();
+  Vector3 way(std::size_t i) const { return {way_[i].x, way_[i].y, way_[i].z}; }
+  Vector3 place(std::size_t i) const { return centre_[i] + way(i); }
   void choose_reach();
   void find_partners();
+  void make_balls();
+  void find_walls();
   bool partners_are_stale();
   double room_of(std::size_t first, std::size_t last) const;
   void compute_forces(double next_step);
-  void compute_squares(double next_step);
-  void sum_squares();
-  bool at_rest(double tolerance, double floor);
-  bool goes_downhill() const;
+  void add_up();
+  bool at_rest(double tolerance, double floor) const;
   void step_back(double step);
   void drift(double step, double mixing);
-  Overlaps exact_overlaps() const;
-  template <class Touch>
-  Vector3 wall_force(std::size_t i, const Touch &touch) const;
+  std::vector<std::size_t> loose_spheres() const;
+  std::vector<std::size_t> push_loose_spheres(double force, Random &random);
+  bool touches_wall(std::size_t i) const;
+  template <class Visit>
+  void for_each_touch(const Visit &visit) const;
   kernels::SoftColumns columns();
 
   Room room_;
   double scale_ = 1, largest_factor_ = 1;
   std::vector<double> factor_;
-  // Spheres, filled up to whole packs; one that touches none; images. Other columns have the first and a
-  // spare row, so that vectors can be read as four doubles.
-  std::vector<kernels::Ball> ball_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<Vector3> centre_; // when the lists were made
+  std::vector<Vector3> press_;  // a constant force on each, or empty
+  // Spheres, filled up to whole packs; of ways also obstacles, which have none. Outside: walls and press.
+  std::vector<kernels::SoftRow> way_, velocity_, force_, outside_;
   std::size_t rows_ = 0; // whole packs
-  std::vector<int> owner_;
-  std::vector<Vector3> shift_; // of images
-  std::vector<Vector3> press_, force_, velocity_, centre_at_build_;
-  std::vector<double> force_square_, speed_square_;
-  SoftPartners partners_;
-  std::vector<int> near_wall_;
+  std::vector<SoftPartners> partners_;
+  std::vector<SoftBall> balls_; // of the last search; kept for their memory
+  SoftWalls walls_;
   std::vector<double> reach_; // how far each sphere may go until partners are looked for again
-  double scale_at_build_ = 0;
+  bool lists_are_good_ = false;
   long since_build_ = 0;
   std::vector<BlockSums> sums_;
-  double residual_ = 0, push_ = 0, speed_ = 0; // of the last forces: squares summed in order
+  kernels::SoftSums total_; // of the last forces
+  double mean_overlap_ = 0, residual_ = 0;
 };
 
 } // namespace platen::dem

@@ -117,6 +117,12 @@ TEST(GrowthPacking, grows_one_sphere_to_fill_its_box) {
   EXPECT_NEAR(s.centre[0].x, 0.0, 1e-3);
 }
 
+TEST(GrowthPacking, grows_one_sphere_to_fill_its_cylinder) {
+  const Specimen s = random_close_packing_of(cylinder(1, 4), 1, 0.25, 1);
+  EXPECT_NEAR(s.radius[0], 1.0, 1e-3);
+  EXPECT_NEAR(std::hypot(s.centre[0].x, s.centre[0].y), 0.0, 1e-3);
+}
+
 TEST(GrowthPacking, repeats_bit_for_bit_from_its_seed) {
   const Shape shape = cylinder(5, 10);
   const Specimen a = random_close_packing(shape, 1, 0.25, 11), b = random_close_packing(shape, 1, 0.25, 11),

@@ -1,5 +1,5 @@
-// Soft spheres on their way to rest: places are those of a plain loop over all pairs, to the last bit, on any
-// number of threads and any processor.
+// Soft spheres on their way to rest: the way is that of a plain loop over all pairs in double precision, and
+// the same to the last bit on any number of threads and any processor.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include "dem/instruction_set.h"
 #include "dem/packing/growth.h"
 #include "dem/packing/periodic_growth.h"
+#include "dem/packing/point_grid.h"
+#include "dem/packing/soft_partners.h"
 #include "dem/packing/soft_spheres.h"
 #include "dem/packing/tiled.h"
 
@@ -100,22 +102,60 @@ TEST(SoftSpheres, go_where_a_plain_loop_over_all_pairs_takes_them) {
   Random random(3);
   std::vector<Vector3> centre;
   std::vector<double> factor;
-  while (centre.size() < 150) { // 18 packs of eight and six more
+  while (centre.size() < 150) { // nine packs of sixteen and six more
     const Vector3 p{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 12)};
     if (wall_clearance(shape, p) < 0.5) continue;
     centre.push_back(p), factor.push_back(random.uniform(0.7, 1.3));
   }
   SoftSpheres soft({shape, false}, centre, factor);
   PlainSpheres plain(shape, soft.centres(), soft.factor());
-  for (const long iterations : {1L, 60L, 900L}) { // from its last place each time, at rest
-    soft.relax(0, 0, iterations);
-    plain.relax(iterations);
+  const auto farthest_apart = [&] {
     const std::vector<Vector3> places = soft.centres();
+    double most = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        ASSERT_EQ(places[i][k], plain.centre()[i][k])
-            << "sphere " << i << ", " << iterations << " iterations";
+      most = std::max(most, norm(places[i] - plain.centre()[i]));
+    return most;
+  };
+  // From its last place each time, at rest. Single precision is off by some 1e-7 of each way.
+  soft.relax(0, 0, 1), plain.relax(1);
+  EXPECT_LT(farthest_apart(), 1e-6);
+  soft.relax(0, 0, 60), plain.relax(60);
+  EXPECT_LT(farthest_apart(), 1e-4);
+}
+
+TEST(SoftSpheres, come_to_rest_far_below_what_single_precision_makes_of_places) {
+  // Places of some hundred radii are good to 1e-5 in single precision; overlaps and forces here are smaller.
+  const Shape shape = cylinder(4, 200);
+  Random random(5);
+  std::vector<Vector3> centre;
+  while (centre.size() < 1500) {
+    const Vector3 p{random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(0, 200)};
+    if (wall_clearance(shape, p) > 0.5) centre.push_back(p);
   }
+  SoftSpheres soft({shape, false}, centre, std::vector<double>(centre.size(), 1.0));
+  soft.relax(1e-5, 0, 20000);
+  const Overlaps now = soft.overlaps();
+  const std::vector<Vector3> at = soft.centres();
+  // The same force in double precision.
+  double squares = 0;
+  PointGrid filled({-4, -4, 0}, {4, 4, 200}, 2.0);
+  for (const Vector3 &p : at)
+    filled.add(p);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    Vector3 force;
+    filled.for_each_near(at[i], 2.0, [&](int j) {
+      const Vector3 d = at[static_cast<std::size_t>(j)] - at[i];
+      const double distance = norm(d);
+      if (static_cast<std::size_t>(j) != i && distance < 2) force -= ((2 - distance) / distance) * d;
+    });
+    force.z += std::max(0.0, 1 - at[i].z) - std::max(0.0, at[i].z - 199);
+    const double out = std::hypot(at[i].x, at[i].y);
+    if (out > 3) force.x -= (out - 3) * at[i].x / out, force.y -= (out - 3) * at[i].y / out;
+    squares += norm_squared(force);
+  }
+  const double residual = std::sqrt(squares / static_cast<double>(at.size()));
+  EXPECT_LT(residual, 2e-5 * now.mean);
+  EXPECT_NEAR(residual, now.residual_force, 0.1 * residual);
 }
 
 TEST(SoftSpheres, feel_their_nearest_images_through_faces_edges_and_corners) {
@@ -152,41 +192,42 @@ TEST(SoftSpheres, feel_their_nearest_images_through_faces_edges_and_corners) {
     Vector3 moved = after[i] - before[i];
     for (int k = 0; k < 3; ++k)
       moved[k] -= period[k] * std::round(moved[k] / period[k]);
-    EXPECT_LT(norm(100 * moved - force), 1e-11) << "sphere " << i;
+    EXPECT_LT(norm(100 * moved - force), 1e-5) << "sphere " << i; // single precision
   }
-  EXPECT_LT(norm(total), 1e-11); // and nothing pulls the whole
+  EXPECT_LT(norm(total), 1e-11); // nothing pulls the whole
   for (const int contacts : through)
     EXPECT_GT(contacts, 0);
 }
 
 struct Columns {
-  std::vector<kernels::Ball> ball;
-  std::vector<Vector3> force, velocity, press;
-  std::vector<double> force_square, speed_square;
-  kernels::SoftContacts contacts;
+  std::vector<kernels::SoftRow> way, velocity, force, outside;
+  kernels::SoftSums sums;
+  float fastest = 0;
 };
 
-// Two packs of spheres anywhere, with one kernel set.
-Columns by_kernels(kernels::SoftForces add_forces, kernels::SoftSquares squares, kernels::SoftDrift drift) {
+// Three packs of spheres anywhere, with one kernel set.
+Columns by_kernels(kernels::SoftForces add_forces, kernels::SoftDrift drift) {
+  constexpr std::size_t n = 3 * kernels::soft_pack;
   Columns c;
   Random random(8);
-  c.ball.resize(17);
-  c.force.resize(17), c.velocity.resize(17), c.press.resize(17);
-  c.force_square.resize(16), c.speed_square.resize(16);
-  for (std::size_t i = 0; i < 16; ++i) {
-    c.ball[i] = {random.uniform(0.5, 1.5), random.uniform(0, 3), random.uniform(0, 3), random.uniform(0, 3)};
-    c.velocity[i] = random.direction(), c.press[i] = 0.1 * random.direction();
+  const auto row = [](const Vector3 &v, double w) {
+    return kernels::SoftRow{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+                            static_cast<float>(w)};
+  };
+  std::vector<SoftBall> balls;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3 at{random.uniform(0, 3), random.uniform(0, 3), random.uniform(0, 3)};
+    balls.push_back({at, random.uniform(0.5, 1.5), 0.1, static_cast<int>(i)});
+    c.way.push_back(row(0.05 * random.direction(), balls[i].radius));
+    c.velocity.push_back(row(random.direction(), 0));
+    c.outside.push_back(row(0.1 * random.direction(), 0));
   }
-  c.ball[16].radius = -1e300;
-  SoftPartners partners;
-  const std::vector<double> reach(16, 0.1);
-  partners.build({c.ball.data(), 16, 17, 17, nullptr, reach.data()});
-  const kernels::SoftColumns columns{c.ball.data(),           c.force.data(),          c.velocity.data(),
-                                     c.press.data(),          partners.partner.data(), partners.first.data(),
-                                     partners.earlier.data(), c.force_square.data(),   c.speed_square.data()};
-  c.contacts = add_forces(columns, 0, 2);
-  squares(columns, 0.37, 0, 2);
-  drift(columns, {0.37, 0.09, 0.2}, 0, 2);
+  c.force.resize(n);
+  std::vector<SoftPartners> blocks;
+  find_soft_partners(balls, n - 3, blocks); // of the last pack not all
+  const kernels::SoftColumns columns{c.way.data(), c.velocity.data(), c.force.data(), c.outside.data()};
+  c.sums = add_forces(columns, blocks[0].lists(), 0.37F);
+  c.fastest = drift(columns, {0.37F, 0.09F, 0.2F}, 0, n);
   return c;
 }
 
@@ -196,22 +237,47 @@ void expect_same(const Columns &a, const Columns &b) {
   };
   EXPECT_TRUE(bytes(a.force, b.force));
   EXPECT_TRUE(bytes(a.velocity, b.velocity));
-  EXPECT_TRUE(bytes(a.ball, b.ball));
-  EXPECT_TRUE(bytes(a.force_square, b.force_square));
-  EXPECT_TRUE(bytes(a.speed_square, b.speed_square));
-  EXPECT_EQ(a.contacts.number, b.contacts.number);
-  EXPECT_EQ(a.contacts.largest, b.contacts.largest);
+  EXPECT_TRUE(bytes(a.way, b.way));
+  EXPECT_EQ(a.sums.overlap, b.sums.overlap);
+  EXPECT_EQ(a.sums.contacts, b.sums.contacts);
+  EXPECT_EQ(a.sums.push, b.sums.push);
+  EXPECT_EQ(a.sums.speed, b.sums.speed);
+  EXPECT_EQ(a.sums.power, b.sums.power);
+  EXPECT_EQ(a.fastest, b.fastest);
 }
 
 TEST(SoftSpheres, go_the_same_way_on_every_instruction_set) {
   using namespace kernels;
-  const Columns baseline = by_kernels(add_soft_forces_baseline, soft_squares_baseline, move_soft_baseline);
-  EXPECT_GT(baseline.contacts.number, 30);
+  const Columns baseline = by_kernels(add_soft_forces_baseline, move_soft_baseline);
+  EXPECT_GT(baseline.sums.contacts, 60);
   const InstructionSet best = best_instruction_set();
   if (best == InstructionSet::baseline) GTEST_SKIP() << "this processor has the baseline alone";
-  expect_same(baseline, by_kernels(add_soft_forces_avx2, soft_squares_avx2, move_soft_avx2));
+  expect_same(baseline, by_kernels(add_soft_forces_avx2, move_soft_avx2));
   if (best == InstructionSet::avx512)
-    expect_same(baseline, by_kernels(add_soft_forces_avx512, soft_squares_avx512, move_soft_avx512));
+    expect_same(baseline, by_kernels(add_soft_forces_avx512, move_soft_avx512));
+}
+
+TEST(SoftSpheres, go_to_seats_alone_when_loose) {
+  // Eight balls stand in the corners of a cube, held by its walls and each other; one is loose in the middle.
+  const Shape cube = box(4.05, 4.05, 4.05);
+  std::vector<Vector3> centre{{0, 0, 2.025}};
+  std::vector<double> factor{0.65}; // .73 would meet all eight
+  for (const double x : {-1.02, 1.02})
+    for (const double y : {-1.02, 1.02})
+      for (const double z : {1.005, 3.045})
+        centre.push_back({x, y, z}), factor.push_back(1.021);
+  SoftSpheres soft({cube, false}, centre, factor);
+  soft.relax(1e-4, 0, 20000);
+  Random random(2);
+  EXPECT_EQ(soft.seat_loose_spheres(1e-4, random), 1u);
+  soft.relax(1e-3, 0, 20000);
+  const std::vector<Vector3> at = soft.centres();
+  std::size_t loose = 0, touched = 0;
+  while (soft.factor()[loose] != 0.65)
+    ++loose;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    touched += i != loose && norm(at[i] - at[loose]) < soft.factor()[i] + 0.65 ? 1 : 0;
+  EXPECT_GE(touched, 3u);
 }
 
 TEST(SoftSpheres, go_the_same_way_on_any_number_of_threads) {

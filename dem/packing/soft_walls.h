@@ -1,0 +1,58 @@
+// The frictionless walls of a room, as soft spheres meet them (dem/packing/soft_spheres.h). Lengths in mean
+// radii.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/vector3.h"
+#include "dem/kernels/soft_kernel.h"
+#include "dem/packing/specimen.h"
+
+namespace platen::dem {
+
+// Overlaps with walls: unit stiffness.
+struct WallSums {
+  double overlap = 0, contacts = 0, largest = 0;
+};
+
+// Spheres near walls, flat and round ones apart. As of pairs, what is known of each is how things were when
+// the lists were made, and the way since (dem/kernels/soft_kernel.h).
+class SoftWalls {
+public:
+  // Forgets all. Cylinders and boxes.
+  void clear(const Shape &shape);
+  // Rows ascending; the walls that this one may touch once it has gone `reach` are listed.
+  void add(int row, const Vector3 &centre, double radius, double reach);
+  // Adds to `force` of rows [first, last), that have gone these ways since.
+  WallSums add_forces(std::size_t first, std::size_t last, const kernels::SoftRow *way,
+                      kernels::SoftRow *force) const;
+  // visit(row) for every one of [first, last) on the lists, once or more.
+  template <class Visit>
+  void for_each_row(std::size_t first, std::size_t last, const Visit &visit) const {
+    for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p)
+      visit(static_cast<std::size_t>(p->row));
+    for (const Round *r = begin(round_, first), *end = begin(round_, last); r != end; ++r)
+      visit(static_cast<std::size_t>(r->row));
+  }
+
+private:
+  struct Plane {
+    int row;
+    float x, y, z; // inwards
+    double gap;
+  };
+  struct Round {
+    int row;
+    float x, y, inner; // where the surface of the sphere meets the wall's
+    float outside;     // square of the distance from the axis less that of `inner`
+  };
+  template <class Wall>
+  static const Wall *begin(const std::vector<Wall> &walls, std::size_t row);
+
+  Shape shape_;
+  std::vector<Plane> flat_;
+  std::vector<Round> round_;
+};
+
+} // namespace platen::dem
