@@ -12,3 +12,9 @@ set(PLATEN_STUDY_SOURCES
   study/runs.cc
   study/study_results.cc
   study/tables.cc)
+
+# What runs tell of a figure and which runs are the cheapest: statistics alone.
+set(PLATEN_TARGET_STATISTICS_SOURCES
+  study/target_decision.cc
+  study/target_model.cc
+  study/target_plan.cc)
