@@ -11,7 +11,12 @@ set(PLATEN_STUDY_SOURCES
   study/run_study.cc
   study/runs.cc
   study/study_results.cc
-  study/tables.cc)
+  study/tables.cc
+  study/target_app.cc
+  study/target_cases.cc
+  study/target_figures.cc
+  study/target_report.cc
+  study/target_study.cc)
 
 # What runs tell of a figure and which runs are the cheapest: statistics alone.
 set(PLATEN_TARGET_STATISTICS_SOURCES
