@@ -112,7 +112,8 @@ int tell_target_plan(const TargetSetup &setup) {
     return status_done;
   }
   fmt::print("by {} runs that are there:\n{}", study.figures().made(),
-             study.decision().verdict == Verdict::more ? look_text(study) : text_of(study));
+             study.decision().verdict == Verdict::more || !study.decision().estimate ? look_text(study)
+                                                                                     : text_of(study));
   if (study.decision().verdict == Verdict::more)
     fmt::print("  {} of the next {} runs are there; go on with {} --resume\n", there, asked, setup.command);
   return status_done;

@@ -83,8 +83,12 @@ bool TargetStudy::work(const Carry &carry, const Told &told) {
   Counts next(cases_.speeds, 0);
   std::fill_n(next.begin(), speeds_of_pilot, static_cast<std::size_t>(setup_.scene.study.target.pilot_seeds));
   do {
+    const Counts before = state_.made;
     fill_batch(next);
-    if (!carry(batch_)) return false;
+    if (!carry(batch_)) {
+      state_.made = before;
+      return false;
+    }
     state_.runs = figures_.runs();
     decision_ = decide(state_, figures_.costs(), aim(), most_per_scene(), figures_.curvature_of_scenes());
     next = decision_.next;
