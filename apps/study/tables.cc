@@ -167,6 +167,7 @@ int StudyTables::missing() const {
 Json StudyTables::cases() const {
   Json all = Json::array();
   for (std::size_t c = 0; c < cases_.size(); ++c) {
+    if (cases_[c].runs == 0) continue; // a speed that a target has not chosen
     Json one;
     one["name"] = plan_.cases[c].name;
     if (of_platens(plan_.kind)) one["surface"] = plan_.cases[c].surface;
