@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How well and how cheaply `platen-study target` keeps what it is ordered (docs/accuracy.md, "Accuracy on order").
 
-Usage: target.py BUILD FOLDER [--only small|cylinder|gain ...] [--repetitions 20] [--seeds 15] [-t 2] [--plot PNG]
+Usage: target.py BUILD FOLDER [--only small|cylinder|gain ...] [--repetitions 20] [--accuracy 5 2] [--seeds 15] [-t 2] [--plot PNG]
 
 For each subject: (a) reference runs over seeds and speeds (--seeds packings at 15, 30, 60 and 120 wave crossings, of a gain both
 scenes), whose line through 1 / N is the truth, with an interval of its own; (b) so many repetitions of each order, on seeds far
@@ -181,6 +181,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--only", nargs="+", choices=SUBJECTS, default=["cylinder", "gain"])
     parser.add_argument("--repetitions", type=int, default=20)
+    parser.add_argument("--accuracy", nargs="+", type=float, metavar="PERCENT", help="orders, in place of those of each subject")
     parser.add_argument("--seeds", type=int, default=15)
     parser.add_argument("-t", "--threads", type=int, default=2)
     parser.add_argument("--plot", type=pathlib.Path)
@@ -189,7 +190,7 @@ def main():
     truths, results = {}, []
     for subject in wishes.only:
         truths[subject] = reference(wishes.build, wishes.folder, subject, wishes.seeds, wishes.threads)
-        for accuracy in SUBJECTS[subject][3]:
+        for accuracy in [p / 100 for p in wishes.accuracy or []] or SUBJECTS[subject][3]:
             results.append(measure(wishes.build, wishes.folder, subject, accuracy, truths[subject], wishes.repetitions, wishes.threads))
             text = text_of(truths, results)
             (wishes.folder / "target.md").write_text(text)
