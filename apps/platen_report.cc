@@ -14,6 +14,7 @@
 #include "apps/report/platen_study.h"
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
+#include "apps/report/target_study.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/rank.h"
 #include "apps/scene/version.h"
@@ -55,6 +56,11 @@ void report_on(const Wishes &wishes, char **argv) {
       const report::AccuracyResults study = report::read_accuracy(wishes.folder);
       report::ensure_display(argv);
       return report::write_accuracy_report(study, pictures, out);
+    }
+    if (kind == "target") {
+      const report::TargetResults study = report::read_target(wishes.folder);
+      report::ensure_display(argv);
+      return report::write_target_report(study, pictures, out);
     }
     const report::StudyResults study = report::read_study(wishes.folder);
     report::ensure_display(argv);
@@ -100,7 +106,7 @@ int fail(const std::exception &error, int status) {
 
 int main(int argc, char **argv) {
   CLI::App app{
-      "Turns an output folder of a run, of a study of platens or accuracy, or of a calibration by a curve, "
+      "Turns an output folder of a run, of a study, or of a calibration by a curve, "
       "into pictures (PNG) and one "
       "HTML page, and "
       "compares several runs."};

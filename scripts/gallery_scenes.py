@@ -256,5 +256,10 @@ GROUPS = [
         Scene("study_quality_cylinder", f"{STUDY} accuracy", "accuracy",
               "The same for a cylinder of seven times as many spheres, where chaos is smaller and haste shows: half the "
               "speed, half the error. A hurry while it is elastic costs nothing."),
+        Scene("study_target_cylinder", f"{STUDY} target", "target",
+              "Accuracy on order: the strength for slow loading within 2 %, by the cheapest runs at several speeds; the interval "
+              "narrows with each batch."),
+        Scene("study_target_gain", f"{STUDY} target", "target",
+              "The gain of a cube by platen friction within 3 %, both platens on the same packings."),
     ]),
 ]

@@ -201,8 +201,8 @@ StudyResults read_study(const fs::path &folder) {
   const std::string kind = study.value("kind", "");
   if (kind != "friction" && kind != "slenderness")
     throw InputError(file.string() + ": is of a study of " + (kind.empty() ? "nothing" : kind) +
-                     "; pictures are drawn of studies of friction, slenderness, size, packing, rate and "
-                     "accuracy, and of single runs (" +
+                     "; pictures are drawn of studies of friction, slenderness, size, packing, rate, "
+                     "accuracy and target, and of single runs (" +
                      (folder / "runs").string() + ")");
   try {
     StudyResults results = results_of(study, folder);

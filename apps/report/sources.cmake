@@ -39,4 +39,5 @@ set(PLATEN_REPORT_SOURCES
   report/stages.cc
   report/state_listing.cc
   report/stress_flow.cc
-  report/study_curves.cc)
+  report/study_curves.cc
+  report/target_study.cc)

@@ -84,10 +84,11 @@ std::vector<SceneChange> changes_of_scene(const Scene &scene, const OutputPaths 
   return changes;
 }
 
-void require_same_scene(const Scene &scene, const OutputPaths &paths) {
-  const std::vector<SceneChange> changes = changes_of_scene(scene, paths);
-  if (!changes.empty())
-    refuse_change(scene, changes.front(), "the scene as it was, or a new run in another folder");
+void require_same_scene(const Scene &scene, const OutputPaths &paths,
+                        bool (*may_change)(const std::string &)) {
+  for (const SceneChange &change : changes_of_scene(scene, paths))
+    if (may_change == nullptr || !may_change(change.entry))
+      refuse_change(scene, change, "the scene as it was, or a new run in another folder");
 }
 
 std::vector<SceneChange> require_same_physics(const Scene &scene, const OutputPaths &paths) {

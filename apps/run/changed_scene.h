@@ -20,8 +20,10 @@ struct SceneChange {
 // In the order of the sections. Throws InputError where the folder has no scene.prm.
 std::vector<SceneChange> changes_of_scene(const Scene &scene, const OutputPaths &paths);
 
-// Throws InputError, naming the first entry that differs, where the folder was begun with another scene.
-void require_same_scene(const Scene &scene, const OutputPaths &paths);
+// Throws InputError, naming the first entry that differs and may not, where the folder was begun with another
+// scene. `may_change`: of an entry; null: none may.
+void require_same_scene(const Scene &scene, const OutputPaths &paths,
+                        bool (*may_change)(const std::string &) = nullptr);
 
 // The same for a run that goes on from a checkpoint. Returns what may differ, for it changes nothing that has
 // been computed: a larger Loading/Target strain, Loading/Stop at residual, intervals of output and

@@ -40,7 +40,9 @@ AppDescription description_of(AppKind kind) {
       app.name = "platen-study";
       app.purpose =
           "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy "
-          "for time, each on several seeds, and tables the results.";
+          "for time, each on several seeds, and tables the results; or finds the cheapest runs for an "
+          "accuracy "
+          "that is ordered (target).";
       app.kinds = {study_words.begin(), study_words.end()};
       app.caches_packings = true;
       app.plans_runs = true;

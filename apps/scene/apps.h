@@ -8,7 +8,8 @@
 namespace platen::apps {
 
 // Kinds of studies by their word on the command line, as StudyKind (apps/study/cases.h) numbers them.
-constexpr std::array study_words{"friction", "slenderness", "size", "packing", "rate", "accuracy"};
+inline constexpr std::array study_words{"friction", "slenderness", "size",  "packing",
+                                        "rate",     "accuracy",    "target"};
 
 AppDescription description_of(AppKind kind);
 

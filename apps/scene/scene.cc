@@ -48,6 +48,7 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
+  scene.study.target.over_scene = resolved_path(parameters.at("Study/Target/Over scene"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
 }

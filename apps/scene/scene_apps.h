@@ -1,6 +1,7 @@
 // Sections of a scene that one app each reads. NaN means "not given" where a member says so.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "apps/scene/quality.h"
@@ -63,6 +64,23 @@ std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
   return list.empty() ? std::vector<Value>{own} : list;
 }
 
+enum class TargetFigure { strength, modulus, gain };
+inline const Words<TargetFigure> target_figures{{"strength", TargetFigure::strength},
+                                                {"youngs modulus", TargetFigure::modulus},
+                                                {"gain", TargetFigure::gain}};
+
+struct StudyTarget { // study of a target: an accuracy that is ordered
+  TargetFigure figure = TargetFigure::strength;
+  double accuracy = 0.02;        // half of the interval over the figure
+  double confidence = 0.9;       // of the interval
+  std::string over_scene;        // gain: path of the scene that it is over
+  std::vector<std::string> over; // or what makes that scene of this one
+  int pilot_seeds = 5;
+  int most_runs = 200;
+  double step_allowance = 0.002; // relative error of the figure
+  int step_seeds = 0, coarser_seeds = 0;
+};
+
 struct Study {                        // platen-study; a list that is empty leaves the scene's own value
   int seeds = 5;                      // runs of each case: Scene/Seed and those after it
   std::vector<StudySurface> surfaces; // friction
@@ -80,6 +98,7 @@ struct Study {                        // platen-study; a list that is empty leav
   std::vector<double> sleeve_mass_scalings, wave_transits;
   std::vector<Quality> qualities;
   std::vector<std::string> changes; // "Section/Key = value", each alone against the scene as it is
+  StudyTarget target;
 };
 
 } // namespace platen::apps

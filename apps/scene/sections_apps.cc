@@ -11,8 +11,10 @@ void declare_accuracy_lists(Section &section, Study &study) {
       "Safety list", study.safeties, "1", above_up_to(0, 1),
       "Study of accuracy, in place of Integration/Safety. All lists of such a study go from coarse to "
       "fine; the last value is the reference of the others.");
-  section.entry("Wave crossings list", study.wave_transits, "1", above(0),
-                "Study of accuracy, in place of Loading/Wave crossings.");
+  section.entry(
+      "Wave crossings list", study.wave_transits, "1", above(0),
+      "Studies of accuracy and of a target, in place of Loading/Wave crossings. Target: speeds from which it "
+      "chooses, empty: 15, 30, 60, 120.");
   section.entry("Hurry list", study.rate_multipliers, "1", between(1, 100),
                 "Study of accuracy, in place of Loading/Hurry.");
   section.entry("Mass scaling list", study.mass_scalings, "1", range_of<dem::ModelSettings>("mass_scaling"),
@@ -33,6 +35,36 @@ void declare_accuracy_lists(Section &section, Study &study) {
                 read_assignments,
                 "Study of accuracy: entries of the scene, each set alone and compared with the scene as "
                 "it is.");
+}
+
+void declare_target(Parameters &parameters, StudyTarget &target) {
+  Section section(parameters, "Study/Target");
+  section.entry("Figure", target.figure, target_figures,
+                "Study of a target: what is to be known. Gain: strength over that of Over scene or Over.");
+  section.number("Accuracy", target.accuracy, between(0.001, 0.5),
+                 "Half of the interval over the figure: where it is reached, the study ends.");
+  section.number("Confidence", target.confidence, between(0.5, 0.99),
+                 "How often the interval holds the figure of slow loading.");
+  section.file("Over scene", target.over_scene,
+               "Gain: the scene whose strength stands below; both are run on the same seeds.");
+  section.value("Over", target.over, "",
+                "\"Platens/Friction static = 0\" with commas between them; no value may hold a comma",
+                read_assignments, "Gain: or the entries that make that scene of this one.");
+  section.integer("Pilot seeds", target.pilot_seeds, 3, 100,
+                  "Packings that are run first, at the two fastest speeds of Study/Wave crossings list.");
+  section.integer("Most runs", target.most_runs, 1, 100000,
+                  "Where the accuracy is not reached with so many, the study ends and says what was.");
+  section.number(
+      "Step allowance", target.step_allowance, between(0, 0.1),
+      "What the time step adds to the error (docs/accuracy.md: 0.2 % of the modulus at most, of the "
+      "strength nothing that chaos would show).");
+  section.integer("Step seeds", target.step_seeds, 0, 100,
+                  "Packings that are run with half the step too: what differs for sure counts in place of a "
+                  "smaller allowance; 0: none.");
+  section.integer(
+      "Coarser seeds", target.coarser_seeds, 0, 100,
+      "Packings of spheres 1.25 times as large that are run beside the others, for what one size of "
+      "spheres means; 0: the law of bench/results/sizes.md tells it.");
 }
 
 } // namespace
@@ -110,6 +142,7 @@ void declare_study(Parameters &parameters, Study &study) {
   section.entry("Axial rate list", study.axial_rates, "m/s", above(0),
                 "Studies of rate and accuracy, in place of Loading/Axial rate.");
   declare_accuracy_lists(section, study);
+  declare_target(parameters, study.target);
 }
 
 } // namespace platen::apps

@@ -96,8 +96,8 @@ StudyPlan plan_rate(const Scene &scene) {
 using Plan = StudyPlan (*)(const Scene &);
 
 // As StudyKind.
-constexpr std::array<Plan, study_words.size()> plans{plan_friction, plan_slenderness, plan_size,
-                                                     plan_packing,  plan_rate,        plan_accuracy};
+constexpr std::array<Plan, study_words.size()> plans{
+    plan_friction, plan_slenderness, plan_size, plan_packing, plan_rate, plan_accuracy, plan_target};
 
 } // namespace
 
@@ -145,12 +145,13 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
 StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
   StudyPlan plan = plans[static_cast<std::size_t>(kind)](scene);
   plan.kind = kind;
-  for (int k = 0; k < scene.study.seeds; ++k)
+  const int seeds = kind == StudyKind::target ? scene.study.target.pilot_seeds : scene.study.seeds;
+  for (int k = 0; k < seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
   for (StudyCase &one : plan.cases)
     try {
-      const Scene led_to =
-          read_scene(scene.path, overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
+      const Scene led_to = read_scene(one.scene.empty() ? scene.path : one.scene,
+                                      overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
       if (of_platens(kind)) label_platens(one, led_to);
       if (kind == StudyKind::accuracy) label_parameters(one, led_to);
       for (const unsigned long seed : plan.seeds) {

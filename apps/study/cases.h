@@ -11,7 +11,7 @@
 
 namespace platen::apps {
 
-enum class StudyKind { friction, slenderness, size, packing, rate, accuracy };
+enum class StudyKind { friction, slenderness, size, packing, rate, accuracy, target };
 // Those that tell what platens do, and have StudyCase::surface.
 inline bool of_platens(StudyKind kind) {
   return kind == StudyKind::friction || kind == StudyKind::slenderness;
@@ -23,6 +23,7 @@ struct StudyCase {
   std::vector<std::string> overrides; // "Section/Key = value"
   std::string surface = {};           // what the platens are, in words; studies of platens
   std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
+  std::string scene = {};                 // that its entries change; "": the study's
 };
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.
@@ -76,6 +77,23 @@ void label_platens(StudyCase &of, const Scene &led_to);
 StudyPlan plan_accuracy(const Scene &scene);
 // Fills StudyCase::labels from the scene that the case leads to.
 void label_parameters(StudyCase &of, const Scene &led_to);
+
+// Cases of a target: the scene at each speed of Study/Wave crossings list, and what a gain is over likewise;
+// the fastest again with half the step and with coarser spheres, where these are asked for. Seeds are those
+// of the pilot; which further ones are run is decided as it goes (target_study.h). Throws InputError where
+// the scene leaves nothing to plan.
+StudyPlan plan_target(const Scene &scene);
+// The speeds it chooses from.
+std::vector<double> target_transits(const Scene &scene);
+// Places of its cases.
+struct TargetCases {
+  std::size_t speeds = 0, scenes = 1;
+  bool half_step = false, coarser = false;
+  std::size_t at(std::size_t scene, std::size_t speed) const { return scene * speeds + speed; }
+  std::size_t of_half_step(std::size_t scene) const { return scenes * speeds + scene; }
+  std::size_t of_coarser(std::size_t scene) const { return scenes * (speeds + (half_step ? 1 : 0)) + scene; }
+};
+TargetCases target_cases(const Scene &scene);
 
 // What the plans of several kinds need.
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <thread>
@@ -25,6 +26,7 @@
 #include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/study_results.h"
+#include "apps/study/target_app.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 
@@ -48,21 +50,25 @@ public:
         scene_(scene),
         plan_(plan_study(study_kind(command.kind), scene, command.overrides)),
         paths_(command.output),
-        runs_(runs_of(plan_, command.scene, command.overrides, paths_, threads(),
-                      command.run > 0 || command.plan || command.collect)),
+        runs_(targets() ? std::vector<StudyRun>{}
+                        : runs_of(plan_, command.scene, command.overrides, paths_, threads(),
+                                  command.run > 0 || command.plan || command.collect)),
         log_(loudness_of(command)) {}
 
   int run();
 
 private:
   int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
+  bool targets() const { return plan_.kind == StudyKind::target; }
   std::string command_text() const;
+  TargetSetup target_setup() const;
   std::string description() const;
   int tell_costs() const;
   void open();
   void open_anew();
   void require_same_study() const;
   int make_all();
+  int make_planned(const std::function<Json()> &costs);
 
   const CommandLine &command_;
   const Scene &scene_;
@@ -82,7 +88,13 @@ std::string StudyApp::command_text() const {
   return text;
 }
 
+TargetSetup StudyApp::target_setup() const {
+  return {scene_, plan_, paths_, command_.scene, command_.overrides, threads(), command_text()};
+}
+
 std::string StudyApp::description() const {
+  if (targets())
+    return fmt::format("{}\n  study of target, {} runs at a time\n", title_of(scene_), threads());
   std::string text =
       fmt::format("{}\n  study of {}: {} cases on seeds {} to {}, {} runs, {} at a time\n", title_of(scene_),
                   word(plan_.kind), plan_.cases.size(), plan_.seeds.front(), plan_.seeds.back(), runs_.size(),
@@ -111,7 +123,10 @@ int StudyApp::tell_costs() const {
 }
 
 void StudyApp::require_same_study() const {
-  require_same_scene(scene_, paths_);
+  if (targets())
+    require_same_scene(scene_, paths_, may_change_on_resume);
+  else
+    require_same_scene(scene_, paths_);
   const Json before = Json::parse(content_of(paths_.study_json()), nullptr, false);
   const std::string kind = before.is_object() ? before.value("kind", "") : "";
   if (kind != word(plan_.kind))
@@ -136,14 +151,36 @@ void StudyApp::open() {
     lock_ = std::make_unique<FolderLock>(paths_.folder, patience_of_study, [&] {
       log_.info("waits for runs of an earlier study in {}", paths_.folder.string());
     });
-  if (command_.resume)
+  if (command_.resume) {
     require_same_study();
-  else
+    if (targets()) write_text_aside(paths_.scene(), scene_text(scene_, paths_.folder));
+  } else
     open_anew();
   log_.open(paths_.log(), command_.resume, {version_text(), command_.text, threads()});
 }
 
+// Which runs a target needs is not known before others are there.
+void refuse_planned(const CommandLine &command) {
+  const char *option = command.plan      ? "--plan"
+                       : command.run > 0 ? "--run"
+                       : command.collect ? "--collect"
+                                         : "";
+  if (*option != '\0')
+    throw InputError(fmt::format(
+        "command line: error: {} does not go with a study of target, whose runs follow from those "
+        "that are there. Allowed: the whole study, --dry-run, --resume.",
+        option));
+}
+
 int StudyApp::run() {
+  if (targets()) {
+    refuse_planned(command_);
+    if (command_.dry_run) {
+      fmt::print("{}", description());
+      return tell_target_plan(target_setup());
+    }
+    return make_all();
+  }
   if (command_.dry_run) return tell_costs();
   const PlannedStudy planned{scene_, plan_, runs_, paths_, command_text()};
   if (command_.plan) return plan_runs(command_, planned, log_);
@@ -156,17 +193,25 @@ int StudyApp::make_all() {
   catch_stop_signals();
   open();
   log_.info("{}", description());
-  StudyResults results(scene_, plan_, runs_, paths_, log_);
+  const auto costs = [&] {
+    return Json{{"threads", threads()},
+                {"wall_seconds", seconds_since(start_)},
+                {"peak_memory_bytes", peak_memory_bytes()}};
+  };
   try {
-    carry_out(runs_, threads(), log_,
-              [&](std::size_t k, const RunOutcome &outcome) { results.keep(k, outcome); });
+    if (targets()) return make_target(target_setup(), log_, costs);
+    return make_planned(costs);
   } catch (const Stopped &stopped) {
     log_.info("stopped by a signal; go on with: {} --resume", command_text());
     return exit_status_of_signal(stopped.signal);
   }
-  return results.finish({{"threads", threads()},
-                         {"wall_seconds", seconds_since(start_)},
-                         {"peak_memory_bytes", peak_memory_bytes()}});
+}
+
+int StudyApp::make_planned(const std::function<Json()> &costs) {
+  StudyResults results(scene_, plan_, runs_, paths_, log_);
+  carry_out(runs_, threads(), log_,
+            [&](std::size_t k, const RunOutcome &outcome) { results.keep(k, outcome); });
+  return results.finish(costs());
 }
 
 } // namespace

@@ -216,27 +216,34 @@ void share_packings(std::vector<StudyRun> &runs, const OutputPaths &paths) {
 
 } // namespace
 
+StudyRun run_of(const StudyPlan &plan, std::size_t of, unsigned long seed, const std::string &scene,
+                const std::vector<std::string> &overrides, const OutputPaths &paths, int threads) {
+  const StudyCase &one = plan.cases[of];
+  StudyRun run;
+  run.of = of;
+  run.seed = seed;
+  run.name = one.name + "_seed_" + std::to_string(seed);
+  run.folder = paths.runs() / run.name;
+  run.scene = one.scene.empty() ? scene : one.scene;
+  run.overrides = overrides_of(one, seed, overrides);
+  run.command = {compress_program().string(), run.scene, "-o", run.folder.string(), "-t",
+                 std::to_string(threads),     "--quiet"};
+  for (const std::string &entry : run.overrides)
+    run.command.insert(run.command.end(), {"-s", entry});
+  return run;
+}
+
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
                               const std::vector<std::string> &overrides, const OutputPaths &paths,
                               int threads, bool one_by_one) {
-  const std::string program = compress_program().string();
   const int count = static_cast<int>(plan.cases.size() * plan.seeds.size());
-  const std::string share = std::to_string(one_by_one ? threads : std::max(1, threads / count));
+  const int share = one_by_one ? threads : std::max(1, threads / count);
   std::vector<StudyRun> runs;
   std::vector<std::string> packings;
   for (std::size_t k = 0; k < plan.cases.size(); ++k)
     for (const unsigned long seed : plan.seeds) {
-      StudyRun run;
-      run.of = k;
-      run.seed = seed;
+      StudyRun run = run_of(plan, k, seed, scene, overrides, paths, share);
       run.of_this_version = one_by_one;
-      run.name = plan.cases[k].name + "_seed_" + std::to_string(seed);
-      run.folder = paths.runs() / run.name;
-      run.scene = scene;
-      run.overrides = overrides_of(plan.cases[k], seed, overrides);
-      run.command = {program, scene, "-o", run.folder.string(), "-t", share, "--quiet"};
-      for (const std::string &entry : run.overrides)
-        run.command.insert(run.command.end(), {"-s", entry});
       packings.push_back(plan.cases[k].packings[runs.size() % plan.seeds.size()]);
       const auto first = std::find(packings.begin(), packings.end(), packings.back());
       run.specimen_of =

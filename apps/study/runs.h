@@ -50,6 +50,10 @@ Left left_by(const StudyRun &run);
 // The program beside this one. Throws InputError where it is not there.
 std::filesystem::path compress_program();
 
+// One case on one seed, with so many threads; `scene` is the study's, `overrides` those of the command line.
+StudyRun run_of(const StudyPlan &plan, std::size_t of, unsigned long seed, const std::string &scene,
+                const std::vector<std::string> &overrides, const OutputPaths &paths, int threads);
+
 // Every case on every seed, case by case; `overrides` are those of the command line. Of `threads` each run
 // gets one, or its share where there are fewer runs; where runs are made `one_by_one`, each gets all.
 std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,

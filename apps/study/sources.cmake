@@ -11,4 +11,15 @@ set(PLATEN_STUDY_SOURCES
   study/run_study.cc
   study/runs.cc
   study/study_results.cc
-  study/tables.cc)
+  study/tables.cc
+  study/target_app.cc
+  study/target_cases.cc
+  study/target_figures.cc
+  study/target_report.cc
+  study/target_study.cc)
+
+# What runs tell of a figure and which runs are the cheapest: statistics alone.
+set(PLATEN_TARGET_STATISTICS_SOURCES
+  study/target_decision.cc
+  study/target_model.cc
+  study/target_plan.cc)

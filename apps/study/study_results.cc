@@ -18,7 +18,7 @@ std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const 
   }
   log.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
-  const bool compared = of_platens(kind) || kind == StudyKind::accuracy;
+  const bool compared = of_platens(kind) || kind == StudyKind::accuracy || kind == StudyKind::target;
   if (compared && !StudyTables::peaked(outcome.summary))
     log.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
                 run.name);

@@ -114,7 +114,12 @@ StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),
       study_(paths.study(), columns_of(plan, figures)),
       costs_(paths.costs(), columns_of(plan, costs)),
-      cases_(plan.cases.size()) {}
+      cases_(plan.cases.size()) {
+  for (OfCase &of : cases_) // those without a run too
+    for (const auto &keys : {figures, costs})
+      for (const std::string &key : keys)
+        of.figures[key];
+}
 
 void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
   const StudyCase &of = plan_.cases[run.of];
@@ -162,6 +167,7 @@ int StudyTables::missing() const {
 Json StudyTables::cases() const {
   Json all = Json::array();
   for (std::size_t c = 0; c < cases_.size(); ++c) {
+    if (cases_[c].runs == 0) continue; // a speed that a target has not chosen
     Json one;
     one["name"] = plan_.cases[c].name;
     if (of_platens(plan_.kind)) one["surface"] = plan_.cases[c].surface;
@@ -188,7 +194,8 @@ std::vector<Comparison> StudyTables::comparisons() const {
 }
 
 std::string StudyTables::text() const {
-  const bool accuracy = plan_.kind == StudyKind::accuracy, named = of_platens(plan_.kind) || accuracy;
+  const bool accuracy = plan_.kind == StudyKind::accuracy || plan_.kind == StudyKind::target,
+             named = of_platens(plan_.kind) || accuracy;
   const std::vector<Label> labels = labels_of(plan_, named);
   std::vector<std::vector<std::string>> rows(1);
   if (named) rows[0].emplace_back(accuracy ? "case" : "platens");
@@ -200,6 +207,7 @@ std::string StudyTables::text() const {
   rows[0].insert(rows[0].end(), {"seconds", "MB"});
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const OfCase &of = cases_[c];
+    if (of.runs == 0) continue;
     std::vector<std::string> row;
     if (named) row.push_back(accuracy ? plan_.cases[c].name : plan_.cases[c].surface);
     for (const Label &label : labels) {

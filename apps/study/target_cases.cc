@@ -1,0 +1,122 @@
+// Cases of a study of a target.
+#include <algorithm>
+
+#include "apps/scene/parameters.h"
+#include "apps/study/cases.h"
+#include "apps/study/target_model.h"
+
+namespace platen::apps {
+namespace {
+
+const std::vector<double> usual_transits{15, 30, 60, 120};
+constexpr double coarser = 1.25; // times the mean radius: half of the spheres
+
+const std::string section = "Study/Target/";
+
+void check_transits(const Scene &scene) {
+  const std::vector<double> transits = target_transits(scene);
+  if (transits.size() < 2 || transits.size() > most_speeds ||
+      !std::is_sorted(transits.begin(), transits.end()))
+    refuse(scene, "Study/Wave crossings list",
+           fmt::format("gives a target no speeds to choose from. Allowed: 2 to {} rising numbers.",
+                       most_speeds));
+}
+
+void check_gain(const Scene &scene) {
+  const StudyTarget &target = scene.study.target;
+  const bool gain = target.figure == TargetFigure::gain, over_scene = !target.over_scene.empty(),
+             over = !target.over.empty();
+  if (!gain && (over_scene || over))
+    refuse(scene, section + (over ? "Over" : "Over scene"),
+           "has no effect: Study/Target/Figure is no gain. Allowed: Figure = gain.");
+  if (gain && over_scene == over)
+    refuse(scene, section + "Figure",
+           "needs one scene that it is over. Allowed: either Study/Target/Over scene or Over.");
+  for (const std::string &entry : target.over)
+    if (entry.rfind("Study/", 0) == 0 || entry.rfind("Scene/Seed", 0) == 0)
+      refuse(scene, section + "Over", "changes " + entry + ", which the study sets.");
+}
+
+void check(const Scene &scene) {
+  if (scene.loading.hydrostatic())
+    refuse(scene, "Loading/Test", "has no strength to be known. Allowed: any other.");
+  if (scene.loading.servo)
+    refuse(scene, "Study/Wave crossings list", "needs platens that are driven by motion.");
+  if (scene.study.target.figure != TargetFigure::modulus) require_fall(scene);
+  if (scene.specimen.packing == PackingKind::file && !scene.bond.scattered)
+    refuse(
+        scene, "Specimen/Packing",
+        "has one packing, and with Bond/Strength scatter = none nothing is drawn. Allowed: advancing front, "
+        "random close.");
+  if (scene.study.target.coarser_seeds > 0 && scene.specimen.packing == PackingKind::file)
+    refuse(scene, section + "Coarser seeds", "has no effect: Specimen/Packing = file. Allowed: 0.");
+  if (scene.study.target.step_seeds > 0 && scene.time_step.fixed_step > 0)
+    refuse(scene, section + "Step seeds", "has no effect: Integration/Time step is set. Allowed: 0.");
+  check_transits(scene);
+  check_gain(scene);
+  const StudyTarget &target = scene.study.target;
+  constexpr int speeds_of_pilot = 2;
+  const int pilot = (speeds_of_pilot * target.pilot_seeds + target.step_seeds + target.coarser_seeds) *
+                    static_cast<int>(target_cases(scene).scenes);
+  if (target.most_runs < pilot)
+    refuse(scene, section + "Most runs", fmt::format("is less than the pilot takes. Allowed: >= {}.", pilot));
+}
+
+// What runs do not need to know, lest another accuracy make them runs of another scene.
+std::vector<std::string> without_target(const Scene &scene) {
+  std::vector<std::string> entries;
+  for (const Entry &entry : scene.parameters->entries())
+    if (entry.path.rfind(section, 0) == 0) entries.push_back(entry.path + " = " + entry.default_text);
+  return entries;
+}
+
+// Cases of one scene, `over` or not, at one speed and with what else is changed.
+StudyCase case_of(const Scene &scene, bool over, double transits, const std::string &prefix,
+                  const std::vector<std::string> &more) {
+  StudyCase one;
+  one.name = prefix + (over ? "over_" : "") + "wave_crossings_" + in_name(transits);
+  one.labels = {transits};
+  one.overrides = without_target(scene);
+  if (over && scene.study.target.over_scene.empty())
+    one.overrides.insert(one.overrides.end(), scene.study.target.over.begin(), scene.study.target.over.end());
+  if (over) one.scene = scene.study.target.over_scene;
+  one.overrides.emplace_back("Loading/Axial rate =");
+  one.overrides.push_back(set("Loading/Wave crossings", transits, ""));
+  one.overrides.insert(one.overrides.end(), more.begin(), more.end());
+  return one;
+}
+
+} // namespace
+
+std::vector<double> target_transits(const Scene &scene) {
+  return scene.study.wave_transits.empty() ? usual_transits : scene.study.wave_transits;
+}
+
+TargetCases target_cases(const Scene &scene) {
+  const StudyTarget &target = scene.study.target;
+  return {target_transits(scene).size(), target.figure == TargetFigure::gain ? 2U : 1U, target.step_seeds > 0,
+          target.coarser_seeds > 0};
+}
+
+StudyPlan plan_target(const Scene &scene) {
+  check(scene);
+  const TargetCases cases = target_cases(scene);
+  const std::vector<double> transits = target_transits(scene);
+  StudyPlan plan;
+  plan.varied = {"wave_crossings"};
+  for (std::size_t of = 0; of < cases.scenes; ++of)
+    for (const double one : transits)
+      plan.cases.push_back(case_of(scene, of > 0, one, "", {}));
+  if (cases.half_step)
+    for (std::size_t of = 0; of < cases.scenes; ++of)
+      plan.cases.push_back(case_of(scene, of > 0, transits.front(), "half_step_",
+                                   {set("Integration/Safety", scene.time_step.safety / 2, "")}));
+  if (cases.coarser)
+    for (std::size_t of = 0; of < cases.scenes; ++of)
+      plan.cases.push_back(
+          case_of(scene, of > 0, transits.front(), "coarser_",
+                  {set("Specimen/Sphere radius", coarser * scene.specimen.sphere_radius, "m")}));
+  return plan;
+}
+
+} // namespace platen::apps
