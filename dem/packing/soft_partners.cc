@@ -128,6 +128,16 @@ void sort_rows(Found &found, int rows) {
     found.order[next[most - found.count(r)]++] = r;
 }
 
+// Grows by an eighth more than needed, where a vector itself would double.
+template <class T>
+void make_room(std::vector<T> &column, std::size_t size) {
+  if (column.capacity() < size) {
+    std::vector<T>().swap(column);
+    column.reserve(size + size / 8);
+  }
+  column.resize(size);
+}
+
 unsigned offset(int row) {
   return static_cast<unsigned>(row * sizeof(kernels::SoftRow));
 }
@@ -140,7 +150,7 @@ void write(const std::vector<SoftBall> &balls, int first, int rows, const Found 
     to.row.push_back(first + found.order[r]);
     if (r % lanes == 0) to.steps.push_back(found.count(found.order[r])), steps += to.steps.back();
   }
-  to.partner.resize(soft_pack * steps), to.apart.resize(4 * soft_pack * steps);
+  make_room(to.partner, soft_pack * steps), make_room(to.apart, 4 * soft_pack * steps);
   unsigned *partner = to.partner.data();
   float *apart = to.apart.data();
   for (int r = 0; r < rows; r += lanes)
