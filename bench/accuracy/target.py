@@ -6,7 +6,7 @@ Usage: target.py BUILD FOLDER [--only small|cylinder|gain ...] [--repetitions 20
 For each subject: (a) reference runs over seeds and speeds (--seeds packings at 15, 30, 60 and 120 wave crossings, of a gain both
 scenes), whose line through 1 / N is the truth, with an interval of its own; (b) so many repetitions of each order, on seeds far
 apart; (c) what one slow speed would cost for the same accuracy, by the variances and the haste of the reference runs. Prints a table,
-leaves it in FOLDER/target.md and, where matplotlib is there, draws orders against seconds. What is done is kept: call it again after a
+leaves it in FOLDER/target.md and, where gnuplot is installed, draws orders against seconds. What is done is kept: call it again after a
 stop. Runs of finished repetitions are removed, their tables stay.
 """
 import argparse
@@ -155,24 +155,25 @@ def text_of(truths, results):
 
 
 def draw(results, png):
-    try:
-        import matplotlib
-    except ImportError:
-        return
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    figure, axes = pyplot.subplots(figsize=(7, 4.5), dpi=150)
-    for colour, subject in zip(("tab:blue", "tab:orange", "tab:green"), dict.fromkeys(r["subject"] for r in results)):
+    """Orders against seconds, by gnuplot where it is installed; the script stays beside the picture."""
+    subjects = list(dict.fromkeys(r["subject"] for r in results))
+    blocks, curves = "", []
+    for colour, subject in enumerate(subjects, 1):
         mine = [r for r in results if r["subject"] == subject]
-        accuracy = [100 * r["accuracy"] for r in mine]
-        axes.loglog([r["seconds"] for r in mine], accuracy, "o-", color=colour, label=f"{subject}, on order")
-        axes.loglog([r["slow"][3] for r in mine], accuracy, "s--", color=colour, mfc="white", label=f"{subject}, one slow speed")
-    axes.set_xlabel("Seconds of one core")
-    axes.set_ylabel("Accuracy that is ordered (%)")
-    axes.grid(True, which="both", alpha=0.3)
-    axes.legend()
-    figure.tight_layout()
-    figure.savefig(png)
+        for name, seconds, style in (("on order", [r["seconds"] for r in mine], "pt 7 dt 1"),
+                                     ("one slow speed", [r["slow"][3] for r in mine], "pt 6 dt 2")):
+            block = f"${subject}_{name.split()[0]}"
+            rows = "\n".join(f"{s:.6g} {100 * r['accuracy']:g}" for s, r in zip(seconds, mine))
+            blocks += f"{block} << EOD\n{rows}\nEOD\n"
+            curves.append(f"{block} with linespoints lc {colour} {style} lw 2 ps 1.5 title '{subject}, {name}'")
+    script = (f"set terminal pngcairo size 1000,640 font 'sans,14'\nset output '{png.resolve()}'\n{blocks}set logscale xy\nset grid\n"
+              "set xlabel 'Seconds of one core'\nset ylabel 'Accuracy that is ordered (%)'\nset yrange [0.5:10]\nset key top right\n"
+              "set ytics (0.5, 1, 2, 3, 5, 10)\nplot " + ", ".join(curves) + "\n")
+    png.with_suffix(".gnuplot").write_text(script)
+    if shutil.which("gnuplot") is None:
+        print(f"gnuplot is not installed: {png.with_suffix('.gnuplot')} draws {png} where it is")
+        return
+    subprocess.run(["gnuplot", str(png.with_suffix(".gnuplot"))], check=True)
 
 
 def main():
