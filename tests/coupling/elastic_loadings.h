@@ -37,9 +37,11 @@ inline const dem::Specimen &bar() {
   return s;
 }
 
+inline dem::Specimen disc(unsigned seed) {
+  return dem::laid_down(dem::random_close_packing(dem::cylinder(4e-3, 4e-3), 0.6e-3, 0.25, seed));
+}
 inline const dem::Specimen &disc() {
-  static const dem::Specimen s =
-      dem::laid_down(dem::random_close_packing(dem::cylinder(4e-3, 4e-3), 0.6e-3, 0.25, 3));
+  static const dem::Specimen s = disc(3);
   return s;
 }
 

@@ -120,23 +120,28 @@ TEST(confinement, voronoi_areas_are_those_of_the_shape) {
 }
 
 // One factor for all: faces get nearly what is theirs; the ends, where the planes cut the skin, a little
-// less, and what lies between them that much more.
+// less, and what lies between them that much more: of eight packings 0.9916 and 1.0058, each within 0.01 and
+// 0.004 of that.
 TEST(confinement, a_box_is_pressed_evenly_over_faces_and_within_percents_along_its_height) {
   const double x = 16e-3, y = 14e-3, height = 18e-3;
-  const Body body(random_close_packing(box(x, y, height), 0.5e-3, 0.25, 1));
-  const Confinement c = body.confinement();
-  double on_x = 0, on_y = 0, ends = 0, middle = 0; // over the nominal areas
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Vector3 at = body.particles.position[c.particle(k)], a = c.area(k);
-    const double along_x = std::copysign(1, at.x) * a.x / (2 * y * height),
-                 along_y = std::copysign(1, at.y) * a.y / (2 * x * height);
-    on_x += along_x, on_y += along_y;
-    (std::abs(at.z - height / 2) > height / 3 ? ends : middle) += 0.5 * (along_x + along_y);
+  constexpr unsigned packings = 4;
+  double ends = 0, middle = 0; // over the nominal areas, means of the packings
+  for (unsigned seed = 1; seed <= packings; ++seed) {
+    const Body body(random_close_packing(box(x, y, height), 0.5e-3, 0.25, seed));
+    const Confinement c = body.confinement();
+    double on_x = 0, on_y = 0;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const Vector3 at = body.particles.position[c.particle(k)], a = c.area(k);
+      const double along_x = std::copysign(1, at.x) * a.x / (2 * y * height),
+                   along_y = std::copysign(1, at.y) * a.y / (2 * x * height);
+      on_x += along_x, on_y += along_y;
+      (std::abs(at.z - height / 2) > height / 3 ? ends : middle) += 0.5 * (along_x + along_y) / packings;
+    }
+    EXPECT_NEAR(on_x, 1, 0.006) << "packing " << seed;
+    EXPECT_NEAR(on_y, 1, 0.006) << "packing " << seed;
   }
-  EXPECT_NEAR(on_x, 1, 0.006);
-  EXPECT_NEAR(on_y, 1, 0.006);
-  EXPECT_NEAR(middle / (2. / 3), 1.01, 0.01);
-  EXPECT_NEAR(ends / (1. / 3), 0.98, 0.02);
+  EXPECT_NEAR(middle / (2. / 3), 1.0058, 0.005);
+  EXPECT_NEAR(ends / (1. / 3), 0.9916, 0.01);
 }
 
 TEST(confinement, the_skin_is_at_the_surface) {
