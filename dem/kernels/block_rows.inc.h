@@ -98,19 +98,20 @@ PLATEN_INLINE Triple<Pack> distances(const Ends &of) {
     rows[l] = load_row(ends.second(l)) - load_row(ends.first(l));
   return to_vectors(rows);
 }
-PLATEN_INLINE Rotation<Pack> first_orientations(const Ends &of) {
-  const Ends ends = of.again();
+template <class RowOf>
+PLATEN_INLINE Rotation<Pack> orientations(const RowOf &row_of_lane) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(ends.first(l) + 4);
+    rows[l] = load_row(row_of_lane(l) + 4);
   return to_columns(rows);
+}
+PLATEN_INLINE Rotation<Pack> first_orientations(const Ends &of) {
+  const Ends ends = of.again();
+  return orientations([&](int l) { return ends.first(l); });
 }
 PLATEN_INLINE Rotation<Pack> second_orientations(const Ends &of) {
   const Ends ends = of.again();
-  Row rows[lanes];
-  for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(ends.second(l) + 4);
-  return to_columns(rows);
+  return orientations([&](int l) { return ends.second(l); });
 }
 
 // Adds force and torques to the sums of both ends, bond by bond in row order.

@@ -92,6 +92,16 @@ struct PlaneMotion {
   }
 };
 
+// Of bonds that have failed with a plastic closing of `plastic` (Pa): whether none of them is pressed, nor
+// was when its spring of friction was last slid, so that nothing acts and nothing changes.
+template <class Real>
+PLATEN_INLINE bool are_apart(const InterfaceGeometry<Real> &g, const Triple<Real> &distance,
+                             const Real &plastic, const Triple<Real> &spring) {
+  const Real length = root(dot(distance, distance));
+  const Real pressed = g.normal_stiffness * (g.rest_length - length) - plastic; // Pa
+  return !any_positive(pressed) && !any_positive(dot(spring, spring));
+}
+
 // A spring of friction, k x with |k x| <= cap (Pa): the share of x (m) that slips and is lost.
 template <class Real>
 PLATEN_INLINE Real slipping_share(const Triple<Real> &spring, const Real &stiffness, const Real &cap) {

@@ -281,9 +281,7 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Rea
 template <class Real>
 PLATEN_INLINE bool YieldingParallelBond::stays_apart(const State<Real> &s, const InterfaceGeometry<Real> &g,
                                                      const Triple<Real> &distance) const {
-  const Real length = root(dot(distance, distance));
-  const Real pressed = g.normal_stiffness * (g.rest_length - length) - s.plastic;
-  return !any_positive(pressed) && !any_positive(dot(s.slider, s.slider));
+  return are_apart(g, distance, s.plastic, s.slider);
 }
 
 template <class Real>
