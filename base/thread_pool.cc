@@ -1,18 +1,12 @@
 #include "base/thread_pool.h"
 
-#include <chrono>
-
 namespace platen {
 
 namespace {
 
-// Some hundred microseconds: longer than what a step does between two loops, short beside what is done
-// between steps.
-constexpr int checks_before_sleep = 4000;
-// Parts of other loops last for minutes: their caller wakes up this often once it has given its core away as
-// many times as no step needs.
-constexpr int yields_before_sleep = 4000;
-constexpr std::chrono::microseconds long_wait{100};
+// Some ten microseconds: longer than what a step does between two loops, short beside what a scheduler gives a
+// thread that others wait for.
+constexpr int checks_before_sleep = 1000;
 
 thread_local bool inside_part = false;
 
@@ -89,16 +83,26 @@ void ThreadPool::open_call() {
 }
 
 // A thread counts itself in before it checks whether the call is still open, so that none is at work, or will
-// be, once it is closed and all have counted themselves out.
+// be, once it is closed and all have counted themselves out. A core that the caller checked on for longer, or
+// gave away by turns, would be missing to the thread that it waits for on a machine that others use too.
 void ThreadPool::close_call() {
   open_call_.store(0);
-  for (int checks = 0; joined_.load() != 0; ++checks)
-    if (checks < checks_)
-      pause();
-    else if (checks < checks_ + yields_before_sleep)
-      std::this_thread::yield();
-    else
-      std::this_thread::sleep_for(long_wait);
+  const auto done = [&] { return joined_.load() == 0; };
+  for (int checks = 0; checks < checks_ && !done(); ++checks)
+    pause();
+  if (done()) return;
+  std::unique_lock<std::mutex> lock(mutex_);
+  caller_sleeps_.store(true);
+  done_.wait(lock, done);
+  caller_sleeps_.store(false);
+}
+
+// Either the caller that goes to sleep sees that this thread was the last, or this thread that it sleeps, as
+// in open_call().
+void ThreadPool::count_out() {
+  if (joined_.fetch_sub(1) != 1 || !caller_sleeps_.load()) return;
+  { const std::lock_guard<std::mutex> lock(mutex_); }
+  done_.notify_one();
 }
 
 void ThreadPool::serve(std::size_t thread) {
@@ -110,7 +114,7 @@ void ThreadPool::serve(std::size_t thread) {
       do_parts(thread);
       done = call;
     }
-    joined_.fetch_sub(1);
+    count_out();
   }
 }
 

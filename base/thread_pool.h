@@ -45,6 +45,7 @@ private:
   void open_call();
   void close_call();
   void serve(std::size_t thread);
+  void count_out();
   bool wait_for_call(unsigned done);
   void do_parts(std::size_t thread);
   void do_share(Share &share, int loop);
@@ -58,13 +59,14 @@ private:
 
   std::mutex in_use_; // by a caller
   std::mutex mutex_;  // of what follows
-  std::condition_variable called_;
+  std::condition_variable called_, done_;
   std::exception_ptr thrown_;
   std::pair<int, std::size_t> thrown_by_; // loop and part
 
   alignas(64) std::atomic<unsigned> open_call_{0}; // number of the call that may be joined; 0: none
   std::atomic<bool> stopping_{false};
-  std::atomic<int> sleeping_{0};           // threads
+  std::atomic<int> sleeping_{0}; // threads
+  std::atomic<bool> caller_sleeps_{false};
   alignas(64) std::atomic<int> joined_{0}; // threads that may be at work for the caller
 };
 
