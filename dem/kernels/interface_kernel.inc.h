@@ -129,7 +129,7 @@ PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t 
     const Triple<Pack> arm = from_the_middle ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
     v = v + cross(arm, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
     const Pack length = root(dot(m.distance, m.distance));
-    m.spun = (0.5 * dt) * dot(wi + wj, m.distance) / length;
+    m.spun = (0.5 * dt) * dot(wi + wj, m.distance) * (1.0 / length);
     if constexpr (needs_orientations) {
       m.turn_i = first_orientations(ends), m.turn_j = second_orientations(ends);
       m.turned_i = scale(Pack(dt), wi), m.turned_j = scale(Pack(dt), wj);
@@ -232,14 +232,38 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
   return Pack(0.0);
 }
 
+// Asks for a column of rows to come.
+template <class Value>
+PLATEN_INLINE void foresee(const Value *row) {
+  constexpr std::size_t packs_ahead = 6, bytes = lanes * sizeof(Value), line = 64;
+  const char *to_come = reinterpret_cast<const char *>(row) + packs_ahead * bytes;
+  for (std::size_t byte = 0; byte < bytes; byte += line)
+    __builtin_prefetch(to_come + byte, 0, 2);
+}
+// What follows in all columns of laws that change most of them in each step: there are more of them than a
+// core foresees by itself. (Of those that read less it does, and to ask costs.)
+template <class Law>
+PLATEN_INLINE void foresee_packs(const InterfaceColumns &c, std::size_t k) {
+  if constexpr (is_quick_while_sound<Law>) {
+    const BondColumns &b = c.bonds;
+    if constexpr (Law::needs_orientations) foresee(b.reference + k);
+    foresee(b.ends + k), foresee(b.rest_length + k), foresee(b.lever + k);
+    foresee(b.normal_stiffness + k), foresee(b.bond_radius + k);
+    typename Law::template State<Pack> state;
+    for_each_memory(c.memory, k, state, [](const auto *column, auto &) { foresee(column); });
+  }
+}
+
 template <bool rotation, bool factors, class Law>
 bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
                     std::size_t first, std::size_t last) {
   gather<rotation>(c.bonds, block);
   Pack failed(0.0);
   std::size_t k = first;
-  for (; k + lanes <= last; k += lanes)
+  for (; k + lanes <= last; k += lanes) {
+    foresee_packs<Law>(c, k);
     failed = larger(failed, add_pack<rotation, factors>(c, law, k, ends_of(c.bonds, block, k), dt));
+  }
   if (k < last) {
     Tail tail(c.bonds, k, last);
     MemoryTail memory(c.memory, k, last);

@@ -356,8 +356,10 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
   // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
   // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
   // off by the kink, as in any contact: that is no loss.
-  const Real tension_before = tension + (last.plastic - s.plastic) -
-                              kn * (plane.drawn - 0.5 * dot(plane.across, plane.across) / length);
+  const Real drawn = dot(m.travelled, plane.n);
+  const Triple<Real> across = m.travelled - scale(drawn, plane.n);
+  const Real tension_before =
+      tension + (last.plastic - s.plastic) - kn * (drawn - 0.5 * dot(across, across) / length);
   const Shares<Real> was = shares(last, delta), is = shares(s, delta);
   const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / divisor(kn);
   const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
@@ -409,7 +411,7 @@ PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &sk
   r.tension = step.tension;
   r.normal = g.area * step.tension;
   r.shear = scale(Real(g.area * ks), s.shear);
-  r.force = scale(Real(r.normal / step.length), m.distance) + r.shear;
+  r.force = scale(r.normal, step.plane.n) + r.shear;
   r.failed_now = step.tension * 0.0;
   return true;
 }
@@ -433,7 +435,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_broken(
   r.tension = step.tension;
   r.normal = -g.area * closing;
   r.shear = scale(Real(g.area * ks), s.slider);
-  r.force = scale(Real(r.normal / step.length), m.distance) + r.shear;
+  r.force = scale(r.normal, step.plane.n) + r.shear;
   r.failed_now = zero;
   const Triple<Real> moment = cross(m.distance, r.force);
   r.torque_i = scale(g.lever, moment);
