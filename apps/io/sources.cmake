@@ -8,6 +8,7 @@ set(PLATEN_IO_SOURCES
   io/crack_discs.cc
   io/csv_writer.cc
   io/vtu.cc
+  io/write_queue.cc
   io/pvd.cc
   io/pvtu.cc
   io/vtk_xml.cc

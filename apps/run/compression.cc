@@ -141,6 +141,7 @@ int CompressionRun::run() {
   if (scene_.model.crack_log) write_events();
   if (fields_) {
     fields_->write(*test_, results_.moves_with(*test_));
+    fields_->finish();
     if (cracks_) {
       cracks_->sync();
       write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());

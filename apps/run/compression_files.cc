@@ -105,10 +105,11 @@ std::string CompressionRun::description() const {
 
 void CompressionRun::open_files() {
   const auto in_a_piece = static_cast<std::size_t>(scene_.output.spheres_in_a_piece);
+  const bool beside = ranks_ == nullptr && output_.threads() > 1; // a run on one thread keeps to one core
   if (!command_.resume) {
     history_.emplace(paths_.history(), history_names(test_.get()));
     if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
-    if (scene_.output.fields) fields_.emplace(paths_.folder, in_a_piece);
+    if (scene_.output.fields) fields_.emplace(paths_.folder, in_a_piece, beside);
     if (as_packed_) keep(*as_packed_);
     sample();
     if (fields_) fields_->write(*test_, results_.moves_with(*test_));
@@ -123,7 +124,7 @@ void CompressionRun::open_files() {
   reopen_history();
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
-    fields_.emplace(paths_.folder, in_a_piece);
+    fields_.emplace(paths_.folder, in_a_piece, beside);
     fields_->resume(marks.last_frame, static_cast<int>(marks.frames));
   }
   earlier_seconds_ = marks.wall_seconds;
@@ -164,6 +165,7 @@ void CompressionRun::checkpoint() {
   test_->require_finite(); // or a run would resume from what has stopped it
   history_->sync();
   if (cracks_) cracks_->sync();
+  if (fields_) fields_->finish(); // or a run would resume after frames that are not there
   FileMarks marks;
   marks.history_bytes = history_->bytes();
   marks.history_sum = history_->sum();

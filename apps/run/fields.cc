@@ -1,9 +1,7 @@
 #include "apps/run/fields.h"
 
-#include <array>
-#include <cmath>
-#include <sstream>
 #include <string>
+#include <utility>
 
 #include "apps/io/file.h"
 #include "apps/io/output_folder.h"
@@ -11,79 +9,38 @@
 #include "apps/io/vtu.h"
 #include "apps/run/ranks.h"
 #include "apps/run/view_script.h"
-#include "coupling/program_of_test.h"
-#include "dem/measure/damage.h"
-#include "dem/measure/fragments.h"
-#include "dem/measure/stress.h"
 
 namespace platen::apps {
 namespace {
 
-constexpr std::size_t bonds_a_sphere =
-    4; // pieces of bonds are then of about as many bytes as those of spheres
-
-std::vector<Vector3> vectors(const Column<Vector3> &column) {
-  return {column.begin(), column.end()};
-}
-
-// Of the axis that the test loads; compression positive, as in history.csv.
-FrameValues values_of(const coupling::PlatenTest &problem) {
-  const int axis = coupling::loaded_axis(problem);
-  double stress = 0;
-  for (const coupling::Side side : coupling::all_sides)
-    if (coupling::axis_of(side) == axis) stress += 0.5 * problem.stress(side);
-  return {{"axial_strain", problem.closure_strain(axis)}, {"axial_stress", stress}};
-}
-
-// How many others each particle is bonded to or touches now; bonds that have failed and stay in their rows as
-// contacts count where they press.
-std::vector<int> coordination_of(const dem::Model &model) {
-  const dem::Particles &p = model.particles;
-  std::vector<int> count(p.size(), 0);
-  const auto add = [&](int first, int second) {
-    ++count[static_cast<std::size_t>(first)], ++count[static_cast<std::size_t>(second)];
-  };
-  if (model.bonds) {
-    const dem::Bonds &b = *model.bonds;
-    for (std::size_t k = 0; k < b.size(); ++k)
-      if (b.normal_stiffness[k] != 0.0 && (!b.has_failed(k) || b.response(k, p).normal_force < 0))
-        add(b.first[k], b.second[k]);
-  }
-  if (model.contacts)
-    for (std::size_t k = 0; k < model.contacts->table.size(); ++k)
-      if (model.contacts->touching[k] != 0) add(model.contacts->first[k], model.contacts->second[k]);
-  return count;
-}
-
-// deal.II writes Scalars="scalars" whatever the arrays are called; readers look for an array of that name.
-std::string with_scalars_named(std::string text) {
-  const std::string made_up = "Scalars=\"scalars\"";
-  const auto at = text.find(made_up);
-  if (at == std::string::npos) return text;
-  const bool pressed = text.find("Name=\"contact_pressure\"") != std::string::npos;
-  return text.replace(at, made_up.size(), pressed ? "Scalars=\"contact_pressure\"" : "");
-}
+// Pieces of bonds are then of about as many bytes as those of spheres.
+constexpr std::size_t bonds_a_sphere = 4;
+// A frame may wait while one is written: memory for two at most.
+constexpr std::size_t frames_that_wait = 1;
 
 } // namespace
 
-FieldSeries::FieldSeries(const std::filesystem::path &folder, std::size_t spheres_in_a_piece)
+FieldSeries::FieldSeries(const std::filesystem::path &folder, std::size_t spheres_in_a_piece, bool beside)
     : folder_(folder),
       in_a_piece_(spheres_in_a_piece),
       specimen_(folder / "specimen.pvd"),
       bonds_(folder / "bonds.pvd"),
       platens_(folder / "platens.pvd"),
       sleeve_(folder / "sleeve.pvd"),
-      contacts_(folder / "contacts.pvd") {
+      contacts_(folder / "contacts.pvd"),
+      queue_(beside ? frames_that_wait : 0) {
   write_shared_out(1, [&](std::size_t) { create_folder(folder / "frames"); }); // before others write there
   write_text_aside(OutputPaths(folder).view(), view_script);
 }
 
 void FieldSeries::write(const coupling::PlatenTest &problem, const std::vector<int> &moves_with) {
   if (problem.time() <= last_time_) return;
-  write_specimen(problem, moves_with);
-  if (problem.model.bonds) write_bonds(problem);
-  write_boundaries(problem);
-  write_contacts(problem);
+  queue_.add([this, frame = frame_of(problem, moves_with, count_)] {
+    store_spheres(frame);
+    if (frame.has_bonds) store_bonds(frame);
+    store_boundaries(frame);
+    store_contacts(frame);
+  });
   last_time_ = problem.time();
   ++count_;
 }
@@ -95,165 +52,49 @@ void FieldSeries::resume(double last_time, int count) {
     series->resume(last_time);
 }
 
-void FieldSeries::write_specimen(const coupling::PlatenTest &problem, const std::vector<int> &moves_with) {
-  const dem::Model &model = problem.model;
-  const dem::Particles &p = model.particles;
-  const std::size_t n = p.size();
-  std::vector<Vector3> displacement(n);
-  for (std::size_t i = 0; i < n; ++i)
-    displacement[i] = p.position[i] - p.reference_position[i];
-  std::vector<double> stress;
-  stress.reserve(9 * n);
-  for (const auto &s :
-       dem::particle_stress(p, model.bonds.get(), model.contacts.get(), problem.facts().packing_fraction))
-    stress.insert(stress.end(), s.begin(), s.end());
-  std::vector<double> diameter(p.radius.begin(), p.radius.end());
-  for (double &d : diameter)
-    d *= 2;
-  std::vector<Field> fields{{"radius", std::vector<double>(p.radius.begin(), p.radius.end())},
-                            {"diameter", std::move(diameter)},
-                            {"displacement", displacement},
-                            {"velocity", vectors(p.velocity)},
-                            {"stress", std::move(stress), 9},
-                            {"id", std::vector<int>(p.id.begin(), p.id.end())},
-                            {"coordination", coordination_of(model)}};
-  if (p.phase != nullptr) fields.push_back({"phase", std::vector<int>(p.phase->begin(), p.phase->end())});
-  if (p.has_rotation()) {
-    // As a rotation vector, rad.
-    std::vector<Vector3> rotation(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Quaternion q = (*p.orientation)[i];
-      const Vector3 v = q.w < 0 ? -vector_part(q) : vector_part(q);
-      const double sine = norm(v);
-      if (sine > 0) rotation[i] = (2 * std::atan2(sine, std::abs(q.w)) / sine) * v;
-    }
-    fields.emplace_back("rotation", rotation);
-  }
-  if (model.bonds) {
-    const dem::BondCounts counts = dem::bond_counts(p, *model.bonds);
-    std::vector<double> damage(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-      if (const int all = counts.intact[i] + counts.broken[i]; all > 0)
-        damage[i] = static_cast<double>(counts.broken[i]) / all;
-    fields.emplace_back("intact_bonds", counts.intact);
-    fields.emplace_back("broken_bonds", counts.broken);
-    fields.emplace_back("damage", std::move(damage));
-    fields.emplace_back("fragment", dem::find_fragments(p, model.bonds.get()).of_particle);
-  }
-  if (!moves_with.empty()) fields.emplace_back("moves_with", moves_with);
-  const Pieces pieces{n, in_a_piece_};
-  const std::vector<Vector3> points = vectors(p.position);
-  const FrameValues values = values_of(problem);
-  std::string name = OutputPaths::frame_name("specimen", count_);
+void FieldSeries::store_spheres(const Frame &frame) {
+  const Pieces pieces{frame.points.size(), in_a_piece_};
+  std::string name = OutputPaths::frame_name("specimen", frame.number);
   if (pieces.count() <= 1) {
-    write_points(folder_ / name, problem.time(), points, fields, values);
+    write_points(folder_ / name, frame.time, frame.points, frame.of_spheres, frame.values);
   } else {
-    name = OutputPaths::frame_of_pieces("specimen", count_);
+    name = OutputPaths::frame_of_pieces("specimen", frame.number);
     write_shared_out(pieces.count(), [&](std::size_t piece) {
-      write_piece_of_points(folder_ / name, problem.time(), points, fields, values, pieces, piece);
+      write_piece_of_points(folder_ / name, frame.time, frame.points, frame.of_spheres, frame.values, pieces,
+                            piece);
     });
-    write_pvtu(folder_ / name, problem.time(), fields, {}, values, pieces.count());
+    write_pvtu(folder_ / name, frame.time, frame.of_spheres, {}, frame.values, pieces.count());
   }
-  specimen_.append(problem.time(), name);
+  specimen_.append(frame.time, name);
 }
 
-void FieldSeries::write_bonds(const coupling::PlatenTest &problem) {
-  const dem::Particles &p = problem.model.particles;
-  const dem::Bonds &b = *problem.model.bonds;
-  const std::size_t n = b.initial_count();
-  std::vector<std::array<int, 2>> lines(n);
-  std::vector<int> state(b.state.begin(), b.state.end());
-  std::vector<int> first(n), second(n);
-  std::vector<Vector3> force(n);
-  std::vector<double> damage(n), normal(n, 0.0), shear(n, 0.0),
-      when(b.break_time.begin(), b.break_time.end());
-  for (std::size_t k = 0; k < n; ++k) {
-    lines[k] = {b.record_first[k], b.record_second[k]};
-    first[k] = p.id[static_cast<std::size_t>(lines[k][0])];
-    second[k] = p.id[static_cast<std::size_t>(lines[k][1])];
-    damage[k] = state[k] >= static_cast<int>(dem::BondState::broken_in_tension) ? 1.0 : 0.0;
-  }
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    if (b.normal_stiffness[k] == 0.0) continue;
-    const auto response = b.response(k, p);
-    const std::size_t record = static_cast<std::size_t>(b.record[k]);
-    if (!b.has_failed(k) && b.damage(k) > 0) {
-      damage[record] = b.damage(k);
-      state[record] = static_cast<int>(dem::BondState::damaged);
-    }
-    normal[record] = response.normal_force;
-    shear[record] = response.shear_force;
-    force[record] = {response.force.x, response.force.y, response.force.z};
-  }
-  const std::vector<Field> fields{{"state", std::move(state)},
-                                  {"damage", std::move(damage)},
-                                  {"normal_force", std::move(normal)},
-                                  {"shear_force", std::move(shear)},
-                                  {"force", force},
-                                  {"break_time", std::move(when)},
-                                  {"particle_a", std::move(first)},
-                                  {"particle_b", std::move(second)}};
-  const Pieces pieces{n, bonds_a_sphere * in_a_piece_};
-  const std::vector<Vector3> points = vectors(p.position);
-  const FrameValues values = values_of(problem);
-  std::string name = OutputPaths::frame_name("bonds", count_);
+void FieldSeries::store_bonds(const Frame &frame) {
+  const Pieces pieces{frame.bonds.size(), bonds_a_sphere * in_a_piece_};
+  std::string name = OutputPaths::frame_name("bonds", frame.number);
   if (pieces.count() <= 1) {
-    write_lines(folder_ / name, problem.time(), points, lines, {}, fields, values);
+    write_lines(folder_ / name, frame.time, frame.points, frame.bonds, {}, frame.of_bonds, frame.values);
   } else {
-    name = OutputPaths::frame_of_pieces("bonds", count_);
+    name = OutputPaths::frame_of_pieces("bonds", frame.number);
     write_shared_out(pieces.count(), [&](std::size_t piece) {
-      write_piece_of_lines(folder_ / name, problem.time(), points, lines, fields, values, pieces, piece);
+      write_piece_of_lines(folder_ / name, frame.time, frame.points, frame.bonds, frame.of_bonds,
+                           frame.values, pieces, piece);
     });
-    write_pvtu(folder_ / name, problem.time(), {}, fields, values, pieces.count());
+    write_pvtu(folder_ / name, frame.time, {}, frame.of_bonds, frame.values, pieces.count());
   }
-  bonds_.append(problem.time(), name);
+  bonds_.append(frame.time, name);
 }
 
-// As many files a frame as boundaries belong to a series: its parts.
-void FieldSeries::write_boundaries(const coupling::PlatenTest &problem) {
-  for (PvdSeries *series : {&platens_, &sleeve_}) {
-    const std::string name = series == &platens_ ? "platens" : "sleeve";
-    std::vector<const coupling::Boundary *> parts;
-    for (const auto &boundary : problem.boundaries())
-      if (boundary->series() == name) parts.push_back(boundary.get());
-    const int count = static_cast<int>(parts.size());
-    for (int part = 0; part < count; ++part) {
-      const std::string file = OutputPaths::frame_name(name, count * count_ + part);
-      std::ostringstream text;
-      parts[static_cast<std::size_t>(part)]->write_vtu(text);
-      write_text_aside(folder_ / file, with_scalars_named(text.str()));
-      series->append(problem.time(), file);
-    }
+void FieldSeries::store_boundaries(const Frame &frame) {
+  for (const Frame::Part &part : frame.boundaries) {
+    write_text_aside(folder_ / part.file, part.vtu);
+    (part.series == "platens" ? platens_ : sleeve_).append(frame.time, part.file);
   }
 }
 
-void FieldSeries::write_contacts(const coupling::PlatenTest &problem) {
-  std::vector<Vector3> points, normals, shears, forces;
-  std::vector<double> normal_force, shear_force, slip;
-  std::vector<int> sliding, particle;
-  for (const auto &boundary : problem.boundaries())
-    for (const coupling::ActiveContact &c : boundary->contacts()) {
-      points.push_back(c.point);
-      normals.push_back(c.normal);
-      shears.push_back(c.shear);
-      forces.push_back(c.normal_force * c.normal + c.shear);
-      normal_force.push_back(c.normal_force);
-      shear_force.push_back(norm(c.shear));
-      slip.push_back(c.slip);
-      sliding.push_back(c.sliding ? 1 : 0);
-      particle.push_back(problem.model.particles.id[static_cast<std::size_t>(c.particle)]);
-    }
-  write_points(folder_ / OutputPaths::frame_name("contacts", count_), problem.time(), points,
-               {{"normal", normals},
-                {"shear", shears},
-                {"force", forces},
-                {"normal_force", std::move(normal_force)},
-                {"shear_force", std::move(shear_force)},
-                {"slip", std::move(slip)},
-                {"sliding", std::move(sliding)},
-                {"particle", std::move(particle)}},
-               values_of(problem));
-  contacts_.append(problem.time(), OutputPaths::frame_name("contacts", count_));
+void FieldSeries::store_contacts(const Frame &frame) {
+  const std::string name = OutputPaths::frame_name("contacts", frame.number);
+  write_points(folder_ / name, frame.time, frame.contact_points, frame.of_contacts, frame.values);
+  contacts_.append(frame.time, name);
 }
 
 } // namespace platen::apps

@@ -9,6 +9,7 @@ set(PLATEN_RUN_SOURCES
   run/estimate.cc
   run/failure_summary.cc
   run/fields.cc
+  run/frame.cc
   run/file_marks.cc
   run/history.cc
   run/model_setup.cc
