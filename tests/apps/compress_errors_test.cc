@@ -567,5 +567,21 @@ TEST_F(Errors, a_disk_that_fills_is_status_four_and_loses_nothing) {
   EXPECT_EQ(difference(results_in(folder_ / "whole"), results_in(folder_ / "results")), "");
 }
 
+// On two threads they are written beside the computation: what fails there ends the run all the same.
+TEST_F(Errors, frames_that_cannot_be_written_are_status_four_on_one_thread_and_two) {
+  for (const char *threads : {"1", "2"}) {
+    const fs::path results = folder_ / threads, frames = results / "frames";
+    Program program(compress_command({scene_, "-o", threads, "-t", threads, "--quiet", "-s",
+                                      "Output/Fields every = 100", "-s", "Checkpoint/Every = 0"}),
+                    folder_);
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(results / "contacts.pvd"); }));
+    fs::rename(frames, results / "taken away");
+    EXPECT_EQ(program.wait(), 4) << threads << " threads";
+    const std::string error = content_of(folder_ / "error.txt");
+    EXPECT_TRUE(contains(error, "frames/") && contains(error, "cannot be")) << error;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  }
+}
+
 } // namespace
 } // namespace platen::apps::testing
