@@ -10,6 +10,7 @@
 #include "apps/io/stop_signal.h"
 #include "apps/run/app_output.h"
 #include "apps/run/model_setup.h"
+#include "apps/run/packing_cache.h"
 #include "apps/run/specimen_setup.h"
 
 namespace platen::apps {
@@ -34,10 +35,10 @@ long steps_between_samples(const Scene &scene, double step, double interval) {
 
 class BarRun {
 public:
-  BarRun(const Scene &scene, AppOutput &output)
+  BarRun(const Scene &scene, AppOutput &output, bool writes)
       : scene_(scene),
         output_(output),
-        specimen_(make_bonded_specimen(scene)),
+        specimen_(make_bonded_specimen(scene, keep_in_cache(scene, writes, output.log))),
         settings_(model_settings(scene)),
         model_(specimen_, settings_) {}
 
@@ -213,7 +214,7 @@ int run_bar(const CommandLine &command, const Scene &scene) {
   if (command.resume)
     throw InputError("command line: --resume: a bar test takes minutes and keeps no checkpoint; run it anew");
   AppOutput output(command, scene);
-  BarRun run(scene, output);
+  BarRun run(scene, output, !command.dry_run);
   run.measure();
   if (command.dry_run) {
     fmt::print("{}", run.description());

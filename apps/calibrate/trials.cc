@@ -13,6 +13,7 @@
 #include "apps/io/sha256.h"
 #include "apps/io/specimen_csv.h"
 #include "apps/io/stop_signal.h"
+#include "apps/run/packing_cache.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
@@ -208,7 +209,9 @@ void Trials::pack(const std::vector<Trial> &trials) {
     }
     Scene scene = scene_of_form(scene_, missing[k].test);
     scene.general.seed = missing[k].seed;
-    made[k] = make_bonded_specimen(scene);
+    RunLog silent(Loudness::quiet); // several threads are here; what is wrong with a packing is made good
+    const bool as_read = missing[k].test.form().empty();
+    made[k] = make_bonded_specimen(scene, as_read ? keep_in_cache(scene, true, silent) : KeepPacking());
     write_specimen_csv(file, made[k]);
   });
   for (std::size_t k = 0; k < missing.size(); ++k) {

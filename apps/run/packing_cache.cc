@@ -66,13 +66,21 @@ void trim_packings(const fs::path &folder, std::uintmax_t bytes, const fs::path 
 }
 
 KeepPacking keep_packing(const CommandLine &command, const Scene &scene, bool writes, RunLog &log) {
+  if (command.packings.empty()) return keep_in_cache(scene, writes, log);
   if (scene.specimen.packing == PackingKind::file) return {};
-  const bool named = !command.packings.empty();
-  const fs::path folder = named ? fs::path(command.packings) : packing_cache(scene.specimen.cache);
-  if (folder.empty() || (!named && writes && !can_be_written(folder))) return {};
-  return [=, &scene, &log](const std::function<dem::Specimen()> &pack) {
+  return [folder = fs::path(command.packings), writes, &scene,
+          &log](const std::function<dem::Specimen()> &pack) {
+    return shared_packing(scene, folder, pack, writes, log);
+  };
+}
+
+KeepPacking keep_in_cache(const Scene &scene, bool writes, RunLog &log) {
+  if (scene.specimen.packing == PackingKind::file) return {};
+  const fs::path folder = packing_cache(scene.specimen.cache);
+  if (folder.empty() || (writes && !can_be_written(folder))) return {};
+  return [folder, writes, &scene, &log](const std::function<dem::Specimen()> &pack) {
     dem::Specimen specimen = shared_packing(scene, folder, pack, writes, log);
-    if (named || !writes) return specimen;
+    if (!writes) return specimen;
     const fs::path file = folder / packing_name(packing_recipe(scene, scene.general.seed));
     std::error_code none;
     fs::last_write_time(file, fs::file_time_type::clock::now(), none);

@@ -23,6 +23,8 @@ std::filesystem::path packing_cache(const std::string &cache);
 // What becomes of the packing of this scene: it is kept in the folder that the command line names, or in the
 // cache. With `writes` it is left there.
 KeepPacking keep_packing(const CommandLine &command, const Scene &scene, bool writes, RunLog &log);
+// The same of the cache alone. Only of a scene whose Specimen is as it was read. Several threads may pack.
+KeepPacking keep_in_cache(const Scene &scene, bool writes, RunLog &log);
 
 // Removes those that were not used for longest until the others fit into `bytes`; never `newest`. What cannot
 // be removed stays.

@@ -20,6 +20,7 @@ AppDescription description_of(AppKind kind) {
       app.name = "platen-bar";
       app.purpose =
           "Pulls, bends, twists and strikes a bonded bar and compares it with strength of materials.";
+      app.caches_packings = true;
       return app;
     case AppKind::compress:
       app.name = "platen-compress";
@@ -35,6 +36,7 @@ AppDescription description_of(AppKind kind) {
     case AppKind::calibrate:
       app.name = "platen-calibrate";
       app.purpose = "Finds bonds that give a wanted E, nu, compressive and tensile strength.";
+      app.caches_packings = true;
       return app;
     case AppKind::study:
       app.name = "platen-study";

@@ -5,12 +5,14 @@
 
 #include <unistd.h>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/io/sha256.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -64,8 +66,12 @@ protected:
     fs::remove_all(folder);
     fs::create_directories(folder);
     std::ofstream(folder / "case.prm") << calibration_text;
+    setenv("PLATEN_CACHE", "none", 1); // what is tested is made here, not found
   }
-  ~CalibrateApp() override { fs::remove_all(folder); }
+  ~CalibrateApp() override {
+    setenv("PLATEN_CACHE", "none", 1);
+    fs::remove_all(folder);
+  }
 
   Scene read(const std::vector<std::string> &overrides) const {
     return read_scene((folder / "case.prm").string(), overrides, AppKind::calibrate);
@@ -144,6 +150,27 @@ std::vector<std::string> wanted(const nlohmann::json &known) {
         << " Pa";
   poisson << "Calibrate/Poisson ratio = " << known["abacus"][0]["poisson_ratio"].get<double>();
   return {"Bond/Modulus = 20 GPa", "Bond/Stiffness ratio = 0.9", young.str(), poisson.str()};
+}
+
+TEST_F(CalibrateApp, packings_are_found_in_the_cache_by_another_calibration) {
+  setenv("PLATEN_CACHE", (folder / "kept").c_str(), 1);
+  const auto packing = [&](const char *of, int seed) {
+    return text_of(folder / of / ("packing_" + std::to_string(seed) + ".csv"));
+  };
+  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"}, "a");
+  const fs::path kept = [&] {
+    for (const auto &entry : fs::directory_iterator(folder / "kept"))
+      if (entry.path().extension() == ".csv") return entry.path();
+    return fs::path();
+  }();
+  ASSERT_FALSE(kept.empty());
+  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1", "Scene/Seed = 5", "Specimen/Cache = none"}, "b");
+  ASSERT_NE(packing("a", 4), packing("b", 5));
+  // The spheres of the second, planted under the recipe of the first.
+  const std::string text = text_of(kept), planted = text.substr(0, text.find('\n') + 1) + packing("b", 5);
+  std::ofstream(kept, std::ios::binary) << planted << "# sha256 of all above: " << sha256_of(planted) << "\n";
+  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"}, "c", false, 2);
+  EXPECT_EQ(packing("c", 4), packing("b", 5));
 }
 
 TEST_F(CalibrateApp, the_search_recovers_the_bonds_of_a_known_specimen) {
