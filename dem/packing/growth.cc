@@ -21,6 +21,8 @@ constexpr std::size_t most_spheres = 5000000;
 
 void require_sensible(const Shape &shape, double mean_radius, double spread) {
   require_valid(shape);
+  if (shape.kind == ShapeKind::disc)
+    throw std::invalid_argument("a disc is packed as the cylinder that it is once it stands");
   if (!(spread >= 0) || !(spread <= 1.9))
     throw std::invalid_argument("the radius spread of a packing must lie in [0, 1.9]");
   if (!(mean_radius > 0) || !std::isfinite(mean_radius))
@@ -66,7 +68,7 @@ std::vector<Vector3> random_centres(const Shape &shape, const std::vector<double
 
 Specimen random_close_packing_of(const Shape &shape, std::size_t spheres, double spread, std::uint64_t seed,
                                  GrowthReport *report) {
-  require_valid(shape);
+  require_sensible(shape, 0.25 * smallest_width(shape), spread); // before the radius is guessed
   if (spheres == 0 || spheres > most_spheres)
     throw std::invalid_argument("the number of spheres of a packing must lie in [1, " +
                                 std::to_string(most_spheres) + "]");

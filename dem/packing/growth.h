@@ -31,8 +31,9 @@ struct GrowthReport {
 // number of spheres is chosen so that the jammed mean radius meets the wanted one within 1 % (where whole
 // numbers allow it). The same seed gives the same packing bit for bit. Spheres are numbered along space.
 //
-// Throws std::invalid_argument: shape not valid, radius not positive, spread outside [0, 1.9], spheres wider
-// than the shape, more than 5 million spheres; std::runtime_error if the packing does not jam.
+// Throws std::invalid_argument: shape not valid or a disc (it is packed as a cylinder and laid down), radius
+// not positive, spread outside [0, 1.9], spheres wider than the shape, more than 5 million spheres;
+// std::runtime_error if the packing does not jam.
 Specimen random_close_packing(const Shape &shape, double mean_radius, double spread, std::uint64_t seed,
                               GrowthReport *report = nullptr);
 // The same for a given number of spheres; the mean radius follows.

@@ -147,6 +147,8 @@ TEST(GrowthPacking, keeps_its_form_in_any_unit_of_length) {
 
 TEST(GrowthPacking, refuses_what_cannot_be_packed) {
   EXPECT_THROW(random_close_packing(cylinder(1, 1), 0.6, 0.25, 1), std::invalid_argument);
+  EXPECT_THROW(random_close_packing(disc(1, 0.5), 0.1, 0.25, 1), std::invalid_argument);
+  EXPECT_THROW(random_close_packing_of(disc(1, 0.5), 50, 0.25, 1), std::invalid_argument);
   EXPECT_THROW(random_close_packing(cylinder(1, 0), 0.1, 0.25, 1), std::invalid_argument);
   EXPECT_THROW(random_close_packing(cylinder(1, 1), -0.1, 0.25, 1), std::invalid_argument);
   EXPECT_THROW(random_close_packing(cylinder(1, 1), std::nan(""), 0.25, 1), std::invalid_argument);
