@@ -30,8 +30,9 @@ void multiply(Mode &a, double s) {
 } // namespace
 
 void multiply(const NodeMatrix &a, const std::vector<Vector3> &x, std::vector<Vector3> &y) {
+  constexpr std::size_t rows_at_once = 64; // of a thread: more than a thousand blocks
   y.resize(a.rows());
-  for_each(a.rows(), [&](std::size_t r) {
+  const auto row = [&](std::size_t r) {
     Vector3 sum;
     for (std::size_t k = a.begin[r]; k < a.begin[r + 1]; ++k) {
       const double *m = a.at(k);
@@ -40,7 +41,8 @@ void multiply(const NodeMatrix &a, const std::vector<Vector3> &x, std::vector<Ve
               m[2] * p[0] + m[5] * p[1] + m[8] * p[2]};
     }
     y[r] = sum;
-  });
+  };
+  for_each(a.rows(), row, rows_at_once);
 }
 
 double dot(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
