@@ -31,8 +31,8 @@ mkdir -p "$out"
 
 # Runs a command with its output in a log; prints the peak of its resident memory, MB. Fails as the command does.
 measured() { # log command...
-  local seconds processor memory
-  read -r seconds processor memory < <("${within[@]}" python3 "$here/measured.py" "$@") && echo "$memory"
+  local memory
+  read -r _ _ memory < <("${within[@]}" python3 "$here/measured.py" "$@") && echo "$memory"
 }
 
 found() { # log pattern: what the pattern's group holds in the log's last such line

@@ -9,6 +9,7 @@ import statistics
 import sys
 
 BONDS_MAY_DIFFER = 1e-3  # of each other: two programs round the same rule
+UNDISTURBED = 0.9  # processor seconds over seconds; a program that got less waited for others
 
 
 def told(out, run):
@@ -66,6 +67,15 @@ def print_seconds(pairs):
                 threads, *map(statistics.median, zip(*values))))
 
 
+def print_disturbed(rows):
+    shares = [(r["processor_seconds"] / r["seconds"], r) for r in rows]
+    waited = ["%s with %s threads %.0f %%" % (r["program"].capitalize(), r["threads"], 100 * share)
+              for share, r in shares if share < UNDISTURBED]
+    if waited:
+        print("\n**Other work on the machine took its processors: of one of them, %s. Seconds do not compare then; on one thread "
+              "those of processors do.**" % ", ".join(waited))
+
+
 def print_measured(pairs):
     print("| threads | pair | | strength, MPa | strain at peak | Young's modulus, GPa | broken bonds | steps | strain at end |")
     print("| --- " * 9 + "|")
@@ -95,6 +105,7 @@ def main():
     print("- kernels of Platen: %s; step %.4g s in both\n" % (p["instruction_set"], y["time_step_s"]))
     print("%d particles; bonds: Platen %d, Yade %d.\n" % (p["particles"], p["bonds"], y["bonds"]))
     print_seconds(pairs)
+    print_disturbed(rows)
     print("\nSeconds from command to prompt. The rest of the steps' is start, reading, bonding and the last "
           "files. Of one step: seconds of the steps over their number, Yade over Platen. Of processors: their time in user and "
           "system, which other work on the machine disturbs less.\n")
