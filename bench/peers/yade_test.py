@@ -32,7 +32,7 @@ KNOWN = {"Specimen/Shape": "cylinder", "Specimen/Ends": "as packed", "Effects/Bo
          "Integration/Mass scaling": "1"}
 
 # Boxes grow by this share of the largest radius to each side and are sorted again when a sphere has moved as far. It spans
-# bonds across gaps; less sorts more often, more looks at more pairs in each step.
+# bonds across gaps; less sorts more often, more looks at more pairs in each step: 0.03, 0.1 and 0.2 take the same time.
 VERLET = 0.1
 
 
@@ -94,7 +94,7 @@ class PlatenTest:
             O.pause()
 
     def broken(self):
-        """How many bonds; those torn apart are gone, or are contacts that were never bonds."""
+        """How many bonds. A pair that was torn apart is gone, or is a new contact without a bond."""
         return self.laid - sum(not i.phys.cohesionBroken for i in bonds(self.spheres))
 
 
