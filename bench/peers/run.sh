@@ -2,7 +2,8 @@
 # One step of Platen and one of Yade on the same packing, in turn (Platen, Yade, Platen, ...), and a table of the ratios.
 # Usage: bench/peers/run.sh BUILD OUT   (BUILD holds bin/bench_step; writes OUT/peers.md, peers.csv, specimen.csv, logs)
 # Environment: PARTICLES (22500), STEPS a repeat (500), REPEATS a run (3), PAIRS of runs (5), THREADS ("1 2"),
-# BASELINE (0; 1: Platen with the kernels of plain x86-64, which is what Debian builds Yade for).
+# WITHIN (nothing; a command that runs each program, such as "flock FILE"), BASELINE (0; 1: Platen with the kernels of
+# plain x86-64, which is what Debian builds Yade for).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 fail() {
@@ -15,6 +16,7 @@ particles=${PARTICLES:-22500} steps=${STEPS:-500} repeats=${REPEATS:-3} pairs=${
 platen_options=(--alone)
 [ "${BASELINE:-0}" = 0 ] || platen_options+=(--baseline)
 read -ra thread_counts <<<"${THREADS:-1 2}"
+read -ra within <<<"${WITHIN:-}"
 
 command -v yade >/dev/null || fail "yade is missing: apt-get install yade"
 command -v python3 >/dev/null || fail "python3 is missing: apt-get install python3"
@@ -29,16 +31,8 @@ mkdir -p "$out"
 
 # Runs a command with its output in a log; prints the peak of its resident memory, MB. Fails as the command does.
 measured() { # log command...
-  python3 - "$@" <<'PYTHON'
-import resource
-import subprocess
-import sys
-
-with open(sys.argv[1], "w") as log:
-    status = subprocess.run(sys.argv[2:], stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT).returncode
-print("%.0f" % (resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024))
-sys.exit(status != 0)
-PYTHON
+  local memory
+  read -r _ _ memory < <("${within[@]}" python3 "$here/measured.py" "$@") && echo "$memory"
 }
 
 found() { # log pattern: what the pattern's group holds in the log's last such line

@@ -6,6 +6,7 @@ Usage: yade -n -x -jTHREADS yade_step.py SPECIMEN.csv [--steps N] [--repeats N] 
 """
 import argparse
 import math
+import os
 import resource
 import statistics
 import sys
@@ -14,20 +15,21 @@ import traceback
 
 import numpy as np
 
-# As in bench_step.cc; SI.
-MODULUS = 40e9  # Pa, of the bond: k_n = MODULUS / (R_i + R_j)
-STIFFNESS_RATIO = 0.4  # shear over normal
-GAP = 0.1  # bond where |d| - R_i - R_j <= GAP min(R_i, R_j)
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from yade_specimen import (UNBREAKABLE, BondLaw, add_spheres, bonds, contact_of_spheres, grain_material, lay_bonds,
+                           read_specimen, touch_of_spheres)
+
+# As in bench_step.cc; SI. Nothing breaks: the elastic stage is timed.
+LAW = BondLaw(modulus=40e9, stiffness_ratio=0.4, gap=0.1, tensile_strength=UNBREAKABLE, shear_strength=UNBREAKABLE,
+              friction=0.5)
 DENSITY = 2400  # kg/m^3
-FRICTION = 0.5  # between grains
 PLATEN_FRICTION = 0.57
 LOCAL_DAMPING = 0.5
 RATE = 0.05  # m/s, closure of both platens together
-STRENGTH = 1e12  # Pa: nothing breaks, the elastic stage is timed
 
 # Boxes grow by this share of the largest radius to each side: two of them span the widest gap that is bonded, and no
 # sphere moves as far while it is timed, so that boxes are sorted once.
-VERLET = 0.5 * GAP * 1.02
+VERLET = 0.5 * LAW.gap * 1.02
 
 
 def megabytes():
@@ -35,59 +37,28 @@ def megabytes():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def read_specimen(path):
-    """Centres (n, 3) and radii (n), m, of a specimen file."""
-    rows, header = [], False
-    with open(path, encoding="utf-8-sig") as file:
-        for line in map(str.strip, file):
-            if not line or line.startswith("#"):
-                continue
-            if header:
-                rows.append([float(word) for word in line.split(",")])
-            elif line == "x_m,y_m,z_m,radius_m":
-                header = True
-            else:
-                sys.exit(f"{path}: \"{line[:60]}\" is not the header line \"x_m,y_m,z_m,radius_m\"")
-    table = np.array(rows)
-    if table.ndim != 2 or table.shape[1] != 4 or not (table[:, 3] > 0).all():
-        sys.exit(f"{path}: wanted rows of x, y, z and a positive radius")
-    return table[:, :3], table[:, 3]
-
-
-def neighbours_together(centre, cell):
-    """An order of spheres, slab by slab and row by row of cells, in which neighbours lie close in memory: about a
-    seventh faster than an order by chance."""
-    x, y, z = np.floor(centre / cell).astype(int).T
-    return np.lexsort((x, y, z))
-
-
 def add_bodies(centre, radius):
-    """Spheres first, numbered as given, then the walls at the ends; all in one call to the container."""
-    young = 0.5 * math.pi * MODULUS  # E R is the axial stiffness of a bond of two spheres of radius R
-    grain = CohFrictMat(young=young, poisson=STIFFNESS_RATIO, density=DENSITY, frictionAngle=math.atan(FRICTION),
-                        isCohesive=True, normalCohesion=STRENGTH, shearCohesion=STRENGTH, momentRotationLaw=True,
-                        alphaKr=1, alphaKtw=1)  # stiffnesses are set bond by bond, below
-    steel = FrictMat(young=young, poisson=STIFFNESS_RATIO, density=DENSITY)  # friction: see set_engines
+    """Spheres first, numbered as given, then the walls at the ends."""
+    grain = grain_material(LAW, DENSITY)
+    steel = FrictMat(young=grain.young, poisson=grain.poisson, density=DENSITY)  # friction: see set_engines
     O.materials.append(grain)
     O.materials.append(steel)
-    O.bodies.append([utils.sphere(tuple(c), r, material=grain) for c, r in zip(centre.tolist(), radius.tolist())])
+    add_spheres(centre, radius, grain)
     for end, side in (((centre[:, 2] - radius).min(), 1), ((centre[:, 2] + radius).max(), -1)):
         wall = utils.wall(float(end), axis=2, sense=side, material=steel)
         O.bodies.append(wall)
         wall.state.vel = (0, 0, 0.5 * side * RATE)
 
 
-def set_engines(largest):
+def set_engines(largest, touch, contact):
     """No more than a step needs. Moments in the total form, Yade's default and the form of Platen's law."""
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=VERLET * largest, targetInterv=-1,
                               sortAxis=2, label="collider"),
         InteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom6D(interactionDetectionFactor=1 + 0.5 * GAP * (1 + 1e-9), updateRotations=True,
-                                        label="touch"),
-             Ig2_Wall_Sphere_ScGeom()],
-            [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True),
+            [touch, Ig2_Wall_Sphere_ScGeom()],
+            [contact,
              Ip2_FrictMat_FrictMat_FrictPhys(frictAngle=MatchMaker(algo="val", val=math.atan(PLATEN_FRICTION)))],
             [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(useIncrementalForm=False),
              Law2_ScGeom_FrictPhys_CundallStrack()]),
@@ -95,32 +66,6 @@ def set_engines(largest):
     ]
     O.timingEnabled = False
     O.trackEnergy = False
-
-
-def bonds(spheres):
-    return [i for i in O.interactions if max(i.id1, i.id2) < spheres and isinstance(i.phys, CohFrictPhys)]
-
-
-def lay_bonds(centre, radius):
-    """One step makes every contact within reach of the widest pair; what the rule does not bond goes again. Bonds are
-    at rest where they were made, with the stiffnesses of Platen's parallel bond."""
-    O.dt = 1e-30  # nothing moves
-    O.step()
-    touch.interactionDetectionFactor = 1
-    for i in bonds(len(radius)):
-        ri, rj = radius[i.id1], radius[i.id2]
-        smaller = min(ri, rj)
-        if np.linalg.norm(centre[i.id1] - centre[i.id2]) - ri - rj > GAP * smaller:
-            O.interactions.erase(i.id1, i.id2)
-            continue
-        axial = MODULUS / (ri + rj) * math.pi * smaller**2  # N/m
-        i.phys.kn, i.phys.ks = axial, STIFFNESS_RATIO * axial
-        i.phys.kr, i.phys.ktw = axial * smaller**2 / 4, STIFFNESS_RATIO * axial * smaller**2 / 2  # I = A R^2/4, J = 2 I
-        i.phys.unp = i.geom.penetrationDepth
-        i.phys.normalForce = i.phys.shearForce = (0, 0, 0)
-    for k in range(len(radius)):
-        O.bodies[k].state.vel = O.bodies[k].state.angVel = (0, 0, 0)
-    O.forces.reset()
 
 
 def safe_step(radius):
@@ -142,11 +87,10 @@ def main():
     empty = megabytes()
 
     centre, radius = read_specimen(chosen.specimen)
-    order = neighbours_together(centre, 4 * radius.max())
-    centre, radius = centre[order], radius[order]
-    set_engines(radius.max())
+    touch, contact = touch_of_spheres(LAW), contact_of_spheres()
+    set_engines(radius.max(), touch, contact)
     add_bodies(centre, radius)
-    lay_bonds(centre, radius)
+    lay_bonds(centre, radius, LAW, touch, contact)
     laid = len(bonds(len(radius)))
     O.dt = chosen.time_step or safe_step(radius)
     print(f"{len(radius)} particles, {laid} bonds, {O.numThreads} threads, step {O.dt:.4g} s", flush=True)
