@@ -32,6 +32,9 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   if (b.strength_factor != nullptr) c.strength_factor = b.strength_factor->data();
   c.position = p.position.data();
   c.orientation = p.has_rotation() ? p.orientation->data() : nullptr;
+  c.motion = b.rows_move();
+  c.velocity = p.velocity.data();
+  if (p.has_rotation()) c.angular_velocity = p.angular_velocity->data();
   return c;
 }
 
@@ -81,7 +84,8 @@ std::vector<BondTotals> interface_totals(const Particles &p, const Bonds &b, Ins
 }
 
 // One block of particles, with memory of this thread for its rows.
-kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t block) {
+kernels::BlockColumns block_of(Particles &p, Bonds &b, std::size_t block) {
+  PairBlocks &blocks = b.blocks;
   kernels::BlockColumns c{};
   const std::size_t first = block * block_rows, first_ghost = blocks.first_ghost[block];
   c.first_row = static_cast<int>(first);
@@ -97,7 +101,8 @@ kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t blo
   constexpr std::size_t cache_line = 64;
   thread_local std::vector<double> memory;
   const std::size_t rows = static_cast<std::size_t>(c.own + c.ghosts + kernels::spare_rows);
-  const std::size_t used = rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation()));
+  const std::size_t used =
+      rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation(), b.rows_move()));
   if (memory.size() < used + cache_line) memory.resize(used + cache_line);
   const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
   c.rows = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
@@ -113,7 +118,7 @@ void add_weight(const Particles &p, const kernels::BlockColumns &rows, const Vec
 // One block; true where a bond may be at its strength.
 bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
                    const kernels::BondColumns &columns, const Vector3 &gravity, std::size_t block) {
-  const kernels::BlockColumns rows = block_of(p, b.blocks, block);
+  const kernels::BlockColumns rows = block_of(p, b, block);
   const bool reached = kernels.compute_forces(columns, rows, b.law, b.blocks.first_pair[block],
                                               b.blocks.first_pair[block + 1]);
   add_weight(p, rows, gravity);
@@ -164,14 +169,12 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
 void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
                               std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
   const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
-  kernels::InterfaceColumns columns = interface_columns_of(p, b);
-  columns.bonds.velocity = p.velocity.data();
-  if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
+  const kernels::InterfaceColumns columns = interface_columns_of(p, b);
   std::vector<unsigned char> failed(b.blocks.blocks(), 0);
   for_listed_blocks(
       listed, p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
-        const kernels::BlockColumns rows = block_of(p, b.blocks, block);
+        const kernels::BlockColumns rows = block_of(p, b, block);
         failed[block] = kernel.compute_forces(columns, rows, b.law, dt, b.blocks.first_pair[block],
                                               b.blocks.first_pair[block + 1]);
         add_weight(p, rows, gravity);
@@ -193,20 +196,18 @@ void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const 
 ExactSum add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt, const BlockList *listed) {
   const kernels::BondKernels &kernels = kernels_of(set);
   kernels::BondColumns columns = columns_of(p, b);
-  columns.velocity = p.velocity.data();
   columns.record = b.record.data();
   columns.dashpot = b.dashpot->data();
   columns.dashpot_force = b.dashpot_force->data();
   columns.dashpot_shear_ratio = b.dashpot_shear_ratio;
   columns.dashpot_twist_ratio = b.dashpot_twist_ratio;
-  if (p.has_rotation()) columns.angular_velocity = p.angular_velocity->data();
   if (b.dashpot_bending != nullptr) {
     columns.dashpot_bending = b.dashpot_bending->data();
     columns.dashpot_moment = b.dashpot_moment->data();
   }
   std::vector<double> power(b.blocks.blocks());
   for_listed_blocks(listed, p.size(), [&](std::size_t, std::size_t, std::size_t block) {
-    power[block] = kernels.add_dashpots(columns, block_of(p, b.blocks, block), b.blocks.first_pair[block],
+    power[block] = kernels.add_dashpots(columns, block_of(p, b, block), b.blocks.first_pair[block],
                                         b.blocks.first_pair[block + 1]);
   });
   ExactSum work;

@@ -164,7 +164,9 @@ struct Bonds {
   template <class State>
   void set_memory(std::size_t row, const State &remembered);
   BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
-  std::size_t bytes() const;                      // of all columns and of the blocks
+  // Whether kernels copy velocities into the rows of a block.
+  bool rows_move() const { return law_reads_motion(law); }
+  std::size_t bytes() const; // of all columns and of the blocks
 
 private:
   BondGeometry<double> geometry(std::size_t row) const;

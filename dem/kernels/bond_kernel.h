@@ -9,14 +9,20 @@
 
 namespace platen::dem::kernels {
 
-// Doubles of one row of a block: position and, with rotation, orientation, then the sums of force and, with
-// rotation, torque, each padded to four.
-constexpr int row_stride(bool rotation) {
-  return rotation ? 16 : 8;
+// What one row of a block holds, each part padded to four doubles: position and velocity, angular velocity
+// and orientation, then the sums of force and torque; what turns only with rotation, velocities only where
+// bonds ask how their particles move. Parts that are read together share a cache line, and so do the sums.
+constexpr int row_stride(bool rotation, bool motion) {
+  return (rotation ? 16 : 8) + (motion ? 8 : 0);
 }
-constexpr int sums_at(bool rotation) {
-  return rotation ? 8 : 4;
-}
+template <bool rotation_, bool motion_>
+struct RowLayout {
+  static constexpr bool rotation = rotation_, motion = motion_;
+  static constexpr int velocity = 4, spin = 8; // with motion
+  static constexpr int orientation = motion ? 12 : 4;
+  static constexpr int stride = row_stride(rotation, motion);
+  static constexpr int sums = rotation ? stride - 8 : motion ? 8 : 4;
+};
 // After the rows of a block's own particles and of its ghosts, for bonds that fill up a pack.
 constexpr int spare_rows = 2;
 
@@ -39,9 +45,11 @@ struct BondColumns {
   const double *strength_factor; // null: all bonds alike
   const Vector3 *position;       // columns of particles can be read one row beyond their end
   const Quaternion *orientation; // null: no rotation
+  bool motion;                   // in the rows, RowLayout
+  // Only for dashpots, and for laws that read motion.
+  const Vector3 *velocity, *angular_velocity;
   // Only for dashpots.
   const int *record;
-  const Vector3 *velocity, *angular_velocity;
   const double *dashpot, *dashpot_bending;
   double dashpot_shear_ratio, dashpot_twist_ratio;
   Vector3 *dashpot_force, *dashpot_moment;

@@ -22,17 +22,21 @@ PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
 }
 
 // `factors`: bonds have strengths of their own.
+template <Turning turning>
+using RowsOf = RowLayout<turning != Turning::none, false>;
+
 template <Turning turning, bool factors, class Law>
 PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends) {
-  constexpr bool rotation = turning != Turning::none;
+  using Rows = RowsOf<turning>;
   const Triple<Pack> d = distances(ends);
   BondResponse<Pack> r;
-  if constexpr (rotation)
+  if constexpr (Rows::rotation)
     r = law.template turning<turning == Turning::moments>(
-        geometry<factors>(c, k), BondMotion<Pack>{d, first_orientations(ends), second_orientations(ends)});
+        geometry<factors>(c, k),
+        BondMotion<Pack>{d, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))});
   else
     r = law.without_rotation(geometry<factors>(c, k), d);
-  scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
+  scatter<Rows>(ends, r.force, r.torque_i, r.torque_j);
   return r.excess;
 }
 
@@ -40,21 +44,20 @@ template <Turning turning, bool factors, class Law>
 [[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
                                 std::size_t k, std::size_t last) {
   Tail tail(c, k, last);
-  const TailEnds ends = tail_ends<turning != Turning::none>(c, block, k, last);
+  const TailEnds ends = tail_ends<RowsOf<turning>>(c, block, k, last);
   return add_pack<turning, factors>(tail.columns(c), law, 0, Ends{block.rows, ends.at});
 }
 
 template <Turning turning, bool factors, class Law>
 bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
                     std::size_t last) {
-  constexpr bool rotation = turning != Turning::none;
-  gather<rotation>(c, block);
+  gather<RowsOf<turning>>(c, block);
   Pack excess = Pack(-1.0);
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
     excess = larger(excess, add_pack<turning, factors>(c, law, k, ends_of(c, block, k)));
   if (k < last) excess = larger(excess, add_tail<turning, factors>(c, block, law, k, last));
-  scatter<rotation, false>(block);
+  scatter<RowsOf<turning>, false>(block);
   bool reached = false;
   for (int l = 0; l < lanes; ++l)
     reached |= excess.v[l] >= 0.0;
@@ -139,7 +142,7 @@ void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &t
 }
 
 // Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).
-template <Turning turning>
+template <class Rows, Turning turning>
 PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const Ends &ends) {
   const int *i = c.first + k, *j = c.second + k;
   const Triple<Pack> d = gather_difference(c.position, j, i);
@@ -169,7 +172,7 @@ PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const E
     power = power + dot(moment + load(c.dashpot_moment + k), w);
     store(c.dashpot_moment + k, moment);
   }
-  scatter<turning != Turning::none>(ends, force, ti, tj);
+  scatter<Rows>(ends, force, ti, tj);
   return power;
 }
 
@@ -189,32 +192,37 @@ struct PowerSums {
   }
 };
 
-template <Turning turning>
+template <Turning turning, bool motion>
 double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
-  constexpr bool rotation = turning != Turning::none;
-  gather<rotation>(c, block);
+  using Rows = RowLayout<turning != Turning::none, motion>;
+  gather<Rows>(c, block);
   PowerSums power;
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    power.add(add_dashpot_pack<turning>(c, k, ends_of(c, block, k)), c.record + k, lanes);
+    power.add(add_dashpot_pack<Rows, turning>(c, k, ends_of(c, block, k)), c.record + k, lanes);
   if (k < last) {
     Tail tail(c, k, last);
-    const TailEnds ends = tail_ends<rotation>(c, block, k, last);
-    power.add(add_dashpot_pack<turning>(tail.columns(c), 0, Ends{block.rows, ends.at}), c.record + k,
+    const TailEnds ends = tail_ends<Rows>(c, block, k, last);
+    power.add(add_dashpot_pack<Rows, turning>(tail.columns(c), 0, Ends{block.rows, ends.at}), c.record + k,
               last - k);
     for (std::size_t l = 0; k + l < last; ++l) {
       c.dashpot_force[k + l] = tail.dashpot_force[l];
       if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
     }
   }
-  scatter<rotation, true>(block);
+  scatter<Rows, true>(block);
   return power.sum();
 }
 
+template <bool motion>
+double add_dashpots_in(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
+  if (c.orientation == nullptr) return add_dashpots<Turning::none, motion>(c, block, first, last);
+  return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments, motion>(c, block, first, last)
+                                     : add_dashpots<Turning::forces, motion>(c, block, first, last);
+}
 double add_dashpots_of(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
-  if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, block, first, last);
-  return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, block, first, last)
-                                     : add_dashpots<Turning::forces>(c, block, first, last);
+  return c.motion ? add_dashpots_in<true>(c, block, first, last)
+                  : add_dashpots_in<false>(c, block, first, last);
 }
 
 } // namespace

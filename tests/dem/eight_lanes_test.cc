@@ -56,6 +56,7 @@ protected:
     c.normal_stiffness = b.normal_stiffness.data(), c.bond_radius = b.bond_radius.data();
     if (b.strength_factor != nullptr) c.strength_factor = b.strength_factor->data();
     c.position = p.position.data();
+    c.motion = b.rows_move();
     c.velocity = p.velocity.data();
     c.dashpot = b.dashpot->data(), c.dashpot_force = b.dashpot_force->data();
     c.dashpot_shear_ratio = b.dashpot_shear_ratio, c.dashpot_twist_ratio = b.dashpot_twist_ratio;
@@ -71,7 +72,8 @@ protected:
   std::vector<double> loads_of(const Run &run) {
     Particles &p = model.particles;
     PairBlocks &blocks = model.bonds->blocks;
-    const std::size_t stride = static_cast<std::size_t>(kernels::row_stride(rotation()));
+    const std::size_t stride =
+        static_cast<std::size_t>(kernels::row_stride(rotation(), model.bonds->rows_move()));
     std::vector<double> memory((p.size() + blocks.ghost_particle.size() + kernels::spare_rows + 1) * stride);
     for (std::size_t i = 0; i < p.size(); ++i) {
       p.force[i] = {};
