@@ -84,9 +84,15 @@ struct Tail {
     c.reference = reference, c.rest_length = rest_length, c.lever = lever;
     c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
     c.strength_factor = strength_factor;
-    c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
-    c.dashpot_force = dashpot_force, c.dashpot_moment = dashpot_moment;
+    if (c.dashpot != nullptr) c.dashpot = dashpot, c.dashpot_force = dashpot_force;
+    if (c.dashpot_bending != nullptr) c.dashpot_bending = dashpot_bending, c.dashpot_moment = dashpot_moment;
     return c;
+  }
+  void give_back(const BondColumns &c, std::size_t from, std::size_t to) const {
+    for (std::size_t l = 0; from + l < to; ++l) {
+      if (c.dashpot_force != nullptr) c.dashpot_force[from + l] = dashpot_force[l];
+      if (c.dashpot_moment != nullptr) c.dashpot_moment[from + l] = dashpot_moment[l];
+    }
   }
 };
 
@@ -216,29 +222,25 @@ void gather(const BondColumns &c, const BlockColumns &block) {
     take(block.ghost_particle[g]);
 }
 
-// Writes the sums from row `first` on to `count` vectors, or adds them. Four doubles at once run into the
-// next vector, which comes next; the last vector has a neighbour that may be another thread's.
-template <class Rows, bool add>
+// Writes the sums from row `first` on to `count` vectors. Four doubles at once run into the next vector,
+// which comes next; the last vector has a neighbour that may be another thread's.
+template <class Rows>
 void scatter(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
   const double *from = row_of<Rows>(block, first) + at;
   int k = 0;
-  if constexpr (!add)
-    for (; k + 1 < count; ++k, from += Rows::stride)
-      store_row(&to[k].x, load_row(from));
-  for (; k < count; ++k, from += Rows::stride) {
-    const Vector3 sum{from[0], from[1], from[2]};
-    to[k] = add ? to[k] + sum : sum;
-  }
+  for (; k + 1 < count; ++k, from += Rows::stride)
+    store_row(&to[k].x, load_row(from));
+  if (k < count) to[k] = {from[0], from[1], from[2]};
 }
 
-template <class Rows, bool add>
+template <class Rows>
 void scatter(const BlockColumns &block) {
   constexpr int at = Rows::sums;
-  scatter<Rows, add>(block, 0, block.own, at, block.force);
-  scatter<Rows, add>(block, block.own, block.ghosts, at, block.ghost_force);
+  scatter<Rows>(block, 0, block.own, at, block.force);
+  scatter<Rows>(block, block.own, block.ghosts, at, block.ghost_force);
   if constexpr (Rows::rotation) {
-    scatter<Rows, add>(block, 0, block.own, at + 4, block.torque);
-    scatter<Rows, add>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
+    scatter<Rows>(block, 0, block.own, at + 4, block.torque);
+    scatter<Rows>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
   }
 }
 

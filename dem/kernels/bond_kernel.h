@@ -48,11 +48,16 @@ struct BondColumns {
   bool motion;                   // in the rows, RowLayout
   // Only for dashpots, and for laws that read motion.
   const Vector3 *velocity, *angular_velocity;
-  // Only for dashpots.
-  const int *record;
+  // Null: no dashpots, or none against bending.
   const double *dashpot, *dashpot_bending;
   double dashpot_shear_ratio, dashpot_twist_ratio;
   Vector3 *dashpot_force, *dashpot_moment;
+};
+
+// What a pass over a block's bonds finds.
+struct BlockFindings {
+  bool reached = false;     // a bond may be at or above its strength; or an interface has failed in this step
+  double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
 };
 
 // What a bond holds, row by row, from index 0. Any pointer may be null.
@@ -64,12 +69,9 @@ struct BondRowValues {
 
 // Bonds [first, last) are those of one block.
 struct BondKernels {
-  // Forces of the bonds on the block's particles and ghosts; true where a bond may be at or above its
-  // strength.
-  bool (*compute_forces)(const BondColumns &, const BlockColumns &, const BondLaw &, std::size_t first,
-                         std::size_t last);
-  // Adds the dashpots' forces; returns the sum of (force now + force before) times opening velocity, W.
-  double (*add_dashpots)(const BondColumns &, const BlockColumns &, std::size_t first, std::size_t last);
+  // Forces of the bonds and their dashpots on the block's particles and ghosts.
+  BlockFindings (*compute_forces)(const BondColumns &, const BlockColumns &, const BondLaw &,
+                                  std::size_t first, std::size_t last);
   void (*measure)(const BondColumns &, const BondLaw &, const BondRowValues &, std::size_t first,
                   std::size_t last);
 };

@@ -1,6 +1,7 @@
 // Body of the interface kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "base/pi.h"
 #include "dem/kernels/block_rows.inc.h"
+#include "dem/kernels/dashpots.inc.h"
 #include "dem/kernels/interface_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -229,13 +230,36 @@ template <class Rows, bool factors, class Law>
   scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
 }
 
-template <class Rows, bool factors, class Law>
+// Adds the dashpots to what the springs of a pack do that holds.
+template <class Rows, bool dashpots>
+PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends &ends,
+                                InterfaceResponse<Pack> &response, PowerSum &power) {
+  if constexpr (dashpots) {
+    Triple<Pack> d, v;
+    part(ends, d, v);
+    const DashpotResponse r = dashpots_of<Rows>(c, k, ends, d, v, Pack(1.0), power);
+    response.force = response.force + r.force;
+    response.torque_i = response.torque_i + r.torque_i;
+    response.torque_j = response.torque_j + r.torque_j;
+  }
+}
+
+// The pack with those that are broken or may break, by all it remembers.
+template <class Rows, bool factors, bool dashpots, class Law>
+PLATEN_INLINE Pack add_any_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                                double dt, PowerSum &power) {
+  const Pack failed = add_broken_pack<Rows, factors>(c, law, k, ends, dt);
+  if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, failed, power);
+  return failed;
+}
+
+template <class Rows, bool factors, bool dashpots, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
-                            double dt) {
+                            double dt, PowerSum &power) {
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if constexpr (keeps_failed_last<Law>)
-    if (all_positive(law.failed(s))) {
+    if (all_positive(law.failed(s))) { // and has no dashpots
       add_pack_of_broken<Rows, factors>(c, law, k, ends, dt);
       return Pack(0.0);
     }
@@ -245,19 +269,21 @@ PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size
     const Triple<Pack> distance = distances(ends);
     const auto pose = [&] { return pose_of<Rows>(distance, ends); };
     if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
-      return add_broken_pack<Rows, factors>(c, law, k, ends, dt);
+      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
+    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
     scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
   } else if constexpr (is_quick_while_sound<Law>) {
     const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
     const InterfaceMotion<Pack> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
     bool yielded = false;
     if (!law.advance_sound(s, g, m, response, yielded))
-      return add_broken_pack<Rows, factors>(c, law, k, ends, dt);
+      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
     keep_sound<Law>(c.memory, k, s, yielded);
+    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
     scatter_response<Rows, Law>(ends, g, m.distance, response);
   } else {
-    return add_pack_by_motion<Rows, factors>(c, law, k, ends, dt);
+    return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
   }
   return Pack(0.0);
 }
@@ -284,37 +310,46 @@ PLATEN_INLINE void foresee_packs(const InterfaceColumns &c, std::size_t k) {
   }
 }
 
-template <class Rows, bool factors, class Law>
-bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
-                    std::size_t first, std::size_t last) {
+template <class Rows, bool factors, bool dashpots, class Law>
+BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                             std::size_t first, std::size_t last) {
   gather<Rows>(c.bonds, block);
   Pack failed(0.0);
+  PowerSum power;
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {
     foresee_packs<Law>(c, k);
-    failed = larger(failed, add_pack<Rows, factors>(c, law, k, ends_of(c.bonds, block, k), dt));
+    const Ends ends = ends_of(c.bonds, block, k);
+    failed = larger(failed, add_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power));
   }
   if (k < last) {
     Tail tail(c.bonds, k, last);
     MemoryTail memory(c.memory, k, last);
-    const TailEnds ends = tail_ends<Rows>(c.bonds, block, k, last);
+    const TailEnds at = tail_ends<Rows>(c.bonds, block, k, last);
     const InterfaceColumns rest{tail.columns(c.bonds), memory.columns()};
-    failed = larger(failed, add_pack<Rows, factors>(rest, law, 0, Ends{block.rows, ends.at}, dt));
+    const Ends ends{block.rows, at.at};
+    failed = larger(failed, add_pack<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
     memory.give_back(c.memory, k, last);
+    tail.give_back(c.bonds, k, last);
   }
-  scatter<Rows, false>(block);
-  bool any = false;
-  for (int l = 0; l < lanes; ++l)
-    any |= failed.v[l] > 0.0;
-  return any;
+  scatter<Rows>(block);
+  return {any_positive(failed), power.sum};
+}
+
+template <bool rotation, bool dashpots, class Law>
+BlockFindings compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                           std::size_t first, std::size_t last) {
+  using Rows = RowLayout<rotation, reads_motion<Law> || dashpots>;
+  return c.bonds.strength_factor != nullptr
+             ? compute_forces<Rows, true, dashpots>(c, block, law, dt, first, last)
+             : compute_forces<Rows, false, dashpots>(c, block, law, dt, first, last);
 }
 
 template <bool rotation, class Law>
-bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
-                  std::size_t first, std::size_t last) {
-  using Rows = RowLayout<rotation, reads_motion<Law>>;
-  return c.bonds.strength_factor != nullptr ? compute_forces<Rows, true>(c, block, law, dt, first, last)
-                                            : compute_forces<Rows, false>(c, block, law, dt, first, last);
+BlockFindings compute_beside(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                             std::size_t first, std::size_t last) {
+  return c.bonds.dashpot != nullptr ? compute_with<rotation, true>(c, block, law, dt, first, last)
+                                    : compute_with<rotation, false>(c, block, law, dt, first, last);
 }
 
 // f(law), or f of what stands for it where spheres turn and its bonds bend.
@@ -325,13 +360,13 @@ auto as_it_bends(const Law &law, bool turning, const F &f) {
   return f(law);
 }
 
-bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law, double dt,
-                       std::size_t first, std::size_t last) {
+BlockFindings compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law,
+                                double dt, std::size_t first, std::size_t last) {
   const bool turning = c.bonds.orientation != nullptr;
   return of_remembering(law, [&](const auto &remembering) {
     return as_it_bends(remembering, turning, [&](const auto &one) {
-      return turning ? compute_with<true>(c, block, one, dt, first, last)
-                     : compute_with<false>(c, block, one, dt, first, last);
+      return turning ? compute_beside<true>(c, block, one, dt, first, last)
+                     : compute_beside<false>(c, block, one, dt, first, last);
     });
   });
 }
