@@ -80,9 +80,15 @@ std::vector<Effect> effects_of_bonds() {
           {"crack log", [](auto &s) { s.crack_log = true; }},
           {"bond dashpots", [](auto &s) { s.bond_dashpot = 0.1; }},
           {"rotation", turn},
-          {"rotation, bond moments", [](auto &s) {
+          {"rotation, bond moments",
+           [](auto &s) {
              turn(s);
              std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
+           }},
+          {"rotation, bond moments, bond dashpots", [](auto &s) {
+             turn(s);
+             std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
+             s.bond_dashpot = 0.1;
            }}};
 }
 

@@ -42,6 +42,7 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
     if (moments)
       (*dashpot_bending)[k] = 2 * alpha * std::sqrt(s.bending * reduced((*p.inertia)[i], (*p.inertia)[j]));
   }
+  cut_blocks(); // rows hold velocities from now on
 }
 
 } // namespace platen::dem

@@ -32,6 +32,17 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   if (b.strength_factor != nullptr) c.strength_factor = b.strength_factor->data();
   c.position = p.position.data();
   c.orientation = p.has_rotation() ? p.orientation->data() : nullptr;
+  c.motion = b.rows_move();
+  c.velocity = p.velocity.data();
+  if (p.has_rotation()) c.angular_velocity = p.angular_velocity->data();
+  if (b.dashpot == nullptr) return c;
+  c.dashpot = b.dashpot->data();
+  c.dashpot_force = b.dashpot_force->data();
+  c.dashpot_shear_ratio = b.dashpot_shear_ratio;
+  c.dashpot_twist_ratio = b.dashpot_twist_ratio;
+  if (b.dashpot_bending == nullptr) return c;
+  c.dashpot_bending = b.dashpot_bending->data();
+  c.dashpot_moment = b.dashpot_moment->data();
   return c;
 }
 
@@ -81,7 +92,8 @@ std::vector<BondTotals> interface_totals(const Particles &p, const Bonds &b, Ins
 }
 
 // One block of particles, with memory of this thread for its rows.
-kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t block) {
+kernels::BlockColumns block_of(Particles &p, Bonds &b, std::size_t block) {
+  PairBlocks &blocks = b.blocks;
   kernels::BlockColumns c{};
   const std::size_t first = block * block_rows, first_ghost = blocks.first_ghost[block];
   c.first_row = static_cast<int>(first);
@@ -97,7 +109,8 @@ kernels::BlockColumns block_of(Particles &p, PairBlocks &blocks, std::size_t blo
   constexpr std::size_t cache_line = 64;
   thread_local std::vector<double> memory;
   const std::size_t rows = static_cast<std::size_t>(c.own + c.ghosts + kernels::spare_rows);
-  const std::size_t used = rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation()));
+  const std::size_t used =
+      rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation(), b.rows_move()));
   if (memory.size() < used + cache_line) memory.resize(used + cache_line);
   const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
   c.rows = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
@@ -110,33 +123,53 @@ void add_weight(const Particles &p, const kernels::BlockColumns &rows, const Vec
       rows.force[k] += p.mass[rows.first_row + k] * gravity;
 }
 
-// One block; true where a bond may be at its strength.
-bool compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
-                   const kernels::BondColumns &columns, const Vector3 &gravity, std::size_t block) {
-  const kernels::BlockColumns rows = block_of(p, b.blocks, block);
-  const bool reached = kernels.compute_forces(columns, rows, b.law, b.blocks.first_pair[block],
-                                              b.blocks.first_pair[block + 1]);
+kernels::BlockFindings compute_block(Particles &p, Bonds &b, const kernels::BondKernels &kernels,
+                                     const kernels::BondColumns &columns, const Vector3 &gravity,
+                                     std::size_t block) {
+  const kernels::BlockColumns rows = block_of(p, b, block);
+  const kernels::BlockFindings found = kernels.compute_forces(
+      columns, rows, b.law, b.blocks.first_pair[block], b.blocks.first_pair[block + 1]);
   add_weight(p, rows, gravity);
-  return reached;
+  return found;
+}
+
+ExactSum work_of_dashpots(const std::vector<kernels::BlockFindings> &found, double dt) {
+  ExactSum work;
+  for (const kernels::BlockFindings &of_block : found)
+    work += 0.5 * dt * of_block.dashpot_power;
+  return work;
+}
+
+// W, what the dashpot of a row does at the present velocities by its last force.
+double dashpot_power(const Particles &p, const Bonds &b, int row) {
+  const int i = b.first[row], j = b.second[row];
+  Vector3 v = p.velocity[j] - p.velocity[i];
+  double power = 0;
+  if (p.has_rotation()) {
+    const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
+    v += cross(p.position[j] - p.position[i], b.lever[row] * wi + (1 - b.lever[row]) * wj);
+    if (b.dashpot_moment != nullptr) power = dot((*b.dashpot_moment)[row], wj - wi);
+  }
+  return power + dot((*b.dashpot_force)[row], v);
 }
 
 } // namespace
 
-void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
+ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
+                             std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
   const kernels::BondKernels &kernels = kernels_of(set);
   const kernels::BondColumns columns = columns_of(p, b);
-  std::vector<unsigned char> reached(b.blocks.blocks(), 0);
+  std::vector<kernels::BlockFindings> found(b.blocks.blocks());
   for_listed_blocks(
       listed, p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
-        reached[block] = compute_block(p, b, kernels, columns, gravity, block);
+        found[block] = compute_block(p, b, kernels, columns, gravity, block);
       },
       beside);
   // Rare: the ratios themselves decide.
   std::vector<double> tension, shear;
-  for (std::size_t block = 0; block < reached.size(); ++block) {
-    if (!reached[block]) continue;
+  for (std::size_t block = 0; block < found.size(); ++block) {
+    if (!found[block].reached) continue;
     const std::size_t first = b.blocks.first_pair[block], last = b.blocks.first_pair[block + 1];
     tension.resize(last - first);
     shear.resize(last - first);
@@ -148,10 +181,16 @@ void compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vecto
           {static_cast<int>(k), t >= s ? BondState::broken_in_tension : BondState::broken_in_shear});
     }
   }
+  return work_of_dashpots(found, dt);
 }
 
-void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                               const std::vector<BondBreak> &breaks) {
+ExactSum compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
+                                   double dt, const std::vector<BondBreak> &breaks) {
+  // Before their last forces are overwritten.
+  ExactSum work;
+  if (b.dashpot != nullptr)
+    for (const BondBreak &broken : breaks)
+      work += -0.5 * dt * dashpot_power(p, b, broken.row);
   std::size_t done = b.blocks.blocks();
   for (const BondBreak &broken : breaks) {
     const std::size_t block = b.first[broken.row] / block_rows;
@@ -159,26 +198,26 @@ void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const
     compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
     done = block;
   }
+  return work;
 }
 
-void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
-                              std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
+ExactSum compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
+                                  double dt, std::vector<BondBreak> &breaks, const Loop &beside,
+                                  const BlockList *listed) {
   const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
-  kernels::InterfaceColumns columns = interface_columns_of(p, b);
-  columns.bonds.velocity = p.velocity.data();
-  if (p.has_rotation()) columns.bonds.angular_velocity = p.angular_velocity->data();
-  std::vector<unsigned char> failed(b.blocks.blocks(), 0);
+  const kernels::InterfaceColumns columns = interface_columns_of(p, b);
+  std::vector<kernels::BlockFindings> found(b.blocks.blocks());
   for_listed_blocks(
       listed, p.size(),
       [&](std::size_t, std::size_t, std::size_t block) {
-        const kernels::BlockColumns rows = block_of(p, b.blocks, block);
-        failed[block] = kernel.compute_forces(columns, rows, b.law, dt, b.blocks.first_pair[block],
-                                              b.blocks.first_pair[block + 1]);
+        const kernels::BlockColumns rows = block_of(p, b, block);
+        found[block] = kernel.compute_forces(columns, rows, b.law, dt, b.blocks.first_pair[block],
+                                             b.blocks.first_pair[block + 1]);
         add_weight(p, rows, gravity);
       },
       beside);
-  for (std::size_t block = 0; block < failed.size(); ++block) {
-    if (!failed[block]) continue;
+  for (std::size_t block = 0; block < found.size(); ++block) {
+    if (!found[block].reached) continue;
     const auto before = static_cast<std::ptrdiff_t>(breaks.size());
     for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
       if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))
@@ -188,31 +227,7 @@ void compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const 
       return b.record[one.row] < b.record[other.row];
     });
   }
-}
-
-ExactSum add_bond_dashpots(Particles &p, Bonds &b, InstructionSet set, double dt, const BlockList *listed) {
-  const kernels::BondKernels &kernels = kernels_of(set);
-  kernels::BondColumns columns = columns_of(p, b);
-  columns.velocity = p.velocity.data();
-  columns.record = b.record.data();
-  columns.dashpot = b.dashpot->data();
-  columns.dashpot_force = b.dashpot_force->data();
-  columns.dashpot_shear_ratio = b.dashpot_shear_ratio;
-  columns.dashpot_twist_ratio = b.dashpot_twist_ratio;
-  if (p.has_rotation()) columns.angular_velocity = p.angular_velocity->data();
-  if (b.dashpot_bending != nullptr) {
-    columns.dashpot_bending = b.dashpot_bending->data();
-    columns.dashpot_moment = b.dashpot_moment->data();
-  }
-  std::vector<double> power(b.blocks.blocks());
-  for_listed_blocks(listed, p.size(), [&](std::size_t, std::size_t, std::size_t block) {
-    power[block] = kernels.add_dashpots(columns, block_of(p, b.blocks, block), b.blocks.first_pair[block],
-                                        b.blocks.first_pair[block + 1]);
-  });
-  ExactSum work;
-  for (const double of_block : power)
-    work += 0.5 * dt * of_block;
-  return work;
+  return work_of_dashpots(found, dt);
 }
 
 std::vector<BondTotals> bond_totals_of_blocks(const Particles &p, const Bonds &b, InstructionSet set,

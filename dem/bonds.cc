@@ -135,7 +135,8 @@ void Bonds::add_history() {
 }
 
 void Bonds::cut_blocks() {
-  blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_, kernels::row_stride(rotation_));
+  const int stride = kernels::row_stride(rotation_, rows_move());
+  blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_, stride);
 }
 
 void Bonds::add_strength_factor() {

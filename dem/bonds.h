@@ -164,7 +164,9 @@ struct Bonds {
   template <class State>
   void set_memory(std::size_t row, const State &remembered);
   BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
-  std::size_t bytes() const;                      // of all columns and of the blocks
+  // Whether kernels copy velocities into the rows of a block.
+  bool rows_move() const { return law_reads_motion(law) || dashpot != nullptr; }
+  std::size_t bytes() const; // of all columns and of the blocks
 
 private:
   BondGeometry<double> geometry(std::size_t row) const;
@@ -230,25 +232,23 @@ struct BrokenBond {
 // Sets force and torque of every particle to its weight and the bonds of its own block; what bonds bring from
 // other blocks waits in the ghosts, for return_ghosts. On any number of threads. Rows at or above their
 // strength are appended to `breaks`, in row order; nothing is broken here. `beside` is done at the same time.
-// This and what follows go through the blocks that are listed, where a list is given, and through all else.
-void compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                         std::vector<BondBreak> &breaks, const Loop &beside = {},
-                         const BlockList *listed = nullptr);
-// The same again for the blocks of rows that have just been broken.
-void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                               const std::vector<BondBreak> &breaks);
+// Dashpots act too, where there are any, at the velocities of the last drift, which took dt. Returns the
+// energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog sees it. This
+// and what follows go through the blocks that are listed, where a list is given, and through all else.
+ExactSum compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
+                             double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
+                             const BlockList *listed = nullptr);
+// The same again for the blocks of rows that have just been broken. Returns what is to be added to the
+// energy: at the end of the drift their dashpots act no more.
+ExactSum compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set,
+                                   const Vector3 &gravity, double dt, const std::vector<BondBreak> &breaks);
 
 // The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
-// have failed in this step are appended to `breaks`, in row order; they are not marked here.
-void compute_interface_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
-                              const BlockList *listed = nullptr);
-
-// Adds the dashpots to the particles and ghosts, from the velocities of the last drift, which took dt.
-// Returns the energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog
-// sees it. Needs Bonds::add_dashpots, and each row that broke once more before it is compacted away.
-ExactSum add_bond_dashpots(Particles &particles, Bonds &bonds, InstructionSet set, double dt,
-                           const BlockList *listed = nullptr);
+// have failed in this step are appended to `breaks`, in row order; they are not marked here, and their
+// dashpots act no more.
+ExactSum compute_interface_forces(Particles &particles, Bonds &bonds, InstructionSet set,
+                                  const Vector3 &gravity, double dt, std::vector<BondBreak> &breaks,
+                                  const Loop &beside = {}, const BlockList *listed = nullptr);
 
 struct BondTotals {
   double energy = 0; // J

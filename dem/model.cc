@@ -127,10 +127,6 @@ void Model::compute_forces(double dt, const Loop &beside, const std::function<vo
   if (exchange_) return compute_shared(dt, beside, done);
   compute_bonds(dt, nullptr, beside);
   finish_breaks(dt);
-  if (bonds && settings_.bond_dashpot > 0) {
-    StageClock::Lap lap(clock, Stage::bonds);
-    works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt);
-  }
   if (contacts) {
     StageClock::Lap lap(clock, Stage::contacts);
     contacts->compute(particles, dt);
@@ -141,20 +137,12 @@ void Model::compute_forces(double dt, const Loop &beside, const std::function<vo
 // the inner ones is computed.
 void Model::compute_shared(double dt, const Loop &beside, const std::function<void()> &done) {
   const OwnBlocks &blocks = exchange_->blocks();
-  const auto add_dashpots = [&](std::initializer_list<const BlockList *> lists) {
-    if (!bonds || !(settings_.bond_dashpot > 0)) return;
-    StageClock::Lap lap(clock, Stage::bonds);
-    for (const BlockList *listed : lists)
-      works.damping += add_bond_dashpots(particles, *bonds, settings_.instruction_set, dt, listed);
-  };
   compute_portions(dt, blocks.outer, beside);
   if (done) done();
   finish_breaks(dt);
-  add_dashpots({&blocks.first_inner, &blocks.outer});
   if (bonds) exchange_->send_bond_ghosts(bonds->blocks);
   compute_portions(dt, blocks.last_inner);
   finish_breaks(dt);
-  add_dashpots({&blocks.last_inner});
   if (!contacts) return;
   {
     StageClock::Lap lap(clock, Stage::contacts);
@@ -187,11 +175,11 @@ void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside
   }
   StageClock::Lap lap(clock, Stage::bonds);
   if (has_history(bonds->law))
-    compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt, breaks_,
-                             beside, listed);
+    works.damping += compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity,
+                                              dt, breaks_, beside, listed);
   else
-    compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_, beside,
-                        listed);
+    works.damping += compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt,
+                                         breaks_, beside, listed);
 }
 
 void Model::finish_breaks(double dt) {
@@ -201,7 +189,8 @@ void Model::finish_breaks(double dt) {
     note_breaks(bonds->fail_rows(breaks_, particles, time));
   } else {
     break_bonds(dt);
-    compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, breaks_);
+    works.damping += compute_bond_forces_again(particles, *bonds, settings_.instruction_set,
+                                               settings_.gravity, dt, breaks_);
   }
   breaks += static_cast<long>(breaks_.size());
   breaks_.clear();

@@ -68,7 +68,7 @@ public:
     InterfaceMotion<double> m{};
     m.distance = triple(d), m.travelled = triple(by);
     m.moved = triple(by + cross(d - 0.5 * by, arms));
-    m.spun = 0.5 * dot(way.turn[i] + way.turn[j], d) / norm(d);
+    m.spun_along = 0.5 * dot(way.turn[i] + way.turn[j], d);
     m.turn_i = turned(i), m.turn_j = turned(j);
     m.turned_i = triple(way.turn[i]), m.turned_j = triple(way.turn[j]);
     return m;

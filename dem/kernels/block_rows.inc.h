@@ -26,9 +26,9 @@ struct Ends {
   }
 };
 
-template <bool rotation>
+template <class Rows>
 PLATEN_INLINE double *row_of(const BlockColumns &block, int row) {
-  return block.rows + static_cast<std::ptrdiff_t>(row) * row_stride(rotation);
+  return block.rows + static_cast<std::ptrdiff_t>(row) * Rows::stride;
 }
 
 PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std::size_t k) {
@@ -40,12 +40,12 @@ PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std:
 struct TailEnds {
   PairBlocks::Ends at[lanes];
 };
-template <bool rotation>
+template <class Rows>
 TailEnds tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t k, std::size_t last) {
-  constexpr int stride = row_stride(rotation);
+  constexpr int stride = Rows::stride;
   const int spare = (block.own + block.ghosts) * stride;
   const double *first = block.rows + c.ends[last - 1].first, *second = block.rows + c.ends[last - 1].second;
-  for (int n = 0; n < sums_at(rotation); ++n)
+  for (int n = 0; n < Rows::sums; ++n)
     block.rows[spare + n] = first[n], block.rows[spare + stride + n] = second[n];
   TailEnds ends;
   for (std::size_t l = 0; l < lanes; ++l)
@@ -84,9 +84,15 @@ struct Tail {
     c.reference = reference, c.rest_length = rest_length, c.lever = lever;
     c.normal_stiffness = normal_stiffness, c.bond_radius = bond_radius;
     c.strength_factor = strength_factor;
-    c.dashpot = dashpot, c.dashpot_bending = dashpot_bending;
-    c.dashpot_force = dashpot_force, c.dashpot_moment = dashpot_moment;
+    if (c.dashpot != nullptr) c.dashpot = dashpot, c.dashpot_force = dashpot_force;
+    if (c.dashpot_bending != nullptr) c.dashpot_bending = dashpot_bending, c.dashpot_moment = dashpot_moment;
     return c;
+  }
+  void give_back(const BondColumns &c, std::size_t from, std::size_t to) const {
+    for (std::size_t l = 0; from + l < to; ++l) {
+      if (c.dashpot_force != nullptr) c.dashpot_force[from + l] = dashpot_force[l];
+      if (c.dashpot_moment != nullptr) c.dashpot_moment[from + l] = dashpot_moment[l];
+    }
   }
 };
 
@@ -98,51 +104,88 @@ PLATEN_INLINE Triple<Pack> distances(const Ends &of) {
     rows[l] = load_row(ends.second(l)) - load_row(ends.first(l));
   return to_vectors(rows);
 }
-template <class RowOf>
-PLATEN_INLINE Rotation<Pack> orientations(const RowOf &row_of_lane) {
+// The same, m, and how fast they part, m/s, from rows with motion. (Member by member: of a copied vector the
+// compiler would keep another in memory.)
+PLATEN_INLINE void part(const Ends &of, Triple<Pack> &distance, Triple<Pack> &velocity) {
+  const Ends ends = of.again();
+  LongRow rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_long_row(ends.second(l)) - load_long_row(ends.first(l));
+  const Rotation<Pack> x = first_columns(rows), v = second_columns(rows);
+  distance.x = x.w, distance.y = x.x, distance.z = x.y;
+  velocity.x = v.w, velocity.y = v.x, velocity.z = v.y;
+}
+
+// Of one end of each bond: the row of a lane.
+struct FirstEnd {
+  Ends ends;
+  explicit FirstEnd(const Ends &of) : ends(of.again()) {}
+  PLATEN_INLINE const double *operator()(int lane) const { return ends.first(lane); }
+};
+struct SecondEnd {
+  Ends ends;
+  explicit SecondEnd(const Ends &of) : ends(of.again()) {}
+  PLATEN_INLINE const double *operator()(int lane) const { return ends.second(lane); }
+};
+template <class End>
+PLATEN_INLINE Rotation<Pack> columns_at(int place, const End &row) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
-    rows[l] = load_row(row_of_lane(l) + 4);
+    rows[l] = load_row(row(l) + place);
   return to_columns(rows);
 }
-PLATEN_INLINE Rotation<Pack> first_orientations(const Ends &of) {
-  const Ends ends = of.again();
-  return orientations([&](int l) { return ends.first(l); });
+template <class Rows, class End>
+PLATEN_INLINE Rotation<Pack> orientations(const End &end) {
+  return columns_at(Rows::orientation, end);
 }
-PLATEN_INLINE Rotation<Pack> second_orientations(const Ends &of) {
-  const Ends ends = of.again();
-  return orientations([&](int l) { return ends.second(l); });
+template <class Rows, class End>
+PLATEN_INLINE Triple<Pack> spins(const End &end) { // rad/s
+  return to_vector(columns_at(Rows::spin, end));
+}
+struct EndTurn {
+  Triple<Pack> spin; // rad/s
+  Rotation<Pack> orientation;
+};
+template <class Rows, class End>
+PLATEN_INLINE EndTurn turn_of(const End &end) {
+  static_assert(Rows::orientation == Rows::spin + 4);
+  LongRow rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = load_long_row(end(l) + Rows::spin);
+  return {to_vector(first_columns(rows)), second_columns(rows)};
 }
 
 // Adds force and torques to the sums of both ends, bond by bond in row order.
 #if PLATEN_LANES == 8
+template <class Rows>
 PLATEN_INLINE void scatter_with_torques(const Ends &of, const Triple<Pack> &force,
                                         const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
   const Ends ends = of.again();
-  const RowPairs f = to_pairs(force), ti = to_pairs(torque_i), tj = to_pairs(torque_j);
-  constexpr int at = sums_at(true);
-  const auto add = [&](int l, const Native &to_first, const Native &to_second) {
+  const RowTwos f = to_twos(force), ti = to_twos(torque_i);
+  const RowTwos tj = to_twos(Triple<Pack>{-torque_j.x, -torque_j.y, -torque_j.z});
+  constexpr int at = Rows::sums;
+  const auto add = [&](int l, const Native &to_first, const Native &from_second) {
     double *a = ends.first(l) + at, *b = ends.second(l) + at;
     store_native(a, load_native(a) + to_first);
-    store_native(b, load_native(b) + to_second);
+    store_native(b, load_native(b) - from_second);
   };
-  for (int h = 0; h < 4; ++h)
-    add(h, lower(f.of[h], ti.of[h]), lower(-f.of[h], tj.of[h]));
-  for (int h = 0; h < 4; ++h)
-    add(h + 4, upper(f.of[h], ti.of[h]), upper(-f.of[h], tj.of[h]));
+  for (int l = 0; l < 4; ++l)
+    add(l, rows_of_first(f, ti, l), rows_of_first(f, tj, l));
+  for (int l = 0; l < 4; ++l)
+    add(l + 4, rows_of_second(f, ti, l), rows_of_second(f, tj, l));
 }
 #endif
-template <bool rotation>
+template <class Rows>
 PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Triple<Pack> &torque_i,
                            const Triple<Pack> &torque_j) {
   const Ends ends = of.again();
 #if PLATEN_LANES == 8
-  if constexpr (rotation) return scatter_with_torques(ends, force, torque_i, torque_j);
+  if constexpr (Rows::rotation) return scatter_with_torques<Rows>(ends, force, torque_i, torque_j);
 #endif
-  constexpr int at = sums_at(rotation);
+  constexpr int at = Rows::sums;
   Row f[lanes], ti[lanes], tj[lanes];
   to_rows(force, f);
-  if constexpr (rotation) {
+  if constexpr (Rows::rotation) {
     to_rows(torque_i, ti);
     to_rows(torque_j, tj);
   }
@@ -150,7 +193,7 @@ PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Trip
     double *a = ends.first(l) + at, *b = ends.second(l) + at;
     store_row(a, load_row(a) + f[l]);
     store_row(b, load_row(b) - f[l]);
-    if constexpr (rotation) {
+    if constexpr (Rows::rotation) {
       store_row(a + 4, load_row(a + 4) + ti[l]);
       store_row(b + 4, load_row(b + 4) + tj[l]);
     }
@@ -158,49 +201,46 @@ PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Trip
 }
 
 // Copies the particles and clears the sums.
-template <bool rotation>
+template <class Rows>
 void gather(const BondColumns &c, const BlockColumns &block) {
   double *to = block.rows;
-  const auto take = [&](const Vector3 *position, const Quaternion *orientation) {
-    store_row(to, load_row(&position->x));
-    store_row(to + sums_at(rotation), Row{});
-    if constexpr (rotation) {
-      store_row(to + 4, load_row(&orientation->w));
-      store_row(to + 12, Row{});
+  const auto take = [&](int particle) {
+    store_row(to, load_row(&c.position[particle].x));
+    store_row(to + Rows::sums, Row{});
+    if constexpr (Rows::motion) store_row(to + Rows::velocity, load_row(&c.velocity[particle].x));
+    if constexpr (Rows::rotation) {
+      store_row(to + Rows::orientation, load_row(&c.orientation[particle].w));
+      store_row(to + Rows::sums + 4, Row{});
     }
-    to += row_stride(rotation);
+    if constexpr (Rows::rotation && Rows::motion)
+      store_row(to + Rows::spin, load_row(&c.angular_velocity[particle].x));
+    to += Rows::stride;
   };
-  const Vector3 *position = c.position + block.first_row;
-  const Quaternion *orientation = rotation ? c.orientation + block.first_row : nullptr;
   for (int k = 0; k < block.own; ++k)
-    take(position + k, rotation ? orientation + k : nullptr);
+    take(block.first_row + k);
   for (int g = 0; g < block.ghosts; ++g)
-    take(c.position + block.ghost_particle[g], rotation ? c.orientation + block.ghost_particle[g] : nullptr);
+    take(block.ghost_particle[g]);
 }
 
-// Writes the sums from row `first` on to `count` vectors, or adds them. Four doubles at once run into the
-// next vector, which comes next; the last vector has a neighbour that may be another thread's.
-template <bool rotation, bool add>
+// Writes the sums from row `first` on to `count` vectors. Four doubles at once run into the next vector,
+// which comes next; the last vector has a neighbour that may be another thread's.
+template <class Rows>
 void scatter(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
-  const double *from = row_of<rotation>(block, first) + at;
+  const double *from = row_of<Rows>(block, first) + at;
   int k = 0;
-  if constexpr (!add)
-    for (; k + 1 < count; ++k, from += row_stride(rotation))
-      store_row(&to[k].x, load_row(from));
-  for (; k < count; ++k, from += row_stride(rotation)) {
-    const Vector3 sum{from[0], from[1], from[2]};
-    to[k] = add ? to[k] + sum : sum;
-  }
+  for (; k + 1 < count; ++k, from += Rows::stride)
+    store_row(&to[k].x, load_row(from));
+  if (k < count) to[k] = {from[0], from[1], from[2]};
 }
 
-template <bool rotation, bool add>
+template <class Rows>
 void scatter(const BlockColumns &block) {
-  constexpr int at = sums_at(rotation);
-  scatter<rotation, add>(block, 0, block.own, at, block.force);
-  scatter<rotation, add>(block, block.own, block.ghosts, at, block.ghost_force);
-  if constexpr (rotation) {
-    scatter<rotation, add>(block, 0, block.own, at + 4, block.torque);
-    scatter<rotation, add>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
+  constexpr int at = Rows::sums;
+  scatter<Rows>(block, 0, block.own, at, block.force);
+  scatter<Rows>(block, block.own, block.ghosts, at, block.ghost_force);
+  if constexpr (Rows::rotation) {
+    scatter<Rows>(block, 0, block.own, at + 4, block.torque);
+    scatter<Rows>(block, block.own, block.ghosts, at + 4, block.ghost_torque);
   }
 }
 

@@ -9,14 +9,20 @@
 
 namespace platen::dem::kernels {
 
-// Doubles of one row of a block: position and, with rotation, orientation, then the sums of force and, with
-// rotation, torque, each padded to four.
-constexpr int row_stride(bool rotation) {
-  return rotation ? 16 : 8;
+// What one row of a block holds, each part padded to four doubles: position and velocity, angular velocity
+// and orientation, then the sums of force and torque; what turns only with rotation, velocities only where
+// bonds ask how their particles move. Parts that are read together share a cache line, and so do the sums.
+constexpr int row_stride(bool rotation, bool motion) {
+  return (rotation ? 16 : 8) + (motion ? 8 : 0);
 }
-constexpr int sums_at(bool rotation) {
-  return rotation ? 8 : 4;
-}
+template <bool rotation_, bool motion_>
+struct RowLayout {
+  static constexpr bool rotation = rotation_, motion = motion_;
+  static constexpr int velocity = 4, spin = 8; // with motion
+  static constexpr int orientation = motion ? 12 : 4;
+  static constexpr int stride = row_stride(rotation, motion);
+  static constexpr int sums = rotation ? stride - 8 : motion ? 8 : 4;
+};
 // After the rows of a block's own particles and of its ghosts, for bonds that fill up a pack.
 constexpr int spare_rows = 2;
 
@@ -39,12 +45,19 @@ struct BondColumns {
   const double *strength_factor; // null: all bonds alike
   const Vector3 *position;       // columns of particles can be read one row beyond their end
   const Quaternion *orientation; // null: no rotation
-  // Only for dashpots.
-  const int *record;
+  bool motion;                   // in the rows, RowLayout
+  // Only for dashpots, and for laws that read motion.
   const Vector3 *velocity, *angular_velocity;
+  // Null: no dashpots, or none against bending.
   const double *dashpot, *dashpot_bending;
   double dashpot_shear_ratio, dashpot_twist_ratio;
   Vector3 *dashpot_force, *dashpot_moment;
+};
+
+// What a pass over a block's bonds finds.
+struct BlockFindings {
+  bool reached = false;     // a bond may be at or above its strength; or an interface has failed in this step
+  double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
 };
 
 // What a bond holds, row by row, from index 0. Any pointer may be null.
@@ -56,12 +69,9 @@ struct BondRowValues {
 
 // Bonds [first, last) are those of one block.
 struct BondKernels {
-  // Forces of the bonds on the block's particles and ghosts; true where a bond may be at or above its
-  // strength.
-  bool (*compute_forces)(const BondColumns &, const BlockColumns &, const BondLaw &, std::size_t first,
-                         std::size_t last);
-  // Adds the dashpots' forces; returns the sum of (force now + force before) times opening velocity, W.
-  double (*add_dashpots)(const BondColumns &, const BlockColumns &, std::size_t first, std::size_t last);
+  // Forces of the bonds and their dashpots on the block's particles and ghosts.
+  BlockFindings (*compute_forces)(const BondColumns &, const BlockColumns &, const BondLaw &,
+                                  std::size_t first, std::size_t last);
   void (*measure)(const BondColumns &, const BondLaw &, const BondRowValues &, std::size_t first,
                   std::size_t last);
 };

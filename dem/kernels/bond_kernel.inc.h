@@ -1,6 +1,7 @@
 // Body of the bond kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/bond_kernel.h"
+#include "dem/kernels/dashpots.inc.h"
 #include "dem/kernels/pack.inc.h"
 
 namespace platen::dem::kernels {
@@ -22,59 +23,94 @@ PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
 }
 
 // `factors`: bonds have strengths of their own.
-template <Turning turning, bool factors, class Law>
-PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends) {
-  constexpr bool rotation = turning != Turning::none;
-  const Triple<Pack> d = distances(ends);
-  BondResponse<Pack> r;
-  if constexpr (rotation)
-    r = law.template turning<turning == Turning::moments>(
-        geometry<factors>(c, k), BondMotion<Pack>{d, first_orientations(ends), second_orientations(ends)});
+// `factors`: bonds have strengths of their own; `dashpots`: beside their springs.
+template <Turning turning_, bool factors_, bool dashpots_>
+struct LoopOf {
+  static constexpr Turning turning = turning_;
+  static constexpr bool factors = factors_, dashpots = dashpots_;
+  using Rows = RowLayout<turning != Turning::none, dashpots>;
+};
+
+template <class Loop, class Law>
+PLATEN_INLINE BondResponse<Pack> respond(const BondColumns &c, const Law &law, std::size_t k,
+                                         const Ends &ends, const Triple<Pack> &d) {
+  using Rows = typename Loop::Rows;
+  if constexpr (Rows::rotation)
+    return law.template turning<Loop::turning == Turning::moments>(
+        geometry<Loop::factors>(c, k),
+        BondMotion<Pack>{d, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))});
   else
-    r = law.without_rotation(geometry<factors>(c, k), d);
-  scatter<rotation>(ends, r.force, r.torque_i, r.torque_j);
-  return r.excess;
+    return law.without_rotation(geometry<Loop::factors>(c, k), d);
 }
 
-template <Turning turning, bool factors, class Law>
+template <class Loop, class Law>
+PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                            PowerSum &power) {
+  using Rows = typename Loop::Rows;
+  if constexpr (Loop::dashpots) {
+    Triple<Pack> d, v;
+    part(ends, d, v);
+    const DashpotResponse beside = dashpots_of<Rows>(c, k, ends, d, v, Pack(1.0), power);
+    const BondResponse<Pack> r = respond<Loop>(c, law, k, ends, d);
+    scatter<Rows>(ends, r.force + beside.force, r.torque_i + beside.torque_i, r.torque_j + beside.torque_j);
+    return r.excess;
+  } else {
+    const BondResponse<Pack> r = respond<Loop>(c, law, k, ends, distances(ends));
+    scatter<Rows>(ends, r.force, r.torque_i, r.torque_j);
+    return r.excess;
+  }
+}
+
+template <class Loop, class Law>
 [[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
-                                std::size_t k, std::size_t last) {
+                                std::size_t k, std::size_t last, PowerSum &power) {
   Tail tail(c, k, last);
-  const TailEnds ends = tail_ends<turning != Turning::none>(c, block, k, last);
-  return add_pack<turning, factors>(tail.columns(c), law, 0, Ends{block.rows, ends.at});
+  const TailEnds ends = tail_ends<typename Loop::Rows>(c, block, k, last);
+  const Pack excess = add_pack<Loop>(tail.columns(c), law, 0, Ends{block.rows, ends.at}, power);
+  tail.give_back(c, k, last);
+  return excess;
 }
 
-template <Turning turning, bool factors, class Law>
-bool compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
-                    std::size_t last) {
-  constexpr bool rotation = turning != Turning::none;
-  gather<rotation>(c, block);
+template <class Loop, class Law>
+BlockFindings compute_forces(const BondColumns &c, const BlockColumns &block, const Law &law,
+                             std::size_t first, std::size_t last) {
+  using Rows = typename Loop::Rows;
+  gather<Rows>(c, block);
   Pack excess = Pack(-1.0);
+  PowerSum power;
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    excess = larger(excess, add_pack<turning, factors>(c, law, k, ends_of(c, block, k)));
-  if (k < last) excess = larger(excess, add_tail<turning, factors>(c, block, law, k, last));
-  scatter<rotation, false>(block);
+    excess = larger(excess, add_pack<Loop>(c, law, k, ends_of(c, block, k), power));
+  if (k < last) excess = larger(excess, add_tail<Loop>(c, block, law, k, last, power));
+  scatter<Rows>(block);
   bool reached = false;
   for (int l = 0; l < lanes; ++l)
     reached |= excess.v[l] >= 0.0;
-  return reached;
+  return {reached, power.sum};
+}
+
+template <Turning turning, bool factors, class Law>
+BlockFindings compute_turning(const BondColumns &c, const BlockColumns &block, const Law &law,
+                              std::size_t first, std::size_t last) {
+  return c.dashpot != nullptr ? compute_forces<LoopOf<turning, factors, true>>(c, block, law, first, last)
+                              : compute_forces<LoopOf<turning, factors, false>>(c, block, law, first, last);
 }
 
 template <bool factors, class Law>
-bool compute_forces_with(const BondColumns &c, const BlockColumns &block, const Law &law, std::size_t first,
-                         std::size_t last) {
+BlockFindings compute_forces_with(const BondColumns &c, const BlockColumns &block, const Law &law,
+                                  std::size_t first, std::size_t last) {
   if (c.orientation != nullptr && law.bends())
-    return compute_forces<Turning::moments, factors>(c, block, law, first, last);
+    return compute_turning<Turning::moments, factors>(c, block, law, first, last);
   if constexpr (!Law::needs_rotation) {
-    if (c.orientation != nullptr) return compute_forces<Turning::forces, factors>(c, block, law, first, last);
-    return compute_forces<Turning::none, factors>(c, block, law, first, last);
+    if (c.orientation != nullptr)
+      return compute_turning<Turning::forces, factors>(c, block, law, first, last);
+    return compute_turning<Turning::none, factors>(c, block, law, first, last);
   }
-  return false;
+  return {};
 }
 
-bool compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law, std::size_t first,
-                       std::size_t last) {
+BlockFindings compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law,
+                                std::size_t first, std::size_t last) {
   const auto compute = [&](const auto &one) {
     return c.strength_factor != nullptr ? compute_forces_with<true>(c, block, one, first, last)
                                         : compute_forces_with<false>(c, block, one, first, last);
@@ -138,87 +174,8 @@ void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &t
   of_elastic(law, measure_all);
 }
 
-// Dashpots beside the springs, at the contact point lever d from the first centre (docs/theory.md).
-template <Turning turning>
-PLATEN_INLINE Pack add_dashpot_pack(const BondColumns &c, std::size_t k, const Ends &ends) {
-  const int *i = c.first + k, *j = c.second + k;
-  const Triple<Pack> d = gather_difference(c.position, j, i);
-  const Triple<Pack> ri = scale(load(c.lever + k), d), rj = ri - d;
-  Triple<Pack> v = gather_difference(c.velocity, j, i), w{}, ti{}, tj{};
-  if constexpr (turning != Turning::none) {
-    const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
-    v = v + (cross(wj, rj) - cross(wi, ri));
-    w = wj - wi;
-  }
-  const Pack per_square = 1.0 / dot(d, d);
-  const Triple<Pack> along = scale(dot(v, d) * per_square, d);
-  const Triple<Pack> force =
-      scale(load(c.dashpot + k), along + scale(Pack(c.dashpot_shear_ratio), v - along));
-  Pack power = dot(force + load(c.dashpot_force + k), v);
-  store(c.dashpot_force + k, force);
-  if constexpr (turning != Turning::none) {
-    ti = cross(ri, force);
-    tj = cross(force, rj);
-  }
-  if constexpr (turning == Turning::moments) {
-    const Triple<Pack> twisting = scale(dot(w, d) * per_square, d);
-    const Triple<Pack> moment =
-        scale(load(c.dashpot_bending + k), (w - twisting) + scale(Pack(c.dashpot_twist_ratio), twisting));
-    ti = ti + moment;
-    tj = tj - moment;
-    power = power + dot(moment + load(c.dashpot_moment + k), w);
-    store(c.dashpot_moment + k, moment);
-  }
-  scatter<turning != Turning::none>(ends, force, ti, tj);
-  return power;
-}
-
-// Powers by the number of the bond, so that their sum does not depend on which rows were dropped.
-struct PowerSums {
-  static constexpr int slots = 8;
-  double slot[slots] = {};
-  void add(const Pack &power, const int *record, std::size_t count) {
-    for (std::size_t l = 0; l < count; ++l)
-      slot[record[l] % slots] += power.v[l];
-  }
-  double sum() const {
-    double all = 0;
-    for (const double s : slot)
-      all += s;
-    return all;
-  }
-};
-
-template <Turning turning>
-double add_dashpots(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
-  constexpr bool rotation = turning != Turning::none;
-  gather<rotation>(c, block);
-  PowerSums power;
-  std::size_t k = first;
-  for (; k + lanes <= last; k += lanes)
-    power.add(add_dashpot_pack<turning>(c, k, ends_of(c, block, k)), c.record + k, lanes);
-  if (k < last) {
-    Tail tail(c, k, last);
-    const TailEnds ends = tail_ends<rotation>(c, block, k, last);
-    power.add(add_dashpot_pack<turning>(tail.columns(c), 0, Ends{block.rows, ends.at}), c.record + k,
-              last - k);
-    for (std::size_t l = 0; k + l < last; ++l) {
-      c.dashpot_force[k + l] = tail.dashpot_force[l];
-      if constexpr (turning == Turning::moments) c.dashpot_moment[k + l] = tail.dashpot_moment[l];
-    }
-  }
-  scatter<rotation, true>(block);
-  return power.sum();
-}
-
-double add_dashpots_of(const BondColumns &c, const BlockColumns &block, std::size_t first, std::size_t last) {
-  if (c.orientation == nullptr) return add_dashpots<Turning::none>(c, block, first, last);
-  return c.dashpot_moment != nullptr ? add_dashpots<Turning::moments>(c, block, first, last)
-                                     : add_dashpots<Turning::forces>(c, block, first, last);
-}
-
 } // namespace
 
-const BondKernels PLATEN_KERNELS{compute_forces_of, add_dashpots_of, measure_of};
+const BondKernels PLATEN_KERNELS{compute_forces_of, measure_of};
 
 } // namespace platen::dem::kernels

@@ -31,9 +31,9 @@ struct InterfaceRowValues {
 
 struct InterfaceKernel {
   // Brings interfaces [first, last), those of one block, to the present, `dt` after their last state, and
-  // adds up their forces; true where one has failed in this step.
-  bool (*compute_forces)(const InterfaceColumns &, const BlockColumns &, const BondLaw &, double dt,
-                         std::size_t first, std::size_t last);
+  // adds up their forces and those of their dashpots.
+  BlockFindings (*compute_forces)(const InterfaceColumns &, const BlockColumns &, const BondLaw &, double dt,
+                                  std::size_t first, std::size_t last);
   // Of interfaces [first, last) of any block.
   void (*measure)(const InterfaceColumns &, const BondLaw &, const InterfaceRowValues &, std::size_t first,
                   std::size_t last);

@@ -1,6 +1,7 @@
 // Body of the interface kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "base/pi.h"
 #include "dem/kernels/block_rows.inc.h"
+#include "dem/kernels/dashpots.inc.h"
 #include "dem/kernels/interface_kernel.h"
 #include "dem/kernels/pack.inc.h"
 
@@ -85,11 +86,12 @@ constexpr bool is_quick_while_sound<Law, std::enable_if_t<Law::quick_while_sound
 
 // Members of a state that the law changes of sound bonds, to their columns.
 template <class Law, class State>
-PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State &state) {
+PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State &state, bool yielded) {
   std::size_t scalars = 0, vectors = 0, member_at = 0;
   State::describe(
       [&](const char *, const char *, auto &member) {
-        const bool changes = Law::sound_members[member_at++];
+        const Changes how = Law::sound_members[member_at++];
+        const bool changes = how == Changes::always || (how == Changes::rarely && yielded);
         if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>) {
           double *column = columns.scalar[scalars++];
           if (changes) store(column + k, member);
@@ -101,42 +103,70 @@ PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State
       state);
 }
 
-// Without rotation orientations are those of the reference.
-template <bool rotation>
-PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends &ends) {
+PLATEN_INLINE Rotation<Pack> unturned() {
   const Pack none(0.0);
-  const Rotation<Pack> unturned{Pack(1.0), none, none, none};
-  if constexpr (rotation)
-    return {distance, first_orientations(ends), second_orientations(ends)};
+  return {Pack(1.0), none, none, none};
+}
+
+// Without rotation orientations are those of the reference.
+template <class Rows>
+PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends &ends) {
+  if constexpr (Rows::rotation)
+    return {distance, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))};
   else
-    return {distance, unturned, unturned};
+    return {distance, unturned(), unturned()};
+}
+
+// How the ends of each bond lie and move: from the rows, or from the particles' columns where rows do not
+// hold all of it.
+template <class Rows>
+PLATEN_INLINE void part(const BondColumns &c, std::size_t k, const Ends &ends, Triple<Pack> &distance,
+                        Triple<Pack> &velocity) {
+  if constexpr (Rows::motion)
+    part(ends, distance, velocity);
+  else
+    distance = distances(ends), velocity = gather_difference(c.velocity, c.second + k, c.first + k);
+}
+template <class Rows, bool needs_orientations, class End>
+PLATEN_INLINE EndTurn end_turn(const BondColumns &c, const int *particle, const End &end) {
+  if constexpr (Rows::motion && needs_orientations) return turn_of<Rows>(end);
+  EndTurn turn;
+  if constexpr (Rows::motion)
+    turn.spin = spins<Rows>(end);
+  else
+    turn.spin = gather(c.angular_velocity, particle);
+  if constexpr (needs_orientations) turn.orientation = orientations<Rows>(end);
+  return turn;
 }
 
 // What the pair has done since its last state, at the velocities of the drift that led here. Without
 // rotation the orientations that a law needs are those of the reference.
-template <bool rotation, bool needs_orientations, bool from_the_middle = needs_orientations>
+template <class Rows, bool needs_orientations, bool from_the_middle = needs_orientations>
 PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                               const Pack &lever, double dt) {
-  const int *i = c.first + k, *j = c.second + k;
   InterfaceMotion<Pack> m;
-  m.distance = distances(ends);
-  Triple<Pack> v = gather_difference(c.velocity, j, i);
+  Triple<Pack> v;
+  part<Rows>(c, k, ends, m.distance, v);
   m.travelled = scale(Pack(dt), v);
-  m.spun = Pack(0.0);
-  if constexpr (rotation) {
-    const Triple<Pack> wi = gather(c.angular_velocity, i), wj = gather(c.angular_velocity, j);
+  m.spun_along = Pack(0.0);
+  if constexpr (Rows::rotation) {
+    const EndTurn i = end_turn<Rows, needs_orientations>(c, c.first + k, FirstEnd(ends));
+    const EndTurn j = end_turn<Rows, needs_orientations>(c, c.second + k, SecondEnd(ends));
+    const Triple<Pack> &wi = i.spin, &wj = j.spin;
     // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
-    const Triple<Pack> arm = from_the_middle ? m.distance - scale(Pack(0.5), m.travelled) : m.distance;
-    v = v + cross(arm, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
-    const Pack length = root(dot(m.distance, m.distance));
-    m.spun = (0.5 * dt) * dot(wi + wj, m.distance) * (1.0 / length);
+    const Triple<Pack> turning = scale(lever, wi) + scale(Pack(1.0 - lever), wj);
+    if constexpr (from_the_middle)
+      v = v + cross(m.distance - scale(Pack(0.5), m.travelled), turning);
+    else
+      v = v + cross(m.distance, turning);
+    m.spun_along = (0.5 * dt) * dot(wi + wj, m.distance);
     if constexpr (needs_orientations) {
-      m.turn_i = first_orientations(ends), m.turn_j = second_orientations(ends);
+      m.turn_i = i.orientation, m.turn_j = j.orientation;
       m.turned_i = scale(Pack(dt), wi), m.turned_j = scale(Pack(dt), wj);
     }
   } else if constexpr (needs_orientations) {
     const Pack none(0.0);
-    m.turn_i = m.turn_j = {Pack(1.0), none, none, none};
+    m.turn_i = m.turn_j = unturned();
     m.turned_i = m.turned_j = {none, none, none};
   }
   m.moved = scale(Pack(dt), v);
@@ -153,40 +183,40 @@ PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t
   return g;
 }
 
-template <bool rotation, class Law>
+template <class Rows, class Law>
 PLATEN_INLINE void scatter_response(const Ends &ends, const InterfaceGeometry<Pack> &g,
                                     const Triple<Pack> &distance, const InterfaceResponse<Pack> &response) {
   if constexpr (Law::needs_orientations) {
-    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+    scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
   } else { // only what is across the distance has a moment: d x F = d x F_s
     const Triple<Pack> moment = cross(distance, response.force);
-    scatter<rotation>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+    scatter<Rows>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
   }
 }
 
 // What a pair does by all it remembers and has done.
-template <bool rotation, bool factors, class Law>
+template <class Rows, bool factors, class Law>
 PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law, std::size_t k,
                                       const Ends &ends, double dt) {
   const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const InterfaceMotion<Pack> m = motion_of<rotation, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+  const InterfaceMotion<Pack> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
-  scatter_response<rotation, Law>(ends, g, m.distance, response);
+  scatter_response<Rows, Law>(ends, g, m.distance, response);
   return response.failed_now;
 }
 
 // The same as a function of its own, so that the loop over what is whole keeps its registers.
-template <bool rotation, bool factors, class Law>
+template <class Rows, bool factors, class Law>
 [[gnu::noinline]] Pack add_broken_pack(const InterfaceColumns &c, const Law &law, std::size_t k,
                                        const Ends &ends, double dt) {
-  return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
+  return add_pack_by_motion<Rows, factors>(c, law, k, ends, dt);
 }
 
 // A pack that is broken as a whole.
-template <bool rotation, bool factors, class Law>
+template <class Rows, bool factors, class Law>
 [[gnu::noinline]] void add_pack_of_broken(const InterfaceColumns &c, const Law &law, std::size_t k,
                                           const Ends &ends, double dt) {
   const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
@@ -194,40 +224,66 @@ template <bool rotation, bool factors, class Law>
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if (law.stays_apart(s, g, distances(ends))) return;
   const InterfaceMotion<Pack> m =
-      motion_of<rotation, false, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+      motion_of<Rows, false, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
   const InterfaceResponse<Pack> response = law.advance_broken(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
-  scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+  scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
 }
 
-template <bool rotation, bool factors, class Law>
+// Adds the dashpots to what the springs of a pack do that holds.
+template <class Rows, bool dashpots>
+PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends &ends,
+                                InterfaceResponse<Pack> &response, PowerSum &power) {
+  if constexpr (dashpots) {
+    Triple<Pack> d, v;
+    part(ends, d, v);
+    const DashpotResponse r = dashpots_of<Rows>(c, k, ends, d, v, Pack(1.0), power);
+    response.force = response.force + r.force;
+    response.torque_i = response.torque_i + r.torque_i;
+    response.torque_j = response.torque_j + r.torque_j;
+  }
+}
+
+// The pack with those that are broken or may break, by all it remembers.
+template <class Rows, bool factors, bool dashpots, class Law>
+PLATEN_INLINE Pack add_any_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                                double dt, PowerSum &power) {
+  const Pack failed = add_broken_pack<Rows, factors>(c, law, k, ends, dt);
+  if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, failed, power);
+  return failed;
+}
+
+template <class Rows, bool factors, bool dashpots, class Law>
 PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
-                            double dt) {
+                            double dt, PowerSum &power) {
   typename Law::template State<Pack> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if constexpr (keeps_failed_last<Law>)
-    if (all_positive(law.failed(s))) {
-      add_pack_of_broken<rotation, factors>(c, law, k, ends, dt);
+    if (all_positive(law.failed(s))) { // and has no dashpots
+      add_pack_of_broken<Rows, factors>(c, law, k, ends, dt);
       return Pack(0.0);
     }
   InterfaceResponse<Pack> response;
   if constexpr (is_quick_while_whole<Law>) {
     bool changed = false;
     const Triple<Pack> distance = distances(ends);
-    const auto pose = [&] { return pose_of<rotation>(distance, ends); };
+    const auto pose = [&] { return pose_of<Rows>(distance, ends); };
     if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
-      return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
+      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
-    scatter<rotation>(ends, response.force, response.torque_i, response.torque_j);
+    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
+    scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
   } else if constexpr (is_quick_while_sound<Law>) {
     const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
-    const InterfaceMotion<Pack> m =
-        motion_of<rotation, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
-    if (!law.advance_sound(s, g, m, response)) return add_broken_pack<rotation, factors>(c, law, k, ends, dt);
-    keep_sound<Law>(c.memory, k, s);
-    scatter_response<rotation, Law>(ends, g, m.distance, response);
+    const InterfaceMotion<Pack> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+    bool yielded = false;
+    if (!law.advance_sound(s, g, m, response, yielded))
+      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
+    keep_sound<Law>(c.memory, k, s, yielded);
+    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
+    scatter_response<Rows, Law>(ends, g, m.distance, response);
   } else {
-    return add_pack_by_motion<rotation, factors>(c, law, k, ends, dt);
+    return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
   }
   return Pack(0.0);
 }
@@ -254,36 +310,46 @@ PLATEN_INLINE void foresee_packs(const InterfaceColumns &c, std::size_t k) {
   }
 }
 
-template <bool rotation, bool factors, class Law>
-bool compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
-                    std::size_t first, std::size_t last) {
-  gather<rotation>(c.bonds, block);
+template <class Rows, bool factors, bool dashpots, class Law>
+BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                             std::size_t first, std::size_t last) {
+  gather<Rows>(c.bonds, block);
   Pack failed(0.0);
+  PowerSum power;
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {
     foresee_packs<Law>(c, k);
-    failed = larger(failed, add_pack<rotation, factors>(c, law, k, ends_of(c.bonds, block, k), dt));
+    const Ends ends = ends_of(c.bonds, block, k);
+    failed = larger(failed, add_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power));
   }
   if (k < last) {
     Tail tail(c.bonds, k, last);
     MemoryTail memory(c.memory, k, last);
-    const TailEnds ends = tail_ends<rotation>(c.bonds, block, k, last);
+    const TailEnds at = tail_ends<Rows>(c.bonds, block, k, last);
     const InterfaceColumns rest{tail.columns(c.bonds), memory.columns()};
-    failed = larger(failed, add_pack<rotation, factors>(rest, law, 0, Ends{block.rows, ends.at}, dt));
+    const Ends ends{block.rows, at.at};
+    failed = larger(failed, add_pack<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
     memory.give_back(c.memory, k, last);
+    tail.give_back(c.bonds, k, last);
   }
-  scatter<rotation, false>(block);
-  bool any = false;
-  for (int l = 0; l < lanes; ++l)
-    any |= failed.v[l] > 0.0;
-  return any;
+  scatter<Rows>(block);
+  return {any_positive(failed), power.sum};
+}
+
+template <bool rotation, bool dashpots, class Law>
+BlockFindings compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                           std::size_t first, std::size_t last) {
+  using Rows = RowLayout<rotation, reads_motion<Law> || dashpots>;
+  return c.bonds.strength_factor != nullptr
+             ? compute_forces<Rows, true, dashpots>(c, block, law, dt, first, last)
+             : compute_forces<Rows, false, dashpots>(c, block, law, dt, first, last);
 }
 
 template <bool rotation, class Law>
-bool compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
-                  std::size_t first, std::size_t last) {
-  return c.bonds.strength_factor != nullptr ? compute_forces<rotation, true>(c, block, law, dt, first, last)
-                                            : compute_forces<rotation, false>(c, block, law, dt, first, last);
+BlockFindings compute_beside(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+                             std::size_t first, std::size_t last) {
+  return c.bonds.dashpot != nullptr ? compute_with<rotation, true>(c, block, law, dt, first, last)
+                                    : compute_with<rotation, false>(c, block, law, dt, first, last);
 }
 
 // f(law), or f of what stands for it where spheres turn and its bonds bend.
@@ -294,13 +360,13 @@ auto as_it_bends(const Law &law, bool turning, const F &f) {
   return f(law);
 }
 
-bool compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law, double dt,
-                       std::size_t first, std::size_t last) {
+BlockFindings compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law,
+                                double dt, std::size_t first, std::size_t last) {
   const bool turning = c.bonds.orientation != nullptr;
   return of_remembering(law, [&](const auto &remembering) {
     return as_it_bends(remembering, turning, [&](const auto &one) {
-      return turning ? compute_with<true>(c, block, one, dt, first, last)
-                     : compute_with<false>(c, block, one, dt, first, last);
+      return turning ? compute_beside<true>(c, block, one, dt, first, last)
+                     : compute_beside<false>(c, block, one, dt, first, last);
     });
   });
 }

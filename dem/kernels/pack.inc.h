@@ -58,11 +58,15 @@ PLATEN_INLINE Pack root(const Pack &a) {
 PLATEN_INLINE Pack magnitude(const Pack &a) {
   return a.v < 0.0 ? -a.v : a.v;
 }
-PLATEN_INLINE Pack positive_part(const Pack &a) {
-  return a.v > 0.0 ? a.v : Native{};
-}
 PLATEN_INLINE Pack larger(const Pack &a, const Pack &b) {
   return a.v > b.v ? a.v : b.v;
+}
+PLATEN_INLINE Pack positive_part(const Pack &a) {
+#if PLATEN_LANES == 8 && defined(__AVX512F__) // the compiler makes two instructions of the comparison with 0
+  return (Native)_mm512_maskz_max_pd(__mmask8(-1), (__m512d)a.v, _mm512_setzero_pd());
+#else
+  return a.v > 0.0 ? a.v : Native{};
+#endif
 }
 // Which lanes are above 0, a bit each.
 PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
@@ -113,9 +117,36 @@ PLATEN_INLINE Pack with_sign(const Pack &size, const Pack &of) {
 namespace platen::dem::kernels {
 namespace {
 
-PLATEN_INLINE Triple<Pack> to_vectors(const Row *rows) {
-  const Rotation<Pack> columns = to_columns(rows);
+#if PLATEN_LANES != 8
+// Two rows that follow each other in memory, and the columns of the first and of the second.
+struct LongRow {
+  Row first, second;
+};
+PLATEN_INLINE LongRow operator-(const LongRow &a, const LongRow &b) {
+  return {a.first - b.first, a.second - b.second};
+}
+PLATEN_INLINE LongRow load_long_row(const double *from) {
+  return {load_row(from), load_row(from + 4)};
+}
+PLATEN_INLINE Rotation<Pack> first_columns(const LongRow *rows) {
+  Row firsts[lanes];
+  for (int l = 0; l < lanes; ++l)
+    firsts[l] = rows[l].first;
+  return to_columns(firsts);
+}
+PLATEN_INLINE Rotation<Pack> second_columns(const LongRow *rows) {
+  Row seconds[lanes];
+  for (int l = 0; l < lanes; ++l)
+    seconds[l] = rows[l].second;
+  return to_columns(seconds);
+}
+#endif
+
+PLATEN_INLINE Triple<Pack> to_vector(const Rotation<Pack> &columns) {
   return {columns.w, columns.x, columns.y};
+}
+PLATEN_INLINE Triple<Pack> to_vectors(const Row *rows) {
+  return to_vector(to_columns(rows));
 }
 
 PLATEN_INLINE Rotation<Pack> load(const Quaternion *from) {

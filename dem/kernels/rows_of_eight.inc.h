@@ -1,5 +1,5 @@
-// Rows of four doubles for packs of eight lanes: two rows stand in one vector, lane l beside lane l + 4, so
-// that transpositions and sums take half the instructions of rows one by one (pack.inc.h).
+// Rows of four doubles for packs of eight lanes: two rows stand in one vector, so that transpositions and
+// sums take half the instructions of rows one by one (pack.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -25,7 +25,14 @@ PLATEN_INLINE void store_native(double *to, const Native &a) {
 PLATEN_INLINE Native join(const Row &low, const Row &high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-// Lower halves, and upper halves, of both.
+// Of both vectors each, in turn: the first and third two, or the second and fourth; the halves. All of them
+// are one instruction without a table of places.
+PLATEN_INLINE Native odd_twos(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
+}
+PLATEN_INLINE Native even_twos(const Native &a, const Native &b) {
+  return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+}
 PLATEN_INLINE Native lower(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
 }
@@ -38,34 +45,53 @@ PLATEN_INLINE Native even(const Native &a, const Native &b) {
 PLATEN_INLINE Native odd(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
 }
-PLATEN_INLINE Native first_twos(const Native &a, const Native &b) {
-  return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-}
-PLATEN_INLINE Native second_twos(const Native &a, const Native &b) {
-  return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-}
 
-// Rows l and l + 4 of four doubles, l = 0 ... 3, become columns of eight, or back.
-struct RowPairs {
-  Native of[4];
-};
-PLATEN_INLINE Rotation<Pack> to_columns(const RowPairs &rows) {
-  const Native a = even(rows.of[0], rows.of[1]), b = odd(rows.of[0], rows.of[1]);
-  const Native c = even(rows.of[2], rows.of[3]), d = odd(rows.of[2], rows.of[3]);
-  return {first_twos(a, c), first_twos(b, d), second_twos(a, c), second_twos(b, d)};
+// Rows of four doubles become columns of eight. Two rows stand in one vector: 0 beside 2, 1 beside 3, 4
+// beside 6, 5 beside 7.
+PLATEN_INLINE Rotation<Pack> to_columns(const Native &r02, const Native &r13, const Native &r46,
+                                        const Native &r57) {
+  const Native a = even(r02, r13), b = odd(r02, r13), c = even(r46, r57), d = odd(r46, r57);
+  return {odd_twos(a, c), odd_twos(b, d), even_twos(a, c), even_twos(b, d)};
 }
 PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
-  return to_columns(RowPairs{join(rows[0], rows[4]), join(rows[1], rows[5]), join(rows[2], rows[6]),
-                             join(rows[3], rows[7])});
+  return to_columns(join(rows[0], rows[2]), join(rows[1], rows[3]), join(rows[4], rows[6]),
+                    join(rows[5], rows[7]));
 }
-PLATEN_INLINE RowPairs to_pairs(const Rotation<Pack> &t) {
+
+// And back: the twos of rows l and l + 4, l = 0 ... 3, in turn; odd_twos make a row of the first, even_twos
+// of the second.
+struct RowTwos {
+  Native of[4];
+};
+PLATEN_INLINE RowTwos to_twos(const Rotation<Pack> &t) {
   const Native a = even(t.w.v, t.x.v), b = odd(t.w.v, t.x.v);
   const Native c = even(t.y.v, t.z.v), d = odd(t.y.v, t.z.v);
-  return {first_twos(a, c), first_twos(b, d), second_twos(a, c), second_twos(b, d)};
+  return {odd_twos(a, c), odd_twos(b, d), even_twos(a, c), even_twos(b, d)};
 }
 // Rows {x, y, z, any}.
-PLATEN_INLINE RowPairs to_pairs(const Triple<Pack> &t) {
-  return to_pairs(Rotation<Pack>{t.x, t.y, t.z, t.z});
+PLATEN_INLINE RowTwos to_twos(const Triple<Pack> &t) {
+  return to_twos(Rotation<Pack>{t.x, t.y, t.z, t.z});
+}
+// Row l of the first beside row l of the second, or rows l + 4.
+PLATEN_INLINE Native rows_of_first(const RowTwos &a, const RowTwos &b, int l) {
+  return odd_twos(a.of[l], b.of[l]);
+}
+PLATEN_INLINE Native rows_of_second(const RowTwos &a, const RowTwos &b, int l) {
+  return even_twos(a.of[l], b.of[l]);
+}
+
+// Two rows that follow each other in memory, and the columns of the first and of the second.
+typedef Native LongRow;
+PLATEN_INLINE LongRow load_long_row(const double *from) {
+  return load_native(from);
+}
+PLATEN_INLINE Rotation<Pack> first_columns(const LongRow *rows) {
+  return to_columns(lower(rows[0], rows[2]), lower(rows[1], rows[3]), lower(rows[4], rows[6]),
+                    lower(rows[5], rows[7]));
+}
+PLATEN_INLINE Rotation<Pack> second_columns(const LongRow *rows) {
+  return to_columns(upper(rows[0], rows[2]), upper(rows[1], rows[3]), upper(rows[4], rows[6]),
+                    upper(rows[5], rows[7]));
 }
 
 // One column of eight rows that follow each other.
@@ -95,19 +121,19 @@ PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
   store_native(at + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15));
 }
 PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
-  const RowPairs rows = to_pairs(q);
+  const RowTwos twos = to_twos(q);
   for (int h = 0; h < 4; h += 2) {
-    store_native(&to[h].w, lower(rows.of[h], rows.of[h + 1]));
-    store_native(&to[4 + h].w, upper(rows.of[h], rows.of[h + 1]));
+    store_native(&to[h].w, odd_twos(twos.of[h], twos.of[h + 1]));
+    store_native(&to[4 + h].w, even_twos(twos.of[h], twos.of[h + 1]));
   }
 }
 
 // Lanes as rows {x, y, z, any}.
 PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
-  const RowPairs pairs = to_pairs(t);
+  const RowTwos twos = to_twos(t);
   for (int h = 0; h < 4; ++h) {
-    rows[h] = __builtin_shufflevector(pairs.of[h], pairs.of[h], 0, 1, 2, 3);
-    rows[h + 4] = __builtin_shufflevector(pairs.of[h], pairs.of[h], 4, 5, 6, 7);
+    rows[h] = __builtin_shufflevector(twos.of[h], twos.of[h], 0, 1, 4, 5);
+    rows[h + 4] = __builtin_shufflevector(twos.of[h], twos.of[h], 2, 3, 6, 7);
   }
 }
 

@@ -29,6 +29,7 @@ struct CompressionBranches {
   };
   static constexpr std::size_t most = 3;
   Branch branches[most] = {}; // where fewer are given, the last goes on
+  std::size_t given = 0;
 
   CompressionBranches() = default;
   // Throws BadParameter of the law's parameters of this name.
@@ -62,6 +63,7 @@ inline CompressionBranches::CompressionBranches(const char *law, const std::vect
   if (!std::is_sorted(slopes.begin(), slopes.end()))
     refuse("compression_slopes",
            "descends: compression would grow stiffer again. Allowed: ascending numbers.");
+  given = limits.size();
   Branch last;
   for (std::size_t b = 0; b < most; ++b) {
     if (b < limits.size()) last = {limits[b], slopes[b], 0, 1 / slopes[b]};
@@ -74,7 +76,8 @@ inline CompressionBranches::CompressionBranches(const char *law, const std::vect
 template <class Real>
 PLATEN_INLINE Real CompressionBranches::envelope(const Real &elastic) const {
   Real lowest = elastic;
-  for (int b = 0; b < 3; ++b) {
+  for (std::size_t b = 0; b < most; ++b) {
+    if (b == given) break;
     const Branch &branch = branches[b];
     const Real line = branch.limit + (elastic - branch.begin) * branch.per_slope;
     lowest = lowest - positive_part(Real(lowest - line));

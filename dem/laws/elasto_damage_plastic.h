@@ -50,6 +50,9 @@ template <class Real>
 struct SkinStress {
   Real bending, twisting; // Pa
 };
+// How often a step of sound bonds changes what they remember.
+enum class Changes { never, rarely, always };
+
 struct ElastoDamagePlastic {
   static constexpr const char *word = "elasto damage plastic";
   struct Parameters {
@@ -93,7 +96,7 @@ struct ElastoDamagePlastic {
 
   bool bends() const { return parameters.moments; }
   BondStiffness stiffness(const BondGeometry<double> &g) const;
-  double shear_ratio() const { return 0.5 / (1 + parameters.poisson_ratio); } // k_s / k_n
+  double shear_ratio() const { return shear_ratio_; } // k_s / k_n
 
   // Brings the state up to date and tells what acts.
   template <class Real>
@@ -106,16 +109,19 @@ struct ElastoDamagePlastic {
                                         const InterfaceMotion<Real> &m) const;
   // The same for what has no damage and gets none in this step: most at most times. False where one of a pack
   // has some, or may get it: then nothing is told, and the state is to be thrown away. `sound_members` of the
-  // state, in the order of its description, are those that it changes.
+  // state, in the order of its description, says which of them it changes; the rarely changed ones only where
+  // `yielded`.
   static constexpr bool quick_while_sound = true;
-  static constexpr bool sound_members[] = {true, false, false, false, true, true};
+  static constexpr Changes sound_members[] = {Changes::rarely, Changes::never,  Changes::never,
+                                              Changes::never,  Changes::always, Changes::always};
   template <bool moments, class Real>
   bool advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const;
+                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r, bool &yielded) const;
   template <class Real>
   PLATEN_INLINE bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const {
-    return advance_sound<false>(SkinStress<Real>{}, s, g, m, r);
+                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r,
+                                   bool &yielded) const {
+    return advance_sound<false>(SkinStress<Real>{}, s, g, m, r, yielded);
   }
   // What has failed stands behind the others: packs are then of one kind.
   static constexpr bool failed_rows_last = true;
@@ -169,6 +175,7 @@ private:
   // softens tension too, and what is only sheared or twisted has no normal stress but round-off of either
   // sign.
   static constexpr double least_tension = 1e-9;
+  double shear_ratio_;
   // Pa; of what is never reached a number whose square is one too.
   double tensile_strength_, shear_strength_;
   // What has broken has no stiffness, and nothing to divide by it.
@@ -192,16 +199,18 @@ private:
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
   }
-  // What a step does before damage is looked at.
+  // What a step does before damage is looked at: brings the state but for damage and what it takes. (Made in
+  // place: of a copy the compiler would keep all of it in memory.)
   template <class Real>
   struct Step {
+    Real length, tension; // m; Pa
     PlaneMotion<Real> plane;
-    Real length, tension;                           // m; Pa
     Triple<Real> shear_before, slider_before, slip; // m: turned alone; of the slider, lost
+    Real yield;                                     // Pa
+
+    Step(const ElastoDamagePlastic &law, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+         const InterfaceMotion<Real> &m);
   };
-  template <class Real>
-  Step<Real> bring(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                   const InterfaceMotion<Real> &m) const;
   template <bool moments, class Real>
   bool may_be_damaged(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Real &tension,
                       const SkinStress<Real> &skin) const;
@@ -236,6 +245,7 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
 inline ElastoDamagePlastic::ElastoDamagePlastic(const Parameters &p)
     : parameters(p),
       compression(Parameters::name, p.compression_limits, p.compression_slopes),
+      shear_ratio_(0.5 / (1 + p.poisson_ratio)),
       tensile_strength_(std::fmin(never_if_zero(p.tensile_strength), 1e100)),
       shear_strength_(std::fmin(never_if_zero(p.shear_strength), 1e100)) {}
 
@@ -318,24 +328,23 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
   return r;
 }
 
-// The state but for damage and what it takes.
 template <class Real>
-PLATEN_INLINE auto ElastoDamagePlastic::bring(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                              const InterfaceMotion<Real> &m) const -> Step<Real> {
-  const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
-  const Real length = root(dot(m.distance, m.distance));
-  const PlaneMotion<Real> plane(m, length);
+PLATEN_INLINE ElastoDamagePlastic::Step<Real>::Step(const ElastoDamagePlastic &law, InterfaceState<Real> &s,
+                                                    const InterfaceGeometry<Real> &g,
+                                                    const InterfaceMotion<Real> &m)
+    : length(root(dot(m.distance, m.distance))), plane(m, length) {
+  const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn;
   const Real elastic = kn * (g.rest_length - length);
-  s.plastic = larger(s.plastic, Real(elastic - compression.envelope(elastic)));
-  const Real tension = s.plastic - elastic;
+  yield = positive_part(Real(elastic - law.compression.envelope(elastic) - s.plastic));
+  s.plastic = s.plastic + yield;
+  tension = s.plastic - elastic;
   s.shear = plane.carried(s.shear);
   s.slider = plane.carried(s.slider);
-  const Triple<Real> shear_before = s.shear - plane.moved, slider_before = s.slider - plane.moved;
-  const Real cap = parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
+  shear_before = s.shear - plane.moved, slider_before = s.slider - plane.moved;
+  const Real cap = law.parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
   const Real let_slip = slipping_share(s.slider, ks, cap);
-  const Triple<Real> slip = scale(let_slip, s.slider);
+  slip = scale(let_slip, s.slider);
   s.slider = scale(Real(1.0 - let_slip), s.slider);
-  return {plane, length, tension, shear_before, slider_before, slip};
 }
 
 template <bool moments, class Real>
@@ -345,7 +354,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Softening<Real> delta = softening(g);
   const InterfaceState<Real> last = s;
-  const Step<Real> step = bring(s, g, m);
+  const Step<Real> step(*this, s, g, m);
   const PlaneMotion<Real> &plane = step.plane;
   const Real &length = step.length, &tension = step.tension;
   const Triple<Real> &shear_before = step.shear_before, &slider_before = step.slider_before;
@@ -403,11 +412,12 @@ template <bool moments, class Real>
 PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s,
                                                       const InterfaceGeometry<Real> &g,
                                                       const InterfaceMotion<Real> &m,
-                                                      InterfaceResponse<Real> &r) const {
+                                                      InterfaceResponse<Real> &r, bool &yielded) const {
   if (any_positive(larger(s.tension_damage, s.shear_damage))) return false;
   const Real ks = shear_ratio() * g.normal_stiffness;
-  const Step<Real> step = bring(s, g, m);
+  const Step<Real> step(*this, s, g, m);
   if (may_be_damaged<moments>(s, g, step.tension, skin)) return false;
+  yielded = any_positive(step.yield);
   r.tension = step.tension;
   r.normal = g.area * step.tension;
   r.shear = scale(Real(g.area * ks), s.shear);
@@ -427,7 +437,7 @@ template <class Real>
 PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_broken(
     InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const InterfaceMotion<Real> &m) const {
   const Real ks = shear_ratio() * g.normal_stiffness;
-  const Step<Real> step = bring(s, g, m);
+  const Step<Real> step(*this, s, g, m);
   const Real closing = positive_part(Real(-step.tension)), zero = closing * 0.0;
   s.shear = {zero, zero, zero};
   s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(step.slider_before + s.slider, step.slip);

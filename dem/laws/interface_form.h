@@ -25,7 +25,7 @@ struct InterfaceMotion {
   // The same at their point of contact, where rotations count too, m; where the law needs orientations with
   // the arms in the middle of the step.
   Triple<Real> moved;
-  Real spun; // both about d, rad
+  Real spun_along; // rad m: what both have turned by, in the mean, along d; |d| times the spin
   // Where the law needs orientations: from the reference to now; and what each has turned by, rad.
   Rotation<Real> turn_i = {}, turn_j = {};
   Triple<Real> turned_i = {}, turned_j = {};
@@ -56,19 +56,23 @@ struct PlaneMotion {
   Triple<Real> n;               // to the second, now
   Triple<Real> between_normals; // (m + n)/(1 + m . n)
   Triple<Real> moved;           // in the plane, m
-  Real half, whole;             // of the spin
+  Real half, cosine, sine;      // rad, of the spin; of what is turned
 
-  // `length` is |d|. One quotient serves both lengths: a pack of eight waits for each.
+  // `length` is |d|. One quotient serves both lengths and the spin: a pack of eight waits for each.
   PLATEN_INLINE PlaneMotion(const InterfaceMotion<Real> &m, const Real &length) {
     const Triple<Real> &d = m.distance, before = d - m.travelled;
-    const Real length_before = root(dot(before, before));
+    const Real square = length * length, length_before = root(dot(before, before));
     const Real both = length * length_before + dot(before, d); // m^2
-    const Real quotient = 1.0 / (length * both);               // 1/m^3
-    n = scale(Real(quotient * both), d);
-    between_normals = scale(Real(quotient * length), scale(length_before, d) + scale(length, before));
+    const Real spun = 0.5 * m.spun_along, turning = square + spun * spun;
+    const Real quotient = 1.0 / (length * both * turning); // 1/m^5
+    const Real per_length = quotient * (both * turning), per_turning = quotient * (length * both);
+    n = scale(per_length, d);
+    between_normals =
+        scale(Real(quotient * (length * turning)), scale(length_before, d) + scale(length, before));
     moved = m.moved - scale(dot(m.moved, n), n);
-    half = 0.5 * m.spun;
-    whole = 1.0 / (1.0 + half * half);
+    half = spun * per_length;
+    cosine = (square - spun * spun) * per_turning;
+    sine = 2.0 * spun * length * per_turning;
   }
 
   // The same motion in the plane as it was in the middle of the step, turned and spun by the other half of
@@ -83,9 +87,7 @@ struct PlaneMotion {
   // A displacement at the point of contact: turned, and what the step has added to it.
   PLATEN_INLINE Triple<Real> carried(const Triple<Real> &v) const {
     const Triple<Real> flat = v - scale(dot(v, n), between_normals);
-    const Triple<Real> turned =
-        scale(Real((1.0 - half * half) * whole), flat) + scale(Real(2.0 * half * whole), cross(n, flat));
-    return turned + moved;
+    return scale(cosine, flat) + scale(sine, cross(n, flat)) + moved;
   }
 };
 

@@ -34,7 +34,7 @@ struct BendingInterface {
   static constexpr const auto &sound_members = ElastoDamagePlastic::sound_members;
   template <class Real>
   bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r) const;
+                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r, bool &yielded) const;
   template <class Real>
   static Real failed(const InterfaceState<Real> &s) {
     return ElastoDamagePlastic::failed(s);
@@ -110,10 +110,10 @@ PLATEN_INLINE InterfaceResponse<Real> BendingInterface::operator()(InterfaceStat
 
 template <class Real>
 PLATEN_INLINE bool BendingInterface::advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                                   const InterfaceMotion<Real> &m,
-                                                   InterfaceResponse<Real> &r) const {
+                                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r,
+                                                   bool &yielded) const {
   const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
-  if (!law.template advance_sound<true>(w.skin, s, g, m, r)) return false;
+  if (!law.template advance_sound<true>(w.skin, s, g, m, r, yielded)) return false;
   const Triple<Real> moment = cross(m.distance, r.force);
   r.torque_i = scale(g.lever, moment) + w.moments.torque_i;
   r.torque_j = scale(Real(1.0 - g.lever), moment) + w.moments.torque_j;

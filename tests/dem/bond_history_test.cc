@@ -24,7 +24,7 @@ TEST(bond_history, shear_of_an_interface_spins_with_the_pair) {
     InterfaceResponse<double> now{};
     constexpr int steps = 1000; // Cayley's form is off by a twelfth of the cube of an angle
     for (int k = 0; k < steps; ++k)
-      now = law(state, geometry, {distance, none, none, angle / steps});
+      now = law(state, geometry, {distance, none, none, angle / steps * length});
     EXPECT_NEAR(now.shear.x / before, std::cos(angle), 1e-6) << angle;
     EXPECT_NEAR(now.shear.y / before, std::sin(angle), 1e-6) << angle; // from x to y about z
   }

@@ -101,7 +101,7 @@ std::vector<Effect> effects() {
        nothing,
        [](ModelSettings &s) { s.bond_dashpot = .1; },
        {"bonds dashpot", "bonds dashpot_force"},
-       800},
+       300},
       {"strength_factors",
        bare_bonds,
        nothing,
@@ -231,9 +231,7 @@ long instructions_of_loops(const ModelSettings &settings) {
   KickSums sums;
   return instructions_of([&] {
     if (model->bonds)
-      compute_bond_forces(model->particles, *model->bonds, settings.instruction_set, {}, breaks);
-    if (settings.bond_dashpot > 0)
-      add_bond_dashpots(model->particles, *model->bonds, settings.instruction_set, dt);
+      compute_bond_forces(model->particles, *model->bonds, settings.instruction_set, {}, dt, breaks);
     if (model->contacts) model->contacts->compute(model->particles, dt);
     how.end_and_begin(model->particles, {}, dt, dt, sums);
   });

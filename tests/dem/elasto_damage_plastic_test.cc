@@ -346,7 +346,8 @@ TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
   EXPECT_NEAR(pair.now.energy, stored, 1e-10 * stored);
   EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-6 * 3e-6); // angle^3 a step
   for (int k = 1; k <= steps; ++k)
-    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 4 * pi / steps});
+    pair.now =
+        pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 4 * pi / steps * length});
   EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
   EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-5 * 3e-6); // angle^3/12 a step
 }

@@ -109,7 +109,7 @@ Loads bond_loads(const Particles &p, const Bonds &b) {
 }
 
 Loads kernel_loads(Particles &p, Bonds &b, InstructionSet set, std::vector<BondBreak> &breaks) {
-  compute_bond_forces(p, b, set, {}, breaks);
+  compute_bond_forces(p, b, set, {}, 0, breaks);
   for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
     return_ghosts(p, b.blocks, block);
   Loads loads{{p.force.begin(), p.force.end()}, std::vector<Vector3>(p.size())};

@@ -36,7 +36,7 @@ struct ByHand {
       if (p.has_rotation()) {
         const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
         slip += cross(wj, (b.lever[k] - 1) * d) - cross(wi, b.lever[k] * d);
-        spin = 0.5 * dot(wi + wj, d) / norm(d);
+        spin = 0.5 * dot(wi + wj, d);
       }
       const InterfaceGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
                                         pi * b.bond_radius[k] * b.bond_radius[k]};

@@ -54,8 +54,7 @@ struct Interface {
       pose.distance = pose.distance + pose.travelled;
       pose.turn_i = turn(pose.turn_i, pose.turned_i), pose.turn_j = turn(pose.turn_j, pose.turned_j);
       pose.moved = pose.travelled + cross(middle, scale(0.5, pose.turned_i + pose.turned_j));
-      pose.spun =
-          0.5 * dot(pose.turned_i + pose.turned_j, pose.distance) / root(dot(pose.distance, pose.distance));
+      pose.spun_along = 0.5 * dot(pose.turned_i + pose.turned_j, pose.distance);
       advance();
       work += 0.5 * (dot(before.force + now.force, pose.travelled) -
                      dot(before.torque_i + now.torque_i, pose.turned_i) -

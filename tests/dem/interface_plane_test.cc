@@ -57,10 +57,11 @@ TEST(interface_plane, a_spin_keeps_the_length_and_turns_by_its_angle) {
     const Turn t = turn(random);
     InterfaceMotion<double> m{};
     m.distance = triple(t.after), m.travelled = triple(t.after - t.before);
-    m.spun = 2 * (random.uniform() - 0.5);
+    const double spin = 2 * (random.uniform() - 0.5); // rad
+    m.spun_along = spin * norm(t.after);
     const PlaneMotion<double> plane(m, norm(t.after));
     const Vector3 carried = vector(plane.carried(triple(t.in_plane)));
-    const double angle = 2 * std::atan(0.5 * m.spun); // Cayley
+    const double angle = 2 * std::atan(0.5 * spin); // Cayley
     const Vector3 turned = carry_with_plane(t.in_plane, t.normal_before, t.normal);
     const Vector3 expected = std::cos(angle) * turned + std::sin(angle) * cross(t.normal, turned);
     EXPECT_LT(norm(carried - expected), 1e-13 * norm(t.in_plane)) << "turn " << n;

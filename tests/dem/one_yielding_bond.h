@@ -55,8 +55,7 @@ struct Bond {
       const Triple<double> arms =
           scale(geometry.lever, pose.turned_i) + scale(1 - geometry.lever, pose.turned_j);
       pose.moved = pose.travelled + cross(pose.distance - scale(0.5, pose.travelled), arms);
-      pose.spun =
-          0.5 * dot(pose.turned_i + pose.turned_j, pose.distance) / root(dot(pose.distance, pose.distance));
+      pose.spun_along = 0.5 * dot(pose.turned_i + pose.turned_j, pose.distance);
       now = law(state, geometry, pose);
       work += 0.5 * (dot(before.force + now.force, pose.travelled) -
                      dot(before.torque_i + now.torque_i, pose.turned_i) -

@@ -57,7 +57,7 @@ InterfaceMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k
   const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
   const Vector3 arm = d - 0.5 * dt * v; // in the middle of the step
   m.moved = triple(dt * (v + cross(wj, (b.lever[k] - 1) * arm) - cross(wi, b.lever[k] * arm)));
-  m.spun = 0.5 * dt * dot(wi + wj, d) / norm(d);
+  m.spun_along = 0.5 * dt * dot(wi + wj, d);
   m.turn_i = rotation((*p.orientation)[i]), m.turn_j = rotation((*p.orientation)[j]);
   m.turned_i = triple(dt * wi), m.turned_j = triple(dt * wj);
   return m;

@@ -1,0 +1,138 @@
+// Dashpots act in the pass that computes the bonds: the same as one by one by hand, and once a step.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+constexpr double dt = 1e-8; // s
+
+struct Case {
+  const char *name;
+  bool rotation, moments, interfaces;
+};
+class BondDashpots : public testing::TestWithParam<Case> {
+protected:
+  static ModelSettings settings(double fraction) {
+    ModelSettings s = bonded();
+    s.rotation = GetParam().rotation;
+    if (GetParam().interfaces) {
+      ElastoDamagePlastic::Parameters p;
+      p.moments = GetParam().moments;
+      s.bond = p;
+    } else {
+      parallel_bond(s).moments = GetParam().moments;
+    }
+    s.bond_dashpot = fraction;
+    return s;
+  }
+  static void set_in_motion(Particles &p) {
+    Random random(7);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p.velocity[i] = random.direction();
+      if (p.has_rotation()) (*p.angular_velocity)[i] = (1 / radius) * random.direction();
+    }
+  }
+  static Loads forces(Model &model, ExactSum *work = nullptr) {
+    Particles &p = model.particles;
+    Bonds &b = *model.bonds;
+    std::vector<BondBreak> breaks;
+    const InstructionSet set = best_instruction_set();
+    const ExactSum by_dashpots = GetParam().interfaces ? compute_interface_forces(p, b, set, {}, dt, breaks)
+                                                       : compute_bond_forces(p, b, set, {}, dt, breaks);
+    if (work != nullptr) *work = by_dashpots;
+    for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
+      return_ghosts(p, b.blocks, block);
+    Loads loads{{p.force.begin(), p.force.end()}, std::vector<Vector3>(p.size())};
+    if (p.has_rotation()) loads.torque.assign(p.torque->begin(), p.torque->end());
+    return loads;
+  }
+  // Adds a dashpot to the loads; returns its power, W.
+  static double add_dashpot(const Particles &p, const Bonds &b, std::size_t k, Loads &loads) {
+    const auto i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+    const Vector3 d = p.position[j] - p.position[i], n = d / norm(d);
+    const Vector3 ri = b.lever[k] * d, rj = ri - d;
+    Vector3 v = p.velocity[j] - p.velocity[i], w;
+    if (p.has_rotation()) {
+      const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
+      v += cross(wj, rj) - cross(wi, ri), w = wj - wi;
+    }
+    const Vector3 along = dot(v, n) * n, twisting = dot(w, n) * n;
+    const Vector3 force = (*b.dashpot)[k] * (along + b.dashpot_shear_ratio * (v - along));
+    Vector3 moment;
+    if (b.dashpot_bending != nullptr)
+      moment = (*b.dashpot_bending)[k] * ((w - twisting) + b.dashpot_twist_ratio * twisting);
+    loads.force[i] += force, loads.force[j] -= force;
+    loads.torque[i] += cross(ri, force) + moment, loads.torque[j] += cross(force, rj) - moment;
+    return dot(force, v) + dot(moment, w);
+  }
+};
+
+TEST_P(BondDashpots, are_those_of_their_formula_in_every_row) {
+  Model with(packed_box(14, 14, 14), settings(.1)), without(packed_box(14, 14, 14), settings(0));
+  set_in_motion(with.particles), set_in_motion(without.particles);
+  ExactSum work, again;
+  const Loads loads = forces(with, &work);
+  Loads expected = forces(without);
+  double power = 0, force = 0;
+  for (std::size_t k = 0; k < with.bonds->size(); ++k) {
+    power += add_dashpot(with.particles, *with.bonds, k, expected);
+    force = std::max(force, norm((*with.bonds->dashpot_force)[k]));
+  }
+  for (const Vector3 &f : expected.force)
+    force = std::max(force, norm(f));
+  EXPECT_GT(power, 0);
+  const bool turning = GetParam().rotation;
+  for (std::size_t i = 0; i < with.particles.size(); ++i) {
+    ASSERT_LE(norm(loads.force[i] - expected.force[i]), 1e-12 * force) << "row " << i;
+    if (turning) {
+      ASSERT_LE(norm(loads.torque[i] - expected.torque[i]), 1e-12 * radius * force) << "row " << i;
+    }
+  }
+  // Half of it where no force was before, all of it from the second step on.
+  EXPECT_NEAR(work.value(), .5 * dt * power, 1e-12 * dt * power);
+  forces(with, &again);
+  EXPECT_NEAR(again.value(), dt * power, 1e-12 * dt * power);
+}
+
+// The block of a break is computed twice in a step: forces of the others stay as they are to the bit, and
+// what the first pass counted of the broken one is taken back.
+TEST_P(BondDashpots, of_a_block_with_a_break_count_once) {
+  if (GetParam().interfaces) GTEST_SKIP() << "interfaces are computed once";
+  Model model(packed_box(14, 14, 14), settings(.1));
+  Particles &p = model.particles;
+  Bonds &b = *model.bonds;
+  set_in_motion(p);
+  forces(model);
+  const std::vector<Vector3> before(b.dashpot_force->begin(), b.dashpot_force->end());
+  constexpr int broken = 100;
+  Loads none{std::vector<Vector3>(p.size()), std::vector<Vector3>(p.size())};
+  const double power = add_dashpot(p, b, broken, none);
+  const std::vector<BondBreak> breaks{{broken, BondState::broken_in_tension}};
+  b.break_rows(breaks, p, 0);
+  const ExactSum work = compute_bond_forces_again(p, b, best_instruction_set(), {}, dt, breaks);
+  EXPECT_NEAR(work.value(), -.5 * dt * power, 1e-12 * dt * power);
+  for (int k = 0; k < static_cast<int>(b.size()); ++k) {
+    const Vector3 expected = k == broken ? Vector3{} : before[static_cast<std::size_t>(k)],
+                  now = (*b.dashpot_force)[k];
+    ASSERT_TRUE(now.x == expected.x && now.y == expected.y && now.z == expected.z) << "row " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(bonds, BondDashpots,
+                         testing::Values(Case{"parallel_bonds", false, false, false},
+                                         Case{"turning", true, false, false},
+                                         Case{"bending", true, true, false},
+                                         Case{"interfaces", false, false, true},
+                                         Case{"turning_interfaces", true, false, true},
+                                         Case{"bending_interfaces", true, true, true}),
+                         [](const auto &one) { return std::string(one.param.name); });
+
+} // namespace
+} // namespace platen::dem
