@@ -63,10 +63,26 @@ TEST_F(Brazilian, elastic_strips_split_as_rigid_ones) {
   const nlohmann::json rigid = split("rigid", {});
   for (const std::string motion : {"explicit", "quasi-static"}) {
     const nlohmann::json s = split(motion, {"Platens/Kind = deformable", "Platens/Motion = " + motion});
-    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1);
-    EXPECT_GT(s["cracks_on_loaded_diameter"], 0.5);
-    EXPECT_LT(s["energy_residual_relative"], 0.01);
+    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1) << motion;
+    EXPECT_GT(s["cracks_on_loaded_diameter"], 0.5) << motion;
+    const double most =
+        motion == "explicit" ? 0.004 : 0.02; // of explicit ones .0016 to .0019 on eight packings
+    EXPECT_LT(s["energy_residual_relative"], most) << motion;
   }
+}
+
+// Strips without inertia come a little behind their loads: .005 to .016 of the work on twelve packings.
+TEST_F(Brazilian, the_balance_of_quasi_static_strips_closes_to_their_lag) {
+  constexpr int packings = 4;
+  double mean = 0;
+  for (int seed = 4; seed < 4 + packings; ++seed) {
+    const nlohmann::json s =
+        split(std::to_string(seed), {"Platens/Kind = deformable", "Platens/Motion = quasi-static",
+                                     "Scene/Seed = " + std::to_string(seed)});
+    EXPECT_LT(s["energy_residual_relative"], 0.02) << "seed " << seed;
+    mean += s["energy_residual_relative"].get<double>() / packings;
+  }
+  EXPECT_LT(mean, 0.015);
 }
 
 TEST_F(Brazilian, a_disc_from_a_file_is_the_disc_that_was_packed) {
