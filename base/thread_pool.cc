@@ -4,8 +4,8 @@ namespace platen {
 
 namespace {
 
-// Some ten microseconds: longer than what a step does between two loops, short beside what a scheduler gives a
-// thread that others wait for.
+// Some ten microseconds: longer than what a step does between two loops, short beside what a scheduler gives
+// a thread that others wait for.
 constexpr int checks_before_sleep = 1000;
 
 thread_local bool inside_part = false;

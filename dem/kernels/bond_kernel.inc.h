@@ -22,7 +22,6 @@ PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
   return g;
 }
 
-// `factors`: bonds have strengths of their own.
 // `factors`: bonds have strengths of their own; `dashpots`: beside their springs.
 template <Turning turning_, bool factors_, bool dashpots_>
 struct LoopOf {

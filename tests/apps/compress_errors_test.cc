@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
@@ -581,6 +582,34 @@ TEST_F(Errors, frames_that_cannot_be_written_are_status_four_on_one_thread_and_t
     EXPECT_TRUE(contains(error, "frames/") && contains(error, "cannot be")) << error;
     EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
   }
+}
+
+// A frame that is still being written when a checkpoint is due, for the file under its name is a pipe that
+// nobody reads: a run resumed from there would miss it.
+TEST_F(Errors, a_checkpoint_waits_for_the_frames_before_it) {
+  const std::vector<std::string> run{scene_,    "-o",
+                                     "results", "-t",
+                                     "2",       "--quiet",
+                                     "-s",      "Output/Fields every = 2000",
+                                     "-s",      "Checkpoint/Every = 2100"};
+  const fs::path results = folder_ / "results", checkpoint = results / "checkpoint/step_000000002100.platen";
+  {
+    Program program(compress_command(run), folder_);
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(checkpoint); })) << "without a pipe";
+    program.wait();
+  }
+  fs::remove_all(results);
+  Program program(compress_command(run), folder_);
+  ASSERT_TRUE(program.wait_until([&] { return fs::exists(results / "frames"); }));
+  ASSERT_EQ(mkfifo((results / "frames/specimen_000001.part.vtu").c_str(), 0600), 0);
+  const auto rows = [&] { return content_of(results / "history.csv").size(); };
+  // Until it stands still.
+  for (std::size_t before = 0, now = rows(); now != before; now = rows()) {
+    before = now;
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+  EXPECT_FALSE(fs::exists(checkpoint));
+  EXPECT_FALSE(fs::exists(results / "frames/specimen_000001.vtu"));
 }
 
 } // namespace

@@ -57,16 +57,18 @@ TEST(io_write_queue, one_is_done_and_so_many_wait_and_no_more) {
 
 TEST(io_write_queue, a_failure_reaches_the_caller_and_nothing_follows_it) {
   bool followed = false;
-  WriteQueue queue(4);
-  queue.add([] { throw std::runtime_error("the disk is full"); });
-  try {
-    queue.finish();
-    ADD_FAILURE() << "a failure was lost";
-  } catch (const std::runtime_error &e) {
-    EXPECT_STREQ(e.what(), "the disk is full");
+  {
+    WriteQueue queue(4);
+    queue.add([] { throw std::runtime_error("the disk is full"); });
+    try {
+      queue.finish();
+      ADD_FAILURE() << "a failure was lost";
+    } catch (const std::runtime_error &e) {
+      EXPECT_STREQ(e.what(), "the disk is full");
+    }
+    queue.add([&] { followed = true; });
+    queue.finish(); // told once
   }
-  queue.add([&] { followed = true; });
-  queue.finish(); // told once
   EXPECT_FALSE(followed);
 }
 
