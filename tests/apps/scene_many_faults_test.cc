@@ -1,11 +1,13 @@
 // All that is wrong with a scene is told at once, in the order of files, lines and options; what only follows
 // from another fault is not.
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "apps/scene/declare.h"
 #include "apps/scene/scene.h"
@@ -17,7 +19,12 @@ namespace fs = std::filesystem;
 
 class ManyFaults : public ::testing::Test {
 protected:
-  ManyFaults() { fs::create_directories(folder_); }
+  ManyFaults() {
+    // One folder for each test: CTest runs them at the same time.
+    std::string pattern = (fs::temp_directory_path() / "platen many faults XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder for the test");
+    folder_ = pattern;
+  }
   ~ManyFaults() override { fs::remove_all(folder_); }
 
   void put(const std::string &name, const std::string &text) const { std::ofstream(folder_ / name) << text; }
@@ -46,7 +53,7 @@ protected:
       EXPECT_EQ(begins(lines[k], beginnings[k]), "");
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / "platen many faults";
+  fs::path folder_;
   const std::string good_ =
       "include " + (fs::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string() + "\n";
 };
