@@ -111,7 +111,7 @@ private:
   void group_boundaries();
   void finish_boundaries(const Step &step);
   // Time step (experiment_limits.cc).
-  dem::StableStep limit_now();
+  dem::StableStep limit_now(double sought_below);
   std::size_t contacts_closed() const;
   void choose_step(bool first);
   bool choice_is_due();

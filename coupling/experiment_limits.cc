@@ -2,6 +2,7 @@
 // and the time step: chosen at the start, and again where contacts have closed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/shortest_text.h"
@@ -74,7 +75,7 @@ void Experiment::check_energy() {
   energy_allowed_ = most_of_work_in_motion * (came_in + 0.5 * mass * speed * speed);
   if (moving <= energy_allowed_) return;
   gather();
-  const dem::StableStep limit = limit_now();
+  const dem::StableStep limit = limit_now(time_step_);
   const std::string step = "the time step of " + text_of(time_step_) + " s is ";
   const std::string cause =
       time_step_ > limit.limit
@@ -95,7 +96,7 @@ std::size_t Experiment::contacts_closed() const {
 }
 
 // Lists are made now, so that it is the same whether the run was stopped and resumed or not.
-dem::StableStep Experiment::limit_now() {
+dem::StableStep Experiment::limit_now(double sought_below) {
   std::vector<dem::GroundSpring> springs;
   double dashpots = 0;
   near_at_choice_ = near_pairs(model);
@@ -104,7 +105,7 @@ dem::StableStep Experiment::limit_now() {
     dashpots = std::max(dashpots, boundary->dashpots());
     near_at_choice_ += boundary->near();
   }
-  dem::StableStep limit = model.stable_step(springs, dashpots);
+  dem::StableStep limit = model.stable_step(springs, dashpots, sought_below);
   for (const auto &boundary : boundaries_)
     if (const StepLimit own = boundary->limit(model.particles); own.seconds < limit.limit) {
       limit.limit = own.seconds;
@@ -115,7 +116,12 @@ dem::StableStep Experiment::limit_now() {
 
 // The step never grows: bonds that break only soften, contacts that close may stiffen.
 void Experiment::choose_step(bool first) {
-  const dem::StableStep limit = limit_now();
+  // The place is told only where this becomes the step, or an error; a hair above, for the quotient is
+  // rounded.
+  const double sought_below = settings_.fixed_step > 0 ? settings_.fixed_step
+                              : first                  ? std::numeric_limits<double>::infinity()
+                                                       : time_step_ / settings_.safety * (1 + 1e-12);
+  const dem::StableStep limit = limit_now(sought_below);
   if (settings_.fixed_step > 0) {
     if (settings_.fixed_step > limit.limit) {
       const std::string above =

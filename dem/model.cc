@@ -382,14 +382,15 @@ std::size_t Model::broken(BondState mode) const {
   return static_cast<std::size_t>(mode == BondState::broken_in_tension ? broken_tension : broken_shear);
 }
 
-StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const {
+StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot,
+                              double sought_below) const {
   DashpotFractions dashpots;
   dashpots.bonds = settings_.bond_dashpot;
   dashpots.contacts = settings_.contact ? settings_.contact->dashpot_reserve() : 0;
   dashpots.surfaces = surface_dashpot;
   dashpots.local = settings_.local_damping;
   dashpots.scheme = settings_.phi();
-  return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots);
+  return dem::stable_step(particles, bonds.get(), contacts.get(), ground, dashpots, sought_below);
 }
 
 void Model::describe(Archive &archive) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -128,7 +129,8 @@ public:
   std::vector<Crack> take_cracks();
   std::size_t bytes() const; // of all columns and search lists
   std::size_t broken(BondState mode) const;
-  StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot) const;
+  StableStep stable_step(const std::vector<GroundSpring> &ground, double surface_dashpot,
+                         double sought_below = std::numeric_limits<double>::infinity()) const;
 
   void describe(Archive &archive);
 

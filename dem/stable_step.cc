@@ -17,6 +17,7 @@ struct PairSpring {
   std::size_t first, second;
   double lever; // contact point x_i + lever d
   double axial, shear, bending, twisting;
+  Vector3 normal, arm_first, arm_second; // from the centres to the contact point
 };
 
 struct Mode {
@@ -65,6 +66,10 @@ public:
     if (bonds != nullptr && !(damping && dashpots.bonds == 0)) add_bonds(*bonds, contacts);
     const std::size_t bonded = springs_.size();
     if (contacts != nullptr && !(damping && dashpots.contacts == 0)) add_contacts(*contacts);
+    for (PairSpring &s : springs_) {
+      const Vector3 d = p.position[s.second] - p.position[s.first];
+      s.normal = d / norm(d), s.arm_first = s.lever * d, s.arm_second = s.arm_first - d;
+    }
     if (damping) {
       for (std::size_t k = 0; k < springs_.size(); ++k)
         turn_into_dashpot(springs_[k], k < bonded ? dashpots.bonds : dashpots.contacts);
@@ -103,8 +108,16 @@ private:
       const ContactStiffness after = contacts != nullptr
                                          ? contacts->stiffness_bound(p_, b.first[k], b.second[k], 0.0)
                                          : ContactStiffness{};
-      springs_.push_back({i, j, b.lever[k], std::max(s.axial, after.normal),
-                          std::max(s.shear, after.tangential), s.bending, s.twisting});
+      springs_.push_back({i,
+                          j,
+                          b.lever[k],
+                          std::max(s.axial, after.normal),
+                          std::max(s.shear, after.tangential),
+                          s.bending,
+                          s.twisting,
+                          {},
+                          {},
+                          {}});
     }
   }
   // Pairs that touch, and those that are near enough to touch soon.
@@ -112,8 +125,16 @@ private:
     for (std::size_t k = 0; k < c.table.size(); ++k) {
       const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
       const ContactStiffness stiffness = c.stiffness_bound(p_, c.first[k], c.second[k], c.overlap[k]);
-      springs_.push_back(
-          {i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness.normal, stiffness.tangential, 0, 0});
+      springs_.push_back({i,
+                          j,
+                          p_.radius[i] / (p_.radius[i] + p_.radius[j]),
+                          stiffness.normal,
+                          stiffness.tangential,
+                          0,
+                          0,
+                          {},
+                          {},
+                          {}});
     }
   }
 
@@ -149,8 +170,7 @@ Mode Operator::apply(const Mode &x) {
   over_root_of_mass(scaled);
   for_each(springs_.size(), [&](std::size_t k) {
     const PairSpring &s = springs_[k];
-    const Vector3 d = p_.position[s.second] - p_.position[s.first], n = d / norm(d);
-    const Vector3 ri = s.lever * d, rj = ri - d;
+    const Vector3 &n = s.normal, &ri = s.arm_first, &rj = s.arm_second;
     Vector3 u = scaled.u[s.second] - scaled.u[s.first];
     if (with_turn) u += cross(scaled.turn[s.second], rj) - cross(scaled.turn[s.first], ri);
     const double un = dot(u, n);
@@ -231,7 +251,8 @@ std::string springs_of(const Bonds *bonds, const Contacts *contacts,
 // the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
 // terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
-                       const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots) {
+                       const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots,
+                       double sought_below) {
   StableStep result;
   result.limit = std::numeric_limits<double>::infinity();
   result.reason = "nothing elastic in the scene limits the step";
@@ -250,6 +271,8 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   const double holding = (1 + dashpots.local) * (2 * dashpots.scheme - 1), k = holding * squared.value,
                c = holding * rate;
   result.limit = (std::sqrt(c * c + 4 * k) - c) / k;
+  result.reason = "2/omega of " + springs_of(bonds, contacts, ground);
+  if (!(result.limit < sought_below)) return result;
   // A few more applications bring out the place that sets the limit.
   Mode &x = squared.mode;
   for (int it = 0; it < 12; ++it) {
@@ -257,8 +280,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
     multiply(x, 1 / std::sqrt(std::max(inner(x, x), 1e-300)));
   }
   result.particle_id = particles.id[largest_particle(x)];
-  result.reason = "2/omega of " + springs_of(bonds, contacts, ground) + ", highest mode at particle " +
-                  std::to_string(result.particle_id);
+  result.reason += ", highest mode at particle " + std::to_string(result.particle_id);
   return result;
 }
 

@@ -178,7 +178,16 @@ TEST(stable_step, names_the_particle_that_sets_it) {
   settings.bond_layout.gap.value = 1.6; // of the smaller radius: next neighbours, not those after them
   specimen.radius[4] *= .4;             // light
   Model model(specimen, settings);
-  EXPECT_EQ(model.stable_step({}, 0).particle_id, 4);
+  const StableStep told = model.stable_step({}, 0);
+  EXPECT_EQ(told.particle_id, 4);
+  // The place costs products of its own: it is sought only where somebody asks for a limit as small as this.
+  const StableStep bare = model.stable_step({}, 0, told.limit),
+                   asked = model.stable_step({}, 0, 1.01 * told.limit);
+  EXPECT_EQ(bare.particle_id, -1);
+  EXPECT_EQ(bare.reason, "2/omega of bonds");
+  EXPECT_EQ(asked.particle_id, 4);
+  EXPECT_EQ(bare.limit, told.limit);
+  EXPECT_EQ(asked.reason, told.reason);
 }
 
 } // namespace
