@@ -27,6 +27,8 @@ public:
   virtual void permute(const std::vector<int> &order) = 0;
   // The same within the rows from `first` on: row first + k becomes the former row first + order[k].
   virtual void permute_from(std::size_t first, const std::vector<int> &order) = 0;
+  // Blank rows before the former rows `before`, ascending; a row that is named twice gets two.
+  virtual void insert(const std::vector<std::size_t> &before) = 0;
   virtual BlockType type() const = 0;
   virtual std::size_t bytes_per_row() const = 0;
   virtual void *bytes() = 0;
@@ -72,6 +74,17 @@ public:
       moved[k] = values_[first + static_cast<std::size_t>(order[k])];
     std::copy(moved.begin(), moved.end(), values_.begin() + static_cast<std::ptrdiff_t>(first));
   }
+  void insert(const std::vector<std::size_t> &before) override {
+    std::size_t end = size(), to = end + before.size(); // of what is still to be moved
+    resize(to);
+    for (std::size_t n = before.size(); n-- > 0;) {
+      const auto at = [&](std::size_t k) { return values_.begin() + static_cast<std::ptrdiff_t>(k); };
+      std::move_backward(at(before[n]), at(end), at(to));
+      to -= end - before[n];
+      end = before[n];
+      values_[--to] = T{};
+    }
+  }
   BlockType type() const override { return block_type<T>(unit()); }
   std::size_t bytes_per_row() const override { return sizeof(T); }
   void *bytes() override { return values_.data(); }
@@ -116,6 +129,11 @@ public:
   void permute_from(std::size_t first, const std::vector<int> &order) {
     for (auto &column : columns_)
       column->permute_from(first, order);
+  }
+  void insert(const std::vector<std::size_t> &before) {
+    for (auto &column : columns_)
+      column->insert(before);
+    size_ += before.size();
   }
   std::size_t bytes_per_row() const {
     std::size_t sum = 0;

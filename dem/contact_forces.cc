@@ -29,9 +29,7 @@ struct Contacts::Touch {
 };
 
 void Contacts::compute(Particles &particles, double dt, const BlockList *listed) {
-  if (!blocks_current_)
-    blocks_.rebuild(first.data(), second.data(), table.size(), particles.size(), particles.has_rotation());
-  blocks_current_ = true;
+  cut_blocks(particles);
   if (table.size() == 0) return;
   std::vector<Dissipation> lost(blocks_.blocks());
   for_listed_blocks(listed, particles.size(), [&](std::size_t, std::size_t, std::size_t block) {

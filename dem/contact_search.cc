@@ -72,12 +72,15 @@ void ContactSearch::rebuild_close(const Particles &particles) {
   close_valid_ = true;
 }
 
-void ContactSearch::add_pair(IndexPair pair) {
-  if (!wide_valid_) return; // the next build finds it
+bool ContactSearch::add_pair(IndexPair pair) {
+  if (!wide_valid_) return false; // the next build finds it
+  bool added = false;
   for (std::vector<IndexPair> *list : {&wide_, &close_}) {
     const auto at = std::lower_bound(list->begin(), list->end(), pair);
-    if (at == list->end() || !(*at == pair)) list->insert(at, pair);
+    added = at == list->end() || !(*at == pair);
+    if (added) list->insert(at, pair);
   }
+  return added;
 }
 
 void ContactSearch::keep_blocks(const std::vector<char> &marked) {

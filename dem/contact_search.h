@@ -28,8 +28,8 @@ public:
     if (made()) rebuild_close(particles);
   }
   // A pair that was bonded and is no longer: it is in both lists from now on. Nothing before the first
-  // update(), which finds it.
-  void add_pair(IndexPair pair);
+  // update(), which finds it. Whether the list of close pairs has gained it.
+  bool add_pair(IndexPair pair);
   // Distance at which a pair starts to touch, where it is less than R_i + R_j (m).
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;

@@ -88,7 +88,7 @@ void Contacts::keep_blocks(const std::vector<char> &marked) {
 }
 
 void Contacts::carry_rows(const Particles &particles) {
-  blocks_current_ = false;
+  rows_changed();
   const std::vector<IndexPair> &pairs = search_.close_pairs();
   std::vector<int> order(pairs.size(), 0);
   std::vector<unsigned char> fresh(pairs.size(), 0);
@@ -105,17 +105,48 @@ void Contacts::carry_rows(const Particles &particles) {
   table.resize(old + 1);
   table.permute(order);
   for (std::size_t n = 0; n < pairs.size(); ++n) {
-    if (!fresh[n]) continue;
-    first[n] = pairs[n].first;
-    second[n] = pairs[n].second;
-    rest_distance[n] = search_.rest_distance(pairs[n], particles);
-    coefficient[n] = coefficient_of(particles, pairs[n].first, pairs[n].second);
-    if (tangential_stiffness != nullptr)
-      (*tangential_stiffness)[n] = settings_.tangential_ratio * coefficient[n];
+    if (fresh[n]) begin_row(particles, n, pairs[n]);
   }
 }
 
+void Contacts::begin_row(const Particles &particles, std::size_t k, const IndexPair &pair) {
+  first[k] = pair.first;
+  second[k] = pair.second;
+  rest_distance[k] = search_.rest_distance(pair, particles);
+  coefficient[k] = coefficient_of(particles, pair.first, pair.second);
+  if (tangential_stiffness != nullptr)
+    (*tangential_stiffness)[k] = settings_.tangential_ratio * coefficient[k];
+}
+
+// The few pairs, ascending, that the list of close ones has gained: what carry_rows() makes of it, by moving
+// what is behind them.
+void Contacts::add_rows(const Particles &particles, const std::vector<IndexPair> &pairs) {
+  const std::vector<IndexPair> &all = search_.close_pairs();
+  if (table.size() + pairs.size() != all.size()) return carry_rows(particles);
+  std::vector<std::size_t> rows, before;
+  for (const IndexPair &pair : pairs) {
+    const auto at = std::lower_bound(all.begin(), all.end(), pair) - all.begin();
+    rows.push_back(static_cast<std::size_t>(at));
+    before.push_back(rows.back() - before.size());
+  }
+  table.insert(before);
+  if (stale_ == Stale::none) stale_blocks_.assign(blocks_.blocks(), 0);
+  if (stale_ == Stale::none) stale_ = Stale::some;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    begin_row(particles, rows[n], pairs[n]);
+    if (stale_ == Stale::some) stale_blocks_[static_cast<std::size_t>(pairs[n].first) / block_rows] = 1;
+  }
+}
+
+void Contacts::cut_blocks(const Particles &particles) {
+  if (stale_ != Stale::none)
+    blocks_.rebuild(first.data(), second.data(), table.size(), particles.size(), particles.has_rotation(), 1,
+                    stale_ == Stale::some ? &stale_blocks_ : nullptr);
+  stale_ = Stale::none;
+}
+
 void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt) {
+  std::vector<IndexPair> added;
   for (BrokenBond &b : broken) {
     const double ri = p.radius[b.first], rj = p.radius[b.second], c = coefficient_of(p, b.first, b.second);
     const double length = norm(p.position[b.second] - p.position[b.first]);
@@ -124,10 +155,15 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
     if (rest > length && elastic_energy(settings_.normal, c, rest - length) > b.last.energy)
       rest = length + overlap_of_energy(settings_.normal, c, b.last.energy);
     search_.set_rest_distance({b.first, b.second}, rest);
-    search_.add_pair({b.first, b.second});
+    if (search_.add_pair({b.first, b.second})) added.push_back({b.first, b.second});
   }
-  if (!search_.made()) search_.update(p, &bonds);
-  carry_rows(p);
+  if (!search_.made()) {
+    search_.update(p, &bonds);
+    carry_rows(p);
+  } else {
+    std::sort(added.begin(), added.end());
+    add_rows(p, added);
+  }
   const std::vector<IndexPair> &pairs = search_.close_pairs(); // one row each
   for (BrokenBond &b : broken) {
     b.released = b.last.energy;
@@ -233,7 +269,7 @@ void Contacts::describe(Archive &archive) {
   platen::describe(archive, "damping_work", damping_work, "J");
   archive.table("rows", table);
   archive.part("search", search_);
-  if (archive.reads()) blocks_current_ = false;
+  if (archive.reads()) rows_changed();
 }
 
 } // namespace platen::dem

@@ -64,7 +64,7 @@ public:
   void keep_blocks(const std::vector<char> &marked);
   ContactSearch &search_state() { return search_; }
   // After rows were put into `table` from elsewhere.
-  void rows_changed() { blocks_current_ = false; }
+  void rows_changed() { stale_ = Stale::all; }
   // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
   // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
   // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
@@ -111,6 +111,9 @@ private:
   template <class Law, TangentialContact tangential, bool... chosen>
   Loop choose(const std::array<bool, 3> &effects);
   void carry_rows(const Particles &particles);
+  void add_rows(const Particles &particles, const std::vector<IndexPair> &pairs);
+  void begin_row(const Particles &particles, std::size_t k, const IndexPair &pair);
+  void cut_blocks(const Particles &particles);
   double coefficient_of(const Particles &particles, int first, int second) const;
   double stored_energy(std::size_t k) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
@@ -123,7 +126,8 @@ private:
   double dashpot_ = 0; // fraction of critical
   Loop loop_ = nullptr;
   PairBlocks blocks_; // of the rows, as far as current
-  bool blocks_current_ = false;
+  enum class Stale { none, some, all } stale_ = Stale::all;
+  std::vector<char> stale_blocks_; // marked where some are
 };
 
 } // namespace platen::dem

@@ -1,6 +1,7 @@
 #include "dem/pair_blocks.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.h"
 #include "dem/particles.h"
@@ -8,40 +9,62 @@
 namespace platen::dem {
 namespace {
 
-// Rows of particles that a block's pairs reach outside it, ascending, each once.
-std::vector<int> reached_outside(const int *second, std::size_t from, std::size_t to, std::size_t end_row) {
-  std::vector<int> rows;
-  for (std::size_t k = from; k < to; ++k)
-    if (static_cast<std::size_t>(second[k]) >= end_row) rows.push_back(second[k]);
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
-}
+// Which ghost of a block each particle is.
+class GhostPlaces {
+public:
+  explicit GhostPlaces(std::size_t particles) : block_(particles, -1), place_(particles) {}
+  // Rows of particles that the pairs of a block reach outside it, ascending, each once.
+  void put(int block, const int *second, std::size_t from, std::size_t to, std::size_t end_row,
+           std::vector<int> &outside) {
+    outside.clear();
+    for (std::size_t k = from; k < to; ++k) {
+      const int row = second[k];
+      if (static_cast<std::size_t>(row) < end_row || block_[static_cast<std::size_t>(row)] == block) continue;
+      block_[static_cast<std::size_t>(row)] = block;
+      outside.push_back(row);
+    }
+    std::sort(outside.begin(), outside.end());
+    for (std::size_t g = 0; g < outside.size(); ++g)
+      place_[static_cast<std::size_t>(outside[g])] = static_cast<int>(g);
+  }
+  int operator[](int row) const { return place_[static_cast<std::size_t>(row)]; }
+
+private:
+  std::vector<int> block_, place_;
+};
 
 } // namespace
 
 void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles,
-                         bool rotation, int row_size) {
+                         bool rotation, int row_size, const std::vector<char> *changed) {
   const std::size_t count = number_of_blocks(particles);
+  const PairBlocks::Cut before{std::move(first_pair), std::move(ends), std::move(first_ghost),
+                               std::move(ghost_particle)};
   first_pair.assign(1, 0);
   first_ghost.assign(1, 0);
   ends.resize(pairs);
   ghost_particle.clear();
+  ghost_particle.reserve(before.ghost_particle.size());
+  GhostPlaces places(particles);
+  std::vector<int> outside;
   std::size_t k = 0;
   for (std::size_t b = 0; b < count; ++b) {
-    const std::size_t first_row = b * block_rows, end_row = std::min(particles, first_row + block_rows);
     const std::size_t from = k;
-    while (k < pairs && static_cast<std::size_t>(first[k]) < end_row)
-      ++k;
-    const std::vector<int> outside = reached_outside(second, from, k, end_row);
-    for (std::size_t n = from; n < k; ++n) {
-      const std::size_t row = static_cast<std::size_t>(second[n]);
-      const auto ghost = std::lower_bound(outside.begin(), outside.end(), second[n]) - outside.begin();
-      const std::size_t inside =
-          row < end_row ? row - first_row : end_row - first_row + static_cast<std::size_t>(ghost);
-      ends[n] = {row_size * (first[n] - static_cast<int>(first_row)), row_size * static_cast<int>(inside)};
+    if (changed != nullptr && !(*changed)[b]) {
+      k += before.copy_block(b, ends.data() + from, ghost_particle);
+    } else {
+      const std::size_t first_row = b * block_rows, end_row = std::min(particles, first_row + block_rows);
+      while (k < pairs && static_cast<std::size_t>(first[k]) < end_row)
+        ++k;
+      places.put(static_cast<int>(b), second, from, k, end_row, outside);
+      const int begin = static_cast<int>(first_row), own = static_cast<int>(end_row - first_row);
+      for (std::size_t n = from; n < k; ++n) {
+        const bool inside = static_cast<std::size_t>(second[n]) < end_row;
+        ends[n] = {row_size * (first[n] - begin),
+                   row_size * (inside ? second[n] - begin : own + places[second[n]])};
+      }
+      ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
     }
-    ghost_particle.insert(ghost_particle.end(), outside.begin(), outside.end());
     first_pair.push_back(k);
     first_ghost.push_back(ghost_particle.size());
   }
@@ -52,6 +75,19 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
   order_returns(count);
 }
 
+// Returns the number of pairs.
+std::size_t PairBlocks::Cut::copy_block(std::size_t block, Ends *to, std::vector<int> &ghosts) const {
+  const auto part = [block](const auto &of, const std::vector<std::size_t> &from) {
+    const auto at = [&](std::size_t k) { return of.begin() + static_cast<std::ptrdiff_t>(from[k]); };
+    return std::pair{at(block), at(block + 1)};
+  };
+  const auto [first, last] = part(ends, first_pair);
+  const auto [ghost, end] = part(ghost_particle, first_ghost);
+  std::copy(first, last, to);
+  ghosts.insert(ghosts.end(), ghost, end);
+  return static_cast<std::size_t>(last - first);
+}
+
 void PairBlocks::permute_pairs(std::size_t begin, const std::vector<int> &order) {
   std::vector<Ends> moved(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
@@ -59,6 +95,7 @@ void PairBlocks::permute_pairs(std::size_t begin, const std::vector<int> &order)
   std::copy(moved.begin(), moved.end(), ends.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
+// By particle, and those of one particle by the block that they come from.
 void PairBlocks::order_returns(std::size_t count) {
   struct From {
     int particle, block, ghost;
@@ -70,19 +107,19 @@ void PairBlocks::order_returns(std::size_t count) {
       all.push_back({ghost_particle[g], static_cast<int>(b), static_cast<int>(g)});
   for (std::size_t k = 0; k < remote.size(); ++k)
     all.push_back({remote[k].particle, remote[k].block, static_cast<int>(own_ghosts() + k)});
-  std::sort(all.begin(), all.end(), [](const From &a, const From &b) {
-    return a.particle != b.particle ? a.particle < b.particle : a.block < b.block;
-  });
+  if (!remote.empty()) // own ones come by blocks already
+    std::stable_sort(all.begin(), all.end(), [](const From &a, const From &b) { return a.block < b.block; });
+  std::vector<std::size_t> next(count * block_rows + 1, 0); // of each particle: where its returns begin
+  for (const From &from : all)
+    ++next[static_cast<std::size_t>(from.particle) + 1];
+  for (std::size_t i = 0; i + 1 < next.size(); ++i)
+    next[i + 1] += next[i];
+  first_return.resize(count + 1);
+  for (std::size_t b = 0; b <= count; ++b)
+    first_return[b] = next[b * block_rows];
   returns.resize(all.size());
-  for (std::size_t r = 0; r < all.size(); ++r)
-    returns[r] = {all[r].particle, all[r].ghost};
-  first_return.assign(1, 0);
-  std::size_t r = 0;
-  for (std::size_t b = 0; b < count; ++b) {
-    while (r < returns.size() && static_cast<std::size_t>(returns[r].particle) < (b + 1) * block_rows)
-      ++r;
-    first_return.push_back(r);
-  }
+  for (const From &from : all)
+    returns[next[static_cast<std::size_t>(from.particle)]++] = {from.particle, from.ghost};
 }
 
 int PairBlocks::ghost_of(int block, int particle) const {

@@ -36,8 +36,9 @@ struct PairBlocks {
   std::vector<Return> returns;                    // to the particles of each block, ascending
 
   // From columns of `pairs` rows, those of one block of first particles together, blocks ascending.
+  // `changed`: the blocks whose pairs are others than at the last call; of all where it is null.
   void rebuild(const int *first, const int *second, std::size_t pairs, std::size_t particles, bool rotation,
-               int row_size = 1);
+               int row_size = 1, const std::vector<char> *changed = nullptr);
   // Pair begin + k becomes the former pair begin + order[k], all of them of one block.
   void permute_pairs(std::size_t begin, const std::vector<int> &order);
   std::size_t blocks() const { return first_pair.empty() ? 0 : first_pair.size() - 1; }
@@ -48,6 +49,14 @@ struct PairBlocks {
   std::size_t bytes() const;
 
 private:
+  // What rebuild() makes of the pairs.
+  struct Cut {
+    std::vector<std::size_t> first_pair;
+    std::vector<Ends> ends;
+    std::vector<std::size_t> first_ghost;
+    std::vector<int> ghost_particle;
+    std::size_t copy_block(std::size_t block, Ends *to, std::vector<int> &ghosts) const;
+  };
   void order_returns(std::size_t blocks);
   unsigned cut_number_ = 0;
 };

@@ -1,0 +1,119 @@
+// Blocks of pairs: what leaves a block, where it returns to, and blocks that are cut again one by one.
+#include "dem/pair_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "base/parallel.h"
+
+namespace platen::dem {
+namespace {
+
+using Pair = std::pair<int, int>;
+
+struct Pairs {
+  std::vector<int> first, second;
+  explicit Pairs(std::vector<Pair> pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    for (const auto &[i, j] : pairs)
+      first.push_back(i), second.push_back(j);
+  }
+};
+
+std::vector<Pair> random_pairs(std::mt19937 &random, int particles, int count) {
+  std::vector<Pair> pairs;
+  while (static_cast<int>(pairs.size()) < count) {
+    const int i = static_cast<int>(random() % static_cast<unsigned>(particles - 1));
+    const int j = std::min(particles - 1, i + 1 + static_cast<int>(random() % 1200));
+    pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+void cut(PairBlocks &blocks, const Pairs &pairs, std::size_t particles,
+         const std::vector<char> *changed = nullptr) {
+  blocks.rebuild(pairs.first.data(), pairs.second.data(), pairs.first.size(), particles, true, 3, changed);
+}
+
+// What the definition says of every pair, ghost and return.
+void expect_cut(const PairBlocks &blocks, const Pairs &pairs, std::size_t particles) {
+  ASSERT_EQ(blocks.blocks(), number_of_blocks(particles));
+  ASSERT_EQ(blocks.ends.size(), pairs.first.size());
+  for (std::size_t b = 0; b < blocks.blocks(); ++b) {
+    const int begin = static_cast<int>(b * block_rows);
+    const int own = static_cast<int>(std::min(particles, (b + 1) * block_rows)) - begin;
+    const auto ghosts = blocks.ghost_particle.begin() + static_cast<std::ptrdiff_t>(blocks.first_ghost[b]);
+    EXPECT_TRUE(std::is_sorted(
+        ghosts, blocks.ghost_particle.begin() + static_cast<std::ptrdiff_t>(blocks.first_ghost[b + 1])));
+    for (std::size_t k = blocks.first_pair[b]; k < blocks.first_pair[b + 1]; ++k) {
+      EXPECT_EQ(blocks.ends[k].first, 3 * (pairs.first[k] - begin)) << "pair " << k;
+      const int second = blocks.ends[k].second / 3;
+      EXPECT_EQ(second < own ? begin + second : ghosts[second - own], pairs.second[k]) << "pair " << k;
+    }
+  }
+  ASSERT_EQ(blocks.returns.size(), blocks.own_ghosts());
+  int before = -1, from_before = -1;
+  for (std::size_t r = 0; r < blocks.returns.size(); ++r) {
+    const auto &[particle, ghost] = blocks.returns[r];
+    EXPECT_EQ(blocks.ghost_particle[static_cast<std::size_t>(ghost)], particle);
+    EXPECT_TRUE(particle > before || (particle == before && ghost > from_before)) << "return " << r;
+    before = particle, from_before = ghost;
+    const std::size_t block = static_cast<std::size_t>(particle) / block_rows;
+    EXPECT_TRUE(r >= blocks.first_return[block] && r < blocks.first_return[block + 1]) << "return " << r;
+  }
+}
+
+TEST(PairBlocks, are_cut_as_they_are_defined) {
+  std::mt19937 random(3);
+  for (const std::size_t particles : {1u, 2u, 511u, 512u, 513u, 1700u, 5000u}) {
+    const Pairs pairs(particles > 1 ? random_pairs(random, static_cast<int>(particles), 900)
+                                    : std::vector<Pair>{});
+    PairBlocks blocks;
+    cut(blocks, pairs, particles);
+    expect_cut(blocks, pairs, particles);
+    EXPECT_EQ(blocks.ghost_force.size(), blocks.own_ghosts());
+    EXPECT_EQ(blocks.ghost_torque.size(), blocks.own_ghosts());
+  }
+}
+
+TEST(PairBlocks, that_have_changed_are_cut_alone_to_the_same_end) {
+  constexpr std::size_t particles = 5000;
+  std::mt19937 random(5);
+  std::vector<Pair> all = random_pairs(random, particles, 2000);
+  PairBlocks blocks;
+  cut(blocks, Pairs(all), particles);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<char> changed(blocks.blocks(), 0);
+    for (const Pair &pair : random_pairs(random, particles, 1 + trial % 3)) {
+      all.push_back(pair);
+      changed[static_cast<std::size_t>(pair.first) / block_rows] = 1;
+    }
+    const Pairs pairs(all);
+    const unsigned number = blocks.cut_number();
+    cut(blocks, pairs, particles, &changed);
+    expect_cut(blocks, pairs, particles);
+    EXPECT_NE(blocks.cut_number(), number);
+  }
+}
+
+// A ghost that is computed elsewhere is returned between those of the blocks before and behind its own.
+TEST(PairBlocks, return_remote_ghosts_by_the_blocks_that_they_come_from) {
+  constexpr std::size_t particles = 4 * block_rows;
+  const int last = static_cast<int>(particles) - 1, b = static_cast<int>(block_rows);
+  const Pairs pairs({{0, last}, {2 * b, last}, {0, b}});
+  PairBlocks blocks;
+  blocks.remote = {{last, 1}, {b, 2}, {last, 3}};
+  cut(blocks, pairs, particles);
+  std::vector<Pair> returned;
+  for (const auto &[particle, ghost] : blocks.returns)
+    returned.push_back({particle, ghost});
+  // Own ghosts: 0 (b, from block 0), 1 (last, from block 0), 2 (last, from block 2).
+  EXPECT_EQ(returned, (std::vector<Pair>{{b, 0}, {b, 4}, {last, 1}, {last, 3}, {last, 2}, {last, 5}}));
+  EXPECT_EQ(blocks.ghost_force.size(), 6u);
+}
+
+} // namespace
+} // namespace platen::dem
