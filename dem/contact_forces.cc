@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "dem/contacts.h"
+#include "dem/kernels/contact_kernel.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/normal_contact.h"
 #include "dem/laws/rotating_plane.h"
@@ -42,6 +43,18 @@ void Contacts::compute(Particles &particles, double dt, const BlockList *listed)
   }
 }
 
+// In memory of this thread, until it asks again.
+Contacts::RowsAtWork Contacts::rows_at_work(const Particles &p, std::size_t block) const {
+  thread_local std::vector<int> memory;
+  const std::size_t from = blocks_.first_pair[block], to = blocks_.first_pair[block + 1];
+  if (memory.size() < to - from) memory.resize(to - from);
+  const kernels::ContactKernel find = for_set(instruction_set_, kernels::rows_at_work_baseline,
+                                              kernels::rows_at_work_avx2, kernels::rows_at_work_avx512);
+  const kernels::ContactColumns columns{first.data(), second.data(), rest_distance.data(), touching.data(),
+                                        p.position.data()};
+  return {memory.data(), find(columns, from, to, memory.data())};
+}
+
 // The rows of one block of particles; their forces go to the particles and the ghosts of the block.
 template <class Effects>
 Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size_t block) {
@@ -52,7 +65,9 @@ Contacts::Dissipation Contacts::compute_block(Particles &p, double dt, std::size
   std::fill_n(blocks_.ghost_force.data() + first_ghost, ghosts, Vector3{});
   if constexpr (Effects::rotation) std::fill_n(blocks_.ghost_torque.data() + first_ghost, ghosts, Vector3{});
   const std::size_t first_row = block * block_rows, rows = std::min(block_rows, p.size() - first_row);
-  for (std::size_t k = blocks_.first_pair[block]; k < blocks_.first_pair[block + 1]; ++k) {
+  const RowsAtWork at_work = rows_at_work(p, block);
+  for (std::size_t n = 0; n < at_work.count; ++n) {
+    const std::size_t k = static_cast<std::size_t>(at_work.row[n]);
     Touch t{};
     t.i = static_cast<std::size_t>(first[k]), t.j = static_cast<std::size_t>(second[k]);
     const Vector3 d = p.position[t.j] - p.position[t.i];

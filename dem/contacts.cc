@@ -41,11 +41,12 @@ double ContactSettings::dashpot_reserve() const {
 }
 
 Contacts::Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
-                   bool energy_ledger)
+                   bool energy_ledger, InstructionSet instruction_set)
     : settings_(settings),
       layout_(layout),
       search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)),
-      particles_(particles.size()) {
+      particles_(particles.size()),
+      instruction_set_(instruction_set) {
   require_in_range(settings);
   if (NormalContacts::with(settings.normal, [&](auto of) { return of.follows_bonds(settings); }))
     require_given(layout, "modulus", layout.modulus);

@@ -6,6 +6,7 @@
 
 #include "dem/bonds.h"
 #include "dem/contact_search.h"
+#include "dem/instruction_set.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
@@ -18,9 +19,9 @@ struct ContactStiffness {
 
 class Contacts {
 public:
-  // energy_ledger: sums of what friction and dashpots take.
+  // energy_ledger: sums of what friction and dashpots take. instruction_set: changes no bit.
   Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
-           bool energy_ledger = true);
+           bool energy_ledger = true, InstructionSet instruction_set = best_instruction_set());
 
   // One row per pair that may touch, sorted by (first, second).
   Table table;
@@ -94,6 +95,11 @@ private:
   struct Touch;
   template <class Law, TangentialContact tangential, bool dashpots, bool rotation, bool ledger>
   struct With;
+  struct RowsAtWork {
+    const int *row;
+    std::size_t count;
+  };
+  RowsAtWork rows_at_work(const Particles &particles, std::size_t block) const;
   template <class Effects>
   Dissipation compute_block(Particles &particles, double dt, std::size_t block);
   Vector3 turned(const Vector3 &vector, std::size_t k, const Touch &t) const;
@@ -125,6 +131,7 @@ private:
   std::size_t particles_ = 0;
   double dashpot_ = 0; // fraction of critical
   Loop loop_ = nullptr;
+  InstructionSet instruction_set_;
   PairBlocks blocks_; // of the rows, as far as current
   enum class Stale { none, some, all } stale_ = Stale::all;
   std::vector<char> stale_blocks_; // marked where some are

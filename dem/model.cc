@@ -69,7 +69,7 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
     contacts = std::make_unique<Contacts>(particles, contact_settings(settings), settings_.bond_layout,
-                                          settings.energy_ledger);
+                                          settings.energy_ledger, settings.instruction_set);
 }
 
 void Model::begin_step(double dt) {

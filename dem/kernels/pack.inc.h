@@ -84,6 +84,21 @@ PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
   return bits;
 #endif
 }
+// Which lanes of `a` are below `b`, or no numbers, a bit each.
+PLATEN_INLINE unsigned lanes_not_at_least(const Pack &a, const Pack &b) {
+#if PLATEN_LANES == 8
+  return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_NGE_UQ);
+#elif PLATEN_LANES == 4
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd((__m256d)a.v, (__m256d)b.v, _CMP_NGE_UQ)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpnge_pd((__m128d)a.v, (__m128d)b.v)));
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < lanes; ++l)
+    bits |= (a.v[l] >= b.v[l] ? 0u : 1u) << l;
+  return bits;
+#endif
+}
 PLATEN_INLINE bool any_positive(const Pack &a) {
   return positive_lanes(a) != 0;
 }
