@@ -170,7 +170,7 @@ ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const V
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < found.size(); ++block) {
     if (!found[block].reached) continue;
-    const std::size_t first = b.blocks.first_pair[block], last = b.blocks.first_pair[block + 1];
+    const std::size_t first = found[block].first_reached, last = found[block].end_reached;
     tension.resize(last - first);
     shear.resize(last - first);
     kernels.measure(columns, b.law, {tension.data(), shear.data(), nullptr, nullptr}, first, last);

@@ -75,17 +75,20 @@ BlockFindings compute_forces(const BondColumns &c, const BlockColumns &block, co
                              std::size_t first, std::size_t last) {
   using Rows = typename Loop::Rows;
   gather<Rows>(c, block);
-  Pack excess = Pack(-1.0);
+  BlockFindings found{false, 0, last, first};
   PowerSum power;
+  const auto look = [&](std::size_t at, std::size_t end, const Pack &excess) {
+    if (lanes_at_least(excess, Pack(0.0)) == 0) return;
+    if (!found.reached) found.first_reached = at;
+    found.reached = true, found.end_reached = end;
+  };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    excess = larger(excess, add_pack<Loop>(c, law, k, ends_of(c, block, k), power));
-  if (k < last) excess = larger(excess, add_tail<Loop>(c, block, law, k, last, power));
+    look(k, k + lanes, add_pack<Loop>(c, law, k, ends_of(c, block, k), power));
+  if (k < last) look(k, last, add_tail<Loop>(c, block, law, k, last, power));
   scatter<Rows>(block);
-  bool reached = false;
-  for (int l = 0; l < lanes; ++l)
-    reached |= excess.v[l] >= 0.0;
-  return {reached, power.sum};
+  found.dashpot_power = power.sum;
+  return found;
 }
 
 template <Turning turning, bool factors, class Law>

@@ -84,26 +84,27 @@ PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
   return bits;
 #endif
 }
-// Which lanes of `a` are below `b`, or no numbers, a bit each.
-PLATEN_INLINE unsigned lanes_not_at_least(const Pack &a, const Pack &b) {
-#if PLATEN_LANES == 8
-  return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_NGE_UQ);
+// Which lanes of `a` are at `b` or above it, a bit each.
+PLATEN_INLINE unsigned lanes_at_least(const Pack &a, const Pack &b) {
+#if PLATEN_LANES == 8 && defined(__AVX512F__)
+  return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ);
 #elif PLATEN_LANES == 4
-  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd((__m256d)a.v, (__m256d)b.v, _CMP_NGE_UQ)));
-#elif defined(__SSE2__)
-  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpnge_pd((__m128d)a.v, (__m128d)b.v)));
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd((__m256d)a.v, (__m256d)b.v, _CMP_GE_OQ)));
+#elif PLATEN_LANES == 2 && defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmpge_pd((__m128d)a.v, (__m128d)b.v)));
 #else
   unsigned bits = 0;
   for (int l = 0; l < lanes; ++l)
-    bits |= (a.v[l] >= b.v[l] ? 0u : 1u) << l;
+    bits |= (a.v[l] >= b.v[l] ? 1u : 0u) << l;
   return bits;
 #endif
 }
+constexpr unsigned all_lanes = (1u << lanes) - 1;
 PLATEN_INLINE bool any_positive(const Pack &a) {
   return positive_lanes(a) != 0;
 }
 PLATEN_INLINE bool all_positive(const Pack &a) {
-  return positive_lanes(a) == (1u << lanes) - 1;
+  return positive_lanes(a) == all_lanes;
 }
 PLATEN_INLINE Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
   return x.v > 0.0 ? a.v : b.v;
