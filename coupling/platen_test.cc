@@ -254,6 +254,7 @@ void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
           ? cell.sleeve_stiffness * bond
           : std::max(springs_of_pressure * cell.pressure * facts_.mean_radius, least_share_of_bond * bond);
   settings.contact.skin = surface_skin * facts_.mean_radius;
+  settings.contact.instruction_set = model.settings().instruction_set;
   settings.seat_depth = cell.sleeve_seat_depth * facts_.mean_radius;
   sleeve_ = &add(std::make_unique<Sleeve>(model.particles, shape(), *ends_, settings));
 }

@@ -251,6 +251,7 @@ SurfaceContact contact_settings(const dem::Model &model, const dem::Specimen &s,
   c.attachment = p.glued && axis_of(side) == 2 ? Attachment::glued : Attachment::free;
   c.seat_modulus = settings.seat ? model.settings().bond_layout.modulus : 0.0;
   c.skin = PlatenTest::surface_skin * dem::mean_radius(s);
+  c.instruction_set = model.settings().instruction_set;
   return c;
 }
 

@@ -74,7 +74,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
     : parameters_(parameters),
       friction_(dem::friction_law(parameters)),
       smallest_radius_(infinite),
-      search_(body.surface(), parameters.skin) {
+      search_(body.surface(), parameters.skin, parameters.instruction_set) {
   check(parameters, particles.has_rotation());
   require(
       parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),

@@ -59,6 +59,7 @@ struct SurfaceContact : dem::SurfaceFriction {
   double seat_modulus = 0;
   double skin =
       std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
+  dem::InstructionSet instruction_set = dem::best_instruction_set(); // changes no bit
 };
 
 // One contact as it is now, for output.
@@ -213,6 +214,7 @@ private:
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
+  // With the point that it finds in `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
   void press(const SurfacePoint &at, double mass, Kinematics &motion) const;

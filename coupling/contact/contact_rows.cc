@@ -15,9 +15,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
-const double tsuji = std::sqrt(5.0 / 6.0); // with it Hertz' dashpot is a fraction of critical
-constexpr double idle_margin = 1e-9;       // of a gap, for round-off
-constexpr std::size_t rows_per_part = 32;  // a row costs as much as some dozen bonds
+const double tsuji = std::sqrt(5.0 / 6.0);                // with it Hertz' dashpot is a fraction of critical
+constexpr double idle_margin = 1e-9;                      // of a gap, for round-off
+constexpr std::size_t rows_per_part = kernels::most_feet; // a row costs as much as some dozen bonds
 
 } // namespace
 
@@ -68,14 +68,20 @@ std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::Lo
 
 void ContactLayer::compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                                 std::size_t part) {
-  const std::size_t last = std::min(due_.size(), (part + 1) * rows_per_part);
-  for (std::size_t k = part * rows_per_part; k < last; ++k) {
+  const std::size_t first = part * rows_per_part, last = std::min(due_.size(), first + rows_per_part);
+  Vector3 centre[rows_per_part];
+  SurfacePoint point[rows_per_part];
+  for (std::size_t k = first; k < last; ++k)
+    centre[k - first] = particles.position[static_cast<std::size_t>(particle_[due_[k]])];
+  search_.closest(body.surface(), &due_[first], centre, last - first, point);
+  for (std::size_t k = first; k < last; ++k) {
     const std::size_t row = due_[k];
     RowForce r;
+    r.at = point[k - first];
     row_force(particles, body, row, dt, r);
     keep_history(row, r);
     idle_until_[row] = r.idle_until;
-    keep_result(k, r, particles.position[static_cast<std::size_t>(r.particle)]);
+    keep_result(k, r, centre[k - first]);
   }
 }
 
@@ -146,9 +152,7 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
 void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row,
                              double dt, RowForce &result) {
   const std::size_t i = static_cast<std::size_t>(particle_[row]);
-  result = RowForce{};
   result.particle = particle_[row];
-  result.at = search_.closest(body.surface(), row, particles.position[i]);
   Kinematics motion;
   motion.radius = particles.radius[i];
   motion.gap = result.at.distance - particles.radius[i] - offset_[row];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/contact/foot_of_face.h"
 #include "coupling/contact/surface_search.h"
 
 namespace platen::coupling {
@@ -16,13 +17,7 @@ double size_of(const Quad &q) {
   return std::max(norm(q[2] - q[0]), norm(q[3] - q[1]));
 }
 
-// Share of the rim, in u and v, that is left to the general search, which knows edges.
-constexpr double rim = 1e-9;
-// A start this far off the face does not come back onto it: the warp moves a foot by less.
-constexpr double far_off = 0.05;
-// A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
-constexpr double last_move = 1e-6;
-constexpr int most_steps = 8;
+using foot_search::rim;
 constexpr double round_off = 1e-12; // of a face: a box holds it for certain
 
 // Axes of the mean plane, the box and where a foot is single. False: no area.
@@ -185,32 +180,19 @@ double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
 }
 
 bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
-  const Vector3 r = centre - face.corner;
-  if (!(std::abs(dot(r, face.normal)) <= face.single_foot)) return false;
-  double v = 0;
-  if (!face.find_v(r, v) || !(v > -far_off && v < 1 + far_off)) return false;
-  double u = face.u_at(r, v);
-  if (!(u > -far_off && u < 1 + far_off)) return false;
-  double moved = 1;
-  for (int step = 0; step < most_steps && moved > last_move; ++step) {
-    const Vector3 a = face.e + v * face.t, b = face.f + u * face.t;
-    const Vector3 out = r - u * face.e - v * b; // from the face to the centre
-    const double gu = dot(out, a), gv = dot(out, b);
-    const double aa = norm_squared(a), bb = norm_squared(b), off = dot(a, b) - dot(out, face.t);
-    const double scale = 1 / (aa * bb - off * off);
-    const double du = (gu * bb - gv * off) * scale, dv = (gv * aa - gu * off) * scale;
-    u += du;
-    v += dv;
-    moved = std::max(std::abs(du), std::abs(dv));
-  }
-  if (!(moved <= last_move && u > rim && u < 1 - rim && v > rim && v < 1 - rim)) return false;
-  foot.u = u;
-  foot.v = v;
-  foot.along_u = face.e + v * face.t;
-  foot.along_v = face.f + u * face.t;
-  foot.out = r - u * face.e - v * foot.along_v;
-  const Vector3 n = cross(foot.along_u, foot.along_v);
-  foot.normal = n / norm(n);
+  const auto triple = [](const Vector3 &a) { return dem::Triple<double>{a.x, a.y, a.z}; };
+  const auto vector = [](const dem::Triple<double> &a) { return Vector3{a.x, a.y, a.z}; };
+  const FaceMap<double> map{triple(face.e),    triple(face.f),      triple(face.t),      triple(face.linear),
+                            triple(face.free), triple(face.corner), triple(face.normal), face.square,
+                            face.constant,     face.single_foot};
+  FootOnFace<double> found;
+  if (!search_foot<foot_search::One>(map, triple(centre), found)) return false;
+  foot = {found.u,
+          found.v,
+          vector(found.out),
+          vector(found.along_u),
+          vector(found.along_v),
+          vector(found.normal)};
   return true;
 }
 

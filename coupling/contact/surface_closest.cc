@@ -29,6 +29,21 @@ double box_distance_squared(const Quad &q) {
   return box.distance_squared({});
 }
 
+void set_foot(const Foot &foot, SurfacePoint &point) {
+  ClosestPoint &local = point.local;
+  local.point = -foot.out;
+  local.weights = bilinear_weights(foot.u, foot.v);
+  local.u = foot.u;
+  local.v = foot.v;
+  local.distance_squared = norm_squared(foot.out);
+  local.feature = Feature::face;
+  local.local = 0;
+  point.normal = foot.normal;
+  point.distance = dot(foot.out, foot.normal);
+  point.along_u = foot.along_u;
+  point.along_v = foot.along_v;
+}
+
 } // namespace
 
 // The foot on a flat face of a surface that has not turned since the search was set up.
@@ -68,18 +83,7 @@ bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vecto
     nearest.local = closest_point(face_corners(surface, face, centre));
     return false;
   }
-  ClosestPoint &local = nearest.local;
-  local.point = -foot.out;
-  local.weights = bilinear_weights(foot.u, foot.v);
-  local.u = foot.u;
-  local.v = foot.v;
-  local.distance_squared = norm_squared(foot.out);
-  local.feature = Feature::face;
-  local.local = 0;
-  nearest.normal = foot.normal;
-  nearest.distance = dot(foot.out, foot.normal);
-  nearest.along_u = foot.along_u;
-  nearest.along_v = foot.along_v;
+  set_foot(foot, nearest);
   return true;
 }
 
@@ -87,6 +91,41 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
   SurfacePoint point;
   if (surface.only_shifted && foot_of_nearest(surface, k, centre, point)) return point;
   return closest_listed(surface, k, centre);
+}
+
+// A foot on the first face of the list is the answer where every other face listed is sure to be farther.
+void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
+                            std::size_t count, SurfacePoint *point) const {
+  if (surface.only_shifted || !looked_) {
+    for (std::size_t n = 0; n < count; ++n)
+      point[n] = closest(surface, entry[n], centre[n]);
+    return;
+  }
+  const MovingFace *face[kernels::most_feet] = {};
+  Foot foot[kernels::most_feet];
+  bool found[kernels::most_feet] = {};
+  for (std::size_t n = 0; n < count; ++n)
+    face[n] = &moving_[static_cast<std::size_t>(near_[first_near_[entry[n]]].face)];
+  find_feet_(face, centre, count, foot, found);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (found[n] && is_nearest(entry[n], centre[n], norm_squared(foot[n].out))) {
+      point[n].face = near_[first_near_[entry[n]]].face;
+      set_foot(foot[n], point[n]);
+    } else {
+      point[n] = closest_listed(surface, entry[n], centre[n]);
+    }
+  }
+}
+
+// Whether no face behind the first can be as near as that.
+bool SurfaceSearch::is_nearest(std::size_t k, const Vector3 &centre, double distance_squared) const {
+  const double limit = distance_squared * (1 + margin), distance = std::sqrt(distance_squared);
+  for (std::size_t n = first_near_[k] + 1; n < first_near_[k + 1]; ++n) {
+    if (near_[n].distance - travelled_ > distance * (1 + margin)) return true;
+    if (!(least_distance_squared(moving_[static_cast<std::size_t>(near_[n].face)], centre) > limit))
+      return false;
+  }
+  return true;
 }
 
 SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size_t k,

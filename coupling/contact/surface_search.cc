@@ -22,8 +22,9 @@ Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
           vertex_at(surface, v[2]) - origin, vertex_at(surface, v[3]) - origin};
 }
 
-SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin)
+SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin, dem::InstructionSet instruction_set)
     : skin_(skin),
+      find_feet_(kernels::find_feet(instruction_set)),
       tree_(face_boxes(surface)),
       flat_(surface),
       faces_of_vertex_(fem::faces_of_vertices(surface)) {

@@ -8,6 +8,7 @@
 #include "base/vector3.h"
 #include "coupling/contact/closest_point.h"
 #include "coupling/contact/faces.h"
+#include "coupling/contact/foot_kernel.h"
 #include "dem/particles.h"
 #include "fem/surface.h"
 
@@ -78,7 +79,8 @@ public:
   // The surface keeps its faces for the life of the search; its vertices may move. skin (m): how far
   // particles and surface may move relative to each other before the list is made again; larger means rarer
   // and longer lists.
-  SurfaceSearch(const fem::SurfaceMesh &surface, double skin);
+  SurfaceSearch(const fem::SurfaceMesh &surface, double skin,
+                dem::InstructionSet instruction_set = dem::best_instruction_set());
 
   double skin() const { return skin_; }
   // Tells that no particle has moved relative to the surface by more than `distance` (m) since the last call:
@@ -109,6 +111,11 @@ public:
   // called from several threads.
   SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
 
+  // The same for the entries [0, count), count <= kernels::most_feet, of lists of them and of their centres:
+  // in vectors where the surface turns or deforms, to the same bits.
+  void closest(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
+               std::size_t count, SurfacePoint *point) const;
+
   // The same by looking at every face: the oracle of the tests, and right for a single question.
   SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const Vector3 &centre) const;
 
@@ -127,6 +134,7 @@ private:
   std::vector<Box> face_boxes(const fem::SurfaceMesh &surface) const;
   void collect(const fem::SurfaceMesh &surface, const Vector3 &centre, double limit);
   SurfacePoint closest_listed(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
+  bool is_nearest(std::size_t k, const Vector3 &centre, double distance_squared) const;
   // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
   bool nearest_on(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, const MovingFace *moving,
                   SurfacePoint &nearest) const;
@@ -140,6 +148,7 @@ private:
   Vector3 vertex_normal(const fem::SurfaceMesh &surface, int face, int corner, const Vector3 &centre) const;
 
   double skin_;
+  kernels::FindFeet find_feet_;
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;
   FlatFaces flat_;

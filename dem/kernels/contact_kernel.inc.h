@@ -23,12 +23,13 @@ PLATEN_INLINE unsigned lanes_at_work(const ContactColumns &c, std::size_t k) {
   const Triple<Pack> d = gather_difference(c.position, c.second + k, c.first + k);
   const Pack rest = load(c.rest_distance + k);
   const Pack square = d.x * d.x + d.y * d.y + d.z * d.z;
-  return lanes_not_at_least(square, rest * rest) | set_lanes(c.touching + k);
+  return (all_lanes & ~lanes_at_least(square, rest * rest)) | set_lanes(c.touching + k);
 }
 
 PLATEN_INLINE bool is_at_work(const ContactColumns &c, std::size_t k) {
-  const Vector3 d = c.position[c.second[k]] - c.position[c.first[k]];
-  return !(norm_squared(d) >= c.rest_distance[k] * c.rest_distance[k]) || c.touching[k] != 0;
+  const Vector3 &a = c.position[c.first[k]], &b = c.position[c.second[k]];
+  const double x = b.x - a.x, y = b.y - a.y, z = b.z - a.z, rest = c.rest_distance[k];
+  return !(x * x + y * y + z * z >= rest * rest) || c.touching[k] != 0;
 }
 
 } // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <random>
 
 #include "coupling/contact/surface_search.h"
@@ -56,6 +58,51 @@ TEST(moving_faces, a_foot_is_the_closest_point_of_a_warped_face) {
   EXPECT_GT(inside[0], 3000);
   EXPECT_EQ(feet[0], inside[0]);
   EXPECT_GT(feet[1], 0.85 * inside[1]); // the rest goes the general way
+}
+
+// Every instruction set and every number of feet in a call: the bits of one foot alone.
+TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
+  std::mt19937 engine(11);
+  std::uniform_real_distribution<double> along(-0.2, 1.2), off(-0.3, 0.3);
+  std::vector<MovingFace> faces;
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 3000; ++k) {
+    const Quad q = strained_square(k % 3 == 0 ? 0.3 : 0.05, engine);
+    const std::array<double, 4> w = bilinear_weights(along(engine), along(engine));
+    faces.push_back(moving_face(k % 50 == 0 ? Quad{q[0], q[0], q[0], q[0]} : q));
+    centres.push_back(w[0] * q[0] + w[1] * q[1] + w[2] * q[2] + w[3] * q[3] +
+                      off(engine) * bilinear_normal(q, 0.5, 0.5));
+  }
+  centres[7].x = std::numeric_limits<double>::quiet_NaN();
+  const auto bits_of = [](const Foot &foot) {
+    std::array<char, sizeof(Foot)> bytes;
+    std::memcpy(bytes.data(), &foot, sizeof foot);
+    return bytes;
+  };
+  int feet = 0;
+  for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
+                                  {dem::InstructionSet::avx2, "avx2"},
+                                  {dem::InstructionSet::avx512, "avx512"}}) {
+    if (set > dem::best_instruction_set()) continue;
+    for (std::size_t first = 0, count = 1; first < faces.size(); first += count, count = count % 32 + 1) {
+      count = std::min(count, faces.size() - first);
+      const MovingFace *face[kernels::most_feet];
+      Foot foot[kernels::most_feet];
+      bool found[kernels::most_feet];
+      for (std::size_t k = 0; k < count; ++k)
+        face[k] = &faces[first + k];
+      kernels::find_feet(set)(face, &centres[first], count, foot, found);
+      for (std::size_t k = 0; k < count; ++k) {
+        Foot alone;
+        const bool expected = find_foot(faces[first + k], centres[first + k], alone);
+        ASSERT_EQ(found[k], expected) << name << ", face " << first + k << ", " << count << " in the call";
+        if (!expected) continue;
+        ++feet;
+        ASSERT_EQ(bits_of(foot[k]), bits_of(alone)) << name << ", face " << first + k;
+      }
+    }
+  }
+  EXPECT_GT(feet, 1500);
 }
 
 TEST(moving_faces, faces_without_area_have_a_box_and_no_foot) {

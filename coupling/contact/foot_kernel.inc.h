@@ -1,0 +1,84 @@
+// Body of the foot kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
+// contraction, as the rest of the layer is.
+#include "coupling/contact/foot_kernel.h"
+#include "coupling/contact/foot_of_face.h"
+#include "dem/kernels/lane_mask.inc.h"
+#include "dem/kernels/pack.inc.h"
+
+namespace platen::coupling::kernels {
+namespace {
+
+using dem::Rotation;
+using dem::Triple;
+using dem::kernels::lanes;
+using dem::kernels::Pack;
+
+// Columns of the eight doubles that begin at a place of each face.
+struct Eight {
+  Rotation<Pack> first, second;
+};
+PLATEN_INLINE Eight eight_at(const MovingFace *const *face, std::size_t place) {
+  dem::kernels::LongRow rows[lanes];
+  for (int l = 0; l < lanes; ++l)
+    rows[l] = dem::kernels::load_long_row(&face[l]->e.x + place);
+  return {dem::kernels::first_columns(rows), dem::kernels::second_columns(rows)};
+}
+
+// In the order of its members.
+PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
+  static_assert(sizeof(MovingFace) == 36 * sizeof(double));
+  const Eight a = eight_at(face, 0), b = eight_at(face, 8), c = eight_at(face, 16);
+  FaceMap<Pack> m;
+  m.e = {a.first.w, a.first.x, a.first.y};
+  m.f = {a.first.z, a.second.w, a.second.x};
+  m.t = {a.second.y, a.second.z, b.first.w};
+  m.linear = {b.first.x, b.first.y, b.first.z};
+  m.free = {b.second.w, b.second.x, b.second.y};
+  m.square = b.second.z;
+  m.constant = c.first.w;
+  m.corner = {c.first.x, c.first.y, c.first.z};
+  m.normal = {c.second.w, c.second.x, c.second.y};
+  for (int l = 0; l < lanes; ++l)
+    m.single_foot.v[l] = face[l]->single_foot;
+  return m;
+}
+
+PLATEN_INLINE Triple<Pack> gather(const Vector3 *const *from) {
+  Triple<Pack> a;
+  for (int l = 0; l < lanes; ++l)
+    a.x.v[l] = from[l]->x, a.y.v[l] = from[l]->y, a.z.v[l] = from[l]->z;
+  return a;
+}
+
+} // namespace
+
+void PLATEN_KERNEL(const MovingFace *const *face, const Vector3 *centre, std::size_t count, Foot *foot,
+                   bool *found) {
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const std::size_t last = first + lanes < count ? first + lanes : count;
+    const MovingFace *faces[lanes];
+    const Vector3 *centres[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t k = first + l < last ? first + l : last - 1;
+      faces[l] = face[k], centres[l] = centre + k;
+    }
+    FootOnFace<Pack> feet;
+    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(faces), gather(centres), feet);
+    const unsigned bits = dem::kernels::bits_of(inside);
+    if (bits == 0) {
+      for (std::size_t k = first; k < last; ++k)
+        found[k] = false;
+      continue;
+    }
+    for (std::size_t l = 0; first + l < last; ++l) {
+      found[first + l] = bits >> l & 1u;
+      Foot &to = foot[first + l];
+      const auto vector = [l](const Triple<Pack> &a) { return Vector3{a.x.v[l], a.y.v[l], a.z.v[l]}; };
+      to.u = feet.u.v[l], to.v = feet.v.v[l];
+      to.out = vector(feet.out), to.along_u = vector(feet.along_u), to.along_v = vector(feet.along_v);
+      to.normal = vector(feet.normal);
+    }
+  }
+}
+
+} // namespace platen::coupling::kernels

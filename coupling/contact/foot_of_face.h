@@ -1,0 +1,90 @@
+// The foot of a centre on a face that moves, for one centre or for a pack of them: one text, so that both
+// give the same bits.
+#pragma once
+
+#include "dem/laws/bond_form.h"
+
+namespace platen::coupling {
+
+// Of MovingFace (faces.h), what the search for a foot reads.
+template <class Real>
+struct FaceMap {
+  dem::Triple<Real> e, f, t, linear, free, corner, normal;
+  Real square, constant, single_foot;
+};
+
+template <class Real>
+struct FootOnFace {
+  Real u, v;
+  dem::Triple<Real> out, along_u, along_v, normal;
+};
+
+namespace foot_search {
+constexpr double rim =
+    1e-9; // share of the rim, in u and v, that is left to the general search, which knows edges
+// A start this far off the face does not come back onto it: the warp moves a foot by less.
+constexpr double far_off = 0.05;
+// A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
+constexpr double last_move = 1e-6;
+constexpr int most_steps = 8;
+
+// What the search asks of its real type beyond arithmetic; packs bring their own, with lanes for truth.
+struct One {
+  static bool above(double a, double b) { return a > b; }
+  static bool at_least(double a, double b) { return a >= b; }
+  static bool any(bool a) { return a; }
+  static double choose(bool where, double a, double b) { return where ? a : b; }
+  static double root(double a) { return std::sqrt(a); }
+  static double magnitude(double a) { return std::abs(a); }
+  static double with_sign(double size, double of) { return std::copysign(size, of); }
+};
+} // namespace foot_search
+
+// Where the result is true (lane by lane of a pack): the foot inside the face, single and off its rim.
+template <class How, class Real>
+PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real> &centre,
+                               FootOnFace<Real> &foot) {
+  using namespace foot_search;
+  using dem::cross, dem::dot, dem::scale;
+  const dem::Triple<Real> r = centre - face.corner;
+  const auto inside = [](const Real &a, double by) {
+    return How::above(a, Real(by)) & How::above(Real(1 - by), a);
+  };
+  auto found = How::at_least(face.single_foot, How::magnitude(dot(r, face.normal)));
+  const Real first = dot(r, face.linear) + face.constant, zeroth = dot(r, face.free);
+  const Real discriminant = first * first - Real(4.0) * face.square * zeroth;
+  found = found & How::at_least(discriminant, Real(0.0));
+  if (!How::any(found)) return found;
+  Real v = Real(-2.0) * zeroth / (first + How::with_sign(How::root(discriminant), first));
+  found = found & inside(v, -far_off);
+  const dem::Triple<Real> along = face.e + scale(v, face.t);
+  Real u = dot(r - scale(v, face.f), along) / dot(along, along);
+  found = found & inside(u, -far_off);
+  Real moved = Real(1.0);
+  auto moves = found;
+  for (int step = 0; step < most_steps && How::any(moves); ++step) {
+    const dem::Triple<Real> a = face.e + scale(v, face.t), b = face.f + scale(u, face.t);
+    const dem::Triple<Real> out = r - scale(u, face.e) - scale(v, b); // from the face to the centre
+    const Real gu = dot(out, a), gv = dot(out, b);
+    const Real aa = dot(a, a), bb = dot(b, b), off = dot(a, b) - dot(out, face.t);
+    const Real by = Real(1.0) / (aa * bb - off * off);
+    const Real du = (gu * bb - gv * off) * by, dv = (gv * aa - gu * off) * by;
+    u = How::choose(moves, u + du, u);
+    v = How::choose(moves, v + dv, v);
+    const Real along_u = How::magnitude(du), along_v = How::magnitude(dv);
+    moved = How::choose(moves, How::choose(How::above(along_v, along_u), along_v, along_u), moved);
+    moves = moves & How::above(moved, Real(last_move));
+  }
+  found = found & How::at_least(Real(last_move), moved) & inside(u, rim) & inside(v, rim);
+  foot.u = u;
+  foot.v = v;
+  foot.along_u = face.e + scale(v, face.t);
+  foot.along_v = face.f + scale(u, face.t);
+  foot.out = r - scale(u, face.e) - scale(v, foot.along_v);
+  const dem::Triple<Real> n = cross(foot.along_u, foot.along_v);
+  const Real size = How::root(dot(n, n));
+  foot.normal = {n.x / size, n.y / size, n.z / size};
+  return found;
+}
+
+} // namespace platen::coupling
