@@ -180,13 +180,13 @@ double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
 }
 
 bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
-  const auto triple = [](const Vector3 &a) { return dem::Triple<double>{a.x, a.y, a.z}; };
-  const auto vector = [](const dem::Triple<double> &a) { return Vector3{a.x, a.y, a.z}; };
+  const auto triple = dem::triple_of;
+  const auto vector = dem::vector_of;
   const FaceMap<double> map{triple(face.e),    triple(face.f),      triple(face.t),      triple(face.linear),
                             triple(face.free), triple(face.corner), triple(face.normal), face.square,
                             face.constant,     face.single_foot};
   FootOnFace<double> found;
-  if (!search_foot<foot_search::One>(map, triple(centre), found)) return false;
+  if (!search_foot<dem::One>(map, triple(centre), found)) return false;
   foot = {found.u,
           found.v,
           vector(found.out),

@@ -2,7 +2,7 @@
 // give the same bits.
 #pragma once
 
-#include "dem/laws/bond_form.h"
+#include "dem/laws/lanes.h"
 
 namespace platen::coupling {
 
@@ -27,17 +27,6 @@ constexpr double far_off = 0.05;
 // A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
 constexpr double last_move = 1e-6;
 constexpr int most_steps = 8;
-
-// What the search asks of its real type beyond arithmetic; packs bring their own, with lanes for truth.
-struct One {
-  static bool above(double a, double b) { return a > b; }
-  static bool at_least(double a, double b) { return a >= b; }
-  static bool any(bool a) { return a; }
-  static double choose(bool where, double a, double b) { return where ? a : b; }
-  static double root(double a) { return std::sqrt(a); }
-  static double magnitude(double a) { return std::abs(a); }
-  static double with_sign(double size, double of) { return std::copysign(size, of); }
-};
 } // namespace foot_search
 
 // Where the result is true (lane by lane of a pack): the foot inside the face, single and off its rim.

@@ -17,9 +17,6 @@ PLATEN_INLINE LaneMask operator&(const LaneMask &a, const LaneMask &b) {
 PLATEN_INLINE LaneMask operator|(const LaneMask &a, const LaneMask &b) {
   return {a.v | b.v};
 }
-PLATEN_INLINE LaneMask operator!(const LaneMask &a) {
-  return {~a.v};
-}
 // A bit for each lane.
 PLATEN_INLINE unsigned bits_of(const LaneMask &a) {
 #if PLATEN_LANES == 8 && defined(__AVX512DQ__)
@@ -36,10 +33,11 @@ PLATEN_INLINE unsigned bits_of(const LaneMask &a) {
 #endif
 }
 
-// What a text for one number and for packs asks of its type.
+// What a text for one number and for packs asks of its type (dem/laws/lanes.h).
 struct OfLanes {
   PLATEN_INLINE static LaneMask above(const Pack &a, const Pack &b) { return {a.v > b.v}; }
   PLATEN_INLINE static LaneMask at_least(const Pack &a, const Pack &b) { return {a.v >= b.v}; }
+  PLATEN_INLINE static LaneMask negated(const LaneMask &a) { return {~a.v}; }
   PLATEN_INLINE static bool any(const LaneMask &a) { return bits_of(a) != 0; }
   PLATEN_INLINE static Pack choose(const LaneMask &where, const Pack &a, const Pack &b) {
     return where.v ? a.v : b.v;

@@ -1,12 +1,47 @@
-// Coulomb friction with a tangential spring. A law is a value: parameters, state, one call operator.
+// Coulomb friction with a tangential spring. A law is a value: parameters, state, one call operator. Its text
+// is one for one contact and for packs of them (lanes.h), which gives the same bits.
 #pragma once
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "base/vector3.h"
+#include "dem/laws/lanes.h"
 
 namespace platen::dem {
+
+// What friction makes of a spring in a step.
+template <class Real, class Truth>
+struct Friction {
+  Triple<Real> spring; // N, new
+  Truth slides, pressed;
+  Real dissipated, slip; // J, m
+};
+
+// stretch: m. normal_force: N. tangential_stiffness: N/m. slides_above, slides_at: coefficients.
+template <class How, class Real>
+PLATEN_INLINE auto spring_with_friction(const Triple<Real> &before, const Triple<Real> &stretch,
+                                        const Real &normal_force, const Real &tangential_stiffness,
+                                        const Real &slides_above, const Real &slides_at) {
+  const Triple<Real> trial = before + scale(tangential_stiffness, stretch);
+  const Real size = length<How>(trial), most = slides_at * normal_force;
+  const auto pressed = How::above(normal_force, Real(0.0));
+  const auto slides = pressed & How::above(size, Real(slides_above * normal_force));
+  const Real limit = How::choose(How::above(size, most), most, size);
+  const Triple<Real> slid = scale(Real(limit / size), trial);
+  Friction<Real, std::decay_t<decltype(pressed)>> f;
+  f.spring = choose<How>(slides, slid, choose<How>(pressed, trial, no_vector<Real>()));
+  f.slides = slides;
+  f.pressed = pressed;
+  // 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t, which is nothing where the trial holds.
+  const Triple<Real> both = choose<How>(slides, before + slid, before),
+                     rest = choose<How>(slides, trial - slid, trial);
+  f.dissipated = How::choose(slides | How::negated(pressed),
+                             Real(0.5) * dot(both, rest) / tangential_stiffness, Real(0.0));
+  f.slip = How::choose(slides, (size - limit) / tangential_stiffness, Real(0.0));
+  return f;
+}
 
 // The spring holds until its force exceeds mu_s N; then it slides at mu_d N, the stored force rescaled to
 // that limit with its direction kept, until a trial force below mu_d N sticks again (Cundall and Strack 1979;
@@ -38,12 +73,14 @@ struct CoulombFriction {
   // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
   Result operator()(State &state, const Vector3 &stretch, double normal_force,
                     double tangential_stiffness) const {
-    const Vector3 trial = state.spring + tangential_stiffness * stretch;
-    if (!(normal_force > 0)) return let_go(state, trial, tangential_stiffness);
-    const double size = norm(trial);
-    const double slides_above = state.sliding ? parameters.friction_dynamic : parameters.friction_static;
-    if (!(size > slides_above * normal_force)) return hold(state, trial);
-    return slide(state, trial, size, parameters.friction_dynamic * normal_force, tangential_stiffness);
+    const auto f = spring_with_friction<One, double>(
+        triple_of(state.spring), triple_of(stretch), normal_force, tangential_stiffness,
+        state.sliding ? parameters.friction_dynamic : parameters.friction_static,
+        parameters.friction_dynamic);
+    state.spring = vector_of(f.spring);
+    state.sliding = f.slides;
+    state.slip = f.pressed ? state.slip + f.slip : 0;
+    return {state.spring, f.dissipated, f.slip};
   }
 
   // What may become of the spring, for laws with other limits. `trial` is its force where nothing slides (N),

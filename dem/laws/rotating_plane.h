@@ -1,38 +1,53 @@
 // Carries a vector that lives in a contact plane (a tangential spring, a rolling moment) along with the
-// plane.
+// plane. One text for one contact and for packs of them (lanes.h), which gives the same bits.
 #pragma once
 
 #include "base/vector3.h"
+#include "dem/laws/lanes.h"
 
 namespace platen::dem {
 
 // The vector after the smallest rotation that takes unit normal `from` to unit normal `to` (Rodrigues'
 // formula in the form without angle). The result lies in the plane of `to` and has the length of the vector's
 // part in the old plane, both to round-off, so that history neither leaks nor grows over millions of turns.
-inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, const Vector3 &to) {
-  const Vector3 flat = vector - dot(vector, from) * from;
-  if (from.x == to.x && from.y == to.y && from.z == to.z) return flat;
-  const Vector3 axis = cross(from, to);
-  const double cosine = dot(from, to);
+template <class How, class Real>
+PLATEN_INLINE Triple<Real> carried_with_plane(const Triple<Real> &vector, const Triple<Real> &from,
+                                              const Triple<Real> &to) {
   // Normals that point against each other have no smallest rotation: the vector is kept where it is.
   constexpr double opposite = -1.0 + 1e-12;
-  Vector3 turned = flat;
-  if (cosine > opposite)
-    turned = cosine * flat + cross(axis, flat) + (dot(axis, flat) / (1.0 + cosine)) * axis;
-  turned -= dot(turned, to) * to;
-  const double length = norm(turned);
-  return length > 0 ? (norm(flat) / length) * turned : Vector3{};
+  const Triple<Real> flat = vector - scale(dot(vector, from), from), axis = cross(from, to);
+  const Real cosine = dot(from, to);
+  const Triple<Real> rodrigues =
+      scale(cosine, flat) + cross(axis, flat) + scale(Real(dot(axis, flat) / (Real(1.0) + cosine)), axis);
+  Triple<Real> turned = choose<How>(How::above(cosine, Real(opposite)), rodrigues, flat);
+  turned = turned - scale(dot(turned, to), to);
+  const Real size = length<How>(turned);
+  turned = choose<How>(How::above(size, Real(0.0)), scale(Real(length<How>(flat) / size), turned),
+                       no_vector<Real>());
+  const auto same = [](const Real &a, const Real &b) { return How::at_least(a, b) & How::at_least(b, a); };
+  return choose<How>(same(from.x, to.x) & same(from.y, to.y) & same(from.z, to.z), flat, turned);
+}
+inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, const Vector3 &to) {
+  return vector_of(carried_with_plane<One>(triple_of(vector), triple_of(from), triple_of(to)));
 }
 
-// The vector after the plane has spun about its unit normal by `angle` (rad); exact for any angle. For those
-// of a step the first terms of the series are the functions to the last bit.
+// rad, of a step: below it the first terms of the series are sine and cosine to the last bit.
+constexpr double spin_of_a_step = 1e-4;
+
+// The vector after the plane has spun about its unit normal by `angle` (rad), smaller than that.
+template <class How, class Real>
+PLATEN_INLINE Triple<Real> spun_a_little(const Triple<Real> &vector, const Triple<Real> &normal,
+                                         const Real &angle) {
+  const Real square = angle * angle;
+  const Triple<Real> spun = scale(Real(Real(1.0) - Real(0.5) * square), vector) +
+                            scale(Real(angle * (Real(1.0) - square / Real(6.0))), cross(normal, vector));
+  return choose<How>(How::above(How::magnitude(angle), Real(0.0)), spun, vector);
+}
+
+// The same by any angle, exact.
 inline Vector3 spin_in_plane(const Vector3 &vector, const Vector3 &normal, double angle) {
-  if (angle == 0) return vector;
-  constexpr double of_a_step = 1e-4;
-  if (std::abs(angle) < of_a_step) {
-    const double square = angle * angle;
-    return (1 - 0.5 * square) * vector + (angle * (1 - square / 6)) * cross(normal, vector);
-  }
+  if (std::abs(angle) < spin_of_a_step)
+    return vector_of(spun_a_little<One>(triple_of(vector), triple_of(normal), angle));
   return std::cos(angle) * vector + std::sin(angle) * cross(normal, vector);
 }
 
