@@ -45,8 +45,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
     : settings_(settings),
       layout_(layout),
       search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)),
-      particles_(particles.size()),
-      instruction_set_(instruction_set) {
+      particles_(particles.size()) {
   require_in_range(settings);
   if (NormalContacts::with(settings.normal, [&](auto of) { return of.follows_bonds(settings); }))
     require_given(layout, "modulus", layout.modulus);
@@ -62,7 +61,7 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
   }
   dashpot_ = settings.dashpot();
   if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
-  loop_ = loop_for({dashpot_ > 0, particles.has_rotation(), energy_ledger});
+  loop_ = loop_for(particles.has_rotation(), energy_ledger, instruction_set);
   // Spheres that overlap from the start touch from their initial distance, bonded or not.
   for (const IndexPair &p :
        near_pairs(particles.position.data(), particles.radius.data(), particles.size(), 0.0))

@@ -7,6 +7,7 @@
 #include "dem/bonds.h"
 #include "dem/contact_search.h"
 #include "dem/instruction_set.h"
+#include "dem/kernels/contact_kernel.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
@@ -85,37 +86,9 @@ public:
   const ContactSettings &settings() const { return settings_; }
 
 private:
-  struct Dissipation {
-    double friction = 0, damping = 0;
-    Dissipation &operator+=(const Dissipation &b) {
-      friction += b.friction, damping += b.damping;
-      return *this;
-    }
-  };
-  struct Touch;
-  template <class Law, TangentialContact tangential, bool dashpots, bool rotation, bool ledger>
-  struct With;
-  struct RowsAtWork {
-    const int *row;
-    std::size_t count;
-  };
-  RowsAtWork rows_at_work(const Particles &particles, std::size_t block) const;
-  template <class Effects>
-  Dissipation compute_block(Particles &particles, double dt, std::size_t block);
-  Vector3 turned(const Vector3 &vector, std::size_t k, const Touch &t) const;
-  template <class Effects>
-  void tangential_force(const Particles &particles, double dt, std::size_t k, Touch &t, Dissipation &lost);
-  template <class Effects>
-  void rolling_moment(const Particles &particles, double dt, std::size_t k, const Touch &t,
-                      Dissipation &lost);
-  template <class Effects>
-  void release(std::size_t k, Dissipation &lost);
-
-  using Loop = Dissipation (Contacts::*)(Particles &, double, std::size_t);
-  // Of dashpots, rotation, ledger: whether the loop has them.
-  Loop loop_for(const std::array<bool, 3> &effects);
-  template <class Law, TangentialContact tangential, bool... chosen>
-  Loop choose(const std::array<bool, 3> &effects);
+  kernels::ContactColumns columns(const Particles &particles);
+  kernels::ContactBlock block_of(Particles &particles, std::size_t block);
+  kernels::ContactLoop loop_for(bool rotation, bool ledger, InstructionSet set) const;
   void carry_rows(const Particles &particles);
   void add_rows(const Particles &particles, const std::vector<IndexPair> &pairs);
   void begin_row(const Particles &particles, std::size_t k, const IndexPair &pair);
@@ -130,8 +103,7 @@ private:
   ContactSearch search_;
   std::size_t particles_ = 0;
   double dashpot_ = 0; // fraction of critical
-  Loop loop_ = nullptr;
-  InstructionSet instruction_set_;
+  kernels::ContactLoop loop_ = nullptr;
   PairBlocks blocks_; // of the rows, as far as current
   enum class Stale { none, some, all } stale_ = Stale::all;
   std::vector<char> stale_blocks_; // marked where some are

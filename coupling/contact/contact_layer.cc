@@ -98,6 +98,10 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
     seat_spring_ = &table_.add<Vector3>("seat_moment", "N m");
     seat_sliding_ = &table_.add<int>("seat_sliding", "1");
   }
+  const bool plain = !parameters.hertz && seat_spring_ == nullptr &&
+                     parameters.attachment == Attachment::free &&
+                     (!friction || std::holds_alternative<dem::CoulombFriction>(friction_));
+  if (plain && parameters.in_packs) push_rows_ = kernels::push_rows(parameters.instruction_set);
 }
 
 std::size_t ContactLayer::add_row(int particle) {

@@ -27,6 +27,8 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "coupling/contact/push_kernel.h"
+#include "coupling/contact/row_load.h"
 #include "coupling/contact/surface_search.h"
 #include "coupling/program/platen_speed.h"
 #include "dem/laws/friction_law.h"
@@ -60,6 +62,7 @@ struct SurfaceContact : dem::SurfaceFriction {
   double skin =
       std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
   dem::InstructionSet instruction_set = dem::best_instruction_set(); // changes no bit
+  bool in_packs = true; // rows in vectors, where all effects of the layer have them; changes no bit
 };
 
 // One contact as it is now, for output.
@@ -178,21 +181,6 @@ private:
     double slip = 0;                                         // m
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
   };
-  // What it gives to particle, body and sums, kept small because all of it is read once more in the step.
-  struct alignas(64) RowLoad {
-    int particle = -1; // -1: no contact
-    int face = -1;
-    std::array<double, 4> weights{};
-    Vector3 force, torque;                                   // N, N m about the centre
-    double elastic = 0, friction_loss = 0, damping_loss = 0; // J
-    double depth = 0;                                        // 1, overlap over radius
-  };
-  // What else is told of it when somebody asks.
-  struct RowContact {
-    Vector3 point, normal, shear, moment; // m, 1, N, N m
-    double normal_force = 0, slip = 0;    // N, m
-    bool sliding = false;
-  };
   // Of one row, between ranks.
   struct SharedLoad {
     int row, particle, face;
@@ -214,6 +202,8 @@ private:
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
+  void push_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+                 std::size_t first, std::size_t count, const SurfacePoint *point);
   // With the point that it finds in `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
@@ -228,7 +218,8 @@ private:
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
-  double stiffness_ = 0; // N/m, of the whole contact
+  kernels::PushRows push_rows_ = nullptr; // null: row by row
+  double stiffness_ = 0;                  // N/m, of the whole contact
   double smallest_radius_;
   SurfaceSearch search_;
 

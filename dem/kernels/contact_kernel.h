@@ -1,26 +1,76 @@
-// Which rows of contacts have something to do in a step: most pairs that are near do not touch. One source,
-// compiled once per instruction set (contact_kernel.inc.h), to the same rows.
+// Contacts between grains in packs: which rows have something to do in a step, for most pairs that are near
+// do not touch, and what those do. One source, compiled once per instruction set (contact_kernel.inc.h), to
+// the same last bit.
 #pragma once
 
 #include <cstddef>
 
 #include "base/vector3.h"
+#include "dem/laws/contact_settings.h"
+#include "dem/pair_blocks.h"
 
 namespace platen::dem::kernels {
 
+// Columns of rows and of particles, each with one row to spare.
 struct ContactColumns {
-  const int *first, *second;   // of each row
-  const double *rest_distance; // m
-  const int *touching;
-  const Vector3 *position; // of each particle, with one row to spare
+  const int *first, *second;                 // of each row
+  const double *rest_distance, *coefficient; // m, N/m^p
+  int *touching;
+  double *overlap; // m
+  Vector3 *force;  // N, on first
+  // With friction: unit normal and tangential force (N) as the last step left them, N/m.
+  Vector3 *normal, *spring;
+  double *tangential_stiffness;
+  int *sliding;
+  // With rolling resistance: N m.
+  Vector3 *rolling;
+  double *rolling_stiffness;
+  Vector3 *dashpot; // N, with dashpots
+  // Of particles; the last with rotation.
+  const Vector3 *position, *velocity, *angular_velocity;
+  const double *radius, *mass;
 };
 
-// Of rows [first, last): those that are closer than their rest distance, or were touching, ascending. Writes
-// them to `rows`, which has room for all; returns their number. What is not a number counts as close, so that
-// it shows in the forces.
-using ContactKernel = std::size_t (*)(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
-std::size_t rows_at_work_baseline(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
-std::size_t rows_at_work_avx2(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
-std::size_t rows_at_work_avx512(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
+// Where the forces go: to particles of the block and to its ghosts.
+struct ContactBlock {
+  int first_particle, own; // rows
+  const PairBlocks::Ends *ends;
+  Vector3 *force, *torque; // of all particles; torque null without rotation
+  Vector3 *ghost_force, *ghost_torque;
+};
+
+struct ContactStep {
+  double dt = 0;                             // s
+  double friction = 0, rolling_friction = 0; // 1
+  double tangential_ratio = 0;               // k_t / k_n, of laws whose stiffness changes
+  double dashpot = 0;                        // fraction of critical
+};
+
+// What a loop has; each combination is a loop of its own.
+struct ContactEffects {
+  NormalContact normal = NormalContact::linear;
+  TangentialContact tangential = TangentialContact::coulomb;
+  bool dashpots = false, rotation = true;
+  bool ledger = true; // sums of what is lost
+};
+
+struct ContactLoss {
+  double friction = 0, damping = 0; // J
+};
+
+// Of rows [first, last), those of one block: `rows` has room for all of them, `losses` for three times as
+// many.
+using ContactLoop = ContactLoss (*)(const ContactColumns &, const ContactBlock &, const ContactStep &,
+                                    std::size_t first, std::size_t last, int *rows, double *losses);
+
+struct ContactKernels {
+  // Of rows [first, last): those that are closer than their rest distance, or were touching, ascending.
+  // Writes them to `rows`, which has room for all; returns their number. What is not a number counts as
+  // close, so that it shows in the forces.
+  std::size_t (*rows_at_work)(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
+  // Throws std::invalid_argument for rolling resistance without rotation.
+  ContactLoop (*loop)(const ContactEffects &);
+};
+extern const ContactKernels contact_kernels_baseline, contact_kernels_avx2, contact_kernels_avx512;
 
 } // namespace platen::dem::kernels

@@ -1,4 +1,4 @@
-// Contact kernel for the avx512 instruction set; see contact_kernel.inc.h.
+// Contact kernels for the avx512 instruction set; see contact_kernel.inc.h.
 #define PLATEN_LANES 8
-#define PLATEN_KERNEL rows_at_work_avx512
+#define PLATEN_KERNELS contact_kernels_avx512
 #include "dem/kernels/contact_kernel.inc.h"

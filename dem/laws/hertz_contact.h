@@ -14,11 +14,13 @@ struct HertzContact {
   static constexpr const char *word = "hertz";
   static constexpr bool constant_stiffness = false;
   // coefficient = 4/3 E* sqrt(R*), N/m^1.5; overlap in m.
-  static double force(double coefficient, double overlap) {
-    return coefficient * overlap * std::sqrt(overlap);
+  template <class Real>
+  PLATEN_INLINE static Real force(const Real &coefficient, const Real &overlap) {
+    return coefficient * overlap * root(overlap);
   }
-  static double stiffness(double coefficient, double overlap) {
-    return 1.5 * coefficient * std::sqrt(overlap);
+  template <class Real>
+  PLATEN_INLINE static Real stiffness(const Real &coefficient, const Real &overlap) {
+    return Real(1.5) * coefficient * root(overlap);
   }
   static double energy(double coefficient, double overlap) {
     return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);

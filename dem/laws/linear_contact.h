@@ -12,8 +12,14 @@ struct LinearContact {
   static constexpr const char *word = "linear";
   static constexpr bool constant_stiffness = true;
   // coefficient = k_n, N/m; overlap in m.
-  static double force(double coefficient, double overlap) { return coefficient * overlap; }
-  static double stiffness(double coefficient, double) { return coefficient; }
+  template <class Real>
+  PLATEN_INLINE static Real force(const Real &coefficient, const Real &overlap) {
+    return coefficient * overlap;
+  }
+  template <class Real>
+  PLATEN_INLINE static Real stiffness(const Real &coefficient, const Real & /*overlap*/) {
+    return coefficient;
+  }
   static double energy(double coefficient, double overlap) { return 0.5 * coefficient * overlap * overlap; }
   static double overlap_of_energy(double coefficient, double energy) {
     return std::sqrt(2 * energy / coefficient);

@@ -37,8 +37,9 @@ TEST(ContactKernel, finds_rows_that_are_closer_than_at_rest_or_were_touching) {
                             : draw(random);
     r.touching[k] = random() % 20 == 0;
   }
-  const kernels::ContactColumns columns{r.first.data(), r.second.data(), r.rest.data(), r.touching.data(),
-                                        r.position.data()};
+  kernels::ContactColumns columns{};
+  columns.first = r.first.data(), columns.second = r.second.data(), columns.rest_distance = r.rest.data();
+  columns.touching = r.touching.data(), columns.position = r.position.data();
   const auto expected = [&](std::size_t from, std::size_t to) {
     std::vector<int> rows;
     for (std::size_t k = from; k < to; ++k) {
@@ -48,14 +49,14 @@ TEST(ContactKernel, finds_rows_that_are_closer_than_at_rest_or_were_touching) {
     }
     return rows;
   };
-  for (const auto &[find, set] : {std::pair{kernels::rows_at_work_baseline, InstructionSet::baseline},
-                                  {kernels::rows_at_work_avx2, InstructionSet::avx2},
-                                  {kernels::rows_at_work_avx512, InstructionSet::avx512}}) {
+  for (const auto &[kernels, set] : {std::pair{kernels::contact_kernels_baseline, InstructionSet::baseline},
+                                     {kernels::contact_kernels_avx2, InstructionSet::avx2},
+                                     {kernels::contact_kernels_avx512, InstructionSet::avx512}}) {
     if (set > best_instruction_set()) continue;
     for (const auto &[from, to] :
          {std::pair<std::size_t, std::size_t>{0, 1000}, {3, 4}, {5, 5}, {1, 992}, {7, 14}}) {
       std::vector<int> rows(to - from + 1, -7);
-      const std::size_t count = find(columns, from, to, rows.data());
+      const std::size_t count = kernels.rows_at_work(columns, from, to, rows.data());
       EXPECT_EQ(rows[count], -7) << "writes no more than it finds";
       rows.resize(count);
       EXPECT_EQ(rows, expected(from, to)) << name(set) << ", rows " << from << " to " << to;

@@ -1,0 +1,59 @@
+// Rows of a contact layer in packs, where the layer has but linear springs, dashpots and Coulomb's friction
+// with two coefficients: no Hertz, glue, seats or friction that weakens. One source, compiled once per
+// instruction set (push_kernel.inc.h), to the bits of ContactLayer::row_force.
+#pragma once
+
+#include <cstddef>
+
+#include "coupling/contact/row_load.h"
+#include "coupling/contact/surface_search.h"
+#include "dem/instruction_set.h"
+
+namespace platen::coupling::kernels {
+
+// Columns of the layer's rows and of particles, each with one row to spare.
+struct PushColumns {
+  const int *particle;
+  const double *offset; // m
+  double *dashpot;      // N
+  // Null without friction.
+  Vector3 *normal, *spring; // 1, N
+  int *sliding;
+  double *slip;                                          // m
+  double *idle_until;                                    // m
+  const Vector3 *position, *velocity, *angular_velocity; // the last null without rotation
+  const double *radius, *mass;
+};
+
+// Of a fem::SurfaceMesh.
+struct PushSurface {
+  const Vector3 *velocity; // m/s, of each vertex
+  const int *corner;       // vertices, four of each face
+  bool only_shifted;
+};
+
+struct PushStep {
+  double dt = 0;               // s
+  double stiffness = 0;        // N/m, of the whole contact
+  double damping = 0;          // fraction of critical
+  double tangential_ratio = 0; // k_t / k_n
+  double friction_static = 0, friction_dynamic = 0;
+  double travelled = 0; // m, as in idle_until
+};
+
+// Rows row[0 ... count), count <= most_feet, with the points closest to them, one more to be read, and the
+// normal stiffness of each (N/m).
+using PushRows = void (*)(const PushColumns &, const PushSurface &, const PushStep &,
+                          const SurfacePoint *point, const double *normal_stiffness, const std::size_t *row,
+                          std::size_t count, RowLoad *load, RowContact *contact);
+void push_rows_baseline(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
+                        const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+void push_rows_avx2(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
+                    const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+void push_rows_avx512(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
+                      const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+inline PushRows push_rows(dem::InstructionSet set) {
+  return dem::for_set<PushRows>(set, push_rows_baseline, push_rows_avx2, push_rows_avx512);
+}
+
+} // namespace platen::coupling::kernels

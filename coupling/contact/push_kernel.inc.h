@@ -1,0 +1,198 @@
+// Body of the push kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
+// contraction, as the rest of the layer is.
+#include "coupling/contact/push_kernel.h"
+#include "dem/kernels/lane_friction.inc.h"
+
+namespace platen::coupling::kernels {
+namespace {
+
+using dem::choose;
+using dem::cross;
+using dem::dot;
+using dem::no_vector;
+using dem::Rotation;
+using dem::scale;
+using dem::Triple;
+using dem::kernels::gather;
+using dem::kernels::LaneMask;
+using dem::kernels::lanes;
+using Pack = dem::kernels::Pack;
+using How = dem::kernels::OfLanes;
+
+// The closest points of a pack.
+struct Points {
+  Triple<Pack> arm, normal, along_u, along_v; // m, 1, m
+  Pack u, v, distance;
+};
+PLATEN_INLINE Points points_of(const SurfacePoint *const *point) {
+  dem::kernels::LongRow local[lanes], normals[lanes];
+  dem::kernels::Row places[lanes], along[lanes];
+  for (int l = 0; l < lanes; ++l) {
+    local[l] = dem::kernels::load_long_row(&point[l]->local.point.x);
+    places[l] = dem::kernels::load_row(&point[l]->local.u);
+    normals[l] = dem::kernels::load_long_row(&point[l]->normal.x);
+    along[l] = dem::kernels::load_row(&point[l]->along_v.x);
+  }
+  const Rotation<Pack> a = dem::kernels::first_columns(local), b = dem::kernels::to_columns(places);
+  const Rotation<Pack> n = dem::kernels::first_columns(normals), t = dem::kernels::second_columns(normals);
+  const Rotation<Pack> s = dem::kernels::to_columns(along);
+  return {{a.w, a.x, a.y}, {n.w, n.x, n.y}, {t.w, t.x, t.y}, {s.w, s.x, s.y}, b.w, b.x, n.z};
+}
+
+struct SurfaceMotions {
+  Triple<Pack> velocity; // m/s
+  Pack spin;             // rad/s about the normal
+};
+
+// surface_motion() (transfer.h).
+PLATEN_INLINE SurfaceMotions motion_of(const PushSurface &surface, const SurfacePoint *const *point,
+                                       const Points &p) {
+  Triple<Pack> v[4];
+  for (int corner = 0; corner < 4; ++corner)
+    for (int l = 0; l < lanes; ++l) {
+      const Vector3 &from = surface.velocity[surface.corner[4 * point[l]->face + corner]];
+      v[corner].x.v[l] = from.x, v[corner].y.v[l] = from.y, v[corner].z.v[l] = from.z;
+    }
+  const Triple<Pack> along = v[1] - v[0];
+  const Triple<Pack> by_u = scale(Pack(Pack(1.0) - p.v), along) + scale(p.v, v[2] - v[3]);
+  const Triple<Pack> by_v = scale(Pack(Pack(1.0) - p.u), v[3] - v[0]) + scale(p.u, v[2] - v[1]);
+  const Pack turning = dot(by_u, p.along_v) - dot(by_v, p.along_u), zero = Pack(0.0);
+  const Pack area = dem::length<How>(cross(p.along_u, p.along_v));
+  return {v[0] + (scale(p.u, along) + scale(p.v, by_v)),
+          How::choose(How::above(area, zero), Pack(0.5) * turning / area, zero)};
+}
+
+// Lanes from `count` on repeat the last row and are not written.
+struct Rows {
+  int row[lanes], particle[lanes], count;
+  const SurfacePoint *point[lanes];
+};
+
+struct Push {
+  LaneMask active, sliding;
+  Triple<Pack> shear;
+  Pack normal_force, elastic, friction_loss, damping_loss, slip;
+};
+
+// The friction spring in the plane as it is now; with its energy and what it has lost.
+PLATEN_INLINE void rub(const PushColumns &c, const PushStep &s, const Rows &r, const Points &p,
+                       const Triple<Pack> &spring, const Triple<Pack> &slide, const Pack &spin,
+                       const Pack &k_t, Push &push) {
+  const Pack zero = Pack(0.0);
+  const Triple<Pack> before = gather(c.normal, r.row);
+  const LaneMask touched = How::above(dot(before, before), zero);
+  const Triple<Pack> turned = dem::kernels::spin_in_plane(
+      dem::carried_with_plane<How>(spring, before, p.normal), p.normal, Pack(spin * Pack(s.dt)));
+  Pack slides_above;
+  for (int l = 0; l < lanes; ++l)
+    slides_above.v[l] = c.sliding[r.row[l]] ? s.friction_dynamic : s.friction_static;
+  const auto f =
+      dem::spring_with_friction<How>(choose<How>(touched, turned, spring), scale(Pack(-s.dt), slide),
+                                     push.normal_force, k_t, slides_above, Pack(s.friction_dynamic));
+  push.shear = f.spring;
+  push.sliding = f.slides;
+  push.friction_loss = f.dissipated;
+  push.elastic = push.elastic + Pack(0.5) * dot(f.spring, f.spring) / k_t;
+  push.slip = How::choose(push.active, gather(c.slip, r.row) + f.slip, zero);
+  dem::kernels::scatter(c.spring, r.row, r.count, f.spring);
+  dem::kernels::scatter(c.sliding, r.row, r.count, f.slides);
+  dem::kernels::scatter(c.slip, r.row, r.count, push.slip);
+  dem::kernels::scatter(c.normal, r.row, r.count, choose<How>(push.active, p.normal, no_vector<Pack>()));
+}
+
+PLATEN_INLINE Push push_pack(const PushColumns &c, const PushSurface &surface, const PushStep &s,
+                             const Rows &r, const Points &p, const Pack &k_n) {
+  const Pack zero = Pack(0.0), dt = Pack(s.dt);
+  const Pack gap = p.distance - gather(c.radius, r.particle) - gather(c.offset, r.row);
+  Push push;
+  push.active = How::above(zero, gap);
+  SurfaceMotions face;
+  if (surface.only_shifted) {
+    const Vector3 &all = surface.velocity[0];
+    face = {{Pack(all.x), Pack(all.y), Pack(all.z)}, zero};
+  } else {
+    face = motion_of(surface, r.point, p);
+  }
+  Triple<Pack> v = gather(c.velocity, r.particle);
+  if (c.angular_velocity != nullptr) v = v + cross(gather(c.angular_velocity, r.particle), p.arm);
+  v = v - face.velocity;
+  const Pack opening = dot(v, p.normal);
+  const Triple<Pack> slide = v - scale(opening, p.normal);
+  const Pack pressing = -k_n * gap;
+  Pack held = pressing;
+  if (s.damping > 0)
+    held =
+        pressing - Pack(2 * s.damping) * How::root(Pack(s.stiffness) * gather(c.mass, r.particle)) * opening;
+  held = How::choose(How::above(held, zero), held, zero);
+  push.normal_force = How::choose(push.active, held, zero);
+  const Pack dashpot = How::choose(push.active, held - pressing, zero), before = gather(c.dashpot, r.row);
+  push.elastic = How::choose(push.active, Pack(0.5) * k_n * gap * gap, zero);
+  push.damping_loss = Pack(-0.5) * (before + dashpot) * opening * dt;
+  dem::kernels::scatter(c.dashpot, r.row, r.count, dashpot);
+  // Rows that hold something are looked at again in the next step.
+  LaneMask idle = How::negated(push.active) & How::negated(How::above(How::magnitude(before), zero));
+  push.friction_loss = push.slip = zero;
+  push.shear = no_vector<Pack>();
+  if (c.spring != nullptr) {
+    const Triple<Pack> spring = gather(c.spring, r.row);
+    idle = idle & How::negated(How::above(dot(spring, spring), zero));
+    rub(c, s, r, p, spring, slide, face.spin, Pack(Pack(s.tangential_ratio) * k_n), push);
+  }
+  const Pack until = Pack(s.travelled) + Pack(1 - idle_margin) * gap;
+  dem::kernels::scatter(c.idle_until, r.row, r.count, How::choose(idle, until, zero));
+  return push;
+}
+
+// Vectors first, four numbers at once, which run into what is written next.
+PLATEN_INLINE void keep(const PushColumns &c, const Rows &r, const Points &p, const Push &push, RowLoad *load,
+                        RowContact *contact) {
+  const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
+  dem::kernels::Row forces[lanes], torques[lanes], points[lanes], normals[lanes], shears[lanes];
+  dem::kernels::to_rows(force, forces);
+  dem::kernels::to_rows(cross(p.arm, force), torques);
+  dem::kernels::to_rows(gather(c.position, r.particle) + p.arm, points);
+  dem::kernels::to_rows(p.normal, normals);
+  dem::kernels::to_rows(push.shear, shears);
+  for (int l = 0; l < r.count; ++l) {
+    const bool active = push.active.v[l] != 0;
+    load[l].particle = active ? r.particle[l] : -1;
+    load[l].face = r.point[l]->face;
+    load[l].weights = r.point[l]->local.weights;
+    dem::kernels::store_row(&load[l].force.x, forces[l]);
+    dem::kernels::store_row(&load[l].torque.x, torques[l]);
+    load[l].elastic = push.elastic.v[l];
+    load[l].friction_loss = push.friction_loss.v[l];
+    load[l].damping_loss = push.damping_loss.v[l];
+    load[l].depth = 0;
+    dem::kernels::store_row(&contact[l].point.x, points[l]);
+    dem::kernels::store_row(&contact[l].normal.x, normals[l]);
+    dem::kernels::store_row(&contact[l].shear.x, shears[l]);
+    contact[l].moment = Vector3{};
+    contact[l].normal_force = push.normal_force.v[l];
+    contact[l].slip = push.slip.v[l];
+    contact[l].sliding = c.spring != nullptr && push.sliding.v[l] != 0;
+  }
+}
+
+} // namespace
+
+void PLATEN_KERNEL(const PushColumns &c, const PushSurface &surface, const PushStep &s,
+                   const SurfacePoint *point, const double *normal_stiffness, const std::size_t *row,
+                   std::size_t count, RowLoad *load, RowContact *contact) {
+  for (std::size_t first = 0; first < count; first += lanes) {
+    Rows r;
+    r.count = static_cast<int>(count - first < lanes ? count - first : lanes);
+    Pack k_n;
+    for (int l = 0; l < lanes; ++l) {
+      const std::size_t k = first + static_cast<std::size_t>(l < r.count ? l : r.count - 1);
+      r.row[l] = static_cast<int>(row[k]);
+      r.particle[l] = c.particle[row[k]];
+      r.point[l] = point + k;
+      k_n.v[l] = normal_stiffness[k];
+    }
+    const Points p = points_of(r.point);
+    keep(c, r, p, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
+  }
+}
+
+} // namespace platen::coupling::kernels

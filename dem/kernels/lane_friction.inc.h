@@ -1,0 +1,46 @@
+// What contacts in packs have in common: rows by their numbers, and springs that turn with their planes.
+#pragma once
+
+#include <cmath>
+
+#include "dem/kernels/lane_mask.inc.h"
+#include "dem/laws/coulomb_friction.h"
+#include "dem/laws/rotating_plane.h"
+
+namespace platen::dem::kernels {
+namespace {
+
+PLATEN_INLINE Pack gather(const double *column, const int *at) {
+  Pack a;
+  for (int l = 0; l < lanes; ++l)
+    a.v[l] = column[at[l]];
+  return a;
+}
+// Lanes [0, count) to the rows `at`.
+PLATEN_INLINE void scatter(double *column, const int *at, int count, const Pack &a) {
+  for (int l = 0; l < count; ++l)
+    column[at[l]] = a.v[l];
+}
+PLATEN_INLINE void scatter(int *column, const int *at, int count, const LaneMask &a) {
+  for (int l = 0; l < count; ++l)
+    column[at[l]] = a.v[l] != 0 ? 1 : 0;
+}
+PLATEN_INLINE void scatter(Vector3 *column, const int *at, int count, const Triple<Pack> &a) {
+  for (int l = 0; l < count; ++l)
+    column[at[l]] = Vector3{a.x.v[l], a.y.v[l], a.z.v[l]};
+}
+
+// About the unit normal by any angle (rad), exact.
+PLATEN_INLINE Triple<Pack> spin_in_plane(const Triple<Pack> &vector, const Triple<Pack> &normal,
+                                         const Pack &angle) {
+  const Triple<Pack> little = spun_a_little<OfLanes>(vector, normal, angle);
+  const LaneMask far = OfLanes::at_least(OfLanes::magnitude(angle), Pack(spin_of_a_step));
+  if (!OfLanes::any(far)) return little;
+  Pack cosine, sine;
+  for (int l = 0; l < lanes; ++l)
+    cosine.v[l] = std::cos(angle.v[l]), sine.v[l] = std::sin(angle.v[l]);
+  return choose<OfLanes>(far, scale(cosine, vector) + scale(sine, cross(normal, vector)), little);
+}
+
+} // namespace
+} // namespace platen::dem::kernels
