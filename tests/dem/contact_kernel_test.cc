@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "base/table.h"
 #include "dem/instruction_set.h"
+#include "dem/laws/normal_contact.h"
+#include "dem/model.h"
+#include "dem/packing/specimen.h"
 
 namespace platen::dem {
 namespace {
@@ -64,6 +68,81 @@ TEST(ContactKernel, finds_rows_that_are_closer_than_at_rest_or_were_touching) {
   }
   EXPECT_GT(expected(0, 1000).size(), 200u);
   EXPECT_LT(expected(0, 1000).size(), 800u);
+}
+
+// A cloud of spheres that fall into each other, with every choice of effects.
+std::vector<char> collisions(const ModelSettings &settings) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  Specimen cloud;
+  while (cloud.centre.size() < 150) {
+    const Vector3 x{5e-3 * draw(random), 5e-3 * draw(random), 5e-3 * draw(random)};
+    bool apart = true;
+    for (const Vector3 &other : cloud.centre)
+      apart = apart && norm(x - other) > 1.9e-3;
+    if (!apart && random() % 400 != 0) continue; // a few that overlap
+    cloud.centre.push_back(x);
+    cloud.radius.push_back(0.7e-3 + 0.2e-3 * draw(random));
+  }
+  Model model(cloud, settings);
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    model.particles.velocity[i] = -2e3 * model.particles.position[i];
+    if (settings.rotation)
+      (*model.particles.angular_velocity)[i] = 2e4 * Vector3{draw(random), draw(random), draw(random)};
+  }
+  std::vector<char> bytes;
+  const auto put = [&](const auto &value) {
+    const char *from = reinterpret_cast<const char *>(&value);
+    bytes.insert(bytes.end(), from, from + sizeof value);
+  };
+  std::size_t most = 0;
+  const double dt = 2e-8;
+  for (int step = 0; step < 1500; ++step) {
+    model.begin_step(dt);
+    model.compute_forces(dt);
+    model.end_step(dt);
+    most = std::max(most, model.touching_count());
+    if (step % 100 != 0) continue;
+    for (std::size_t i = 0; i < model.particles.size(); ++i)
+      put(model.particles.position[i]), put(model.particles.force[i]);
+    const EnergyLedger energy = model.energy();
+    put(energy.contacts), put(energy.friction), put(energy.damping);
+  }
+  EXPECT_GT(most, 30u) << "touch at once";
+  return bytes;
+}
+
+TEST(ContactKernel, gives_the_same_bits_with_every_instruction_set) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
+    for (const TangentialContact tangential :
+         {TangentialContact::none, TangentialContact::coulomb, TangentialContact::coulomb_with_rolling})
+      for (const double damping : {0.0, 0.1})
+        for (const bool rotation : {true, false})
+          for (const bool ledger : {true, false}) {
+            if (!rotation && tangential == TangentialContact::coulomb_with_rolling) continue;
+            ModelSettings settings;
+            settings.density = 2500;
+            settings.rotation = rotation;
+            settings.energy_ledger = ledger;
+            settings.contact.emplace();
+            settings.contact->normal = normal;
+            settings.contact->tangential = tangential;
+            settings.contact->friction = 0.3;
+            settings.contact->rolling_friction = 0.1;
+            settings.contact->damping = damping;
+            settings.contact->restitution = damping > 0 ? 0.7 : 1;
+            settings.contact->stiffness = {Stiffness::Kind::absolute, 1e6};
+            settings.instruction_set = InstructionSet::baseline;
+            const std::vector<char> expected = collisions(settings);
+            for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+              if (set > best_instruction_set()) continue;
+              settings.instruction_set = set;
+              EXPECT_TRUE(collisions(settings) == expected)
+                  << name(set) << ": the bits differ; " << word(normal) << ", tangential "
+                  << static_cast<int>(tangential) << ", damping " << damping << ", rotation " << rotation
+                  << ", ledger " << ledger;
+            }
+          }
 }
 
 } // namespace

@@ -1,0 +1,126 @@
+// Contacts with faces in packs: the bits of the same contacts row by row, for every instruction set.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "sphere_scene.h"
+
+namespace platen::coupling {
+namespace {
+
+// A sheet that waves, and carries along what lies on it.
+struct Wave : fem::LoadedSurface {
+  std::vector<Vector3> start;
+  explicit Wave(const fem::SurfaceMesh &mesh, bool only_shifts) {
+    set_surface(mesh);
+    surface_.only_shifted = only_shifts;
+    start = surface_.vertices;
+  }
+  double move(double time, double dt) {
+    double farthest = 0;
+    for (std::size_t v = 0; v < start.size(); ++v) {
+      const Vector3 p = start[v], old = surface_.vertices[v];
+      const double phase = 300 * p.x + 200 * p.y + 4000 * time;
+      surface_.vertices[v] = surface_.only_shifted
+                                 ? p + Vector3{2e-4 * std::sin(4000 * time), 0, 1e-4 * std::sin(5000 * time)}
+                                 : p + 2e-4 * Vector3{std::sin(phase), std::cos(phase), std::sin(phase + 1)};
+      surface_.velocities[v] = (surface_.vertices[v] - old) / dt;
+      farthest = std::max(farthest, norm(surface_.vertices[v] - old));
+    }
+    return farthest;
+  }
+};
+
+struct Outcome {
+  std::vector<char> bytes;
+  std::size_t touched = 0, slid = 0, idle = 0;
+};
+
+template <class T>
+void put(Outcome &to, const T &value) {
+  const char *from = reinterpret_cast<const char *>(&value);
+  to.bytes.insert(to.bytes.end(), from, from + sizeof value);
+}
+
+// 200 spheres dance on the sheet for 400 steps; all that can be seen of it.
+Outcome dance(SurfaceContact contact, bool only_shifts, bool rotation) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 200; ++k)
+    centres.push_back(
+        {9e-3 * draw(random), 9e-3 * draw(random), sphere_radius * (1.1 + 0.15 * draw(random))});
+  dem::Particles particles(spheres(centres), 2500, rotation);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.velocity[i] = Vector3{draw(random), draw(random), draw(random)};
+    if (rotation) (*particles.angular_velocity)[i] = 1e3 * Vector3{draw(random), draw(random), draw(random)};
+  }
+  Wave sheet(plate(10e-3, 7).surface(), only_shifts);
+  ContactLayer layer(particles, sheet, contact);
+  Outcome seen;
+  constexpr double dt = 1e-7;
+  for (int step = 1; step <= 400; ++step) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      particles.position[i] += dt * particles.velocity[i];
+      farthest = std::max(farthest, dt * norm(particles.velocity[i]));
+      particles.force[i] = {};
+      if (rotation) (*particles.torque)[i] = {};
+    }
+    layer.moved(farthest + sheet.move(step * dt, dt));
+    sheet.clear_loads();
+    layer.add_forces(particles, sheet, dt);
+    for (const ActiveContact &c : layer.contacts()) {
+      put(seen, c.point), put(seen, c.normal), put(seen, c.shear), put(seen, c.slip),
+          put(seen, c.normal_force);
+      ++seen.touched;
+      seen.slid += c.sliding;
+    }
+    seen.idle += layer.history().size() - layer.closed;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      put(seen, particles.force[i]);
+      if (rotation) put(seen, (*particles.torque)[i]);
+      particles.velocity[i] += (dt / particles.mass[i]) * (particles.force[i] - 3e-2 * Vector3{0, 0, 1});
+      if (rotation)
+        (*particles.angular_velocity)[i] += (dt / (*particles.inertia)[i]) * (*particles.torque)[i];
+    }
+    for (const Vector3 &load : sheet.contact_loads())
+      put(seen, load);
+    put(seen, layer.friction_work), put(seen, layer.damping_work), put(seen, layer.elastic_energy());
+  }
+  return seen;
+}
+
+TEST(push_kernel, contacts_in_packs_are_those_row_by_row) {
+  for (const bool only_shifts : {true, false})
+    for (const bool rotation : {true, false})
+      for (const double friction : {0.0, 0.3})
+        for (const double damping : {0.0, 0.2}) {
+          SurfaceContact contact = frictional(friction, 0.8 * friction);
+          contact.damping = damping;
+          contact.in_packs = false;
+          const Outcome by_rows = dance(contact, only_shifts, rotation);
+          EXPECT_GT(by_rows.touched, 2000u);
+          EXPECT_GT(by_rows.idle, 1000u) << "some are passed over";
+          if (friction > 0) {
+            EXPECT_GT(by_rows.slid, 500u);
+            EXPECT_LT(by_rows.slid + 100, by_rows.touched);
+          }
+          contact.in_packs = true;
+          for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
+                                          {dem::InstructionSet::avx2, "avx2"},
+                                          {dem::InstructionSet::avx512, "avx512"}}) {
+            if (set > dem::best_instruction_set()) continue;
+            contact.instruction_set = set;
+            const Outcome packs = dance(contact, only_shifts, rotation);
+            EXPECT_EQ(packs.bytes.size(), by_rows.bytes.size());
+            EXPECT_TRUE(packs.bytes == by_rows.bytes)
+                << name << ", friction " << friction << ", damping " << damping << ", rotation " << rotation
+                << ", the surface " << (only_shifts ? "shifts" : "deforms") << ": the bits differ";
+          }
+        }
+}
+
+} // namespace
+} // namespace platen::coupling
