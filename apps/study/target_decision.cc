@@ -24,6 +24,13 @@ Counts within(Counts next, const Counts &made, std::size_t most_runs) {
   return next;
 }
 
+// Of the speeds that are run: a run without the figure may have left too little.
+Counts one_packing_more(Counts made, std::size_t most_packings) {
+  for (std::size_t &packings : made)
+    if (packings > 0 && packings < most_packings) ++packings;
+  return made;
+}
+
 } // namespace
 
 double confidence_of_each_look(double confidence) {
@@ -36,10 +43,13 @@ Decision decide(TargetState &state, const TargetCosts &costs, const Aim &asked, 
   aim.confidence = confidence_of_each_look(asked.confidence);
   Decision decision;
   decision.next = state.made;
-  decision.estimate = estimate(state.runs, curvature_at_least);
-  if (!decision.estimate) return decision;
-  state.spread = decision.estimate->spread;
-  state.curvature = decision.estimate->curvature;
+  decision.estimate = estimate(state.runs, state.errors.prior, curvature_at_least);
+  if (!decision.estimate) {
+    decision.next = within(one_packing_more(state.made, aim.pilot_packings), state.made, most_runs);
+    if (decision.next != state.made) decision.verdict = Verdict::more;
+    return decision;
+  }
+  state.errors = decision.estimate->errors;
   decision.half = half_interval(decision.estimate->precision, aim.confidence, aim.others);
   if (decision.half <= aim.accuracy) {
     decision.verdict = Verdict::reached;

@@ -6,6 +6,7 @@
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
 #include "apps/study/target_figures.h"
+#include "apps/study/target_prior.h"
 #include "apps/study_runs.h"
 
 namespace platen::apps::testing {
@@ -116,6 +117,16 @@ TEST(TargetFigures, half_the_step_is_compared_packing_by_packing) {
   EXPECT_FALSE(figures.of_coarser());
   add(figures, 4, 0, 40e6, 500), add(figures, 4, 1, 40e6, 500);
   EXPECT_NEAR(figures.of_coarser()->mean, -0.1, 1e-12);
+}
+
+// docs/accuracy.md: 60 runs of 5 018 spheres, 360 of 728.
+TEST(TargetPrior, expects_what_concrete_was_measured_to_scatter_by) {
+  const SpreadPrior large = expected_spread(TargetFigure::strength, 5018),
+                    small = expected_spread(TargetFigure::strength, 728);
+  EXPECT_NEAR(std::sqrt(large.about.packing), 0.0255, 0.002);
+  EXPECT_NEAR(std::sqrt(large.about.chaos), 0.0099, 0.001);
+  EXPECT_NEAR(std::sqrt(small.about.packing), 0.06, 0.005);
+  EXPECT_LE(large.sum_freedom, 2); // a guess of other scenes
 }
 
 std::vector<std::string> options(const std::vector<std::string> &entries) {
