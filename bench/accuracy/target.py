@@ -222,7 +222,7 @@ def text_of(truths, results, rate):
 
 
 def draw(results, png, rate):
-    """Orders against seconds, by gnuplot where it is installed; the script stays beside the table."""
+    """Orders against seconds, by gnuplot where it is installed; the script stays beside the picture."""
     blocks, curves = "", []
     for colour, subject in enumerate(dict.fromkeys(r["subject"] for r in results), 1):
         mine = sorted((r for r in results if r["subject"] == subject), key=lambda r: r["accuracy"])
