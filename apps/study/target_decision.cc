@@ -12,7 +12,15 @@ std::size_t sum_of(const Counts &counts) {
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-// No more than are allowed: packings are taken off where most are asked for.
+// Of the speeds that are run: a run without the figure may have left too little.
+Counts one_packing_more(Counts made, std::size_t most_packings) {
+  for (std::size_t &packings : made)
+    if (packings > 0 && packings < most_packings) ++packings;
+  return made;
+}
+
+} // namespace
+
 Counts within(Counts next, const Counts &made, std::size_t most_runs) {
   const auto open = [&](std::size_t k) { return next[k] - made[k]; };
   for (std::size_t sum = sum_of(next); sum > most_runs && sum > sum_of(made); --sum) {
@@ -23,15 +31,6 @@ Counts within(Counts next, const Counts &made, std::size_t most_runs) {
   }
   return next;
 }
-
-// Of the speeds that are run: a run without the figure may have left too little.
-Counts one_packing_more(Counts made, std::size_t most_packings) {
-  for (std::size_t &packings : made)
-    if (packings > 0 && packings < most_packings) ++packings;
-  return made;
-}
-
-} // namespace
 
 double confidence_of_each_look(double confidence) {
   return 1 - misses_of_each_look * (1 - confidence);

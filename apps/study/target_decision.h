@@ -29,6 +29,9 @@ struct Decision {
 // study_target_decision_test.
 double confidence_of_each_look(double confidence);
 
+// No more runs than are allowed: packings are taken off where most are asked for.
+Counts within(Counts next, const Counts &made, std::size_t most_runs);
+
 // `curvature_at_least` as in estimate(); `most_runs` of all speeds together. Where the runs tell too
 // little, one packing more of the pilot. Fills the errors of the state.
 Decision decide(TargetState &state, const TargetCosts &costs, const Aim &aim, std::size_t most_runs,

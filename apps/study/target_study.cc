@@ -83,7 +83,7 @@ void TargetStudy::add(std::size_t k, const RunOutcome &outcome) {
 }
 
 bool TargetStudy::work(const Carry &carry, const Told &told) {
-  Counts next = pilot_of(state_, figures_.costs(), aim());
+  Counts next = within(pilot_of(state_, figures_.costs(), aim()), state_.made, most_per_scene());
   do {
     const Counts before = state_.made;
     fill_batch(next);
