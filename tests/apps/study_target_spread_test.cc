@@ -97,6 +97,13 @@ TEST(TargetSpread, runs_outweigh_a_prior_that_is_wrong) {
   }
 }
 
+TEST(TargetSpread, is_told_by_two_packings_run_twice_and_a_run_beyond_means) {
+  EXPECT_FALSE(tells_spread({{3U, 1}, {1U, 9}}));  // one packing alone tells no chaos
+  EXPECT_FALSE(tells_spread({{3U, 1}, {12U, 1}})); // as many means as runs
+  EXPECT_TRUE(tells_spread({{3U, 2}}));
+  EXPECT_TRUE(tells_spread({{3U, 1}, {7U, 1}}));
+}
+
 TEST(TargetSpread, a_prior_alone_tells_nothing) {
   const SpreadPrior prior{{4e-4, 1e-4}, 50, 50};
   EXPECT_FALSE(spread_of(runs_of({}, 1), prior));
