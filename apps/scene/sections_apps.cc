@@ -50,8 +50,9 @@ void declare_target(Parameters &parameters, StudyTarget &target) {
   section.value("Over", target.over, "",
                 "\"Platens/Friction static = 0\" with commas between them; no value may hold a comma",
                 read_assignments, "Gain: or the entries that make that scene of this one.");
-  section.integer("Pilot seeds", target.pilot_seeds, 3, 100,
-                  "Packings that are run first, at the two fastest speeds of Study/Wave crossings list.");
+  section.integer(
+      "Pilot seeds", target.pilot_seeds, 3, 100,
+      "Packings of the first batch at each of its two speeds, at most; a coarse accuracy asks for fewer.");
   section.integer("Most runs", target.most_runs, 1, 100000,
                   "Where the accuracy is not reached with so many, the study ends and says what was.");
   section.number(

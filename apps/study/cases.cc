@@ -95,9 +95,9 @@ StudyPlan plan_rate(const Scene &scene) {
 
 using Plan = StudyPlan (*)(const Scene &);
 
-// As StudyKind.
-constexpr std::array<Plan, study_words.size()> plans{
-    plan_friction, plan_slenderness, plan_size, plan_packing, plan_rate, plan_accuracy, plan_target};
+// As StudyKind; a target, the last, asks for more.
+constexpr std::array<Plan, study_words.size() - 1> plans{plan_friction, plan_slenderness, plan_size,
+                                                         plan_packing,  plan_rate,        plan_accuracy};
 
 } // namespace
 
@@ -142,26 +142,33 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
   return all;
 }
 
+Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned long seed,
+               const std::vector<std::string> &overrides) {
+  try {
+    return read_scene(of.scene.empty() ? scene.path : of.scene, overrides_of(of, seed, overrides),
+                      AppKind::compress);
+  } catch (const InputError &error) {
+    throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + of.name +
+                     ", which cannot be run:\n" + error.what());
+  }
+}
+
 StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
-  StudyPlan plan = plans[static_cast<std::size_t>(kind)](scene);
+  StudyPlan plan = kind == StudyKind::target ? plan_target(scene, overrides)
+                                             : plans[static_cast<std::size_t>(kind)](scene);
   plan.kind = kind;
   const int seeds = kind == StudyKind::target ? scene.study.target.pilot_seeds : scene.study.seeds;
   for (int k = 0; k < seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
-  for (StudyCase &one : plan.cases)
-    try {
-      const Scene led_to = read_scene(one.scene.empty() ? scene.path : one.scene,
-                                      overrides_of(one, plan.seeds.back(), overrides), AppKind::compress);
-      if (of_platens(kind)) label_platens(one, led_to);
-      if (kind == StudyKind::accuracy) label_parameters(one, led_to);
-      for (const unsigned long seed : plan.seeds) {
-        const std::string recipe = packing_recipe(led_to, seed);
-        one.packings.push_back(recipe.empty() ? "" : packing_name(recipe));
-      }
-    } catch (const InputError &error) {
-      throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + one.name +
-                       ", which cannot be run:\n" + error.what());
+  for (StudyCase &one : plan.cases) {
+    const Scene led_to = scene_of(one, kind, scene, plan.seeds.back(), overrides);
+    if (of_platens(kind)) label_platens(one, led_to);
+    if (kind == StudyKind::accuracy) label_parameters(one, led_to);
+    for (const unsigned long seed : plan.seeds) {
+      const std::string recipe = packing_recipe(led_to, seed);
+      one.packings.push_back(recipe.empty() ? "" : packing_name(recipe));
     }
+  }
   return plan;
 }
 

@@ -59,6 +59,10 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
 std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
                                       const std::vector<std::string> &overrides);
 
+// The scene that a case leads to. Throws InputError, naming the case, where platen-compress would refuse it.
+Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned long seed,
+               const std::vector<std::string> &overrides);
+
 // Cases of the studies of platens: what faces the specimen, and how slender it is. Platens x slendernesses x
 // sphere radii x pressures of the scene's section Study; a list that is empty leaves what the scene has. A
 // specimen of another height is packed anew with the same recipe, spheres, width and seed, and pressed at the
@@ -80,9 +84,9 @@ void label_parameters(StudyCase &of, const Scene &led_to);
 
 // Cases of a target: the scene at each speed of Study/Wave crossings list, and what a gain is over likewise;
 // the fastest again with half the step and with coarser spheres, where these are asked for. Seeds are those
-// of the pilot; which further ones are run is decided as it goes (target_study.h). Throws InputError where
-// the scene leaves nothing to plan.
-StudyPlan plan_target(const Scene &scene);
+// of the pilot; which further ones are run is decided as it goes (target_study.h). Half a step and coarser
+// spheres are those of each scene itself. Throws InputError where a scene leaves nothing to plan.
+StudyPlan plan_target(const Scene &scene, const std::vector<std::string> &overrides);
 // The speeds it chooses from.
 std::vector<double> target_transits(const Scene &scene);
 // Places of its cases.

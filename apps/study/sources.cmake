@@ -15,11 +15,17 @@ set(PLATEN_STUDY_SOURCES
   study/target_app.cc
   study/target_cases.cc
   study/target_figures.cc
+  study/target_json.cc
+  study/target_prior.cc
   study/target_report.cc
+  study/target_results.cc
   study/target_study.cc)
 
 # What runs tell of a figure and which runs are the cheapest: statistics alone.
 set(PLATEN_TARGET_STATISTICS_SOURCES
   study/target_decision.cc
   study/target_model.cc
-  study/target_plan.cc)
+  study/target_one_speed.cc
+  study/target_plan.cc
+  study/target_runs.cc
+  study/target_spread.cc)

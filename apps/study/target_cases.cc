@@ -1,6 +1,7 @@
 // Cases of a study of a target.
 #include <algorithm>
 
+#include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/study/cases.h"
 #include "apps/study/target_model.h"
@@ -37,29 +38,43 @@ void check_gain(const Scene &scene) {
       refuse(scene, section + "Over", "changes " + entry + ", which the study sets.");
 }
 
-void check(const Scene &scene) {
+// Of each scene of a gain.
+void check_test(const Scene &scene, TargetFigure figure) {
   if (scene.loading.hydrostatic())
     refuse(scene, "Loading/Test", "has no strength to be known. Allowed: any other.");
   if (scene.loading.servo)
     refuse(scene, "Study/Wave crossings list", "needs platens that are driven by motion.");
-  if (scene.study.target.figure != TargetFigure::modulus) require_fall(scene);
+  if (figure != TargetFigure::modulus) require_fall(scene);
+}
+
+void check(const Scene &scene) {
+  const StudyTarget &target = scene.study.target;
+  check_test(scene, target.figure);
   if (scene.specimen.packing == PackingKind::file && !scene.bond.scattered)
     refuse(
         scene, "Specimen/Packing",
         "has one packing, and with Bond/Strength scatter = none nothing is drawn. Allowed: advancing front, "
         "random close.");
-  if (scene.study.target.coarser_seeds > 0 && scene.specimen.packing == PackingKind::file)
+  if (target.coarser_seeds > 0 && scene.specimen.packing == PackingKind::file)
     refuse(scene, section + "Coarser seeds", "has no effect: Specimen/Packing = file. Allowed: 0.");
-  if (scene.study.target.step_seeds > 0 && scene.time_step.fixed_step > 0)
+  if (target.step_seeds > 0 && scene.time_step.fixed_step > 0)
     refuse(scene, section + "Step seeds", "has no effect: Integration/Time step is set. Allowed: 0.");
   check_transits(scene);
   check_gain(scene);
-  const StudyTarget &target = scene.study.target;
-  constexpr int speeds_of_pilot = 2;
-  const int pilot = (speeds_of_pilot * target.pilot_seeds + target.step_seeds + target.coarser_seeds) *
-                    static_cast<int>(target_cases(scene).scenes);
+  // The least that tells an interval: two packings at two speeds.
+  const int pilot =
+      (4 + target.step_seeds + target.coarser_seeds) * static_cast<int>(target_cases(scene).scenes);
   if (target.most_runs < pilot)
     refuse(scene, section + "Most runs", fmt::format("is less than the pilot takes. Allowed: >= {}.", pilot));
+}
+
+// What a gain is over, as it is run.
+void check_other(const Scene &other, const StudyTarget &target) {
+  check_test(other, target.figure);
+  if (target.coarser_seeds > 0 && other.specimen.packing == PackingKind::file)
+    refuse(other, "Specimen/Packing", "leaves " + section + "Coarser seeds nothing to pack.");
+  if (target.step_seeds > 0 && other.time_step.fixed_step > 0)
+    refuse(other, "Integration/Time step", "leaves " + section + "Step seeds nothing to halve.");
 }
 
 // What runs do not need to know, lest another accuracy make them runs of another scene.
@@ -86,6 +101,16 @@ StudyCase case_of(const Scene &scene, bool over, double transits, const std::str
   return one;
 }
 
+Scene read_other(const Scene &scene, const StudyCase &over, const std::vector<std::string> &overrides) {
+  Scene other = scene_of(over, StudyKind::target, scene, scene.general.seed, overrides);
+  try {
+    check_other(other, scene.study.target);
+  } catch (const InputError &error) {
+    throw InputError(scene.path + ": error: a gain is over a scene that has none:\n" + error.what());
+  }
+  return other;
+}
+
 } // namespace
 
 std::vector<double> target_transits(const Scene &scene) {
@@ -98,7 +123,7 @@ TargetCases target_cases(const Scene &scene) {
           target.coarser_seeds > 0};
 }
 
-StudyPlan plan_target(const Scene &scene) {
+StudyPlan plan_target(const Scene &scene, const std::vector<std::string> &overrides) {
   check(scene);
   const TargetCases cases = target_cases(scene);
   const std::vector<double> transits = target_transits(scene);
@@ -107,15 +132,19 @@ StudyPlan plan_target(const Scene &scene) {
   for (std::size_t of = 0; of < cases.scenes; ++of)
     for (const double one : transits)
       plan.cases.push_back(case_of(scene, of > 0, one, "", {}));
+  std::vector<Scene> sides{scene};
+  if (cases.scenes > 1) sides.push_back(read_other(scene, plan.cases[cases.at(1, 0)], overrides));
+  const auto beside = [&](const std::string &prefix, auto changed) {
+    for (std::size_t of = 0; of < cases.scenes; ++of)
+      plan.cases.push_back(case_of(scene, of > 0, transits.front(), prefix, {changed(sides[of])}));
+  };
   if (cases.half_step)
-    for (std::size_t of = 0; of < cases.scenes; ++of)
-      plan.cases.push_back(case_of(scene, of > 0, transits.front(), "half_step_",
-                                   {set("Integration/Safety", scene.time_step.safety / 2, "")}));
+    beside("half_step_",
+           [](const Scene &side) { return set("Integration/Safety", side.time_step.safety / 2, ""); });
   if (cases.coarser)
-    for (std::size_t of = 0; of < cases.scenes; ++of)
-      plan.cases.push_back(
-          case_of(scene, of > 0, transits.front(), "coarser_",
-                  {set("Specimen/Sphere radius", coarser * scene.specimen.sphere_radius, "m")}));
+    beside("coarser_", [](const Scene &side) {
+      return set("Specimen/Sphere radius", coarser * side.specimen.sphere_radius, "m");
+    });
   return plan;
 }
 

@@ -12,7 +12,15 @@ std::size_t sum_of(const Counts &counts) {
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-// No more than are allowed: packings are taken off where most are asked for.
+// Of the speeds that are run: a run without the figure may have left too little.
+Counts one_packing_more(Counts made, std::size_t most_packings) {
+  for (std::size_t &packings : made)
+    if (packings > 0 && packings < most_packings) ++packings;
+  return made;
+}
+
+} // namespace
+
 Counts within(Counts next, const Counts &made, std::size_t most_runs) {
   const auto open = [&](std::size_t k) { return next[k] - made[k]; };
   for (std::size_t sum = sum_of(next); sum > most_runs && sum > sum_of(made); --sum) {
@@ -24,8 +32,6 @@ Counts within(Counts next, const Counts &made, std::size_t most_runs) {
   return next;
 }
 
-} // namespace
-
 double confidence_of_each_look(double confidence) {
   return 1 - misses_of_each_look * (1 - confidence);
 }
@@ -36,10 +42,13 @@ Decision decide(TargetState &state, const TargetCosts &costs, const Aim &asked, 
   aim.confidence = confidence_of_each_look(asked.confidence);
   Decision decision;
   decision.next = state.made;
-  decision.estimate = estimate(state.runs, curvature_at_least);
-  if (!decision.estimate) return decision;
-  state.spread = decision.estimate->spread;
-  state.curvature = decision.estimate->curvature;
+  decision.estimate = estimate(state.runs, state.errors.prior, curvature_at_least);
+  if (!decision.estimate) {
+    decision.next = within(one_packing_more(state.made, aim.pilot_packings), state.made, most_runs);
+    if (decision.next != state.made) decision.verdict = Verdict::more;
+    return decision;
+  }
+  state.errors = decision.estimate->errors;
   decision.half = half_interval(decision.estimate->precision, aim.confidence, aim.others);
   if (decision.half <= aim.accuracy) {
     decision.verdict = Verdict::reached;

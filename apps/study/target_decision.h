@@ -26,11 +26,14 @@ struct Decision {
 
 // What an interval that is looked at again and again needs to hold the truth as often as is said: it ends
 // where it happens to be narrow. Of 100 studies that would miss at one look 70 may; see
-// study_target_model_test.
+// study_target_decision_test.
 double confidence_of_each_look(double confidence);
 
-// `curvature_at_least` as in estimate(); `most_runs` of all speeds together. Fills spread and curvature of
-// the state.
+// No more runs than are allowed: packings are taken off where most are asked for.
+Counts within(Counts next, const Counts &made, std::size_t most_runs);
+
+// `curvature_at_least` as in estimate(); `most_runs` of all speeds together. Where the runs tell too
+// little, one packing more of the pilot. Fills the errors of the state.
 Decision decide(TargetState &state, const TargetCosts &costs, const Aim &aim, std::size_t most_runs,
                 double curvature_at_least = 0);
 

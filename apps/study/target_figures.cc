@@ -4,8 +4,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "apps/scene/scene.h"
+#include "apps/run/needs.h"
+#include "apps/run/specimen_setup.h"
 #include "apps/study/tables.h"
+#include "apps/study/target_prior.h"
 
 namespace platen::apps {
 namespace {
@@ -13,6 +15,12 @@ namespace {
 // What a packing costs, in steps of its spheres: 1.8 s of the cylinder of study_quality_cylinder, a step of
 // which takes 0.6 ms on the same core.
 constexpr double steps_of_packing = 3000;
+
+// Of study_target_cylinder by wave crossings. Another height or width of spheres changes all in proportion.
+constexpr LinearCost usual_steps{1400, 285, steps_of_packing};
+
+// Where the packing is a file's, of which nothing has been read yet.
+constexpr double usual_spheres = 5000;
 
 } // namespace
 
@@ -37,6 +45,12 @@ LinearCost line_through(const std::vector<double> &transits, const std::vector<d
 TargetFigures::TargetFigures(const Scene &scene)
     : figure_(scene.study.target.figure), cases_(target_cases(scene)), transits_(target_transits(scene)) {
   works_.resize(cases_.scenes * (cases_.speeds + 2));
+  const bool packed = scene.specimen.packing != PackingKind::file;
+  counted_spheres_ = packed ? counted_costs(scene, specimen_shape(scene)).spheres : usual_spheres;
+}
+
+double TargetFigures::spheres() const {
+  return with_spheres_ == 0 ? counted_spheres_ : spheres_ / static_cast<double>(with_spheres_);
 }
 
 void TargetFigures::add(const StudyRun &run, std::size_t packing, const RunOutcome &outcome) {
@@ -85,7 +99,8 @@ double TargetFigures::curvature_of_scenes() const {
       const auto first = logs.begin() + static_cast<std::ptrdiff_t>(cases_.at(scene, 0));
       runs.logs.emplace_back(first, first + static_cast<std::ptrdiff_t>(cases_.speeds));
     }
-    if (const auto found = estimate(runs)) largest = std::max(largest, found->slope * found->slope);
+    if (const auto found = estimate(runs, expected_spread(TargetFigure::strength, spheres())))
+      largest = std::max(largest, found->slope * found->slope);
   }
   return largest;
 }
@@ -93,6 +108,12 @@ double TargetFigures::curvature_of_scenes() const {
 TargetCosts TargetFigures::costs() const {
   TargetCosts costs;
   costs.runs.assign(cases_.speeds, 0);
+  costs.packing = steps_of_packing * spheres();
+  if (with_spheres_ == 0) {
+    for (std::size_t k = 0; k < cases_.speeds; ++k)
+      costs.runs[k] = usual_steps.at(transits_[k]) * spheres() * static_cast<double>(cases_.scenes);
+    return costs;
+  }
   for (std::size_t scene = 0; scene < cases_.scenes; ++scene) {
     std::vector<double> own(cases_.speeds, 0);
     for (std::size_t k = 0; k < cases_.speeds; ++k)
@@ -101,7 +122,6 @@ TargetCosts TargetFigures::costs() const {
     for (std::size_t k = 0; k < cases_.speeds; ++k)
       costs.runs[k] += own[k] > 0 ? own[k] : line.at(transits_[k]);
   }
-  costs.packing = with_spheres_ == 0 ? 0 : steps_of_packing * spheres_ / static_cast<double>(with_spheres_);
   return costs;
 }
 

@@ -30,12 +30,14 @@ public:
   // The largest square of b that the scenes of a gain have by themselves.
   double curvature_of_scenes() const;
 
-  // In steps times spheres, of all scenes. Those of a speed without runs follow from the others.
+  // In steps times spheres, of all scenes. Those of a speed without runs follow from the others; before there
+  // are any, as many steps as study_target_cylinder takes.
   TargetCosts costs() const;
   LinearCost linear_cost() const;
   double work() const { return work_; }       // done, packings included
   double seconds() const { return seconds_; } // of one core
   std::size_t made() const { return made_; }
+  double spheres() const; // of a run; counted in the shape where there is none yet
   std::size_t without_figure() const { return without_; }
 
   std::optional<MeasuredChange> of_half_step() const, of_coarser() const;
@@ -52,9 +54,10 @@ private:
   TargetCases cases_;
   std::vector<double> transits_;
   Logs logs_;
-  std::vector<Work> works_;                     // by case
-  std::vector<bool> was_packed_;                // by packing
-  double spheres_ = 0, work_ = 0, seconds_ = 0; // spheres: of a run at the scene's size
+  std::vector<Work> works_;      // by case
+  std::vector<bool> was_packed_; // by packing
+  double counted_spheres_ = 0;
+  double spheres_ = 0, work_ = 0, seconds_ = 0; // spheres: sum over runs at the scene's size
   std::size_t made_ = 0, without_ = 0, with_spheres_ = 0;
 };
 

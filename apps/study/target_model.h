@@ -7,40 +7,24 @@
 // is known; a_s: the packing, the same in all its runs; e: chaos of crushing, which anything that changes the
 // last digits draws anew. A gain is the same with the difference of two logarithms on one packing and speed.
 //
-// Variances of a and e are those of largest restricted likelihood with one mean a speed, so that they trust
-// no law of speed (Patterson and Thompson 1971); m is the best linear unbiased estimate with them, c being
-// drawn from a distribution as wide as its bound; the interval is Student's with the freedom that
-// Satterthwaite's match gives (Giesbrecht and Burns 1985).
+// Variances of a and e are those of target_spread.h; m is the best linear unbiased estimate with them, c
+// being drawn from a distribution as wide as its bound; the interval is Student's with the freedom that
+// Satterthwaite's match gives.
 #pragma once
 
-#include <cstddef>
 #include <limits>
-#include <map>
 #include <optional>
 #include <vector>
 
+#include "apps/study/target_spread.h"
+
 namespace platen::apps {
 
-constexpr std::size_t most_speeds = 8; // of a plan
-
-// Bit k: a run at speed k.
-using SpeedSet = unsigned;
-
-// Packings by the speeds at which they are run.
-using Design = std::map<SpeedSet, double>;
-
-// Logarithms by packing and by speed; NaN: no run, or one without the figure.
-struct TargetRuns {
-  std::vector<double> transits; // N of each speed
-  std::vector<std::vector<double>> logs;
-
-  SpeedSet speeds_of(std::size_t packing) const;
-  Design design() const;
-};
-
-struct Spread { // variances of logarithms
-  double packing = 0, chaos = 0;
-  double total() const { return packing + chaos; }
+// By what runs differ from m + b / N.
+struct RunErrors {
+  Spread spread;
+  SpreadPrior prior;
+  double curvature = 0; // deviation of c
 };
 
 // How well a design tells m. All but freedom are variances of it.
@@ -54,29 +38,24 @@ struct Precision {
 
 enum class Freedom { counted, infinite }; // counting it takes longer than all the rest
 
-// `curvature`: standard deviation of c. Nothing where the design cannot tell a slope from a mean.
+// Nothing where the design cannot tell a slope from a mean.
 std::optional<Precision> precision_of(const Design &design, const std::vector<double> &transits,
-                                      const Spread &spread, double curvature,
-                                      Freedom wants = Freedom::counted);
+                                      const RunErrors &errors, Freedom wants = Freedom::counted);
 
 // Of c where runs say nothing: that of a figure of 1 + b / N to 1 / (1 - b / N) with b = 1 is between -1/2
 // and 1/2, and b of concrete is 0.7 to 1.5. Where b comes out larger, its square.
 constexpr double least_curvature = 1;
 
-// Of largest restricted likelihood. Nothing where no packing has runs at two speeds, or where there is not
-// one run more than means.
-std::optional<Spread> spread_of(const TargetRuns &runs);
-
 struct TargetEstimate {
-  double mean = 0;      // m
-  double slope = 0;     // b
-  double curvature = 0; // of which c was taken to be drawn
-  Spread spread;
+  double mean = 0;  // m
+  double slope = 0; // b
+  RunErrors errors; // as they were found, or taken
   Precision precision;
 };
 
 // m by runs that are there. `curvature_at_least`: of c, beside what the runs say of it.
-std::optional<TargetEstimate> estimate(const TargetRuns &runs, double curvature_at_least = 0);
+std::optional<TargetEstimate> estimate(const TargetRuns &runs, const SpreadPrior &prior,
+                                       double curvature_at_least = 0);
 
 // Half the width of the interval that holds m with this confidence. `others`: variance of what errs beside
 // the runs, known.

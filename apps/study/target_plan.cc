@@ -1,7 +1,6 @@
 #include "apps/study/target_plan.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 
@@ -33,8 +32,7 @@ private:
 TargetPlan predicted(const TargetState &state, const TargetCosts &costs, const Aim &aim,
                      const Counts &counts) {
   TargetPlan plan{counts, {}, std::numeric_limits<double>::infinity(), costs.between(state.made, counts)};
-  const auto precision =
-      precision_of(design_with(state, counts), state.runs.transits, state.spread, state.curvature);
+  const auto precision = precision_of(design_with(state, counts), state.runs.transits, state.errors);
   if (!precision) return plan;
   plan.precision = *precision;
   plan.half = half_interval(*precision, aim.confidence, aim.others);
@@ -44,9 +42,9 @@ TargetPlan predicted(const TargetState &state, const TargetCosts &costs, const A
 // What is too wide with known variances is too wide with estimated ones.
 bool Search::is_enough(const Counts &counts) {
   const Design design = design_with(state_, counts);
+  if (!tells_spread(design)) return false;
   for (const Freedom freedom : {Freedom::infinite, Freedom::counted}) {
-    const auto precision =
-        precision_of(design, state_.runs.transits, state_.spread, state_.curvature, freedom);
+    const auto precision = precision_of(design, state_.runs.transits, state_.errors, freedom);
     if (!precision || half_interval(*precision, aim_.confidence, aim_.others) > aim_.accuracy) return false;
   }
   return true;
@@ -142,29 +140,18 @@ Counts next_batch(const Counts &made, const Counts &plan) {
   return next;
 }
 
-OneSpeed one_slow_speed(double slope, const Spread &spread, const LinearCost &cost, double fastest,
-                        const Aim &aim) {
-  const boost::math::normal_distribution<double> normal;
-  const double haste = std::abs(slope);
-  OneSpeed best;
-  best.cost = std::numeric_limits<double>::infinity();
-  for (std::size_t packings = 2; packings <= aim.most_packings; ++packings) {
-    const double count = static_cast<double>(packings),
-                 deviation = std::sqrt(spread.total() / count + aim.others);
-    const auto within = [&](double bias) {
-      return boost::math::cdf(normal, (aim.accuracy - bias) / deviation) -
-             boost::math::cdf(normal, (-aim.accuracy - bias) / deviation);
-    };
-    if (within(0) < aim.confidence) continue;
-    double low = 0, high = aim.accuracy; // bias that is allowed
-    constexpr int halvings = 40;
-    for (int k = 0; k < halvings; ++k)
-      (within((low + high) / 2) < aim.confidence ? high : low) = (low + high) / 2;
-    const double transits = std::max(fastest, haste / low),
-                 total = count * (cost.at(transits) + cost.packing);
-    if (total < best.cost) best = {transits, packings, total};
+Counts pilot_of(const TargetState &state, const TargetCosts &costs, const Aim &aim) {
+  constexpr std::size_t least = 2; // tells_spread
+  const std::optional<TargetPlan> plan = cheapest_plan(state, costs, aim);
+  Counts pilot(state.made.size(), 0);
+  if (!plan) { // as much as is allowed, where it costs least
+    pilot[0] = pilot[1] = std::max(least, aim.pilot_packings);
+    return pilot;
   }
-  return best;
+  for (std::size_t k = 0; k < pilot.size(); ++k)
+    if (plan->counts[k] > 0)
+      pilot[k] = std::clamp((plan->counts[k] + 1) / 2, least, std::max(least, aim.pilot_packings));
+  return pilot;
 }
 
 } // namespace platen::apps

@@ -5,6 +5,7 @@
 // most packings are run fast alone, as multilevel Monte Carlo has it (Heinrich 2001, Giles 2008).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,14 +28,14 @@ struct Aim {
   double confidence = 0;
   double others = 0; // variance of what errs beside the runs
   std::size_t most_packings = 0;
+  std::size_t pilot_packings = 0; // of the first batch, at each of its two speeds, at most
 };
 
 // What is known when runs are planned.
 struct TargetState {
-  TargetRuns runs; // that are there; of a new packing nothing
-  Counts made;     // asked for so far, whether or not they gave the figure
-  Spread spread;
-  double curvature = 0;
+  TargetRuns runs;  // that are there; of a new packing nothing
+  Counts made;      // asked for so far, whether or not they gave the figure
+  RunErrors errors; // before there are runs, as they are expected
 };
 
 // Packings by their speeds once `counts` are there too.
@@ -55,6 +56,9 @@ std::optional<TargetPlan> cheapest_plan(const TargetState &state, const TargetCo
 // where that is little.
 Counts next_batch(const Counts &made, const Counts &plan);
 
+// The first batch: half of the plan by what is expected, two packings at each of its two speeds at least.
+Counts pilot_of(const TargetState &state, const TargetCosts &costs, const Aim &aim);
+
 // Runs at one speed, no haste taken off: what is fast enough for its error b / N and the scatter of so many
 // packings together to stay within the accuracy. Cost of a run at N crossings: linear in N.
 struct OneSpeed {
@@ -66,8 +70,17 @@ struct LinearCost {
   double fixed = 0, per_transit = 0, packing = 0;
   double at(double transits) const { return fixed + per_transit * transits; }
 };
+// What is known when one slow speed is chosen: by an oracle, or by a pilot.
+struct OneSpeedKnown {
+  double haste = 0; // the largest |b| that is allowed for
+  Spread spread;
+  std::size_t packings = 0;                                 // of the pilot, which are paid for
+  double freedom = std::numeric_limits<double>::infinity(); // of the spread; each further packing adds one
+  double cost = 0;                                          // of the pilot
+};
+OneSpeedKnown known_by_pilot(const TargetEstimate &pilot, std::size_t packings, double cost,
+                             double confidence);
 // `fastest`: below which no speed is asked for.
-OneSpeed one_slow_speed(double slope, const Spread &spread, const LinearCost &cost, double fastest,
-                        const Aim &aim);
+OneSpeed one_slow_speed(const OneSpeedKnown &known, const LinearCost &cost, double fastest, const Aim &aim);
 
 } // namespace platen::apps

@@ -22,6 +22,16 @@ struct ErrorParts {
 };
 ErrorParts parts_of(const Precision &precision, double half, double step_error);
 
+std::string figure_words(const TargetStudy &study);
+const char *verdict_words(Verdict verdict);
+double figure_of(const TargetEstimate &of); // a strength in Pa, a gain without unit
+// Seconds of one core for so much work, by what runs took so far.
+double seconds_of(const TargetStudy &study, double work);
+
+// One slow speed in place of the study: all known beforehand, or by the runs of the first look.
+OneSpeed one_speed_of_oracle(const TargetStudy &study);
+OneSpeed one_speed_of_pilot(const TargetStudy &study);
+
 // "43.21 MPa +- 1.9 %", and of a gain "1.49 +- 2.8 %".
 std::string estimate_text(const TargetStudy &study, const TargetEstimate &estimate, double half);
 // What is known after the last batch, and what is run next.

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/study/target_prior.h"
+
 namespace platen::apps {
 namespace {
 
 // No plan has more; 1 % of a figure that scatters by 10 % needs 270.
 constexpr std::size_t most_packings = 1000;
-constexpr std::size_t speeds_of_pilot = 2;
 
 } // namespace
 
@@ -16,6 +17,7 @@ TargetStudy::TargetStudy(const TargetSetup &setup)
     : setup_(setup), cases_(target_cases(setup.scene)), figures_(setup.scene) {
   state_.runs.transits = target_transits(setup.scene);
   state_.made.assign(cases_.speeds, 0);
+  state_.errors = expected_errors(setup.scene.study.target.figure, figures_.spheres());
 }
 
 double TargetStudy::step_error() const {
@@ -27,7 +29,8 @@ double TargetStudy::step_error() const {
 
 Aim TargetStudy::aim() const {
   const StudyTarget &target = setup_.scene.study.target;
-  return {target.accuracy, target.confidence, std::pow(step_error(), 2), most_packings};
+  return {target.accuracy, target.confidence, std::pow(step_error(), 2), most_packings,
+          static_cast<std::size_t>(target.pilot_seeds)};
 }
 
 std::size_t TargetStudy::side_runs() const {
@@ -80,8 +83,7 @@ void TargetStudy::add(std::size_t k, const RunOutcome &outcome) {
 }
 
 bool TargetStudy::work(const Carry &carry, const Told &told) {
-  Counts next(cases_.speeds, 0);
-  std::fill_n(next.begin(), speeds_of_pilot, static_cast<std::size_t>(setup_.scene.study.target.pilot_seeds));
+  Counts next = within(pilot_of(state_, figures_.costs(), aim()), state_.made, most_per_scene());
   do {
     const Counts before = state_.made;
     fill_batch(next);
@@ -90,11 +92,12 @@ bool TargetStudy::work(const Carry &carry, const Told &told) {
       return false;
     }
     state_.runs = figures_.runs();
+    state_.errors.prior = expected_spread(setup_.scene.study.target.figure, figures_.spheres());
     decision_ = decide(state_, figures_.costs(), aim(), most_per_scene(), figures_.curvature_of_scenes());
     next = decision_.next;
     if (decision_.estimate)
-      looks_.push_back(
-          {figures_.made(), figures_.work(), figures_.seconds(), *decision_.estimate, decision_.half});
+      looks_.push_back({figures_.made(), seeds().size(), figures_.work(), figures_.seconds(),
+                        *decision_.estimate, decision_.half});
     told();
   } while (decision_.verdict == Verdict::more);
   return true;

@@ -24,7 +24,7 @@ struct TargetSetup {
 
 // What was known after a batch.
 struct TargetLook {
-  std::size_t runs = 0;
+  std::size_t runs = 0, packings = 0;
   double work = 0, seconds = 0; // steps times spheres, of one core
   TargetEstimate estimate;
   double half = 0;
@@ -43,6 +43,7 @@ public:
   void add(std::size_t k, const RunOutcome &outcome);
 
   const TargetSetup &setup() const { return setup_; }
+  const StudyTarget &target() const { return setup_.scene.study.target; }
   const TargetFigures &figures() const { return figures_; }
   const TargetState &state() const { return state_; }
   const Decision &decision() const { return decision_; }

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """How well and how cheaply `platen-study target` keeps what it is ordered (docs/accuracy.md, "Accuracy on order").
 
-Usage: target.py BUILD FOLDER [--only small|cylinder|gain ...] [--repetitions 20] [--accuracy 5 2] [--seeds 15] [-t 2] [--plot PNG]
+Usage: target.py BUILD FOLDER [--only small|cylinder|gain ...] [--repetitions 20] [--accuracy 2 5] [--seeds 15] [-t 2] [--plot PNG] [--tables]
 
 For each subject: (a) reference runs over seeds and speeds (--seeds packings at 15, 30, 60 and 120 wave crossings, of a gain both
 scenes), whose line through 1 / N is the truth, with an interval of its own; (b) so many repetitions of each order, on seeds far
-apart; (c) what one slow speed would cost for the same accuracy, by the variances and the haste of the reference runs. Prints a table,
-leaves it in FOLDER/target.md and, where gnuplot is installed, draws orders against seconds. What is done is kept: call it again after a
-stop. Runs of finished repetitions are removed, their tables stay.
+apart; (c) what one slow speed would cost for the same accuracy, by the variances and the haste of the reference runs.
+All orders of one repetition share its runs: a run of the same seed, speed and scene is the same to the byte, and an order counts each run
+that it asks for, whoever made it. Prints a table, leaves it in FOLDER/target.md and, where gnuplot is installed, draws orders against
+costs. What is done is kept: call it again after a stop; --tables runs nothing and tells what is there.
 """
 import argparse
 import csv
@@ -23,18 +24,21 @@ SPEEDS = "15, 30, 60, 120"
 SUBJECTS = {
     # name: (scene, entries of all its runs, entries of the scene that a gain is over, accuracies)
     "small": ("study_quality_concrete", ["Study/Quality list ="], None, [0.05, 0.04]),
-    "cylinder": ("study_target_cylinder", [], None, [0.05, 0.02, 0.01]),
+    "cylinder": ("study_target_cylinder", [], None, [0.02, 0.05, 0.01]),
     "gain": ("study_target_gain", [], ["Platens/Friction static = 0"], [0.03]),
 }
 CONFIDENCE = 0.9
+QUANTILE = statistics.NormalDist().inv_cdf(0.5 + CONFIDENCE / 2)
 PACKING_STEPS = 3000  # as apps/study/target_figures.cc
 
 
-def study(build, kind, scene, folder, entries, threads):
-    """Makes a study, or goes on with it; one that has ended is left."""
+def study(build, kind, scene, folder, entries, threads, accuracy=None):
+    """Makes a study, or goes on with it; one that has ended, of a target with this accuracy, is left."""
     summary = folder / "study.json"
-    if summary.exists() and json.loads(summary.read_text()).get("status") == "done":
-        return
+    if summary.exists():
+        left = json.loads(summary.read_text())
+        if left.get("status") == "done" and left.get("target", {}).get("accuracy") == accuracy:
+            return
     command = [str(build / "apps/platen-study"), kind, str(SCENES / f"{scene}.prm"), "-o", str(folder), "-t", str(threads), "--quiet"]
     for entry in entries:
         command += ["-s", entry]
@@ -63,35 +67,63 @@ def line(x, y):
     return my - slope * mx, slope
 
 
+def spread_of(logs):
+    """Variances of packings and of chaos, by analysis of variance of packings that have all speeds."""
+    speeds = sorted({n for n, _ in logs})
+    whole = [s for s in sorted({s for _, s in logs}) if all((n, s) in logs for n in speeds)]
+    of_speed = [statistics.fmean(logs[n, s] for s in whole) for n in speeds]
+    of_packing = {s: statistics.fmean(logs[n, s] for n in speeds) for s in whole}
+    mean = statistics.fmean(of_speed)
+    squares = sum((logs[n, s] - of_packing[s] - m + mean) ** 2 for n, m in zip(speeds, of_speed) for s in whole)
+    chaos = squares / ((len(whole) - 1) * (len(speeds) - 1))
+    return max(0, statistics.variance(of_packing.values()) - chaos / len(speeds)), chaos
+
+
+def truth_of(logs, spread):
+    """Generalised least squares of m + b / N: m, its standard error, b."""
+    packing, chaos = spread
+    a = b = c = p = q = 0.0
+    for seed in {s for _, s in logs}:
+        x, y = zip(*((1 / n, value) for (n, s), value in logs.items() if s == seed))
+        share = packing / (chaos + len(x) * packing)  # of the sums, in the inverse of the covariance
+        a += (len(x) - share * len(x) ** 2) / chaos
+        b += (sum(x) - share * len(x) * sum(x)) / chaos
+        c += (sum(v * v for v in x) - share * sum(x) ** 2) / chaos
+        p += (sum(y) - share * len(x) * sum(y)) / chaos
+        q += (sum(u * v for u, v in zip(x, y)) - share * sum(x) * sum(y)) / chaos
+    determinant = a * c - b * b
+    return (c * p - b * q) / determinant, math.sqrt(c / determinant), (a * q - b * p) / determinant
+
+
+def logs_of(tables):
+    """Logarithms of the strength by (wave crossings, seed), of a gain of the ratio; runs that never peaked are left out."""
+    return {k: math.log(tables[0][k][0]) - (math.log(tables[1][k][0]) if len(tables) > 1 else 0)
+            for k in tables[0] if all(k in t and t[k][0] > 0 for t in tables)}
+
+
 def reference(build, folder, subject, seeds, threads):
-    """The truth: a line in 1 / N on each packing, mean over packings; and what one run costs."""
+    """Runs of --seeds packings at all speeds: the truth by them, how they scatter, and what one costs."""
     scene, entries, over, _ = SUBJECTS[subject]
     entries = entries + [f"Study/Seeds = {seeds}", f"Study/Wave crossings list = {SPEEDS}", "Checkpoint/Every = 0"]
     tables = []
     for name, more in (("reference", []), ("reference_over", over)):
         if more is None:
             continue
-        study(build, "accuracy", scene, folder / f"{subject}_{name}", entries + more, threads)
+        if build:
+            study(build, "accuracy", scene, folder / f"{subject}_{name}", entries + more, threads)
         tables.append(rows_of(folder / f"{subject}_{name}"))
     speeds = sorted({n for n, _ in tables[0]})
-    packings = sorted({s for _, s in tables[0]})
-    logs = {k: math.log(tables[0][k][0]) - (math.log(tables[1][k][0]) if over else 0)
-            for k in tables[0] if all(t[k][0] > 0 for t in tables)}
-    whole = [s for s in packings if all((n, s) in logs for n in speeds)]
-    fits = [line([1 / n for n in speeds], [logs[n, s] for n in speeds]) for s in whole]
-    heights = [f[0] for f in fits]
-    slope = statistics.fmean(f[1] for f in fits)
-    cost = [sum(statistics.fmean(t[n, s][1] for s in packings) for t in tables) for n in speeds]
-    seconds = [sum(statistics.fmean(t[n, s][2] for s in packings) for t in tables) for n in speeds]
+    logs = logs_of(tables)
+    spread = spread_of(logs)
+    mean, error, slope = truth_of(logs, spread)
+    cost = [sum(statistics.fmean(t[k][1] for k in t if k[0] == n) for t in tables) for n in speeds]
     spheres = statistics.fmean(t[k][3] for t in tables for k in t)
-    slow = [logs[speeds[-1], s] for s in whole]
-    return {"mean": statistics.fmean(heights), "error": statistics.stdev(heights) / math.sqrt(len(heights)), "slope": slope,
-            "runs": len(logs) * len(tables), "deviation": statistics.stdev(slow), "fastest": speeds[0],
-            "steps": line(speeds, cost), "seconds": line(speeds, seconds), "packing": PACKING_STEPS * spheres}
+    return {"mean": mean, "error": error, "slope": slope, "logs": logs, "spread": spread, "runs": sum(len(t) for t in tables),
+            "deviation": math.sqrt(sum(spread)), "fastest": speeds[0], "steps": line(speeds, cost), "packing": PACKING_STEPS * spheres}
 
 
 def one_slow_speed(truth, accuracy):
-    """Crossings, packings, steps times spheres and seconds of the cheapest runs at one speed, no haste taken off."""
+    """Crossings, packings and steps times spheres of the cheapest runs at one speed, no haste taken off, all known beforehand."""
     normal, best = statistics.NormalDist(), None
     for packings in range(2, 1000):
         deviation = truth["deviation"] / math.sqrt(packings)
@@ -108,67 +140,102 @@ def one_slow_speed(truth, accuracy):
         crossings = max(truth["fastest"], abs(truth["slope"]) / low)
         steps = packings * (truth["steps"][0] + truth["steps"][1] * crossings + truth["packing"])
         if best is None or steps < best[2]:
-            best = (crossings, packings, steps, packings * (truth["seconds"][0] + truth["seconds"][1] * crossings))
+            best = (crossings, packings, steps)
     return best
 
 
+def name_of(subject, accuracy, number):
+    return f"{subject}_{100 * accuracy:g}_{number:02d}"
+
+
 def order(build, folder, subject, accuracy, number, threads):
-    """One repetition; its study.json."""
+    """One repetition, in the folder of its runs; its study.json and what its table has are kept apart."""
+    kept = folder / "orders" / name_of(subject, accuracy, number)
+    if (kept / "study.json").exists():
+        return
     scene, entries, _, _ = SUBJECTS[subject]
-    here = folder / f"{subject}_{100 * accuracy:g}_{number:02d}"
+    here = folder / f"{subject}_{number:02d}"
     study(build, "target", scene, here,
           entries + [f"Scene/Seed = {100000 + 10000 * number}", f"Study/Target/Accuracy = {100 * accuracy:g} %",
-                     f"Study/Wave crossings list = {SPEEDS}", "Study/Target/Most runs = 1000", "Checkpoint/Every = 0"], threads)
-    for part in ("runs", "packings"):
-        shutil.rmtree(here / part, ignore_errors=True)
-    return json.loads((here / "study.json").read_text())
+                     f"Study/Wave crossings list = {SPEEDS}", "Study/Target/Most runs = 1000", "Checkpoint/Every = 0"], threads, accuracy)
+    kept.mkdir(parents=True, exist_ok=True)
+    for name in ("study.csv", "costs.csv", "study.json"):  # the last says that all are there
+        shutil.copy(here / name, kept / name)
 
 
-def measure(build, folder, subject, accuracy, truth, repetitions, threads):
-    studies = [order(build, folder, subject, accuracy, k, threads) for k in range(repetitions)]
-    targets = [s["target"] for s in studies]
-    errors = [math.log(t["mean"]) - truth["mean"] for t in targets]
-    slow = one_slow_speed(truth, accuracy)
-    return {"subject": subject, "accuracy": accuracy, "repetitions": repetitions,
-            "held": sum(abs(e) <= t["half_interval"] for e, t in zip(errors, targets)),
-            "half": statistics.fmean(t["half_interval"] for t in targets),
-            "error": math.sqrt(statistics.fmean(e * e for e in errors)),
-            "runs": statistics.fmean(s["runs"] for s in studies), "steps": statistics.fmean(t["sphere_steps"] for t in targets),
-            "seconds": statistics.fmean(s["costs"]["core_seconds"] for s in studies),
-            "pilot": statistics.fmean(s["costs"]["looks_core_seconds"][0] for s in studies), "slow": slow}
+def tables_of(folder, over):
+    """Rows of an order; of a gain those of both scenes."""
+    tables = {False: {}, True: {}}
+    with open(folder / "study.csv") as table:
+        for row in csv.DictReader(table):
+            value = float(row["strength_pa"]) if row["strength_pa"] else math.nan
+            tables[row["case"].startswith("over_")][float(row["wave_crossings"]), int(row["seed"])] = (value,)
+    return [tables[False], tables[True]] if over else [tables[False]]
 
 
-def text_of(truths, results):
+def measure(folder, subject, accuracy, truth, repetitions):
+    """Of the repetitions that are there. The truth of each: by the reference and by all runs of the other repetitions."""
+    orders = [folder / "orders" / name_of(subject, accuracy, k) for k in range(repetitions)]
+    studies = {k: json.loads((o / "study.json").read_text()) for k, o in enumerate(orders) if (o / "study.json").exists()}
+    if not studies:
+        return None
+    all_logs = {}
+    for k in range(repetitions):
+        all_logs[k] = {}
+        for o in sorted((folder / "orders").glob(f"{subject}_*_{k:02d}")):
+            all_logs[k].update(logs_of(tables_of(o, SUBJECTS[subject][2])))
+    pooled, alone, errors, truths = 0, 0, [], []
+    for k, s in studies.items():
+        others = dict(truth["logs"])
+        for other, logs in all_logs.items():
+            others.update(logs if other != k else {})
+        mean, error, _ = truth_of(others, truth["spread"])
+        errors.append(math.log(s["target"]["mean"]) - mean)
+        truths.append(error)
+        pooled += abs(errors[-1]) <= s["target"]["half_interval"]
+        alone += abs(math.log(s["target"]["mean"]) - truth["mean"]) <= s["target"]["half_interval"]
+    targets = [s["target"] for s in studies.values()]
+    return {"subject": subject, "accuracy": accuracy, "repetitions": len(studies), "held": pooled, "held_alone": alone,
+            "truth_error": statistics.fmean(truths), "half": statistics.fmean(t["half_interval"] for t in targets),
+            "error": math.sqrt(statistics.fmean(e * e for e in errors)), "runs": statistics.fmean(s["runs"] for s in studies.values()),
+            "steps": statistics.fmean(t["sphere_steps"] for t in targets),
+            "pilot": statistics.fmean(t["looks"][0]["sphere_steps"] for t in targets), "slow": one_slow_speed(truth, accuracy),
+            "blind": statistics.fmean(t["one_slow_speed_after_pilot"]["sphere_steps"] for t in targets)}
+
+
+def text_of(truths, results, rate):
     text = ""
     for subject, t in truths.items():
         unit = math.exp(t["mean"]) * (1 if SUBJECTS[subject][2] else 1e-6)
-        text += (f"{subject}: {t['runs']} reference runs, truth {unit:.4g} +- {100 * 1.645 * t['error']:.2g} % (90 %), haste b "
-                 f"{t['slope']:.2g}, one run at the slowest speed scatters by {100 * t['deviation']:.2g} %\n")
-    text += ("\n| order | held | interval, +- % | root mean square error, % | runs | seconds of one core (pilot) | steps x spheres, 1e8 | one slow "
-             "speed: crossings x packings | its seconds | its steps x spheres, 1e8 | order over it |\n" + "|" + " --- |" * 11 + "\n")
+        text += (f"{subject}: {t['runs']} reference runs, {unit:.4g} +- {100 * QUANTILE * t['error']:.2g} % (90 %), haste b {t['slope']:.2g}, "
+                 f"packings scatter by {100 * math.sqrt(t['spread'][0]):.2g} %, chaos {100 * math.sqrt(t['spread'][1]):.2g} %\n")
+    text += (f"seconds of one core: steps x spheres times {1e9 * rate:g} ns\n\n| order | held (by the reference alone) | truth, +- % | interval, "
+             "+- % | root mean square error, % | runs | seconds (first batch) | one slow speed, all known: crossings x packings | its seconds | order "
+             "over it | one slow speed after the same first batch, seconds | order over it |\n|" + " --- |" * 12 + "\n")
     for r in results:
-        n, packings, steps, seconds = r["slow"]
-        text += (f"| {r['subject']} {100 * r['accuracy']:g} % | {r['held']} of {r['repetitions']} | {100 * r['half']:.2g} | {100 * r['error']:.2g} | "
-                 f"{r['runs']:.0f} | {r['seconds']:.0f} ({r['pilot']:.0f}) | {1e-8 * r['steps']:.2f} | {n:.0f} x {packings} | {seconds:.0f} | "
-                 f"{1e-8 * steps:.2f} | {r['steps'] / steps:.2f} |\n")
+        n, packings, steps = r["slow"]
+        text += (f"| {r['subject']} {100 * r['accuracy']:g} % | {r['held']} ({r['held_alone']}) of {r['repetitions']} | "
+                 f"{100 * QUANTILE * r['truth_error']:.2g} | {100 * r['half']:.2g} | {100 * r['error']:.2g} | {r['runs']:.1f} | {rate * r['steps']:.0f} "
+                 f"({rate * r['pilot']:.0f}) | {n:.0f} x {packings} | {rate * steps:.0f} | {r['steps'] / steps:.2f} | {rate * r['blind']:.0f} | "
+                 f"{r['steps'] / r['blind']:.2f} |\n")
     return text
 
 
-def draw(results, png):
+def draw(results, png, rate):
     """Orders against seconds, by gnuplot where it is installed; the script stays beside the picture."""
-    subjects = list(dict.fromkeys(r["subject"] for r in results))
     blocks, curves = "", []
-    for colour, subject in enumerate(subjects, 1):
-        mine = [r for r in results if r["subject"] == subject]
-        for name, seconds, style in (("on order", [r["seconds"] for r in mine], "pt 7 dt 1"),
-                                     ("one slow speed", [r["slow"][3] for r in mine], "pt 6 dt 2")):
-            block = f"${subject}_{name.split()[0]}"
-            rows = "\n".join(f"{s:.6g} {100 * r['accuracy']:g}" for s, r in zip(seconds, mine))
+    for colour, subject in enumerate(dict.fromkeys(r["subject"] for r in results), 1):
+        mine = sorted((r for r in results if r["subject"] == subject), key=lambda r: r["accuracy"])
+        for number, (name, steps, style) in enumerate((("on order", [r["steps"] for r in mine], "pt 7 dt 1"),
+                                                       ("one slow speed, all known", [r["slow"][2] for r in mine], "pt 6 dt 2"),
+                                                       ("one slow speed, same first batch", [r["blind"] for r in mine], "pt 4 dt 3"))):
+            block = f"${subject}_{number}"
+            rows = "\n".join(f"{rate * s:.6g} {100 * r['accuracy']:g}" for s, r in zip(steps, mine))
             blocks += f"{block} << EOD\n{rows}\nEOD\n"
             curves.append(f"{block} with linespoints lc {colour} {style} lw 2 ps 1.5 title '{subject}, {name}'")
     script = (f"set terminal pngcairo size 1000,640 font 'sans,14'\nset output '{png.resolve()}'\n{blocks}set logscale xy\nset grid\n"
-              "set xlabel 'Seconds of one core'\nset ylabel 'Accuracy that is ordered (%)'\nset yrange [0.5:10]\nset key top right\n"
-              "set ytics (0.5, 1, 2, 3, 5, 10)\nplot " + ", ".join(curves) + "\n")
+              "set xlabel 'Seconds of one core'\nset ylabel 'Accuracy that is ordered (%)'\nset yrange [0.7:10]\nset key top right\n"
+              "set ytics (1, 2, 3, 5, 10)\nplot " + ", ".join(curves) + "\n")
     png.with_suffix(".gnuplot").write_text(script)
     if shutil.which("gnuplot") is None:
         print(f"gnuplot is not installed: {png.with_suffix('.gnuplot')} draws {png} where it is")
@@ -184,19 +251,27 @@ def main():
     parser.add_argument("--repetitions", type=int, default=20)
     parser.add_argument("--accuracy", nargs="+", type=float, metavar="PERCENT", help="orders, in place of those of each subject")
     parser.add_argument("--seeds", type=int, default=15)
+    parser.add_argument("--rate", type=float, default=120e-9, help="seconds of one core for a step of a sphere")
+    parser.add_argument("--tables", action="store_true", help="of what is there; nothing is run")
     parser.add_argument("-t", "--threads", type=int, default=2)
     parser.add_argument("--plot", type=pathlib.Path)
     wishes = parser.parse_args()
     wishes.folder.mkdir(parents=True, exist_ok=True)
     truths, results = {}, []
     for subject in wishes.only:
-        truths[subject] = reference(wishes.build, wishes.folder, subject, wishes.seeds, wishes.threads)
+        if wishes.tables and not (wishes.folder / f"{subject}_reference/summary.json").exists():
+            continue
+        truths[subject] = reference(None if wishes.tables else wishes.build, wishes.folder, subject, wishes.seeds, wishes.threads)
         for accuracy in [p / 100 for p in wishes.accuracy or []] or SUBJECTS[subject][3]:
-            results.append(measure(wishes.build, wishes.folder, subject, accuracy, truths[subject], wishes.repetitions, wishes.threads))
-            text = text_of(truths, results)
-            (wishes.folder / "target.md").write_text(text)
+            for k in range(0 if wishes.tables else wishes.repetitions):
+                order(wishes.build, wishes.folder, subject, accuracy, k, wishes.threads)
+            if (result := measure(wishes.folder, subject, accuracy, truths[subject], wishes.repetitions)) is not None:
+                results.append(result)
+    text = text_of(truths, results, wishes.rate)
+    (wishes.folder / "target.md").write_text(text)
     print(text)
-    draw(results, wishes.plot or wishes.folder / "target.png")
+    if results:
+        draw(results, wishes.plot or wishes.folder / "target.png", wishes.rate)
 
 
 if __name__ == "__main__":

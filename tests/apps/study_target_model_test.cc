@@ -28,12 +28,12 @@ TEST(TargetModel, a_law_without_scatter_is_found_exactly) {
       runs.logs.back().push_back(3.5 + 1.25 / n + packing);
   }
   runs.logs.push_back({3.5 + 1.25 / 15, std::nan(""), std::nan(""), std::nan("")});
-  const auto found = estimate(runs);
+  const auto found = estimate(runs, {});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->mean, 3.5, 1e-6);
   EXPECT_NEAR(found->slope, 1.25, 1e-6);
-  EXPECT_NEAR(found->curvature, 1.25 * 1.25, 1e-6); // more than the least
-  EXPECT_LT(found->spread.chaos, 1e-10);
+  EXPECT_NEAR(found->errors.curvature, 1.25 * 1.25, 1e-6); // more than the least
+  EXPECT_LT(found->errors.spread.chaos, 1e-10);
 }
 
 // Every packing at 15 and 60: differences of both have twice the variance of chaos, means have the rest.
@@ -50,19 +50,19 @@ TEST(TargetModel, two_speeds_on_all_packings_are_an_analysis_of_variance) {
   }
   const double chaos = within / (n - 1), packing = between / (n - 1) - chaos / 2;
   ASSERT_GT(packing, 0);
-  const auto found = estimate(state.runs);
+  const auto found = estimate(state.runs, {});
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->spread.chaos, chaos, 1e-6 * chaos);
-  EXPECT_NEAR(found->spread.packing, packing, 1e-6 * packing);
+  EXPECT_NEAR(found->errors.spread.chaos, chaos, 1e-6 * chaos);
+  EXPECT_NEAR(found->errors.spread.packing, packing, 1e-6 * packing);
   EXPECT_NEAR(found->mean, (60 * slow - 15 * fast) / 45, 1e-9); // the line through both, at 1 / N = 0
   EXPECT_NEAR(found->slope, difference / (1 / 15.0 - 1 / 60.0), 1e-6);
   EXPECT_NEAR(found->precision.packing, packing / n, 1e-6 * packing);
   EXPECT_NEAR(found->precision.chaos, chaos * (60 * 60 + 15 * 15) / (45.0 * 45) / n, 1e-6 * chaos);
-  EXPECT_NEAR(std::sqrt(found->precision.speed), found->curvature / (15 * 60), 1e-9);
+  EXPECT_NEAR(std::sqrt(found->precision.speed), found->errors.curvature / (15 * 60), 1e-9);
 }
 
 TEST(TargetModel, freedom_is_that_of_the_packings_where_they_alone_scatter) {
-  const auto precision = precision_of({{1U, 4}, {5U, 6}}, speeds, {4e-4, 1e-10}, 1);
+  const auto precision = precision_of({{1U, 4}, {5U, 6}}, speeds, {{4e-4, 1e-10}, {}, 1});
   ASSERT_TRUE(precision);
   EXPECT_NEAR(precision->freedom, 9, 1e-3); // ten packings, one mean
   EXPECT_NEAR(precision->packing, 4e-4 / 10, 1e-9);
@@ -72,10 +72,10 @@ TEST(TargetModel, freedom_is_that_of_the_packings_where_they_alone_scatter) {
 }
 
 TEST(TargetModel, what_cannot_be_told_is_not_told) {
-  EXPECT_FALSE(precision_of({{1U, 20}}, speeds, {1e-4, 1e-4}, 1)); // one speed has no slope
-  EXPECT_FALSE(estimate(runs_of({}, {20, 0, 0, 0}).runs));         // nor tells chaos from packings
-  EXPECT_FALSE(estimate(runs_of({}, {1, 1, 0, 0}).runs));
-  EXPECT_TRUE(estimate(runs_of({}, {2, 2, 0, 0}).runs));
+  EXPECT_FALSE(precision_of({{1U, 20}}, speeds, {{1e-4, 1e-4}, {}, 1})); // one speed has no slope
+  EXPECT_FALSE(estimate(runs_of({}, {20, 0, 0, 0}).runs, {}));           // nor tells chaos from packings
+  EXPECT_FALSE(estimate(runs_of({}, {1, 1, 0, 0}).runs, {}));
+  EXPECT_TRUE(estimate(runs_of({}, {2, 2, 0, 0}).runs, {}));
 }
 
 struct Coverage {
@@ -90,7 +90,7 @@ Coverage coverage_of(const MadeUpFigure &figure, const Counts &counts, int studi
     TargetState state;
     drawn.begin(state, speeds);
     drawn.make(state, counts);
-    const auto found = estimate(state.runs);
+    const auto found = estimate(state.runs, {});
     const double error = std::abs(found->mean - figure.mean);
     if (error <= half_interval(found->precision, 0.9, 0)) held.whole += 1.0 / studies;
     Precision blind = found->precision;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/target_studies.h"
 
 namespace platen::apps::testing {
@@ -12,15 +14,14 @@ TargetState nothing_made(const std::vector<double> &transits, const Spread &spre
   TargetState state;
   state.runs.transits = transits;
   state.made = Counts(transits.size(), 0);
-  state.spread = spread;
-  state.curvature = 1.5;
+  state.errors = {spread, {}, 1.5};
   return state;
 }
 
 double half_of(const TargetState &state, const Counts &counts, const Aim &aim) {
-  const auto precision =
-      precision_of(design_with(state, counts), state.runs.transits, state.spread, state.curvature);
-  return precision ? half_interval(*precision, aim.confidence, aim.others) : 1;
+  const Design design = design_with(state, counts);
+  const auto precision = precision_of(design, state.runs.transits, state.errors);
+  return precision && tells_spread(design) ? half_interval(*precision, aim.confidence, aim.others) : 1;
 }
 
 // Of all plans of up to 14 packings at each speed.
@@ -88,17 +89,53 @@ TEST(TargetPlan, a_packing_is_paid_for_once) {
   EXPECT_DOUBLE_EQ(costs.between({3, 0}, {3, 2}), 40);
 }
 
+// By the prior 2 % take eight packings at 15 crossings or so; half of them are run at first.
+TEST(TargetPlan, the_first_batch_is_half_of_what_is_expected_at_two_speeds) {
+  const std::vector<double> transits{15, 30, 60, 120};
+  const TargetCosts costs = costs_of_cylinder(transits);
+  TargetState state = nothing_made(transits, {5.8e-4, 1e-4});
+  state.errors.prior = {state.errors.spread, 1, 4};
+  Aim aim{0.05, 0.9, 4e-6, 100, 5};
+  const auto of = [](const Counts &counts) {
+    Counts sorted = counts;
+    std::sort(sorted.rbegin(), sorted.rend());
+    return sorted;
+  };
+  EXPECT_EQ(of(pilot_of(state, costs, aim)), (Counts{2, 2, 0, 0})); // fewer tell no variances
+  aim.accuracy = 0.02;
+  const Counts fine = pilot_of(state, costs, aim);
+  EXPECT_GT(of(fine)[0], 2u);
+  EXPECT_EQ(of(fine)[2], 0u);
+  aim.accuracy = 0.01;
+  EXPECT_EQ(of(pilot_of(state, costs, aim)), (Counts{5, 5, 0, 0})); // no more, lest the prior be wrong
+  aim.accuracy = 0.001;                                             // less than the step alone errs by
+  EXPECT_EQ(pilot_of(state, costs, aim), (Counts{5, 5, 0, 0}));
+}
+
 TEST(TargetPlan, one_slow_speed_keeps_its_haste_within_the_accuracy) {
   const LinearCost cost{1400, 285, 6000};
   const Aim aim{0.02, 0.9, 0, 500};
-  const OneSpeed none = one_slow_speed(0, {4e-4, 0}, cost, 15, aim);
+  const OneSpeed none = one_slow_speed({0, {4e-4, 0}}, cost, 15, aim);
   EXPECT_EQ(none.transits, 15); // without haste the fastest is the best
   EXPECT_EQ(none.packings, 3u); // 1.645 * 2 % / sqrt(3) is within 2 %
   EXPECT_DOUBLE_EQ(none.cost, 3 * (1400 + 285 * 15 + 6000));
-  const OneSpeed hasty = one_slow_speed(1.2, {4e-4, 2e-4}, cost, 15, aim);
+  const OneSpeed hasty = one_slow_speed({1.2, {4e-4, 2e-4}}, cost, 15, aim);
   EXPECT_GT(hasty.transits, 60); // where haste alone is 2 %
   EXPECT_GT(hasty.packings, 4u); // what they need without haste
-  EXPECT_LT(one_slow_speed(1.2, {4e-4, 2e-4}, cost, 15, {0.03, 0.9, 0, 500}).cost, hasty.cost);
+  EXPECT_LT(one_slow_speed({1.2, {4e-4, 2e-4}}, cost, 15, {0.03, 0.9, 0, 500}).cost, hasty.cost);
+}
+
+// A pilot of two packings with two degrees of freedom: five, as 2 % are t_5 2.015 / sqrt(5) of 2.2 %.
+TEST(TargetPlan, one_slow_speed_pays_for_what_a_pilot_has_to_tell) {
+  const LinearCost cost{1400, 285, 6000};
+  const Aim aim{0.02, 0.9, 0, 500};
+  OneSpeedKnown known{0, {4.84e-4, 0}, 2, 2, 1e5};
+  const OneSpeed slow = one_slow_speed(known, cost, 15, aim);
+  EXPECT_EQ(slow.packings, 5u);
+  EXPECT_DOUBLE_EQ(slow.cost, 1e5 + 5 * (1400 + 285 * 15) + 3 * 6000);
+  TargetEstimate pilot;
+  pilot.slope = -1.2, pilot.precision.slope = 0.25, pilot.precision.freedom = 4;
+  EXPECT_NEAR(known_by_pilot(pilot, 2, 1e5, 0.9).haste, 1.2 + 1.533 * 0.5, 1e-3); // t_4 of 90 %
 }
 
 } // namespace
