@@ -7,12 +7,20 @@
 #include "dem/bonds.h"
 #include "dem/contact_search.h"
 #include "dem/instruction_set.h"
-#include "dem/kernels/contact_kernel.h"
 #include "dem/laws/contact_settings.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
+
+namespace kernels { // contact_kernel.h
+struct ContactColumns;
+struct ContactBlock;
+struct ContactStep;
+struct ContactLoss;
+using ContactLoop = ContactLoss (*)(const ContactColumns &, const ContactBlock &, const ContactStep &,
+                                    std::size_t first, std::size_t last, int *rows, double *losses);
+} // namespace kernels
 
 struct ContactStiffness {
   double normal = 0, tangential = 0; // N/m
