@@ -1,4 +1,6 @@
 // The loop over contacts: blocks of particles, each by the kernel of the effects chosen.
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "dem/contacts.h"
 #include "dem/kernels/contact_kernel.h"
@@ -32,7 +34,6 @@ kernels::ContactColumns Contacts::columns(const Particles &p) {
 kernels::ContactBlock Contacts::block_of(Particles &p, std::size_t block) {
   kernels::ContactBlock b{};
   const std::size_t first_row = block * block_rows, first_ghost = blocks_.first_ghost[block];
-  b.first_particle = static_cast<int>(first_row);
   b.own = static_cast<int>(std::min(block_rows, p.size() - first_row));
   b.ends = blocks_.ends.data();
   b.force = p.force.data();

@@ -17,7 +17,7 @@ struct PairSpring {
   std::size_t first, second;
   double lever; // contact point x_i + lever d
   double axial, shear, bending, twisting;
-  Vector3 normal, arm_first, arm_second; // from the centres to the contact point
+  Vector3 normal{}, arm_first{}, arm_second{}; // from the centres to the contact point
 };
 
 struct Mode {
@@ -108,16 +108,8 @@ private:
       const ContactStiffness after = contacts != nullptr
                                          ? contacts->stiffness_bound(p_, b.first[k], b.second[k], 0.0)
                                          : ContactStiffness{};
-      springs_.push_back({i,
-                          j,
-                          b.lever[k],
-                          std::max(s.axial, after.normal),
-                          std::max(s.shear, after.tangential),
-                          s.bending,
-                          s.twisting,
-                          {},
-                          {},
-                          {}});
+      springs_.push_back({i, j, b.lever[k], std::max(s.axial, after.normal),
+                          std::max(s.shear, after.tangential), s.bending, s.twisting});
     }
   }
   // Pairs that touch, and those that are near enough to touch soon.
@@ -125,16 +117,8 @@ private:
     for (std::size_t k = 0; k < c.table.size(); ++k) {
       const std::size_t i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
       const ContactStiffness stiffness = c.stiffness_bound(p_, c.first[k], c.second[k], c.overlap[k]);
-      springs_.push_back({i,
-                          j,
-                          p_.radius[i] / (p_.radius[i] + p_.radius[j]),
-                          stiffness.normal,
-                          stiffness.tangential,
-                          0,
-                          0,
-                          {},
-                          {},
-                          {}});
+      springs_.push_back(
+          {i, j, p_.radius[i] / (p_.radius[i] + p_.radius[j]), stiffness.normal, stiffness.tangential, 0, 0});
     }
   }
 

@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "base/archive.h"
-#include "coupling/contact/push_kernel.h"
+#include "coupling/contact/layer_kernel.h"
 #include "coupling/contact/row_load.h"
 #include "coupling/contact/surface_search.h"
 #include "coupling/program/platen_speed.h"
@@ -202,8 +202,8 @@ private:
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
-  void push_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
-                 std::size_t first, std::size_t count, const SurfacePoint *point);
+  void compute_in_packs(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+                        std::size_t first, std::size_t count, const SurfacePoint *point);
   // With the point that it finds in `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
@@ -218,8 +218,8 @@ private:
 
   SurfaceContact parameters_;
   dem::FrictionLaw friction_;
-  kernels::PushRows push_rows_ = nullptr; // null: row by row
-  double stiffness_ = 0;                  // N/m, of the whole contact
+  kernels::ComputeRows compute_rows_ = nullptr; // null: row by row
+  double stiffness_ = 0;                        // N/m, of the whole contact
   double smallest_radius_;
   SurfaceSearch search_;
 

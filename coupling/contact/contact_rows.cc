@@ -73,7 +73,7 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
   for (std::size_t k = first; k < last; ++k)
     centre[k - first] = particles.position[static_cast<std::size_t>(particle_[due_[k]])];
   search_.closest(body.surface(), &due_[first], centre, last - first, point);
-  if (push_rows_ != nullptr) return push_part(particles, body, dt, first, last - first, point);
+  if (compute_rows_ != nullptr) return compute_in_packs(particles, body, dt, first, last - first, point);
   for (std::size_t k = first; k < last; ++k) {
     const std::size_t row = due_[k];
     RowForce r;
@@ -83,31 +83,6 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
     idle_until_[row] = r.idle_until;
     keep_result(k, r, centre[k - first]);
   }
-}
-
-void ContactLayer::push_part(const dem::Particles &p, const fem::LoadedSurface &body, double dt,
-                             std::size_t first, std::size_t count, const SurfacePoint *point) {
-  kernels::PushColumns c{};
-  c.particle = particle_.data(), c.offset = offset_.data(), c.dashpot = dashpot_.data();
-  if (spring_ != nullptr) {
-    c.normal = normal_->data(), c.spring = spring_->data();
-    c.sliding = sliding_->data(), c.slip = slip_->data();
-  }
-  c.idle_until = idle_until_.data();
-  c.position = p.position.data(), c.velocity = p.velocity.data();
-  if (p.has_rotation()) c.angular_velocity = p.angular_velocity->data();
-  c.radius = p.radius.data(), c.mass = p.mass.data();
-  kernels::PushStep step;
-  step.dt = dt, step.travelled = travelled_;
-  step.stiffness = stiffness_, step.damping = parameters_.damping;
-  step.tangential_ratio = parameters_.tangential_ratio;
-  step.friction_static = parameters_.friction_static, step.friction_dynamic = parameters_.dynamic();
-  const fem::SurfaceMesh &surface = body.surface();
-  const kernels::PushSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted};
-  double k_n[rows_per_part];
-  for (std::size_t k = 0; k < count; ++k)
-    k_n[k] = spring(point[k]);
-  push_rows_(c, faces, step, point, k_n, &due_[first], count, &loads_[first], &contacts_[first]);
 }
 
 void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &centre) {

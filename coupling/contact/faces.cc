@@ -186,7 +186,7 @@ bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
                             triple(face.free), triple(face.corner), triple(face.normal), face.square,
                             face.constant,     face.single_foot};
   FootOnFace<double> found;
-  if (!search_foot<dem::One>(map, triple(centre), found)) return false;
+  if (!search_foot<dem::OfScalars>(map, triple(centre), found)) return false;
   foot = {found.u,
           found.v,
           vector(found.out),

@@ -33,7 +33,7 @@ struct ContactColumns {
 
 // Where the forces go: to particles of the block and to its ghosts.
 struct ContactBlock {
-  int first_particle, own; // rows
+  int own; // particles
   const PairBlocks::Ends *ends;
   Vector3 *force, *torque; // of all particles; torque null without rotation
   Vector3 *ghost_force, *ghost_torque;

@@ -73,7 +73,7 @@ struct CoulombFriction {
   // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
   Result operator()(State &state, const Vector3 &stretch, double normal_force,
                     double tangential_stiffness) const {
-    const auto f = spring_with_friction<One, double>(
+    const auto f = spring_with_friction<OfScalars, double>(
         triple_of(state.spring), triple_of(stretch), normal_force, tangential_stiffness,
         state.sliding ? parameters.friction_dynamic : parameters.friction_static,
         parameters.friction_dynamic);

@@ -9,7 +9,7 @@
 
 namespace platen::dem {
 
-struct One {
+struct OfScalars {
   static bool above(double a, double b) { return a > b; }
   static bool at_least(double a, double b) { return a >= b; }
   static bool any(bool a) { return a; }

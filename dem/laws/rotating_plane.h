@@ -28,7 +28,7 @@ PLATEN_INLINE Triple<Real> carried_with_plane(const Triple<Real> &vector, const 
   return choose<How>(same(from.x, to.x) & same(from.y, to.y) & same(from.z, to.z), flat, turned);
 }
 inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, const Vector3 &to) {
-  return vector_of(carried_with_plane<One>(triple_of(vector), triple_of(from), triple_of(to)));
+  return vector_of(carried_with_plane<OfScalars>(triple_of(vector), triple_of(from), triple_of(to)));
 }
 
 // rad, of a step: below it the first terms of the series are sine and cosine to the last bit.
@@ -47,7 +47,7 @@ PLATEN_INLINE Triple<Real> spun_a_little(const Triple<Real> &vector, const Tripl
 // The same by any angle, exact.
 inline Vector3 spin_in_plane(const Vector3 &vector, const Vector3 &normal, double angle) {
   if (std::abs(angle) < spin_of_a_step)
-    return vector_of(spun_a_little<One>(triple_of(vector), triple_of(normal), angle));
+    return vector_of(spun_a_little<OfScalars>(triple_of(vector), triple_of(normal), angle));
   return std::cos(angle) * vector + std::sin(angle) * cross(normal, vector);
 }
 

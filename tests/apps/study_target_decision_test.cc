@@ -81,6 +81,28 @@ TEST(TargetDecision, runs_end_where_no_more_are_allowed) {
   EXPECT_GT(ended.last.plan->cost, 0);
 }
 
+TEST(TargetDecision, what_errs_beside_the_runs_and_the_haste_of_scenes_widen_the_interval) {
+  TargetState state;
+  MadeUpRuns drawn({}, 1);
+  drawn.begin(state, speeds);
+  drawn.make(state, {4, 0, 4, 0});
+  state.errors.prior = prior_of(0.02, 0.015);
+  const TargetCosts costs = costs_of_cylinder(speeds);
+  constexpr double others = 1e-4, haste_of_scenes = 9;
+  const Decision decision = decide(state, costs, {0.2, 0.9, others, 10, 5}, 10, haste_of_scenes);
+  ASSERT_TRUE(decision.estimate);
+  EXPECT_EQ(decision.estimate->errors.curvature, haste_of_scenes);
+  EXPECT_EQ(state.errors.curvature, haste_of_scenes);
+  EXPECT_DOUBLE_EQ(decision.half, half_interval(decision.estimate->precision, 0.93, others));
+}
+
+TEST(TargetDecision, runs_beyond_those_allowed_are_taken_off_where_most_are_asked_for) {
+  EXPECT_EQ(within({9, 4, 0}, {4, 4, 0}, 20), (Counts{9, 4, 0}));
+  EXPECT_EQ(within({9, 6, 0}, {4, 4, 0}, 11), (Counts{5, 6, 0}));
+  EXPECT_EQ(within({5, 0, 5}, {0, 0, 0}, 4), (Counts{2, 0, 2})); // of a pilot
+  EXPECT_EQ(within({9, 6, 0}, {4, 4, 0}, 3), (Counts{4, 4, 0})); // what is there stays
+}
+
 TEST(TargetDecision, without_figures_nothing_is_known) {
   TargetState state;
   MadeUpRuns({}, 1).begin(state, speeds);

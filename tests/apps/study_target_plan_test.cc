@@ -81,6 +81,16 @@ TEST(TargetPlan, what_no_plan_can_give_is_not_planned) {
 TEST(TargetPlan, a_half_is_run_before_it_is_planned_again) {
   EXPECT_EQ(next_batch({4, 4, 0}, {14, 4, 5}), (Counts{9, 4, 3}));
   EXPECT_EQ(next_batch({4, 4, 0}, {6, 4, 2}), (Counts{6, 4, 2})); // few are run at once
+  EXPECT_EQ(next_batch({4, 4, 0}, {7, 4, 2}), (Counts{6, 4, 1}));
+}
+
+// However much is known beforehand, runs have to tell the spread.
+TEST(TargetPlan, of_a_coarse_accuracy_tells_the_spread) {
+  TargetState state = nothing_made({15, 30, 60}, {1e-4, 1e-4});
+  state.errors.prior = {state.errors.spread, 50, 50};
+  const auto plan = cheapest_plan(state, costs_of_cylinder({15, 30, 60}), {0.3, 0.9, 0, 10});
+  ASSERT_TRUE(plan);
+  EXPECT_TRUE(tells_spread(design_with(state, plan->counts)));
 }
 
 TEST(TargetPlan, a_packing_is_paid_for_once) {

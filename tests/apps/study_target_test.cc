@@ -179,8 +179,12 @@ TEST(TargetPrior, expects_what_concrete_was_measured_to_scatter_by) {
   EXPECT_NEAR(std::sqrt(gain.about.chaos), 0.0094, 0.001);
   // At one speed gains of cubes of 905 spheres scatter by 5 %, bench/results/calibration.md.
   EXPECT_NEAR(std::sqrt(expected_spread(TargetFigure::gain, 905).about.total()), 0.05, 0.005);
-  for (const SpreadPrior &prior : {large, modulus, gain})
-    EXPECT_LE(prior.sum_freedom, 2); // a guess of other scenes
+  for (const SpreadPrior &prior : {large, modulus, gain}) { // guesses of other scenes
+    EXPECT_LE(prior.sum_freedom, 2);
+    EXPECT_LE(prior.ratio_freedom, 5);
+  }
+  // Haste of 1.5, above the 0.5 to 1.3 that were measured: c is of the size of b^2.
+  EXPECT_DOUBLE_EQ(expected_errors(TargetFigure::strength, 5018).curvature, 1.5 * 1.5);
 }
 
 std::vector<std::string> options(const std::vector<std::string> &entries) {

@@ -154,6 +154,20 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
     for (std::size_t k = 0; k < search.particles().size(); ++k) {
       const Vector3 &centre = particles.position[static_cast<std::size_t>(search.particles()[k])];
       const SurfacePoint s = search.closest(surface, k, centre), all = search.closest_of_all(surface, centre);
+      // Alone, and in a pack.
+      const std::size_t entry[3] = {k, (k + 1) % search.particles().size(), k};
+      Vector3 centres[3];
+      for (std::size_t n = 0; n < 3; ++n)
+        centres[n] = particles.position[static_cast<std::size_t>(search.particles()[entry[n]])];
+      SurfacePoint packed[3];
+      search.closest(surface, entry, centres, 3, packed);
+      for (const SurfacePoint &p : {packed[0], packed[2]}) {
+        ASSERT_EQ(p.face, all.face);
+        ASSERT_EQ(p.distance, all.distance);
+        ASSERT_EQ(norm(p.normal - all.normal), 0);
+        ASSERT_EQ(p.local.weights, all.local.weights);
+        ASSERT_EQ(norm(p.along_u - all.along_u) + norm(p.along_v - all.along_v), 0);
+      }
       ASSERT_EQ(s.face, all.face);
       ASSERT_EQ(s.distance, all.distance);
       ASSERT_EQ(norm(s.normal - all.normal), 0);

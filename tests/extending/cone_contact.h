@@ -13,8 +13,14 @@ struct ConeContact {
   static constexpr NormalContact kind = NormalContact::cone;
   static constexpr const char *word = "cone";
   static constexpr bool constant_stiffness = false;
-  static double force(double coefficient, double overlap) { return coefficient * overlap * overlap; }
-  static double stiffness(double coefficient, double overlap) { return 2 * coefficient * overlap; }
+  template <class Real>
+  static Real force(const Real &coefficient, const Real &overlap) {
+    return coefficient * overlap * overlap;
+  }
+  template <class Real>
+  static Real stiffness(const Real &coefficient, const Real &overlap) {
+    return Real(2.0) * coefficient * overlap;
+  }
   static double energy(double coefficient, double overlap) {
     return coefficient * overlap * overlap * overlap / 3;
   }

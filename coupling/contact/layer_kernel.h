@@ -1,6 +1,6 @@
 // Rows of a contact layer in packs, where the layer has but linear springs, dashpots and Coulomb's friction
 // with two coefficients: no Hertz, glue, seats or friction that weakens. One source, compiled once per
-// instruction set (push_kernel.inc.h), to the bits of ContactLayer::row_force.
+// instruction set (layer_kernel.inc.h), to the bits of ContactLayer::row_force.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace platen::coupling::kernels {
 
 // Columns of the layer's rows and of particles, each with one row to spare.
-struct PushColumns {
+struct LayerColumns {
   const int *particle;
   const double *offset; // m
   double *dashpot;      // N
@@ -26,13 +26,13 @@ struct PushColumns {
 };
 
 // Of a fem::SurfaceMesh.
-struct PushSurface {
+struct LayerSurface {
   const Vector3 *velocity; // m/s, of each vertex
   const int *corner;       // vertices, four of each face
   bool only_shifted;
 };
 
-struct PushStep {
+struct LayerStep {
   double dt = 0;               // s
   double stiffness = 0;        // N/m, of the whole contact
   double damping = 0;          // fraction of critical
@@ -43,17 +43,18 @@ struct PushStep {
 
 // Rows row[0 ... count), count <= most_feet, with the points closest to them, one more to be read, and the
 // normal stiffness of each (N/m).
-using PushRows = void (*)(const PushColumns &, const PushSurface &, const PushStep &,
-                          const SurfacePoint *point, const double *normal_stiffness, const std::size_t *row,
-                          std::size_t count, RowLoad *load, RowContact *contact);
-void push_rows_baseline(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
-                        const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
-void push_rows_avx2(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
-                    const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
-void push_rows_avx512(const PushColumns &, const PushSurface &, const PushStep &, const SurfacePoint *,
-                      const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
-inline PushRows push_rows(dem::InstructionSet set) {
-  return dem::for_set<PushRows>(set, push_rows_baseline, push_rows_avx2, push_rows_avx512);
+using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
+                             const SurfacePoint *point, const double *normal_stiffness,
+                             const std::size_t *row, std::size_t count, RowLoad *load, RowContact *contact);
+void compute_rows_baseline(const LayerColumns &, const LayerSurface &, const LayerStep &,
+                           const SurfacePoint *, const double *, const std::size_t *, std::size_t, RowLoad *,
+                           RowContact *);
+void compute_rows_avx2(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoint *,
+                       const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+void compute_rows_avx512(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoint *,
+                         const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+inline ComputeRows compute_rows(dem::InstructionSet set) {
+  return dem::for_set<ComputeRows>(set, compute_rows_baseline, compute_rows_avx2, compute_rows_avx512);
 }
 
 } // namespace platen::coupling::kernels

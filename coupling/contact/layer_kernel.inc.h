@@ -1,6 +1,6 @@
-// Body of the push kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
+// Body of the layer kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
 // contraction, as the rest of the layer is.
-#include "coupling/contact/push_kernel.h"
+#include "coupling/contact/layer_kernel.h"
 #include "dem/kernels/lane_friction.inc.h"
 
 namespace platen::coupling::kernels {
@@ -45,7 +45,7 @@ struct SurfaceMotions {
 };
 
 // surface_motion() (transfer.h).
-PLATEN_INLINE SurfaceMotions motion_of(const PushSurface &surface, const SurfacePoint *const *point,
+PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const SurfacePoint *const *point,
                                        const Points &p) {
   Triple<Pack> v[4];
   for (int corner = 0; corner < 4; ++corner)
@@ -75,7 +75,7 @@ struct Push {
 };
 
 // The friction spring in the plane as it is now; with its energy and what it has lost.
-PLATEN_INLINE void rub(const PushColumns &c, const PushStep &s, const Rows &r, const Points &p,
+PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r, const Points &p,
                        const Triple<Pack> &spring, const Triple<Pack> &slide, const Pack &spin,
                        const Pack &k_t, Push &push) {
   const Pack zero = Pack(0.0);
@@ -100,7 +100,7 @@ PLATEN_INLINE void rub(const PushColumns &c, const PushStep &s, const Rows &r, c
   dem::kernels::scatter(c.normal, r.row, r.count, choose<How>(push.active, p.normal, no_vector<Pack>()));
 }
 
-PLATEN_INLINE Push push_pack(const PushColumns &c, const PushSurface &surface, const PushStep &s,
+PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
                              const Rows &r, const Points &p, const Pack &k_n) {
   const Pack zero = Pack(0.0), dt = Pack(s.dt);
   const Pack gap = p.distance - gather(c.radius, r.particle) - gather(c.offset, r.row);
@@ -144,8 +144,8 @@ PLATEN_INLINE Push push_pack(const PushColumns &c, const PushSurface &surface, c
 }
 
 // Vectors first, four numbers at once, which run into what is written next.
-PLATEN_INLINE void keep(const PushColumns &c, const Rows &r, const Points &p, const Push &push, RowLoad *load,
-                        RowContact *contact) {
+PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Push &push,
+                        RowLoad *load, RowContact *contact) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
   dem::kernels::Row forces[lanes], torques[lanes], points[lanes], normals[lanes], shears[lanes];
   dem::kernels::to_rows(force, forces);
@@ -176,7 +176,7 @@ PLATEN_INLINE void keep(const PushColumns &c, const Rows &r, const Points &p, co
 
 } // namespace
 
-void PLATEN_KERNEL(const PushColumns &c, const PushSurface &surface, const PushStep &s,
+void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
                    const SurfacePoint *point, const double *normal_stiffness, const std::size_t *row,
                    std::size_t count, RowLoad *load, RowContact *contact) {
   for (std::size_t first = 0; first < count; first += lanes) {
