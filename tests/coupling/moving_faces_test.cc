@@ -156,11 +156,11 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
       const SurfacePoint s = search.closest(surface, k, centre), all = search.closest_of_all(surface, centre);
       // Alone, and in a pack.
       const std::size_t entry[3] = {k, (k + 1) % search.particles().size(), k};
-      Vector3 centres[3];
+      Vector3 asked[3];
       for (std::size_t n = 0; n < 3; ++n)
-        centres[n] = particles.position[static_cast<std::size_t>(search.particles()[entry[n]])];
+        asked[n] = particles.position[static_cast<std::size_t>(search.particles()[entry[n]])];
       SurfacePoint packed[3];
-      search.closest(surface, entry, centres, 3, packed);
+      search.closest(surface, entry, asked, 3, packed);
       for (const SurfacePoint &p : {packed[0], packed[2]}) {
         ASSERT_EQ(p.face, all.face);
         ASSERT_EQ(p.distance, all.distance);
