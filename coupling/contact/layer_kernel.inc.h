@@ -129,17 +129,14 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
   push.elastic = How::choose(push.active, Pack(0.5) * k_n * gap * gap, zero);
   push.damping_loss = Pack(-0.5) * (before + dashpot) * opening * dt;
   dem::kernels::scatter(c.dashpot, r.row, r.count, dashpot);
-  // Rows that hold something are looked at again in the next step.
-  LaneMask idle = How::negated(push.active) & How::negated(How::above(How::magnitude(before), zero));
   push.friction_loss = push.slip = zero;
   push.shear = no_vector<Pack>();
   if (c.spring != nullptr) {
-    const Triple<Pack> spring = gather(c.spring, r.row);
-    idle = idle & How::negated(How::above(dot(spring, spring), zero));
-    rub(c, s, r, p, spring, slide, face.spin, Pack(Pack(s.tangential_ratio) * k_n), push);
+    rub(c, s, r, p, gather(c.spring, r.row), slide, face.spin, Pack(Pack(s.tangential_ratio) * k_n), push);
   }
+  // What it held it has let go of now.
   const Pack until = Pack(s.travelled) + Pack(1 - idle_margin) * gap;
-  dem::kernels::scatter(c.idle_until, r.row, r.count, How::choose(idle, until, zero));
+  dem::kernels::scatter(c.idle_until, r.row, r.count, How::choose(push.active, zero, until));
   return push;
 }
 

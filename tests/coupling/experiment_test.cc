@@ -38,12 +38,17 @@ public:
   bool follows_others() const override { return follows; }
   const std::vector<int> *listed_particles() const override { return &listed; }
   StepLimit limit(const dem::Particles &) const override { return own; }
+  void add_springs(const dem::Particles &, std::vector<dem::GroundSpring> &all) override {
+    all.insert(all.end(), springs.begin(), springs.end());
+  }
+  bool stiffened() const override { return stiffer; }
   void add_energy(dem::EnergyLedger &energy) const override { energy.bodies += 0.25; }
   bool is_finite() const override { return finite; }
   void describe(Archive &) override {}
 
   std::size_t parts = 3;
-  bool follows = false, finite = true;
+  bool follows = false, finite = true, stiffer = false;
+  std::vector<dem::GroundSpring> springs;
   double power = 0;
   StepLimit own;
   std::vector<int> listed{7}, done; // all push the same particle: one after the other
@@ -188,6 +193,36 @@ TEST(experiment, power_on_the_machine_is_its_work_by_the_trapezoid) {
   s.experiment.advance(10);
   EXPECT_NEAR(s.experiment.energy().boundary, -0.5 * 6 * 10 * s.experiment.time_step(), 1e-18);
   EXPECT_EQ(s.experiment.energy().bodies, 0.75);
+}
+
+TEST(experiment, a_step_that_falls_tells_where_it_is_set_and_one_that_need_not_stays) {
+  ThreeAround s;
+  dem::GroundSpring spring;
+  spring.particle = 5;
+  spring.normal = {0, 0, 1};
+  spring.normal_stiffness = 1e13; // N/m, far above that of bonds
+  s.a.springs = {spring};
+  s.begin();
+  s.experiment.advance(1);
+  const double first = s.experiment.time_step();
+  const std::string place = "highest mode at particle " + std::to_string(s.experiment.model.particles.id[5]);
+  EXPECT_NE(s.experiment.time_step_reason().find(place), std::string::npos)
+      << s.experiment.time_step_reason();
+  s.a.stiffer = true;
+  spring.particle = 9;
+  spring.normal_stiffness *=
+      1.2 * s.experiment.model.particles.mass[9] / s.experiment.model.particles.mass[5];
+  s.a.springs = {spring};
+  s.experiment.advance(1);
+  const double second = s.experiment.time_step();
+  EXPECT_NEAR(second, first / std::sqrt(1.2), 0.01 * first);
+  const std::string next = "highest mode at particle " + std::to_string(s.experiment.model.particles.id[9]);
+  const std::string told = s.experiment.time_step_reason();
+  EXPECT_NE(told.find(next), std::string::npos) << told;
+  s.a.springs[0].normal_stiffness *= 0.5;
+  s.experiment.advance(1);
+  EXPECT_EQ(s.experiment.time_step(), second);
+  EXPECT_EQ(s.experiment.time_step_reason(), told);
 }
 
 TEST(experiment, the_smallest_limit_of_a_boundary_sets_the_step_with_its_reason) {

@@ -302,6 +302,34 @@ TEST(contact, friction_work_is_the_kinetic_energy_lost) {
     }
 }
 
+// Of unequal spheres: k_t R*^2 a radian, up to mu_r R* N.
+TEST(contact, a_rolling_moment_is_that_of_the_effective_radius) {
+  const double k = 1e6, ratio = .4, mu = .3, small = .5 * radius,
+               effective = radius * small / (radius + small);
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb_with_rolling, k);
+  settings.contact->friction = 1, settings.contact->rolling_friction = mu;
+  settings.contact->tangential_ratio = ratio;
+  Model model(nearly_touching(radius, small), settings);
+  Particles &p = model.particles;
+  const auto move = [&](const Vector3 &by, const Vector3 &turn) {
+    p.velocity[1] = by, (*p.angular_velocity)[1] = turn;
+    p.velocity[0] = (*p.angular_velocity)[0] = {};
+    p.force[0] = p.force[1] = (*p.torque)[0] = (*p.torque)[1] = {};
+    model.begin_step(1);
+    model.compute_forces(1);
+  };
+  const double press = 1e-2 * radius, angle = 1e-4;
+  move({-press, 0, 0}, {});
+  move({}, {0, angle, 0});
+  const double stiffness = ratio * k * effective * effective;
+  ASSERT_EQ(model.contacts->table.size(), 1u);
+  EXPECT_NEAR((*model.contacts->rolling)[0].y, stiffness * angle, 1e-9 * stiffness * angle);
+  EXPECT_NEAR((*model.contacts->rolling_stiffness)[0], stiffness, 1e-12 * stiffness);
+  move({}, {0, 1, 0});
+  const double most = mu * effective * k * (press - 1.5e-9 * radius);
+  EXPECT_NEAR((*model.contacts->rolling)[0].y, most, 1e-9 * most);
+}
+
 // Two spheres pressed together spin against each other like gear wheels: no slip, only rolling. The resisting
 // moment mu_r R* N slows each at mu_r R* N / I.
 TEST(contact, rolling_resistance_stops_a_gear_pair_in_time) {
