@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cstdint>
 
+#include "base/aligned_vector.h"
 #include "base/parallel.h"
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
@@ -106,14 +106,12 @@ kernels::BlockColumns block_of(Particles &p, Bonds &b, std::size_t block) {
     c.torque = p.torque->data() + first;
     c.ghost_torque = blocks.ghost_torque.data() + first_ghost;
   }
-  constexpr std::size_t cache_line = 64;
-  thread_local std::vector<double> memory;
+  thread_local AlignedVector<double> memory;
   const std::size_t rows = static_cast<std::size_t>(c.own + c.ghosts + kernels::spare_rows);
   const std::size_t used =
       rows * static_cast<std::size_t>(kernels::row_stride(p.has_rotation(), b.rows_move()));
-  if (memory.size() < used + cache_line) memory.resize(used + cache_line);
-  const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
-  c.rows = memory.data() + (cache_line - address % cache_line) % cache_line / sizeof(double);
+  if (memory.size() < used) memory.resize(used);
+  c.rows = memory.data();
   return c;
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "dem/instruction_set.h"
+#include "dem/kernels/near_kernel.h"
 
 namespace platen::dem {
 namespace {
@@ -19,11 +21,13 @@ constexpr double relative_slack = 1e-6;
 // Of cells, in reaches of the ball that reaches farthest: most reach far less.
 constexpr double cell_edge = 1.25;
 
-// A ball in its cell.
-struct Member {
-  float x, y, z, reach; // radius, and the way that it may go
-  int ball;
-};
+// The kernel for this processor; all find the same.
+kernels::FindNear find_near() {
+  static const kernels::FindNear best =
+      for_set<kernels::FindNear>(best_instruction_set(), kernels::find_near_baseline, kernels::find_near_avx2,
+                                 kernels::find_near_avx512);
+  return best;
+}
 
 // Cells over the box around all balls.
 class Cells {
@@ -56,18 +60,16 @@ public:
     std::array<int, 3> from, to;
     for (int k = 0; k < 3; ++k)
       from[k] = slot(own.centre[k] - far, k), to[k] = slot(own.centre[k] + far, k);
-    const Member me = member_of(own, slack_);
+    kernels::NearBall me = member_of(own, slack_);
+    me.ball = self;
+    const kernels::NearColumns members{x_.data(), y_.data(), z_.data(), reach_.data(), ball_.data()};
+    const kernels::FindNear near = find_near();
     for (int w = from[2]; w <= to[2]; ++w)
       for (int v = from[1]; v <= to[1]; ++v) {
         const int first = start_[index(from[0], v, w)], last = start_[index(to[0], v, w) + 1];
-        const std::size_t most = count + static_cast<std::size_t>(last - first);
+        const std::size_t most = count + static_cast<std::size_t>(last - first) + kernels::near_spare;
         if (found.size() < most) found.resize(2 * most);
-        for (int m = first; m < last; ++m) { // no branch: one in eight is near enough
-          const Member &b = member_[m];
-          const float dx = b.x - me.x, dy = b.y - me.y, dz = b.z - me.z, reach = me.reach + b.reach;
-          found[count] = b.ball;
-          count += (dx * dx + dy * dy + dz * dz < reach * reach) & (b.ball != self) ? 1 : 0;
-        }
+        count += near(members, me, first, last, found.data() + count);
       }
     return count;
   }
@@ -82,13 +84,18 @@ private:
     }
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<int> next(start_.begin(), start_.end() - 1);
-    member_.resize(balls.size());
+    for (std::vector<float> *column : {&x_, &y_, &z_, &reach_})
+      column->resize(balls.size() + kernels::near_spare);
+    ball_.resize(balls.size() + kernels::near_spare);
     for (std::size_t m = 0; m < balls.size(); ++m) {
-      Member &to = member_[next[cell[m]]++];
-      to = member_of(balls[m], 0), to.ball = static_cast<int>(m);
+      const int to = next[cell[m]]++;
+      const kernels::NearBall b = member_of(balls[m], 0);
+      x_[to] = b.x, y_[to] = b.y, z_[to] = b.z, reach_[to] = b.reach;
+      ball_[to] = static_cast<int>(m);
     }
   }
-  Member member_of(const SoftBall &b, double slack) const {
+  // Its reach with its radius.
+  kernels::NearBall member_of(const SoftBall &b, double slack) const {
     return {static_cast<float>(b.centre.x - low_[0]), static_cast<float>(b.centre.y - low_[1]),
             static_cast<float>(b.centre.z - low_[2]), static_cast<float>(b.radius + b.reach + slack), 0};
   }
@@ -103,7 +110,8 @@ private:
   double slack_ = 0;
   std::array<int, 3> cells_{{1, 1, 1}};
   std::vector<int> start_;
-  std::vector<Member> member_; // of cell c: member_[start_[c] .. start_[c + 1])
+  std::vector<float> x_, y_, z_, reach_; // of the members of cell c: [start_[c] .. start_[c + 1])
+  std::vector<int> ball_;
 };
 
 // What one thread needs while it makes lists.
@@ -130,9 +138,9 @@ void sort_rows(Found &found, int rows) {
 
 // Grows by an eighth more than needed, where a vector itself would double.
 template <class T>
-void make_room(std::vector<T> &column, std::size_t size) {
+void make_room(AlignedVector<T> &column, std::size_t size) {
   if (column.capacity() < size) {
-    std::vector<T>().swap(column);
+    AlignedVector<T>().swap(column);
     column.reserve(size + size / 8);
   }
   column.resize(size);

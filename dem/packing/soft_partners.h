@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "base/vector3.h"
 #include "dem/kernels/soft_kernel.h"
 
@@ -21,8 +22,8 @@ struct SoftBall {
 // Lists of one block of rows; their memory is used again.
 struct SoftPartners {
   std::vector<int> row, steps;
-  std::vector<unsigned> partner;
-  std::vector<float> apart;
+  AlignedVector<unsigned> partner;
+  AlignedVector<float> apart;
 
   kernels::SoftLists lists() const {
     return {steps.size(), row.data(), steps.data(), partner.data(), apart.data()};

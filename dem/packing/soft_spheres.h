@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "base/random.h"
 #include "base/vector3.h"
 #include "dem/kernels/soft_kernel.h"
@@ -94,7 +95,7 @@ private:
   std::vector<Vector3> centre_; // when the lists were made
   std::vector<Vector3> press_;  // a constant force on each, or empty
   // Spheres, filled up to whole packs; of ways also obstacles, which have none. Outside: walls and press.
-  std::vector<kernels::SoftRow> way_, velocity_, force_, outside_;
+  AlignedVector<kernels::SoftRow> way_, velocity_, force_, outside_;
   std::size_t rows_ = 0; // whole packs
   std::vector<SoftPartners> partners_;
   std::vector<SoftBall> balls_; // of the last search; kept for their memory

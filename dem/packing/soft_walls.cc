@@ -17,7 +17,7 @@ template const SoftWalls::Round *SoftWalls::begin(const std::vector<Round> &, st
 
 void SoftWalls::clear(const Shape &shape) {
   shape_ = shape;
-  flat_.clear(), round_.clear();
+  flat_.clear(), round_.clear(), wide_.clear();
 }
 
 void SoftWalls::add(int row, const Vector3 &centre, double radius, double reach) {
@@ -35,40 +35,74 @@ void SoftWalls::add(int row, const Vector3 &centre, double radius, double reach)
   }
   const double across = centre.x * centre.x + centre.y * centre.y, inner = shape_.radius - radius;
   if (inner - reach > 0 && across < (inner - reach) * (inner - reach)) return;
-  round_.push_back({row, static_cast<float>(centre.x), static_cast<float>(centre.y),
-                    static_cast<float>(inner), static_cast<float>(across - inner * inner)});
+  (inner > 0 ? round_ : wide_)
+      .push_back({row, static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(inner),
+                  static_cast<float>(across - inner * inner)});
+}
+
+namespace {
+
+constexpr std::size_t at_once = 64;
+constexpr float tiny = 1e-30F; // keeps the push on a sphere at the axis finite (zero)
+
+void touch(double overlap, WallSums &sums) {
+  sums.overlap += overlap, sums.contacts += overlap > 0 ? 1 : 0;
+  sums.largest = std::max(sums.largest, overlap);
+}
+
+} // namespace
+
+// No branch: half of the spheres near a wall touch it, in no order.
+void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
+                         WallSums &sums) const {
+  for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p) {
+    const SoftRow &u = way[p->row];
+    const double overlap =
+        std::max(0.0, -(p->gap + static_cast<double>(p->x * u.x + p->y * u.y + p->z * u.z)));
+    touch(overlap, sums);
+    const float size = static_cast<float>(overlap);
+    SoftRow &f = force[p->row];
+    f.x += size * p->x, f.y += size * p->y, f.z += size * p->z;
+  }
+}
+
+// Roots and quotients of some at once, in vectors, and then their sums in order.
+void SoftWalls::add_round(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
+                          WallSums &sums) const {
+  float x[at_once], y[at_once], inner[at_once], outside[at_once], overlap[at_once];
+  const Round *r = begin(round_, first), *end = begin(round_, last);
+  while (r != end) {
+    const std::size_t count = std::min(at_once, static_cast<std::size_t>(end - r));
+    for (std::size_t k = 0; k < count; ++k) {
+      const SoftRow &u = way[r[k].row];
+      x[k] = r[k].x + u.x, y[k] = r[k].y + u.y, inner[k] = r[k].inner;
+      outside[k] = r[k].outside + (r[k].x + x[k]) * u.x + (r[k].y + y[k]) * u.y;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const float distance = std::sqrt(x[k] * x[k] + y[k] * y[k]);
+      const float inside = outside[k] > 0 ? outside[k] : 0.0F;
+      const float weight = inside / ((distance + inner[k]) * (distance + tiny));
+      x[k] *= weight, y[k] *= weight, overlap[k] = weight * distance;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      touch(static_cast<double>(overlap[k]), sums);
+      SoftRow &f = force[r[k].row];
+      f.x -= x[k], f.y -= y[k];
+    }
+    r += count;
+  }
 }
 
 WallSums SoftWalls::add_forces(std::size_t first, std::size_t last, const SoftRow *way,
                                SoftRow *force) const {
   WallSums sums;
-  const auto touch = [&](double overlap) {
-    sums.overlap += overlap, ++sums.contacts;
-    sums.largest = std::max(sums.largest, overlap);
-  };
-  for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p) {
-    const SoftRow &u = way[p->row];
-    const double overlap = -(p->gap + static_cast<double>(p->x * u.x + p->y * u.y + p->z * u.z));
-    if (!(overlap > 0)) continue;
-    touch(overlap);
-    const float size = static_cast<float>(overlap);
-    SoftRow &f = force[p->row];
-    f.x += size * p->x, f.y += size * p->y, f.z += size * p->z;
-  }
-  for (const Round *r = begin(round_, first), *end = begin(round_, last); r != end; ++r) {
+  add_flat(first, last, way, force, sums);
+  add_round(first, last, way, force, sums);
+  for (const Round *r = begin(wide_, first), *end = begin(wide_, last); r != end; ++r) {
     const SoftRow &u = way[r->row];
-    const float x = r->x + u.x, y = r->y + u.y;
-    const float outside = r->outside + (r->x + x) * u.x + (r->y + y) * u.y;
+    touch(static_cast<double>(-r->inner), sums);
     SoftRow &f = force[r->row];
-    if (r->inner <= 0) { // wider than the room, and pressed from both sides
-      touch(static_cast<double>(-r->inner));
-      f.x -= 2 * x, f.y -= 2 * y;
-      continue;
-    }
-    if (!(outside > 0)) continue;
-    const float distance = std::sqrt(x * x + y * y), weight = outside / ((distance + r->inner) * distance);
-    touch(static_cast<double>(weight * distance));
-    f.x -= weight * x, f.y -= weight * y;
+    f.x -= 2 * (r->x + u.x), f.y -= 2 * (r->y + u.y);
   }
   return sums;
 }

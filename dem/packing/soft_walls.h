@@ -30,10 +30,11 @@ public:
   // visit(row) for every one of [first, last) on the lists, once or more.
   template <class Visit>
   void for_each_row(std::size_t first, std::size_t last, const Visit &visit) const {
-    for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p)
-      visit(static_cast<std::size_t>(p->row));
-    for (const Round *r = begin(round_, first), *end = begin(round_, last); r != end; ++r)
-      visit(static_cast<std::size_t>(r->row));
+    const auto rows_of = [&](const auto &walls) {
+      for (const auto *w = begin(walls, first), *end = begin(walls, last); w != end; ++w)
+        visit(static_cast<std::size_t>(w->row));
+    };
+    rows_of(flat_), rows_of(round_), rows_of(wide_);
   }
 
 private:
@@ -49,10 +50,15 @@ private:
   };
   template <class Wall>
   static const Wall *begin(const std::vector<Wall> &walls, std::size_t row);
+  void add_flat(std::size_t first, std::size_t last, const kernels::SoftRow *way, kernels::SoftRow *force,
+                WallSums &sums) const;
+  void add_round(std::size_t first, std::size_t last, const kernels::SoftRow *way, kernels::SoftRow *force,
+                 WallSums &sums) const;
 
   Shape shape_;
   std::vector<Plane> flat_;
   std::vector<Round> round_;
+  std::vector<Round> wide_; // of spheres that are wider than the room, pressed from both sides
 };
 
 } // namespace platen::dem
