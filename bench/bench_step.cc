@@ -19,7 +19,7 @@ using namespace platen;
 
 struct Options {
   int particles = 22500, threads = 1, steps = 500, repeats = 5;
-  bool baseline = false, alone = false, gain = false;
+  bool baseline = false, avx2 = false, alone = false, gain = false;
   bench::Law law = bench::Law::parallel_bond;
   std::string read, write;
 };
@@ -168,6 +168,8 @@ int main(int argc, char **argv) {
   app.add_option("--write-specimen", o.write, "write the packing to this file");
   app.add_option("--law", o.law, "law of the bonds")->transform(CLI::CheckedTransformer(bench::laws));
   app.add_flag("--baseline", o.baseline, "the kernels of plain x86-64");
+  app.add_flag("--avx2", o.avx2, "the kernels of AVX2 (build the loop likewise: PLATEN_LOOP_PROCESSOR)")
+      ->excludes("--baseline");
   app.add_flag("--gain", o.gain, "one thread in turn with --threads, and what the others gain");
   app.add_flag("--alone", o.alone, "without the idealised loop");
   CLI11_PARSE(app, argc, argv);
@@ -176,6 +178,13 @@ int main(int argc, char **argv) {
   const dem::Specimen specimen = specimen_for(o);
   coupling::PlatenTestSettings chosen = bench::elastic_press(o.law);
   if (o.baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;
+  if (o.avx2) {
+    if (dem::best_instruction_set() == dem::InstructionSet::baseline) {
+      std::fprintf(stderr, "bench_step: --avx2: this processor has no AVX2\n");
+      return 2;
+    }
+    chosen.model.instruction_set = dem::InstructionSet::avx2;
+  }
   const double before = static_cast<double>(apps::peak_memory_bytes());
   const auto start = Clock::now();
   coupling::PlatenTest problem(specimen, chosen);
