@@ -68,19 +68,6 @@ void BilinearMap::set_plane(const Vector3 &normal) {
   constant = -plane(f, e);
 }
 
-bool BilinearMap::find_v(const Vector3 &r, double &v) const {
-  const double first = dot(r, linear) + constant, zeroth = dot(r, free);
-  const double discriminant = first * first - 4 * square * zeroth;
-  if (!(discriminant >= 0)) return false;
-  v = -2 * zeroth / (first + std::copysign(std::sqrt(discriminant), first));
-  return true;
-}
-
-double BilinearMap::u_at(const Vector3 &r, double v) const {
-  const Vector3 along = e + v * t;
-  return dot(r - v * f, along) / norm_squared(along);
-}
-
 FlatFaces::FlatFaces(const fem::SurfaceMesh &surface) {
   for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
     const Vector3 first = vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]);
@@ -89,39 +76,21 @@ FlatFaces::FlatFaces(const fem::SurfaceMesh &surface) {
   join_pieces(surface);
 }
 
-FlatFaces::Face FlatFaces::face_of(const Quad &q) {
-  Face face;
+FlatFace FlatFaces::face_of(const Quad &q) {
+  FlatFace face;
   face.normal = bilinear_normal(q, 0.5, 0.5);
   const double size = size_of(q);
-  face.flat = norm_squared(face.normal) > 0;
+  bool flat = norm_squared(face.normal) > 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vector3 edge = q[(k + 1) % 4] - q[k], next = q[(k + 2) % 4] - q[(k + 1) % 4];
-    if (std::abs(dot(q[k] - q[0], face.normal)) > flatness * size) face.flat = false;
-    if (!(dot(cross(edge, next), face.normal) > 0)) face.flat = false; // convex
+    if (std::abs(dot(q[k] - q[0], face.normal)) > flatness * size) flat = false;
+    if (!(dot(cross(edge, next), face.normal) > 0)) flat = false; // convex
   }
   face.set_corners(q);
   if (norm(face.t) <= flatness * size) face.t = {};
   face.set_plane(face.normal);
+  face.flat = flat ? 1 : 0;
   return face;
-}
-
-bool FlatFaces::foot(int index, const Vector3 &centre, ClosestPoint &local, Vector3 &normal,
-                     double &distance) const {
-  const Face &face = faces_[static_cast<std::size_t>(index)];
-  if (!face.flat) return false;
-  double v = 0;
-  if (!face.find_v(centre, v) || !(v > rim && v < 1 - rim)) return false;
-  const double u = face.u_at(centre, v);
-  if (!(u > rim && u < 1 - rim)) return false;
-  normal = face.normal;
-  distance = dot(centre, face.normal);
-  local = ClosestPoint{};
-  local.point = -distance * face.normal;
-  local.weights = bilinear_weights(u, v);
-  local.u = u;
-  local.v = v;
-  local.distance_squared = distance * distance;
-  return true;
 }
 
 // Flat faces that share a corner and lie in the plane of the piece's first face.
@@ -131,12 +100,12 @@ void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
   for (int first = 0; first < static_cast<int>(faces_.size()); ++first) {
     if (piece(first) >= 0) continue;
     piece_[static_cast<std::size_t>(first)] = first;
-    const Face &seed = faces_[static_cast<std::size_t>(first)];
-    if (!seed.flat) continue;
+    const FlatFace &seed = faces_[static_cast<std::size_t>(first)];
+    if (seed.flat == 0) continue;
     const Vector3 origin = vertex_at(surface, surface.faces[static_cast<std::size_t>(first)][0]);
     const auto in_plane = [&](int face) {
       const Quad q = face_corners(surface, face, origin);
-      return faces_[static_cast<std::size_t>(face)].flat &&
+      return faces_[static_cast<std::size_t>(face)].flat != 0 &&
              std::all_of(q.begin(), q.end(), [&](const Vector3 &corner) {
                return std::abs(dot(corner, seed.normal)) <= flatness * (size_of(q) + norm(corner));
              });
@@ -177,6 +146,17 @@ double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
                b = std::max(0.0, std::abs(dot(r, face.across)) - face.half.y),
                c = std::max(0.0, std::abs(dot(r, face.normal)) - face.half.z);
   return a * a + b * b + c * c;
+}
+
+bool find_foot(const FlatFace &face, const Vector3 &centre, FlatFoot &foot) {
+  const auto triple = dem::triple_of;
+  const FlatMap<double> map{triple(face.e),      triple(face.f),    triple(face.t),
+                            triple(face.linear), triple(face.free), triple(face.normal),
+                            face.square,         face.constant,     face.flat};
+  FootOnFlat<double> found;
+  if (!search_flat_foot<dem::OfScalars>(map, dem::triple_of(centre), found)) return false;
+  foot = {found.u, found.v, found.distance};
+  return true;
 }
 
 bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {

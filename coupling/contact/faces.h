@@ -17,34 +17,41 @@ struct BilinearMap {
   double square = 0, constant = 0;
 
   void set_corners(const Quad &corners);
-  void set_plane(const Vector3 &normal);          // along which points come down
-  bool find_v(const Vector3 &r, double &v) const; // false: there is none
-  double u_at(const Vector3 &r, double v) const;
+  void set_plane(const Vector3 &normal); // along which points come down
 };
+
+// A face as it was when the search was set up, in doubles alone and three cache lines.
+struct alignas(64) FlatFace : BilinearMap {
+  Vector3 normal;  // unit, out of the body
+  double flat = 0; // 1: flat and convex
+  double spare[3]{};
+};
+
+// A foot on a flat face: its place, and the distance of the centre along the normal (m), negative inside the
+// body.
+struct FlatFoot {
+  double u = 0, v = 0, distance = 0;
+};
+
+// Foot of a centre, given relative to the face's first corner (m), where the face is flat and convex and the
+// foot lies inside it, off its rim by 1e-9 of its size; false elsewhere, which says nothing.
+bool find_foot(const FlatFace &face, const Vector3 &centre, FlatFoot &foot);
 
 class FlatFaces {
 public:
   // From the faces where they are now; a later shift of all of them changes nothing.
   explicit FlatFaces(const fem::SurfaceMesh &surface);
 
-  // Foot of a centre, given relative to the face's first corner (m), where the face is flat and convex and
-  // the foot lies inside it, off its rim by 1e-9 of its size; false elsewhere, which says nothing. Unit
-  // normal out of the body; distance of the centre along it (m), negative inside the body.
-  bool foot(int face, const Vector3 &centre, ClosestPoint &local, Vector3 &normal, double &distance) const;
-
+  const FlatFace &face(int index) const { return faces_[static_cast<std::size_t>(index)]; }
   // Faces with the same number make up one flat piece of the surface: outside the face that holds its foot,
   // no face of the piece is nearer to a centre.
   int piece(int face) const { return piece_[static_cast<std::size_t>(face)]; }
 
 private:
-  struct Face : BilinearMap {
-    Vector3 normal;
-    bool flat = false;
-  };
-  static Face face_of(const Quad &corners);
+  static FlatFace face_of(const Quad &corners);
   void join_pieces(const fem::SurfaceMesh &surface);
 
-  std::vector<Face> faces_;
+  std::vector<FlatFace> faces_;
   std::vector<int> piece_;
 };
 

@@ -1,5 +1,5 @@
-// Feet on faces that move, in packs. One source, compiled once per instruction set (foot_kernel.inc.h), to
-// the same last bit.
+// Feet on faces that move or are flat, in packs. One source, compiled once per instruction set
+// (foot_kernel.inc.h), to the same last bit.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,16 @@ void find_feet_avx2(const MovingFace *const *, const Vector3 *, std::size_t, Foo
 void find_feet_avx512(const MovingFace *const *, const Vector3 *, std::size_t, Foot *, bool *);
 inline FindFeet find_feet(dem::InstructionSet set) {
   return dem::for_set<FindFeet>(set, find_feet_baseline, find_feet_avx2, find_feet_avx512);
+}
+
+// The same of flat faces; centres relative to the first corner of each.
+using FindFlatFeet = void (*)(const FlatFace *const *face, const Vector3 *centre, std::size_t count,
+                              FlatFoot *foot, bool *found);
+void find_flat_feet_baseline(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
+void find_flat_feet_avx2(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
+void find_flat_feet_avx512(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
+inline FindFlatFeet find_flat_feet(dem::InstructionSet set) {
+  return dem::for_set<FindFlatFeet>(set, find_flat_feet_baseline, find_flat_feet_avx2, find_flat_feet_avx512);
 }
 
 } // namespace platen::coupling::kernels

@@ -1,5 +1,5 @@
-// Body of the foot kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
-// contraction, as the rest of the layer is.
+// Bodies of the foot kernels; the including file sets PLATEN_LANES, PLATEN_FEET and PLATEN_FLAT_FEET.
+// Compiled without contraction, as the rest of the layer is.
 #include "coupling/contact/foot_kernel.h"
 #include "coupling/contact/foot_of_face.h"
 #include "dem/kernels/lane_mask.inc.h"
@@ -17,7 +17,8 @@ using dem::kernels::Pack;
 struct Eight {
   Rotation<Pack> first, second;
 };
-PLATEN_INLINE Eight eight_at(const MovingFace *const *face, std::size_t place) {
+template <class Face>
+PLATEN_INLINE Eight eight_at(const Face *const *face, std::size_t place) {
   dem::kernels::LongRow rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = dem::kernels::load_long_row(&face[l]->e.x + place);
@@ -43,6 +44,22 @@ PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
   return m;
 }
 
+PLATEN_INLINE FlatMap<Pack> map_of(const FlatFace *const *face) {
+  static_assert(sizeof(FlatFace) == 24 * sizeof(double));
+  const Eight a = eight_at(face, 0), b = eight_at(face, 8), c = eight_at(face, 16);
+  FlatMap<Pack> m;
+  m.e = {a.first.w, a.first.x, a.first.y};
+  m.f = {a.first.z, a.second.w, a.second.x};
+  m.t = {a.second.y, a.second.z, b.first.w};
+  m.linear = {b.first.x, b.first.y, b.first.z};
+  m.free = {b.second.w, b.second.x, b.second.y};
+  m.square = b.second.z;
+  m.constant = c.first.w;
+  m.normal = {c.first.x, c.first.y, c.first.z};
+  m.flat = c.second.w;
+  return m;
+}
+
 PLATEN_INLINE Triple<Pack> gather(const Vector3 *const *from) {
   Triple<Pack> a;
   for (int l = 0; l < lanes; ++l)
@@ -50,20 +67,44 @@ PLATEN_INLINE Triple<Pack> gather(const Vector3 *const *from) {
   return a;
 }
 
+// Faces and centres from `first` on, lane by lane; the last once more where there are fewer.
+template <class Face>
+struct Lanes {
+  const Face *face[lanes];
+  const Vector3 *centre[lanes];
+
+  PLATEN_INLINE Lanes(const Face *const *faces, const Vector3 *centres, std::size_t first,
+                      std::size_t count) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t k = first + l < count ? first + l : count - 1;
+      face[l] = faces[k], centre[l] = centres + k;
+    }
+  }
+};
+
 } // namespace
 
-void PLATEN_KERNEL(const MovingFace *const *face, const Vector3 *centre, std::size_t count, Foot *foot,
-                   bool *found) {
+void PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *centre, std::size_t count, FlatFoot *foot,
+                      bool *found) {
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const Lanes<FlatFace> at(face, centre, first, count);
+    FootOnFlat<Pack> feet;
+    const auto inside = search_flat_foot<dem::kernels::OfLanes>(map_of(at.face), gather(at.centre), feet);
+    const unsigned bits = dem::kernels::bits_of(inside);
+    for (std::size_t l = 0; l < lanes && first + l < count; ++l) {
+      found[first + l] = bits >> l & 1u;
+      foot[first + l] = {feet.u.v[l], feet.v.v[l], feet.distance.v[l]};
+    }
+  }
+}
+
+void PLATEN_FEET(const MovingFace *const *face, const Vector3 *centre, std::size_t count, Foot *foot,
+                 bool *found) {
   for (std::size_t first = 0; first < count; first += lanes) {
     const std::size_t last = first + lanes < count ? first + lanes : count;
-    const MovingFace *faces[lanes];
-    const Vector3 *centres[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::size_t k = first + l < last ? first + l : last - 1;
-      faces[l] = face[k], centres[l] = centre + k;
-    }
+    const Lanes<MovingFace> at(face, centre, first, count);
     FootOnFace<Pack> feet;
-    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(faces), gather(centres), feet);
+    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(at.face), gather(at.centre), feet);
     const unsigned bits = dem::kernels::bits_of(inside);
     if (bits == 0) {
       for (std::size_t k = first; k < last; ++k)

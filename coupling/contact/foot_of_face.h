@@ -1,5 +1,5 @@
-// The foot of a centre on a face that moves, for one centre or for a pack of them: one text, so that both
-// give the same bits.
+// The foot of a centre on a face that moves or is flat, for one centre or for a pack of them: one text, so
+// that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
@@ -29,6 +29,41 @@ constexpr double last_move = 1e-6;
 constexpr int most_steps = 8;
 } // namespace foot_search
 
+namespace foot_search {
+template <class How, class Real>
+PLATEN_INLINE auto inside(const Real &a, double by) {
+  return How::above(a, Real(by)) & How::above(Real(1 - by), a);
+}
+} // namespace foot_search
+
+// Of FlatFace (faces.h), what its search reads.
+template <class Real>
+struct FlatMap {
+  dem::Triple<Real> e, f, t, linear, free, normal;
+  Real square, constant, flat; // flat: 1, or 0
+};
+template <class Real>
+struct FootOnFlat {
+  Real u, v, distance; // m, along the normal
+};
+
+// Where the result is true: the foot of a centre, given relative to the first corner, on a flat face, inside
+// it and off its rim.
+template <class How, class Real>
+PLATEN_INLINE auto search_flat_foot(const FlatMap<Real> &face, const dem::Triple<Real> &centre,
+                                    FootOnFlat<Real> &foot) {
+  using namespace foot_search;
+  using dem::dot, dem::scale;
+  const Real first = dot(centre, face.linear) + face.constant, zeroth = dot(centre, face.free);
+  const Real discriminant = first * first - Real(4.0) * face.square * zeroth;
+  foot.v = Real(-2.0) * zeroth / (first + How::with_sign(How::root(discriminant), first));
+  const dem::Triple<Real> along = face.e + scale(foot.v, face.t);
+  foot.u = dot(centre - scale(foot.v, face.f), along) / dot(along, along);
+  foot.distance = dot(centre, face.normal);
+  return How::above(face.flat, Real(0.5)) & How::at_least(discriminant, Real(0.0)) &
+         inside<How>(foot.v, rim) & inside<How>(foot.u, rim);
+}
+
 // Where the result is true (lane by lane of a pack): the foot inside the face, single and off its rim.
 template <class How, class Real>
 PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real> &centre,
@@ -36,19 +71,16 @@ PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real
   using namespace foot_search;
   using dem::cross, dem::dot, dem::scale;
   const dem::Triple<Real> r = centre - face.corner;
-  const auto inside = [](const Real &a, double by) {
-    return How::above(a, Real(by)) & How::above(Real(1 - by), a);
-  };
   auto found = How::at_least(face.single_foot, How::magnitude(dot(r, face.normal)));
   const Real first = dot(r, face.linear) + face.constant, zeroth = dot(r, face.free);
   const Real discriminant = first * first - Real(4.0) * face.square * zeroth;
   found = found & How::at_least(discriminant, Real(0.0));
   if (!How::any(found)) return found;
   Real v = Real(-2.0) * zeroth / (first + How::with_sign(How::root(discriminant), first));
-  found = found & inside(v, -far_off);
+  found = found & inside<How>(v, -far_off);
   const dem::Triple<Real> along = face.e + scale(v, face.t);
   Real u = dot(r - scale(v, face.f), along) / dot(along, along);
-  found = found & inside(u, -far_off);
+  found = found & inside<How>(u, -far_off);
   Real moved = Real(1.0);
   auto moves = found;
   for (int step = 0; step < most_steps && How::any(moves); ++step) {
@@ -64,7 +96,7 @@ PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real
     moved = How::choose(moves, How::choose(How::above(along_v, along_u), along_v, along_u), moved);
     moves = moves & How::above(moved, Real(last_move));
   }
-  found = found & How::at_least(Real(last_move), moved) & inside(u, rim) & inside(v, rim);
+  found = found & How::at_least(Real(last_move), moved) & inside<How>(u, rim) & inside<How>(v, rim);
   foot.u = u;
   foot.v = v;
   foot.along_u = face.e + scale(v, face.t);

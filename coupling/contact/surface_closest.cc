@@ -46,33 +46,49 @@ void set_foot(const Foot &foot, SurfacePoint &point) {
 
 } // namespace
 
+Vector3 SurfaceSearch::from_corner(const SurfaceMesh &surface, int face, const Vector3 &centre) const {
+  return centre - vertex_at(surface, corners_of(surface, face)[0]);
+}
+
+void SurfaceSearch::set_flat_foot(int face, const FlatFoot &foot, SurfacePoint &result) const {
+  result.face = face;
+  result.normal = flat_.face(face).normal;
+  result.distance = foot.distance;
+  result.local = ClosestPoint{};
+  result.local.point = -foot.distance * result.normal;
+  result.local.weights = bilinear_weights(foot.u, foot.v);
+  result.local.u = foot.u;
+  result.local.v = foot.v;
+  result.local.distance_squared = foot.distance * foot.distance;
+}
+
 // The foot on a flat face of a surface that has not turned since the search was set up.
 bool SurfaceSearch::foot(const SurfaceMesh &surface, int face, const Vector3 &centre,
                          SurfacePoint &result) const {
-  if (!surface.only_shifted) return false;
-  if (!flat_.foot(face, centre - vertex_at(surface, corners_of(surface, face)[0]), result.local,
-                  result.normal, result.distance))
+  FlatFoot foot;
+  if (!surface.only_shifted || !find_foot(flat_.face(face), from_corner(surface, face, centre), foot))
     return false;
-  result.face = face;
+  set_flat_foot(face, foot, result);
   return true;
 }
 
-// The same, where it is sure to be the closest point of all: every other face listed lies in the same plane
-// or farther away. False says nothing.
-bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
-                                    SurfacePoint &result) const {
-  const std::size_t last = first_near_[k + 1];
-  std::size_t n = first_near_[k];
-  while (n < last && !foot(surface, near_[n].face, centre, result))
-    ++n;
-  if (n == last) return false;
-  const double distance = std::abs(result.distance) * (1 + margin);
-  const int piece = flat_.piece(result.face);
-  for (std::size_t other = first_near_[k]; other < last; ++other) {
+// Of a foot on a face listed: every other one lies in the same plane or farther away.
+bool SurfaceSearch::others_are_farther(std::size_t k, const SurfacePoint &foot) const {
+  const double distance = std::abs(foot.distance) * (1 + margin);
+  const int piece = flat_.piece(foot.face);
+  for (std::size_t other = first_near_[k]; other < first_near_[k + 1]; ++other) {
     if (near_[other].distance - travelled_ > distance) break;
     if (flat_.piece(near_[other].face) != piece) return false;
   }
   return true;
+}
+
+// The same, where it is sure to be the closest point of all. False says nothing.
+bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
+                                    SurfacePoint &result) const {
+  for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n)
+    if (foot(surface, near_[n].face, centre, result)) return others_are_farther(k, result);
+  return false;
 }
 
 bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vector3 &centre,
@@ -93,10 +109,31 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
   return closest_listed(surface, k, centre);
 }
 
+// As foot_of_nearest does it: most have their foot on the first face listed.
+void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_t *entry,
+                                    const Vector3 *centre, std::size_t count, SurfacePoint *point) const {
+  const FlatFace *face[kernels::most_feet] = {};
+  Vector3 from[kernels::most_feet];
+  FlatFoot foot[kernels::most_feet];
+  bool found[kernels::most_feet] = {};
+  for (std::size_t n = 0; n < count; ++n) {
+    const int first = near_[first_near_[entry[n]]].face;
+    face[n] = &flat_.face(first);
+    from[n] = from_corner(surface, first, centre[n]);
+  }
+  find_flat_feet_(face, from, count, foot, found);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (found[n]) set_flat_foot(near_[first_near_[entry[n]]].face, foot[n], point[n]);
+    if (!found[n] || !others_are_farther(entry[n], point[n]))
+      point[n] = closest(surface, entry[n], centre[n]);
+  }
+}
+
 // A foot on the first face of the list is the answer where every other face listed is sure to be farther.
 void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                             std::size_t count, SurfacePoint *point) const {
-  if (surface.only_shifted || !looked_) {
+  if (surface.only_shifted) return closest_on_flat(surface, entry, centre, count, point);
+  if (!looked_) {
     for (std::size_t n = 0; n < count; ++n)
       point[n] = closest(surface, entry[n], centre[n]);
     return;

@@ -25,6 +25,7 @@ Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
 SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin, dem::InstructionSet instruction_set)
     : skin_(skin),
       find_feet_(kernels::find_feet(instruction_set)),
+      find_flat_feet_(kernels::find_flat_feet(instruction_set)),
       tree_(face_boxes(surface)),
       flat_(surface),
       faces_of_vertex_(fem::faces_of_vertices(surface)) {

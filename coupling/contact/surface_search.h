@@ -112,7 +112,7 @@ public:
   SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
 
   // The same for the entries [0, count), count <= kernels::most_feet, of lists of them and of their centres:
-  // in vectors where the surface turns or deforms, to the same bits.
+  // in vectors, to the same bits.
   void closest(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                std::size_t count, SurfacePoint *point) const;
 
@@ -138,7 +138,12 @@ private:
   // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
   bool nearest_on(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, const MovingFace *moving,
                   SurfacePoint &nearest) const;
+  Vector3 from_corner(const fem::SurfaceMesh &surface, int face, const Vector3 &centre) const;
   bool foot(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, SurfacePoint &result) const;
+  void set_flat_foot(int face, const FlatFoot &foot, SurfacePoint &result) const;
+  void closest_on_flat(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
+                       std::size_t count, SurfacePoint *point) const;
+  bool others_are_farther(std::size_t k, const SurfacePoint &foot) const;
   bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
                        SurfacePoint &result) const;
   SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
@@ -149,6 +154,7 @@ private:
 
   double skin_;
   kernels::FindFeet find_feet_;
+  kernels::FindFlatFeet find_flat_feet_;
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;
   FlatFaces flat_;

@@ -1,0 +1,167 @@
+// Feet on the flat faces of a surface that only shifts: the closest point in general, the same in packs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "coupling/contact/faces.h"
+#include "coupling/contact/surface_search.h"
+#include "sphere_scene.h"
+
+namespace platen::coupling {
+namespace {
+
+// Plane quads anywhere in space, each a surface of its own: their corners moved by up to a fifth along their
+// plane, every fourth a parallelogram, every tenth warped.
+class FlatFeet : public testing::Test {
+protected:
+  static constexpr int count = 4000;
+
+  FlatFeet() {
+    std::uniform_real_distribution<double> draw(-1, 1), along(-0.2, 1.2);
+    for (int k = 0; k < count; ++k) {
+      const Quaternion q = rotation_quaternion(3 * Vector3{draw(engine), draw(engine), draw(engine)});
+      const Vector3 place{draw(engine), draw(engine), 7}, lean{0.3 * draw(engine), 0, 0};
+      fem::SurfaceMesh surface;
+      surface.vertices = {{0, 0, 0}, {1, 0, 0}, Vector3{1, 1, 0} + lean, Vector3{0, 1, 0} + lean};
+      for (Vector3 &c : surface.vertices) {
+        if (k % 4 != 0) c += 0.2 * Vector3{draw(engine), draw(engine), 0};
+        if (k % 10 == 5) c.z += 0.01 * draw(engine);
+        c = place + rotate(q, c);
+      }
+      surface.faces = {{0, 1, 2, 3}};
+      surface.only_shifted = true;
+      const Quad corners = face_corners(surface, 0, surface.vertices[0]);
+      const std::array<double, 4> w = bilinear_weights(along(engine), along(engine));
+      Vector3 centre = 0.2 * draw(engine) * bilinear_normal(corners, 0.5, 0.5);
+      for (std::size_t c = 0; c < 4; ++c)
+        centre += w[c] * corners[c];
+      quads.push_back(corners), centres.push_back(centre);
+      faces.push_back(FlatFaces(surface).face(0));
+    }
+  }
+
+  std::mt19937 engine{5};
+  std::vector<Quad> quads;
+  std::vector<Vector3> centres; // relative to the first corner, as the quads
+  std::vector<FlatFace> faces;
+};
+
+TEST_F(FlatFeet, are_the_closest_points_inside_flat_faces_and_nowhere_else) {
+  int feet = 0, flat = 0;
+  for (int k = 0; k < count; ++k) {
+    const Quad &q = quads[k];
+    const Vector3 &c = centres[k];
+    const ClosestPoint best = closest_point({q[0] - c, q[1] - c, q[2] - c, q[3] - c});
+    FlatFoot foot;
+    const bool found = find_foot(faces[k], c, foot);
+    flat += faces[k].flat != 0 ? 1 : 0;
+    ASSERT_EQ(found, best.feature == Feature::face && faces[k].flat != 0) << "face " << k;
+    if (!found) continue;
+    ++feet;
+    const Vector3 normal = bilinear_normal(q, 0.5, 0.5);
+    ASSERT_NEAR(foot.u, best.u, 1e-12) << "face " << k;
+    ASSERT_NEAR(foot.v, best.v, 1e-12) << "face " << k;
+    ASSERT_NEAR(foot.distance, -dot(best.point, normal), 1e-14) << "face " << k;
+    ASSERT_NEAR(norm(faces[k].normal - normal), 0, 1e-15) << "face " << k;
+  }
+  EXPECT_GT(feet, 1000);
+  EXPECT_NEAR(flat, 0.9 * count, 0.01 * count); // round-off makes some planes uneven
+}
+
+TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
+  centres[7].y = std::numeric_limits<double>::quiet_NaN();
+  const auto same_bits = [](const FlatFoot &a, const FlatFoot &b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  };
+  int feet = 0, none = 0;
+  for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
+                                  {dem::InstructionSet::avx2, "avx2"},
+                                  {dem::InstructionSet::avx512, "avx512"}}) {
+    if (set > dem::best_instruction_set()) continue;
+    for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
+      many = std::min(many, faces.size() - first);
+      const FlatFace *face[kernels::most_feet];
+      FlatFoot foot[kernels::most_feet];
+      bool found[kernels::most_feet];
+      for (std::size_t k = 0; k < many; ++k)
+        face[k] = &faces[first + k];
+      kernels::find_flat_feet(set)(face, &centres[first], many, foot, found);
+      for (std::size_t k = 0; k < many; ++k) {
+        FlatFoot alone;
+        const bool expected = find_foot(faces[first + k], centres[first + k], alone);
+        ASSERT_EQ(found[k], expected) << name << ", face " << first + k << ", " << many << " in the call";
+        ++(expected ? feet : none);
+        if (!expected) continue;
+        ASSERT_TRUE(same_bits(foot[k], alone)) << name << ", face " << first + k;
+      }
+    }
+  }
+  EXPECT_GT(feet, 1000);
+  EXPECT_GT(none, 1000);
+}
+
+// A plate with two flat ends and a side of many flat faces, which drops by steps: on every face, over its
+// edges and corners, alone and in packs of any number, one answer, bit for bit.
+TEST(FlatFaces, of_a_plate_that_drops_have_one_answer) {
+  fem::SurfaceMesh surface =
+      fem::RigidBody(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel).surface();
+  ASSERT_TRUE(surface.only_shifted);
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> draw(-0.6, 0.6), high(-0.2, 0.2);
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 400; ++k)
+    centres.push_back({draw(engine), draw(engine), high(engine)});
+  const dem::Particles particles(spheres(centres, 0.05), 1000, false);
+  int inside = 0, beside = 0;
+  for (const auto set : {dem::InstructionSet::baseline, dem::best_instruction_set()}) {
+    SurfaceSearch search(surface, 0.04, set);
+    for (int step = 0; step < 12; ++step) {
+      for (Vector3 &v : surface.vertices)
+        v.z -= 0.007;
+      search.moved(0.007);
+      if (search.stale())
+        search.rebuild(surface, particles.position, std::vector<double>(particles.size(), 0.05), {});
+      search.update(surface);
+      const std::size_t listed = search.particles().size();
+      for (std::size_t first = 0, many = 1; first < listed; first += many, many = many % 32 + 1) {
+        many = std::min(many, listed - first);
+        std::vector<std::size_t> entry;
+        std::vector<Vector3> asked;
+        for (std::size_t k = first; k < first + many; ++k) {
+          entry.push_back(k);
+          asked.push_back(particles.position[static_cast<std::size_t>(search.particles()[k])]);
+        }
+        std::vector<SurfacePoint> packed(many);
+        search.closest(surface, entry.data(), asked.data(), many, packed.data());
+        for (std::size_t k = 0; k < many; ++k) {
+          const SurfacePoint all = search.closest_of_all(surface, asked[k]);
+          for (const SurfacePoint &p : {packed[k], search.closest(surface, entry[k], asked[k])}) {
+            ASSERT_EQ(p.face, all.face) << "entry " << entry[k] << ", step " << step;
+            ASSERT_EQ(p.distance, all.distance) << "entry " << entry[k] << ", step " << step;
+            ASSERT_EQ(norm(p.normal - all.normal), 0) << "entry " << entry[k] << ", step " << step;
+            ASSERT_EQ(norm(p.local.point - all.local.point), 0) << "entry " << entry[k] << ", step " << step;
+            ASSERT_EQ(p.local.weights, all.local.weights) << "entry " << entry[k] << ", step " << step;
+            ASSERT_EQ(p.local.distance_squared, all.local.distance_squared) << "entry " << entry[k];
+          }
+          double nearest = std::numeric_limits<double>::infinity();
+          for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face)
+            nearest =
+                std::min(nearest, closest_point(face_corners(surface, face, asked[k])).distance_squared);
+          ASSERT_NEAR(std::abs(all.distance), std::sqrt(nearest), 1e-14);
+          ASSERT_NEAR(all.local.distance_squared, nearest, 1e-14);
+          ++(all.local.feature == Feature::face ? inside : beside);
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(beside, 100);
+}
+
+} // namespace
+} // namespace platen::coupling
