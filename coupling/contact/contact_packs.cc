@@ -22,7 +22,7 @@ void ContactLayer::compute_in_packs(const dem::Particles &p, const fem::LoadedSu
   step.friction_static = parameters_.friction_static, step.friction_dynamic = parameters_.dynamic();
   const fem::SurfaceMesh &surface = body.surface();
   const kernels::LayerSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted};
-  double k_n[kernels::most_feet];
+  double k_n[kernels::most_feet] = {};
   for (std::size_t k = 0; k < count; ++k)
     k_n[k] = spring(point[k]);
   compute_rows_(c, faces, step, point, k_n, &due_[first], count, &loads_[first], &contacts_[first]);

@@ -69,9 +69,16 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
                                 std::size_t part) {
   const std::size_t first = part * rows_per_part, last = std::min(due_.size(), first + rows_per_part);
   Vector3 centre[rows_per_part];
-  SurfacePoint point[rows_per_part + 1]; // one more to be read
-  for (std::size_t k = first; k < last; ++k)
-    centre[k - first] = particles.position[static_cast<std::size_t>(particle_[due_[k]])];
+  thread_local SurfacePoint point[rows_per_part + 1]; // one more to be read; not made anew for each part
+  for (std::size_t k = first; k < last; ++k) {
+    const std::size_t i = static_cast<std::size_t>(particle_[due_[k]]);
+    centre[k - first] = particles.position[i];
+    // Asked for ahead of the search: particles at a surface stand far apart in memory.
+    __builtin_prefetch(&particles.velocity[i]);
+    __builtin_prefetch(&particles.radius[i]);
+    if (parameters_.damping > 0) __builtin_prefetch(&particles.mass[i]);
+    if (particles.has_rotation()) __builtin_prefetch(&(*particles.angular_velocity)[i]);
+  }
   search_.closest(body.surface(), &due_[first], centre, last - first, point);
   if (compute_rows_ != nullptr) return compute_in_packs(particles, body, dt, first, last - first, point);
   for (std::size_t k = first; k < last; ++k) {

@@ -41,8 +41,8 @@ struct LayerStep {
   double travelled = 0; // m, as in idle_until
 };
 
-// Rows row[0 ... count), count <= most_feet, with the points closest to them, one more to be read, and the
-// normal stiffness of each (N/m).
+// Rows row[0 ... count), ascending, count <= most_feet, with the points closest to them, one more to be read,
+// and the normal stiffness of each (N/m), most_feet to be read.
 using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
                              const SurfacePoint *point, const double *normal_stiffness,
                              const std::size_t *row, std::size_t count, RowLoad *load, RowContact *contact);

@@ -19,6 +19,28 @@ using dem::kernels::lanes;
 using Pack = dem::kernels::Pack;
 using How = dem::kernels::OfLanes;
 
+// Lanes from `count` on repeat the last row and are not written.
+struct Rows {
+  int row[lanes], particle[lanes], count;
+  bool follow; // each other in memory, and fill the pack
+  const SurfacePoint *point[lanes];
+};
+
+// Columns of the layer: most rows stand beside each other.
+template <class T>
+PLATEN_INLINE auto read(const T *column, const Rows &r) {
+  return r.follow ? dem::kernels::load(column + r.row[0]) : gather(column, r.row);
+}
+PLATEN_INLINE void write(double *column, const Rows &r, const Pack &a) {
+  if (!r.follow) return dem::kernels::scatter(column, r.row, r.count, a);
+  for (int l = 0; l < lanes; ++l)
+    column[r.row[0] + l] = a.v[l];
+}
+PLATEN_INLINE void write(Vector3 *column, const Rows &r, const Triple<Pack> &a) {
+  if (!r.follow) return dem::kernels::scatter(column, r.row, r.count, a);
+  dem::kernels::store(column + r.row[0], a);
+}
+
 // The closest points of a pack.
 struct Points {
   Triple<Pack> arm, normal, along_u, along_v; // m, 1, m
@@ -47,12 +69,16 @@ struct SurfaceMotions {
 // surface_motion() (transfer.h).
 PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const SurfacePoint *const *point,
                                        const Points &p) {
-  Triple<Pack> v[4];
-  for (int corner = 0; corner < 4; ++corner)
-    for (int l = 0; l < lanes; ++l) {
-      const Vector3 &from = surface.velocity[surface.corner[4 * point[l]->face + corner]];
-      v[corner].x.v[l] = from.x, v[corner].y.v[l] = from.y, v[corner].z.v[l] = from.z;
-    }
+  const int *corners[lanes];
+  for (int l = 0; l < lanes; ++l)
+    corners[l] = surface.corner + 4 * point[l]->face;
+  const auto of_corner = [&](int corner) {
+    dem::kernels::Row rows[lanes];
+    for (int l = 0; l < lanes; ++l)
+      rows[l] = dem::kernels::load_vector(surface.velocity + corners[l][corner]);
+    return dem::kernels::to_vectors(rows);
+  };
+  const Triple<Pack> v[4] = {of_corner(0), of_corner(1), of_corner(2), of_corner(3)};
   const Triple<Pack> along = v[1] - v[0];
   const Triple<Pack> by_u = scale(Pack(Pack(1.0) - p.v), along) + scale(p.v, v[2] - v[3]);
   const Triple<Pack> by_v = scale(Pack(Pack(1.0) - p.u), v[3] - v[0]) + scale(p.u, v[2] - v[1]);
@@ -61,12 +87,6 @@ PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const Surfac
   return {v[0] + (scale(p.u, along) + scale(p.v, by_v)),
           How::choose(How::above(area, zero), Pack(0.5) * turning / area, zero)};
 }
-
-// Lanes from `count` on repeat the last row and are not written.
-struct Rows {
-  int row[lanes], particle[lanes], count;
-  const SurfacePoint *point[lanes];
-};
 
 struct Push {
   LaneMask active, sliding;
@@ -79,13 +99,15 @@ PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r,
                        const Triple<Pack> &spring, const Triple<Pack> &slide, const Pack &spin,
                        const Pack &k_t, Push &push) {
   const Pack zero = Pack(0.0);
-  const Triple<Pack> before = gather(c.normal, r.row);
+  const Triple<Pack> before = read(c.normal, r);
   const LaneMask touched = How::above(dot(before, before), zero);
   const Triple<Pack> turned = dem::kernels::spin_in_plane(
       dem::carried_with_plane<How>(spring, before, p.normal), p.normal, Pack(spin * Pack(s.dt)));
-  Pack slides_above;
+  int slid[lanes];
   for (int l = 0; l < lanes; ++l)
-    slides_above.v[l] = c.sliding[r.row[l]] ? s.friction_dynamic : s.friction_static;
+    slid[l] = c.sliding[r.row[l]];
+  const LaneMask slides = dem::kernels::set_lanes_of(r.follow ? c.sliding + r.row[0] : slid);
+  const Pack slides_above = How::choose(slides, Pack(s.friction_dynamic), Pack(s.friction_static));
   const auto f =
       dem::spring_with_friction<How>(choose<How>(touched, turned, spring), scale(Pack(-s.dt), slide),
                                      push.normal_force, k_t, slides_above, Pack(s.friction_dynamic));
@@ -93,17 +115,17 @@ PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r,
   push.sliding = f.slides;
   push.friction_loss = f.dissipated;
   push.elastic = push.elastic + Pack(0.5) * dot(f.spring, f.spring) / k_t;
-  push.slip = How::choose(push.active, gather(c.slip, r.row) + f.slip, zero);
-  dem::kernels::scatter(c.spring, r.row, r.count, f.spring);
+  push.slip = How::choose(push.active, read(c.slip, r) + f.slip, zero);
+  write(c.spring, r, f.spring);
   dem::kernels::scatter(c.sliding, r.row, r.count, f.slides);
-  dem::kernels::scatter(c.slip, r.row, r.count, push.slip);
-  dem::kernels::scatter(c.normal, r.row, r.count, choose<How>(push.active, p.normal, no_vector<Pack>()));
+  write(c.slip, r, push.slip);
+  write(c.normal, r, choose<How>(push.active, p.normal, no_vector<Pack>()));
 }
 
 PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
                              const Rows &r, const Points &p, const Pack &k_n) {
   const Pack zero = Pack(0.0), dt = Pack(s.dt);
-  const Pack gap = p.distance - gather(c.radius, r.particle) - gather(c.offset, r.row);
+  const Pack gap = p.distance - gather(c.radius, r.particle) - read(c.offset, r);
   Push push;
   push.active = How::above(zero, gap);
   SurfaceMotions face;
@@ -125,18 +147,18 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
         pressing - Pack(2 * s.damping) * How::root(Pack(s.stiffness) * gather(c.mass, r.particle)) * opening;
   held = How::choose(How::above(held, zero), held, zero);
   push.normal_force = How::choose(push.active, held, zero);
-  const Pack dashpot = How::choose(push.active, held - pressing, zero), before = gather(c.dashpot, r.row);
+  const Pack dashpot = How::choose(push.active, held - pressing, zero), before = read(c.dashpot, r);
   push.elastic = How::choose(push.active, Pack(0.5) * k_n * gap * gap, zero);
   push.damping_loss = Pack(-0.5) * (before + dashpot) * opening * dt;
-  dem::kernels::scatter(c.dashpot, r.row, r.count, dashpot);
+  write(c.dashpot, r, dashpot);
   push.friction_loss = push.slip = zero;
   push.shear = no_vector<Pack>();
   if (c.spring != nullptr) {
-    rub(c, s, r, p, gather(c.spring, r.row), slide, face.spin, Pack(Pack(s.tangential_ratio) * k_n), push);
+    rub(c, s, r, p, read(c.spring, r), slide, face.spin, Pack(Pack(s.tangential_ratio) * k_n), push);
   }
   // What it held it has let go of now.
   const Pack until = Pack(s.travelled) + Pack(1 - idle_margin) * gap;
-  dem::kernels::scatter(c.idle_until, r.row, r.count, How::choose(push.active, zero, until));
+  write(c.idle_until, r, How::choose(push.active, zero, until));
   return push;
 }
 
@@ -144,30 +166,31 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
 PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Push &push,
                         RowLoad *load, RowContact *contact) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
+  const Pack zero = Pack(0.0);
   dem::kernels::Row forces[lanes], torques[lanes], points[lanes], normals[lanes], shears[lanes];
+  dem::kernels::Row sums[lanes], pressing[lanes];
   dem::kernels::to_rows(force, forces);
   dem::kernels::to_rows(cross(p.arm, force), torques);
+  dem::kernels::to_rows(Rotation<Pack>{push.elastic, push.friction_loss, push.damping_loss, zero}, sums);
   dem::kernels::to_rows(gather(c.position, r.particle) + p.arm, points);
   dem::kernels::to_rows(p.normal, normals);
   dem::kernels::to_rows(push.shear, shears);
+  dem::kernels::to_rows(Rotation<Pack>{zero, zero, push.normal_force, push.slip}, pressing);
+  const unsigned active = dem::kernels::bits_of(push.active);
+  const unsigned sliding = c.spring != nullptr ? dem::kernels::bits_of(push.sliding) : 0;
   for (int l = 0; l < r.count; ++l) {
-    const bool active = push.active.v[l] != 0;
-    load[l].particle = active ? r.particle[l] : -1;
+    load[l].particle = active >> l & 1u ? r.particle[l] : -1;
     load[l].face = r.point[l]->face;
-    load[l].weights = r.point[l]->local.weights;
+    dem::kernels::store_row(load[l].weights.data(), dem::kernels::load_row(r.point[l]->local.weights.data()));
     dem::kernels::store_row(&load[l].force.x, forces[l]);
     dem::kernels::store_row(&load[l].torque.x, torques[l]);
-    load[l].elastic = push.elastic.v[l];
-    load[l].friction_loss = push.friction_loss.v[l];
-    load[l].damping_loss = push.damping_loss.v[l];
-    load[l].depth = 0;
+    dem::kernels::store_row(&load[l].elastic, sums[l]);
     dem::kernels::store_row(&contact[l].point.x, points[l]);
     dem::kernels::store_row(&contact[l].normal.x, normals[l]);
     dem::kernels::store_row(&contact[l].shear.x, shears[l]);
-    contact[l].moment = Vector3{};
-    contact[l].normal_force = push.normal_force.v[l];
-    contact[l].slip = push.slip.v[l];
-    contact[l].sliding = c.spring != nullptr && push.sliding.v[l] != 0;
+    contact[l].moment.x = 0;
+    dem::kernels::store_row(&contact[l].moment.y, pressing[l]);
+    contact[l].sliding = sliding >> l & 1u;
   }
 }
 
@@ -179,14 +202,14 @@ void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const Lay
   for (std::size_t first = 0; first < count; first += lanes) {
     Rows r;
     r.count = static_cast<int>(count - first < lanes ? count - first : lanes);
-    Pack k_n;
     for (int l = 0; l < lanes; ++l) {
       const std::size_t k = first + static_cast<std::size_t>(l < r.count ? l : r.count - 1);
       r.row[l] = static_cast<int>(row[k]);
       r.particle[l] = c.particle[row[k]];
       r.point[l] = point + k;
-      k_n.v[l] = normal_stiffness[k];
     }
+    r.follow = r.count == lanes && r.row[lanes - 1] - r.row[0] == lanes - 1; // they ascend
+    const Pack k_n = dem::kernels::load(normal_stiffness + first);
     const Points p = points_of(r.point);
     keep(c, r, p, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "dem/kernels/lane_mask.inc.h"
 #include "dem/laws/coulomb_friction.h"
@@ -15,6 +16,13 @@ PLATEN_INLINE Pack gather(const double *column, const int *at) {
   for (int l = 0; l < lanes; ++l)
     a.v[l] = column[at[l]];
   return a;
+}
+// Whether the numbers that stand beside each other from a place on are not zero.
+PLATEN_INLINE LaneMask set_lanes_of(const int *from) {
+  typedef int Numbers __attribute__((vector_size(4 * PLATEN_LANES)));
+  Numbers numbers;
+  std::memcpy(&numbers, from, sizeof numbers);
+  return {__builtin_convertvector(numbers, LaneMask::Bits) != 0};
 }
 // Lanes [0, count) to the rows `at`.
 PLATEN_INLINE void scatter(double *column, const int *at, int count, const Pack &a) {

@@ -172,6 +172,15 @@ PLATEN_INLINE Rotation<Pack> load(const Quaternion *from) {
   return to_columns(rows);
 }
 
+// {x, y, z, 0} of a vector that may be the last of its column.
+PLATEN_INLINE Row load_vector(const Vector3 *from) {
+#if PLATEN_LANES == 2
+  return {load_two(&from->x), Native{from->z, 0}};
+#else
+  return (Row)_mm256_maskload_pd(&from->x, _mm256_setr_epi64x(-1, -1, -1, 0));
+#endif
+}
+
 // Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
 // four doubles.
 PLATEN_INLINE Rotation<Pack> gather(const Quaternion *column, const int *at) {

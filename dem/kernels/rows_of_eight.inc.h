@@ -128,13 +128,16 @@ PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
   }
 }
 
-// Lanes as rows {x, y, z, any}.
-PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
-  const RowTwos twos = to_twos(t);
+PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+  const RowTwos twos = to_twos(q);
   for (int h = 0; h < 4; ++h) {
     rows[h] = __builtin_shufflevector(twos.of[h], twos.of[h], 0, 1, 4, 5);
     rows[h + 4] = __builtin_shufflevector(twos.of[h], twos.of[h], 2, 3, 6, 7);
   }
+}
+// Lanes as rows {x, y, z, any}.
+PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
+  to_rows(Rotation<Pack>{t.x, t.y, t.z, t.z}, rows);
 }
 
 } // namespace

@@ -65,6 +65,10 @@ PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
   return {columns[0], columns[1], columns[2], columns[3]};
 }
 
+PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+  const Row columns[4] = {q.w.v, q.x.v, q.y.v, q.z.v};
+  transpose(columns, rows);
+}
 // Lanes as rows {x, y, z, any}.
 PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
   const Row columns[4] = {t.x.v, t.y.v, t.z.v, t.z.v};

@@ -71,6 +71,10 @@ PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
   store_row(&to[1].w, {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)});
 }
 
+PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+  rows[0] = {first_of(q.w.v, q.x.v), first_of(q.y.v, q.z.v)};
+  rows[1] = {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)};
+}
 // Lanes as rows {x, y, z, any}.
 PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
   rows[0] = {first_of(t.x.v, t.y.v), first_of(t.z.v, t.z.v)};
