@@ -24,6 +24,7 @@ struct StudyCase {
   std::string surface = {};           // what the platens are, in words; studies of platens
   std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
   std::string scene = {};                 // that its entries change; "": the study's
+  double seconds = 0; // of a run, counted from its scene (apps/run/needs.h); 0 where that cannot be
 };
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.

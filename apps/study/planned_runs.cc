@@ -176,6 +176,7 @@ int collect_runs(const CommandLine &command, const PlannedStudy &study, RunLog &
   std::set<std::string> instruction_sets;
   for (std::size_t k = 0; k < study.runs.size(); ++k) {
     const RunOutcome outcome = found(study, k);
+    results.tell(k, outcome, k + 1);
     results.keep(k, outcome);
     if (outcome.missing) missing.push_back(k + 1);
     if (const std::string set = text_in(outcome.summary, "instruction_set"); !set.empty())

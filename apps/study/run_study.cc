@@ -209,8 +209,9 @@ int StudyApp::make_all() {
 
 int StudyApp::make_planned(const std::function<Json()> &costs) {
   StudyResults results(scene_, plan_, runs_, paths_, log_);
-  carry_out(runs_, threads(), log_,
-            [&](std::size_t k, const RunOutcome &outcome) { results.keep(k, outcome); });
+  carry_out(
+      runs_, threads(), log_, [&](std::size_t k, const RunOutcome &outcome) { results.keep(k, outcome); },
+      [&](std::size_t k, const RunOutcome &outcome, std::size_t ended) { results.tell(k, outcome, ended); });
   return results.finish(costs());
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <list>
+#include <numeric>
 #include <optional>
 #include <system_error>
 #include <thread>
@@ -69,8 +70,13 @@ struct Active {
 
 class Processes {
 public:
-  Processes(const std::vector<StudyRun> &runs, std::size_t at_a_time, RunLog &log)
-      : runs_(runs), at_a_time_(at_a_time), log_(log), outcomes_(runs.size()) {}
+  Processes(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log, const RunTold &tell)
+      : runs_(runs),
+        order_(order_of_start(runs, at_a_time)),
+        at_a_time_(static_cast<std::size_t>(at_a_time)),
+        log_(log),
+        tell_(tell),
+        outcomes_(runs.size()) {}
 
   void work(const std::function<void(std::size_t, const RunOutcome &)> &keep);
 
@@ -80,13 +86,17 @@ private:
   void start(std::size_t k, bool may_resume);
   void check();
   void ended(Active &one);
+  void come_to(std::size_t k, RunOutcome outcome);
 
   const std::vector<StudyRun> &runs_;
+  const std::vector<std::size_t> order_;
   std::size_t at_a_time_;
   RunLog &log_;
+  const RunTold &tell_;
   std::vector<std::optional<RunOutcome>> outcomes_;
   std::list<Active> active_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0; // of order_
+  std::size_t ended_ = 0;
   int signal_ = 0; // that was passed on
 };
 
@@ -112,10 +122,10 @@ void Processes::start(std::size_t k, bool may_resume) {
 
 void Processes::start_more() {
   while (signal_ == 0 && next_ < runs_.size() && active_.size() < at_a_time_) {
-    const std::size_t k = next_++;
+    const std::size_t k = order_[next_++];
     Left left = left_by(runs_[k]);
     if (left.summary) {
-      outcomes_[k] = RunOutcome{true, true, "", std::move(*left.summary), 0, false};
+      come_to(k, {true, true, "", std::move(*left.summary), 0, false});
       continue;
     }
     if (!left.fault.empty()) log_.warning("{}: is made again: {}", runs_[k].name, left.fault);
@@ -128,7 +138,7 @@ void Processes::ended(Active &one) {
   const int status = one.process.status();
   Left left = left_by(run);
   if (left.summary) {
-    outcomes_[one.run] = RunOutcome{true, false, "", std::move(*left.summary), 0, false};
+    come_to(one.run, {true, false, "", std::move(*left.summary), 0, false});
   } else if (signal_ != 0) {
     return; // stopped with us, to go on later
   } else if (one.resumes && status == status_bad_input) {
@@ -142,9 +152,14 @@ void Processes::ended(Active &one) {
     const std::string how = status < 0 ? fmt::format("ended by signal {}", -status)
                                        : fmt::format("exit status {}", status),
                       errors = without_line_end(one.process.errors());
-    outcomes_[one.run] =
-        RunOutcome{false, false, how + (errors.empty() ? "" : ": " + errors), {}, status, false};
+    come_to(one.run, {false, false, how + (errors.empty() ? "" : ": " + errors), {}, status, false});
   }
+}
+
+void Processes::come_to(std::size_t k, RunOutcome outcome) {
+  outcomes_[k] = std::move(outcome);
+  ++ended_;
+  if (tell_) tell_(k, *outcomes_[k], ended_);
 }
 
 void Processes::check() {
@@ -244,6 +259,7 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
     for (const unsigned long seed : plan.seeds) {
       StudyRun run = run_of(plan, k, seed, scene, overrides, paths, share);
       run.of_this_version = one_by_one;
+      run.seconds = plan.cases[k].seconds;
       packings.push_back(plan.cases[k].packings[runs.size() % plan.seeds.size()]);
       const auto first = std::find(packings.begin(), packings.end(), packings.back());
       run.specimen_of =
@@ -268,9 +284,22 @@ void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<fs::
   }
 }
 
+std::vector<std::size_t> order_of_start(const std::vector<StudyRun> &runs, int at_a_time) {
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (at_a_time < 2) return order;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return runs[a].seconds > runs[b].seconds; });
+  std::vector<char> packed(runs.size(), 0), first(runs.size(), 0);
+  for (const std::size_t k : order)
+    if (!packed[runs[k].specimen_of]) packed[runs[k].specimen_of] = first[k] = 1;
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t k) { return first[k] != 0; });
+  return order;
+}
+
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
-               const std::function<void(std::size_t, const RunOutcome &)> &keep) {
-  Processes(runs, static_cast<std::size_t>(at_a_time), log).work(keep);
+               const std::function<void(std::size_t, const RunOutcome &)> &keep, const RunTold &tell) {
+  Processes(runs, at_a_time, log, tell).work(keep);
 }
 
 } // namespace platen::apps

@@ -21,6 +21,7 @@ struct StudyRun {
   std::string name; // of its folder below runs/: "sphere_radius_0.001_seed_2"
   std::filesystem::path folder;
   std::size_t specimen_of = 0; // the first run that has the same packing: itself, or one before
+  double seconds = 0;          // StudyCase::seconds
   std::string scene;           // that its entries change
   std::vector<std::string> overrides = {};
   std::vector<std::string> command; // platen-compress and what it is given, but for overwrite or resume
@@ -64,14 +65,21 @@ std::vector<StudyRun> runs_of(const StudyPlan &plan, const std::string &scene,
 // FolderError where there is any and it may not.
 void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<std::filesystem::path> &inputs);
 
-// Carries out all runs, at most `at_a_time` at once, started in their order; `keep` is called for each in
-// that order as soon as it and all before it have ended. A run whose summary says done is kept where the
+// Numbers of runs in the order in which they are best started where several run at a time, so that the last
+// ones end together: the longest first, but one of each packing before all others of it, which would wait for
+// it to be packed. One at a time: as they are.
+std::vector<std::size_t> order_of_start(const std::vector<StudyRun> &runs, int at_a_time);
+
+// Carries out all runs, at most `at_a_time` at once, in the order of their start; `tell` is called for each
+// when it has ended, with how many have, `keep` for each in their own order as soon as it and all before it
+// have ended. A run whose summary says done is kept where the
 // summary is as it was written, of this scene and of the files that it names now; else the reason is told and
 // it is made again. One with checkpoints goes on from the newest; any other is made anew. A run that fails is
 // an outcome, no exception; but where one cannot write, no other could: those under way are stopped with
 // their checkpoints, and OutputError is thrown. A signal that asks this program to stop is passed on; when
 // the runs have written their checkpoints, Stopped is thrown.
+using RunTold = std::function<void(std::size_t run, const RunOutcome &, std::size_t ended)>;
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
-               const std::function<void(std::size_t, const RunOutcome &)> &keep);
+               const std::function<void(std::size_t, const RunOutcome &)> &keep, const RunTold &tell = {});
 
 } // namespace platen::apps

@@ -38,14 +38,17 @@ StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std:
       paths_(paths),
       log_(log),
       tables_(plan, paths),
-      accuracy_(plan) {}
+      accuracy_(plan),
+      missed_(runs.size()) {}
+
+void StudyResults::tell(std::size_t k, const RunOutcome &outcome, std::size_t ended) {
+  const std::string head = fmt::format("  {} of {}  {}", ended, runs_.size(), runs_[k].name);
+  missed_[k] = tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_);
+}
 
 void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
   tables_.add(runs_[k], outcome);
   accuracy_.add(runs_[k], outcome);
-  const std::string head = fmt::format("  {} of {}  {}", k + 1, runs_.size(), runs_[k].name);
-  for (std::string &line : tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_))
-    missed_.push_back(std::move(line));
 }
 
 std::string StudyResults::compare(Json &study) const {
@@ -87,7 +90,10 @@ int StudyResults::finish(const Json &costs) {
   write_summary(paths_.study_json(), study);
   Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
   s.update(study);
-  s["missed"] = missed_;
+  std::vector<std::string> missed;
+  for (const std::vector<std::string> &of_run : missed_)
+    missed.insert(missed.end(), of_run.begin(), of_run.end());
+  s["missed"] = missed;
   s.update(costs);
   s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");
   s["inputs_sha256"] = input_sums(scene_);
@@ -100,7 +106,7 @@ int StudyResults::finish(const Json &costs) {
     log_.error("no run came to its end");
     return status_numerics;
   }
-  return missed_.empty() ? status_done : status_check_failed;
+  return missed.empty() ? status_done : status_check_failed;
 }
 
 } // namespace platen::apps

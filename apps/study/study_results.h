@@ -23,6 +23,8 @@ public:
   StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
                const OutputPaths &paths, RunLog &log);
 
+  // Of run k when it has ended, the how manieth of all.
+  void tell(std::size_t k, const RunOutcome &outcome, std::size_t ended);
   // Of run k, in their order.
   void keep(std::size_t k, const RunOutcome &outcome);
   // Once all are there. `costs` are the keys of summary.json on what the study took. Returns the exit status.
@@ -41,7 +43,7 @@ private:
   RunLog &log_;
   StudyTables tables_;
   Accuracy accuracy_;
-  std::vector<std::string> missed_; // of what the scene expects of each run
+  std::vector<std::vector<std::string>> missed_; // of what the scene expects, by run
 };
 
 } // namespace platen::apps
