@@ -25,11 +25,10 @@ PLATEN_INLINE Eight eight_at(const Face *const *face, std::size_t place) {
   return {dem::kernels::first_columns(rows), dem::kernels::second_columns(rows)};
 }
 
-// In the order of its members.
-PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
-  static_assert(sizeof(MovingFace) == 36 * sizeof(double));
+// Of a BilinearMap, in the order of its members; returns its last double and the seven that follow.
+template <class Map, class Face>
+PLATEN_INLINE Eight read_map(const Face *const *face, Map &m) {
   const Eight a = eight_at(face, 0), b = eight_at(face, 8), c = eight_at(face, 16);
-  FaceMap<Pack> m;
   m.e = {a.first.w, a.first.x, a.first.y};
   m.f = {a.first.z, a.second.w, a.second.x};
   m.t = {a.second.y, a.second.z, b.first.w};
@@ -37,8 +36,15 @@ PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
   m.free = {b.second.w, b.second.x, b.second.y};
   m.square = b.second.z;
   m.constant = c.first.w;
-  m.corner = {c.first.x, c.first.y, c.first.z};
-  m.normal = {c.second.w, c.second.x, c.second.y};
+  return c;
+}
+
+PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
+  static_assert(sizeof(MovingFace) == 36 * sizeof(double));
+  FaceMap<Pack> m;
+  const Eight rest = read_map(face, m);
+  m.corner = {rest.first.x, rest.first.y, rest.first.z};
+  m.normal = {rest.second.w, rest.second.x, rest.second.y};
   for (int l = 0; l < lanes; ++l)
     m.single_foot.v[l] = face[l]->single_foot;
   return m;
@@ -46,17 +52,10 @@ PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
 
 PLATEN_INLINE FlatMap<Pack> map_of(const FlatFace *const *face) {
   static_assert(sizeof(FlatFace) == 24 * sizeof(double));
-  const Eight a = eight_at(face, 0), b = eight_at(face, 8), c = eight_at(face, 16);
   FlatMap<Pack> m;
-  m.e = {a.first.w, a.first.x, a.first.y};
-  m.f = {a.first.z, a.second.w, a.second.x};
-  m.t = {a.second.y, a.second.z, b.first.w};
-  m.linear = {b.first.x, b.first.y, b.first.z};
-  m.free = {b.second.w, b.second.x, b.second.y};
-  m.square = b.second.z;
-  m.constant = c.first.w;
-  m.normal = {c.first.x, c.first.y, c.first.z};
-  m.flat = c.second.w;
+  const Eight rest = read_map(face, m);
+  m.normal = {rest.first.x, rest.first.y, rest.first.z};
+  m.flat = rest.second.w;
   return m;
 }
 
