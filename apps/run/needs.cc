@@ -223,6 +223,15 @@ CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape) {
               longest_step(scene, shape, settings)};
 }
 
+CountedCosts counted_costs(const Scene &scene) {
+  try {
+    if (scene.specimen.packing != PackingKind::file && !scene.loading.bending())
+      return counted_costs(scene, specimen_shape(scene));
+  } catch (const std::exception &) { // which its run will tell
+  }
+  return {not_given, not_given, not_given};
+}
+
 Needs needs_of(const Scene &scene, const dem::Shape &shape) {
   return needs_of(scene, shape, settings_without_meshes(scene), elements_around(scene));
 }

@@ -30,6 +30,9 @@ struct CountedCosts {
   double spheres = 0, bytes = 0, seconds = 0;
 };
 CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape);
+// Of a run of the scene; NaN where nothing can be counted: specimens of files, bars that lie, and what its
+// run will refuse.
+CountedCosts counted_costs(const Scene &scene);
 
 // For a dry run that would have to make more than a share of the memory only to look at it: its estimate from
 // the counts alone. "" where it can be made.

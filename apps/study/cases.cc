@@ -7,7 +7,6 @@
 
 #include "apps/run/needs.h"
 #include "apps/run/shared_packing.h"
-#include "apps/run/specimen_setup.h"
 #include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -102,13 +101,6 @@ using Plan = StudyPlan (*)(const Scene &);
 constexpr std::array<Plan, study_words.size() - 1> plans{plan_friction, plan_slenderness, plan_size,
                                                          plan_packing,  plan_rate,        plan_accuracy};
 
-// 0 where nobody knows: specimens of files, bars that lie, stages.
-double counted_seconds(const Scene &scene) {
-  if (scene.specimen.packing == PackingKind::file || scene.loading.bending()) return 0;
-  const double seconds = counted_costs(scene, specimen_shape(scene)).seconds;
-  return std::isfinite(seconds) ? seconds : 0;
-}
-
 } // namespace
 
 const char *word(StudyKind kind) {
@@ -173,7 +165,8 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
   for (StudyCase &one : plan.cases) {
     const Scene led_to = scene_of(one, kind, scene, plan.seeds.back(), overrides);
     if (of_platens(kind)) label_platens(one, led_to);
-    one.seconds = counted_seconds(led_to);
+    const double seconds = counted_costs(led_to).seconds;
+    one.seconds = std::isfinite(seconds) ? seconds : 0;
     if (kind == StudyKind::accuracy) label_parameters(one, led_to);
     for (const unsigned long seed : plan.seeds) {
       const std::string recipe = packing_recipe(led_to, seed);

@@ -12,7 +12,6 @@
 #include "apps/run/app_output.h"
 #include "apps/run/changed_scene.h"
 #include "apps/run/needs.h"
-#include "apps/run/specimen_setup.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/version.h"
 
@@ -44,15 +43,13 @@ CountedCosts with_libraries(CountedCosts costs) {
   return costs;
 }
 
-// Of the first run of a case; a specimen of a file and bars that lie are not counted.
+// Of the first run of a case.
 CountedCosts costs_of_run(const StudyRun &run) {
   try {
-    const Scene scene = read_scene(run.scene, run.overrides, AppKind::compress);
-    if (scene.specimen.packing != PackingKind::file && !scene.loading.bending())
-      return with_libraries(counted_costs(scene, specimen_shape(scene)));
+    return with_libraries(counted_costs(read_scene(run.scene, run.overrides, AppKind::compress)));
   } catch (const std::exception &) { // which its run will tell
+    return {not_given, not_given, not_given};
   }
-  return {not_given, not_given, not_given};
 }
 
 std::string line_of(const std::vector<CsvCell> &cells) {

@@ -70,15 +70,16 @@ void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<std:
 // it to be packed. One at a time: as they are.
 std::vector<std::size_t> order_of_start(const std::vector<StudyRun> &runs, int at_a_time);
 
-// Carries out all runs, at most `at_a_time` at once, in the order of their start; `tell` is called for each
-// when it has ended, with how many have, `keep` for each in their own order as soon as it and all before it
-// have ended. A run whose summary says done is kept where the
-// summary is as it was written, of this scene and of the files that it names now; else the reason is told and
-// it is made again. One with checkpoints goes on from the newest; any other is made anew. A run that fails is
-// an outcome, no exception; but where one cannot write, no other could: those under way are stopped with
-// their checkpoints, and OutputError is thrown. A signal that asks this program to stop is passed on; when
-// the runs have written their checkpoints, Stopped is thrown.
+// Of a run that has ended, and how many have by then.
 using RunTold = std::function<void(std::size_t run, const RunOutcome &, std::size_t ended)>;
+
+// Carries out all runs, at most `at_a_time` at once, in the order of their start; `tell` is called for each
+// when it has ended, `keep` for each in their own order as soon as it and all before it have ended. A run
+// whose summary says done is kept where the summary is as it was written, of this scene and of the files that
+// it names now; else the reason is told and it is made again. One with checkpoints goes on from the newest;
+// any other is made anew. A run that fails is an outcome, no exception; but where one cannot write, no other
+// could: those under way are stopped with their checkpoints, and OutputError is thrown. A signal that asks
+// this program to stop is passed on; when the runs have written their checkpoints, Stopped is thrown.
 void carry_out(const std::vector<StudyRun> &runs, int at_a_time, RunLog &log,
                const std::function<void(std::size_t, const RunOutcome &)> &keep, const RunTold &tell = {});
 
