@@ -8,7 +8,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "apps/scene/errors.h"
@@ -19,30 +24,88 @@ namespace {
 constexpr int cannot_start = 127;      // exit status, as shells have it
 constexpr off_t longest_errors = 8192; // bytes told of a program's last words
 
-// In the child, between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char *const *arguments, pid_t parent, int errors, Process::Output output) {
+// In the child, first of all: only calls that are safe between fork and exec.
+void take_place(pid_t parent, int errors, Process::Output output) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(cannot_start); // it died before it was watched
   const int nothing = open("/dev/null", O_RDWR);
   if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(errors, 2) < 0) _exit(cannot_start);
   if (output == Process::Output::dropped && dup2(nothing, 1) < 0) _exit(cannot_start);
-  execv(arguments[0], arguments);
-  _exit(cannot_start);
 }
+
+// As exec leaves them: what is handled is so no more, what is ignored stays so.
+void forget_signal_handlers() {
+  for (int number = 1; number < NSIG; ++number) {
+    struct sigaction action {};
+    if (sigaction(number, nullptr, &action) != 0 || action.sa_handler == SIG_DFL ||
+        action.sa_handler == SIG_IGN)
+      continue;
+    action = {};
+    action.sa_handler = SIG_DFL;
+    sigaction(number, &action, nullptr);
+  }
+}
+
+// What the parent still holds in memory for its files is the parent's to write: nothing of it is closed here.
+// Nor may anything thrown find its way back into what the parent was about.
+[[noreturn]] void act(const Process::Body &body, std::vector<char *> &arguments) noexcept {
+  prctl(PR_SET_NAME, std::filesystem::path(arguments[0]).filename().c_str());
+  const int status = body(static_cast<int>(arguments.size()) - 1, arguments.data());
+  std::cout.flush();
+  std::fflush(nullptr);
+  _exit(status);
+}
+
+// Signals wait while it lives, so that none is taken by what the child has of its parent.
+class SignalsHeldBack {
+public:
+  SignalsHeldBack() {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeldBack() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeldBack(const SignalsHeldBack &) = delete;
+  SignalsHeldBack &operator=(const SignalsHeldBack &) = delete;
+
+private:
+  sigset_t before_{};
+};
 
 } // namespace
 
 Process::Process(const std::vector<std::string> &command, Output output) {
+  start(command, nullptr, output);
+}
+
+Process::Process(const std::vector<std::string> &command, const Body &body, Output output) {
+  start(command, body, output);
+}
+
+void Process::start(const std::vector<std::string> &command, const Body &body, Output output) {
   std::vector<char *> arguments;
   for (const std::string &argument : command)
-    arguments.push_back(const_cast<char *>(argument.c_str())); // execv promises to leave them alone
+    arguments.push_back(const_cast<char *>(argument.c_str())); // nobody writes there
   arguments.push_back(nullptr);
   errors_ = memfd_create("errors", MFD_CLOEXEC);
   if (errors_ < 0) throw OutputError(command.front() + ": cannot be started: " + std::strerror(errno));
+  std::cout.flush();
+  std::fflush(nullptr); // or a copy would write it once more
   const pid_t parent = getpid();
-  id_ = fork();
-  if (id_ == 0) become(arguments.data(), parent, errors_, output);
+  {
+    const SignalsHeldBack until_told_apart;
+    id_ = fork();
+    if (id_ == 0) {
+      take_place(parent, errors_, output);
+      forget_signal_handlers();
+    }
+  }
+  if (id_ == 0 && body) act(body, arguments);
+  if (id_ == 0) {
+    execv(arguments[0], arguments.data());
+    _exit(cannot_start);
+  }
   if (id_ > 0) return;
   const std::string reason = std::strerror(errno);
   close(errors_);
@@ -81,6 +144,12 @@ std::string Process::errors() const {
   const ssize_t count = pread(errors_, text.data(), text.size(), from);
   text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   return text;
+}
+
+bool has_one_thread() {
+  std::error_code failure;
+  const std::filesystem::directory_iterator tasks("/proc/self/task", failure);
+  return !failure && std::distance(begin(tasks), end(tasks)) == 1;
 }
 
 } // namespace platen::apps

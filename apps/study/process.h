@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ public:
   // Program and arguments, no shell, in the working folder of this process. Throws OutputError where the
   // system has no process to give.
   explicit Process(const std::vector<std::string> &command, Output output = Output::dropped);
+  // The same of a function, in a copy of this process, which has its libraries loaded already: `body` gets
+  // the command as the main of a program does and returns the exit status. Handled signals are as a started
+  // program finds them. This process may have no other thread (has_one_thread()): a copy would be without it.
+  using Body = std::function<int(int argc, char **argv)>;
+  Process(const std::vector<std::string> &command, const Body &body, Output output);
   ~Process(); // asks a program that still runs to end, and waits for it
   Process(Process &&other) noexcept;
   Process &operator=(Process &&) = delete;
@@ -28,8 +34,12 @@ public:
   std::string errors() const;
 
 private:
+  void start(const std::vector<std::string> &command, const Body &body, Output output);
+
   pid_t id_ = -1; // -1: nothing runs
   int status_ = 0, errors_ = -1;
 };
+
+bool has_one_thread();
 
 } // namespace platen::apps

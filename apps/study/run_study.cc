@@ -113,7 +113,7 @@ int StudyApp::tell_costs() const {
     std::fflush(stdout);
     std::vector<std::string> command = runs_[k].command;
     command.emplace_back("--dry-run");
-    Process process(command, Process::Output::ours);
+    Process process = start_compress(command, Process::Output::ours);
     while (process.running())
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (process.status() == status_bad_input) throw InputError(runs_[k].name + ": " + process.errors());

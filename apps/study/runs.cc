@@ -16,6 +16,9 @@
 #include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/app_output.h"
+#include "apps/run/compression.h"
+#include "apps/run/ranks.h"
+#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
 
@@ -117,7 +120,7 @@ void Processes::start(std::size_t k, bool may_resume) {
   else if (is_there(run.folder))
     command.emplace_back("--overwrite");
   log_.detail("{}: {}", run.name, resumes ? "goes on from its checkpoint" : "starts");
-  active_.push_back({k, Process(command), resumes});
+  active_.push_back({k, start_compress(command, Process::Output::dropped), resumes});
 }
 
 void Processes::start_more() {
@@ -215,6 +218,14 @@ fs::path compress_program() {
     throw InputError("error: platen-compress is not beside platen-study (looked for " + program.string() +
                      "). Allowed: both programs in one folder.");
   return program;
+}
+
+Process start_compress(const std::vector<std::string> &command, Process::Output output) {
+  if (!has_one_thread()) return Process(command, output);
+  const auto compress = [](int argc, char **argv) {
+    return run_app_on_ranks(argc, argv, description_of(AppKind::compress), run_compression);
+  };
+  return Process(command, compress, output);
 }
 
 namespace {

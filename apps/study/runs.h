@@ -51,6 +51,10 @@ Left left_by(const StudyRun &run);
 // The program beside this one. Throws InputError where it is not there.
 std::filesystem::path compress_program();
 
+// platen-compress as a process of its own, by the command of a StudyRun. This program holds all of its code:
+// where it can, a copy of this process runs it, and no libraries are loaded anew, a quarter of a second each.
+Process start_compress(const std::vector<std::string> &command, Process::Output output);
+
 // One case on one seed, with so many threads; `scene` is the study's, `overrides` those of the command line.
 StudyRun run_of(const StudyPlan &plan, std::size_t of, unsigned long seed, const std::string &scene,
                 const std::vector<std::string> &overrides, const OutputPaths &paths, int threads);
