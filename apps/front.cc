@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -33,6 +34,12 @@ void hold_signals_back() {
   sigprocmask(SIG_BLOCK, &wait, nullptr);
 }
 
+// The engine has threads of its own (-t); those of the library for dense matrices would take a tenth of a
+// second to start and end, and could add in another order on a machine with more cores.
+void keep_one_thread_for_dense_matrices() {
+  ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -41,6 +48,7 @@ int main(int argc, char **argv) {
   if (const std::optional<int> status = answer_at_once(argc, argv, app)) return *status;
   const fs::path program = engine(app.name);
   hold_signals_back();
+  keep_one_thread_for_dense_matrices();
   ::execv(program.c_str(), argv);
   std::cerr << "error: " << program.string() << " cannot be started: " << std::strerror(errno)
             << ". It belongs to " << app.name << ": install both anew\n";
