@@ -217,7 +217,7 @@ ExactSum compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, co
   for (std::size_t block = 0; block < found.size(); ++block) {
     if (!found[block].reached) continue;
     const auto before = static_cast<std::ptrdiff_t>(breaks.size());
-    for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
+    for (std::size_t k = found[block].first_reached; k < found[block].end_reached; ++k)
       if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))
         breaks.push_back({static_cast<int>(k), b.failed_in_tension(k) ? BondState::broken_in_tension
                                                                       : BondState::broken_in_shear});

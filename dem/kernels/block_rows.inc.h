@@ -200,6 +200,12 @@ PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Trip
   }
 }
 
+// Bonds [from, to), of which some reach, behind all that were told before.
+PLATEN_INLINE void add_reached(BlockFindings &found, std::size_t from, std::size_t to) {
+  if (!found.reached) found.first_reached = from;
+  found.reached = true, found.end_reached = to;
+}
+
 // Copies the particles and clears the sums.
 template <class Rows>
 void gather(const BondColumns &c, const BlockColumns &block) {

@@ -58,8 +58,7 @@ struct BondColumns {
 struct BlockFindings {
   bool reached = false;     // a bond may be at or above its strength; or an interface has failed in this step
   double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
-  std::size_t first_reached = 0,
-              end_reached = 0; // only of elastic bonds: all that reached are among these rows
+  std::size_t first_reached = 0, end_reached = 0; // all that reached are among these rows
 };
 
 // What a bond holds, row by row, from index 0. Any pointer may be null.

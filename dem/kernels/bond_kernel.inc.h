@@ -75,12 +75,10 @@ BlockFindings compute_forces(const BondColumns &c, const BlockColumns &block, co
                              std::size_t first, std::size_t last) {
   using Rows = typename Loop::Rows;
   gather<Rows>(c, block);
-  BlockFindings found{false, 0, last, first};
+  BlockFindings found;
   PowerSum power;
   const auto look = [&](std::size_t at, std::size_t end, const Pack &excess) {
-    if (lanes_at_least(excess, Pack(0.0)) == 0) return;
-    if (!found.reached) found.first_reached = at;
-    found.reached = true, found.end_reached = end;
+    if (lanes_at_least(excess, Pack(0.0)) != 0) add_reached(found, at, end);
   };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)

@@ -314,13 +314,16 @@ template <class Rows, bool factors, bool dashpots, class Law>
 BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
                              std::size_t first, std::size_t last) {
   gather<Rows>(c.bonds, block);
-  Pack failed(0.0);
+  BlockFindings found;
   PowerSum power;
+  const auto look = [&](std::size_t at, std::size_t end, const Pack &failed) {
+    if (any_positive(failed)) add_reached(found, at, end);
+  };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {
     foresee_packs<Law>(c, k);
     const Ends ends = ends_of(c.bonds, block, k);
-    failed = larger(failed, add_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power));
+    look(k, k + lanes, add_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power));
   }
   if (k < last) {
     Tail tail(c.bonds, k, last);
@@ -328,12 +331,13 @@ BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &bloc
     const TailEnds at = tail_ends<Rows>(c.bonds, block, k, last);
     const InterfaceColumns rest{tail.columns(c.bonds), memory.columns()};
     const Ends ends{block.rows, at.at};
-    failed = larger(failed, add_pack<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
+    look(k, last, add_pack<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
     memory.give_back(c.memory, k, last);
     tail.give_back(c.bonds, k, last);
   }
   scatter<Rows>(block);
-  return {any_positive(failed), power.sum};
+  found.dashpot_power = power.sum;
+  return found;
 }
 
 template <bool rotation, bool dashpots, class Law>
