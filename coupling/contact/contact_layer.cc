@@ -244,7 +244,7 @@ double ContactLayer::stiffest_spring(int face, double radius) const {
 
 std::size_t ContactLayer::bytes() const {
   return table_.size() * table_.bytes_per_row() + loads_.capacity() * sizeof(RowLoad) +
-         contacts_.capacity() * sizeof(RowContact) + search_.bytes();
+         contacts_.capacity() * sizeof(RowContact) + moments_.capacity() * sizeof(Vector3) + search_.bytes();
 }
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,

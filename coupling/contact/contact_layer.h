@@ -242,6 +242,7 @@ private:
   std::vector<std::size_t> due_;     // rows to work out in this step
   std::vector<RowLoad> loads_;       // of them
   std::vector<RowContact> contacts_; // of them
+  std::vector<Vector3> moments_;     // N m, of them; with seats
   double elastic_energy_ = 0;
   // Of Hertz, overlap over radius: the most in the last step, and what springs are counted for.
   double deepest_ = 0, counted_ = 0;

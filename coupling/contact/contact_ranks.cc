@@ -44,7 +44,8 @@ void ContactLayer::put_loads(std::vector<char> &bytes) const {
     shared.friction_loss = l.friction_loss, shared.damping_loss = l.damping_loss;
     if (active) {
       shared.face = l.face, shared.weights = l.weights;
-      shared.force = l.force, shared.point = contacts_[k].point, shared.moment = contacts_[k].moment;
+      shared.force = l.force, shared.point = contacts_[k].point;
+      if (seat_spring_ != nullptr) shared.moment = moments_[k];
       shared.elastic = l.elastic, shared.depth = l.depth;
     }
     put(bytes, shared);
@@ -60,10 +61,12 @@ void ContactLayer::take_loads(const std::vector<char> &of_all) {
   std::vector<std::size_t> rows;
   std::vector<RowLoad> loads;
   std::vector<RowContact> contacts;
+  std::vector<Vector3> moments;
   rows.reserve(shared.size()), loads.reserve(shared.size()), contacts.reserve(shared.size());
   for (const SharedLoad &s : shared) {
     const std::size_t row = static_cast<std::size_t>(s.row);
     rows.push_back(row);
+    if (seat_spring_ != nullptr) moments.push_back(s.moment);
     if (is_own(row)) {
       const std::size_t k =
           static_cast<std::size_t>(std::lower_bound(due_.begin(), due_.end(), row) - due_.begin());
@@ -75,11 +78,10 @@ void ContactLayer::take_loads(const std::vector<char> &of_all) {
     load.force = s.force;
     load.elastic = s.elastic, load.friction_loss = s.friction_loss, load.damping_loss = s.damping_loss;
     load.depth = s.depth;
-    RowContact contact{};
-    contact.point = s.point, contact.moment = s.moment;
-    loads.push_back(load), contacts.push_back(contact);
+    loads.push_back(load), contacts.push_back({s.point, {}});
   }
   due_ = std::move(rows), loads_ = std::move(loads), contacts_ = std::move(contacts);
+  moments_ = std::move(moments);
 }
 
 void ContactLayer::put_rows(std::vector<char> &bytes) const {
@@ -92,7 +94,9 @@ void ContactLayer::put_rows(std::vector<char> &bytes) const {
     }
     const auto due = std::lower_bound(due_.begin(), due_.end(), row);
     const bool found = due != due_.end() && *due == row;
-    put(bytes, found ? contacts_[static_cast<std::size_t>(due - due_.begin())] : RowContact{});
+    const std::size_t k = static_cast<std::size_t>(due - due_.begin());
+    put(bytes, found ? contacts_[k] : RowContact{});
+    put(bytes, found ? loads_[k].normal_force : 0.0);
   }
 }
 
@@ -105,8 +109,11 @@ void ContactLayer::take_rows(const std::vector<char> &of_all) {
       at += width;
     }
     const RowContact contact = take<RowContact>(of_all, at);
+    const double normal_force = take<double>(of_all, at);
     const auto due = std::lower_bound(due_.begin(), due_.end(), row);
-    if (due != due_.end() && *due == row) contacts_[static_cast<std::size_t>(due - due_.begin())] = contact;
+    if (due == due_.end() || *due != row) continue;
+    const std::size_t k = static_cast<std::size_t>(due - due_.begin());
+    contacts_[k] = contact, loads_[k].normal_force = normal_force;
   }
 }
 

@@ -50,6 +50,7 @@ void ContactLayer::find_due_rows() {
     if (!(travelled_ < idle_until_[row]) && is_own(row)) due_.push_back(row);
   loads_.resize(due_.size());
   contacts_.resize(due_.size());
+  if (seat_spring_ != nullptr) moments_.resize(due_.size());
 }
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
@@ -103,10 +104,11 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
   load.weights = r.at.local.weights;
   load.force = r.normal_force * r.at.normal + r.shear;
   load.torque = cross(arm, load.force) + r.moment;
+  load.normal_force = r.normal_force;
   load.elastic = r.elastic;
   load.depth = r.depth;
-  contacts_[k] = {centre + arm, r.at.normal,          r.shear, r.moment, r.normal_force,
-                  r.slip,       r.spring.sliding != 0};
+  contacts_[k] = {centre + arm, r.at.normal};
+  if (seat_spring_ != nullptr) moments_[k] = r.moment;
 }
 
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
@@ -130,8 +132,7 @@ void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &b
     elastic += load.elastic;
     deepest = std::max(deepest, load.depth);
     apply_force(body, load.face, load.weights, -load.force);
-    if (seat_spring_ != nullptr && norm_squared(contacts_[k].moment) > 0)
-      apply_moment(body, load.face, -contacts_[k].moment);
+    if (seat_spring_ != nullptr && norm_squared(moments_[k]) > 0) apply_moment(body, load.face, -moments_[k]);
   }
   closed = active;
   elastic_energy_ = elastic;
@@ -146,7 +147,7 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
   if (spring_ != nullptr) {
     (*spring_)[row] = r.spring.spring;
     (*sliding_)[row] = r.spring.sliding;
-    (*slip_)[row] = r.slip = r.active ? (*slip_)[row] + r.slip : 0;
+    (*slip_)[row] = r.active ? (*slip_)[row] + r.slip : 0;
     if (tangential_stiffness_ != nullptr) (*tangential_stiffness_)[row] = r.tangential_stiffness;
   }
   if (seat_spring_ != nullptr) {
@@ -283,22 +284,31 @@ void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double
 std::vector<ActiveContact> ContactLayer::contacts() const {
   std::vector<ActiveContact> active;
   for (std::size_t k = 0; k < loads_.size(); ++k) {
-    const RowContact &c = contacts_[k];
-    if (loads_[k].particle >= 0)
-      active.push_back({loads_[k].particle, loads_[k].face, c.point, c.normal, c.normal_force, c.shear,
-                        c.sliding, c.slip});
+    const RowLoad &load = loads_[k];
+    if (load.particle < 0) continue;
+    ActiveContact c;
+    c.particle = load.particle, c.face = load.face;
+    c.point = contacts_[k].point, c.normal = contacts_[k].normal;
+    c.normal_force = load.normal_force;
+    if (spring_ != nullptr) {
+      c.shear = (*spring_)[due_[k]];
+      c.sliding = (*sliding_)[due_[k]] != 0;
+      c.slip = (*slip_)[due_[k]];
+    }
+    active.push_back(c);
   }
   return active;
 }
 
 std::vector<double> ContactLayer::vertex_slip(const fem::LoadedSurface &body) const {
   std::vector<double> sum(body.surface().vertices.size()), weight(sum.size());
+  if (slip_ == nullptr) return sum;
   for (std::size_t k = 0; k < loads_.size(); ++k) {
     if (loads_[k].particle < 0) continue;
     const auto &corners = body.surface().faces[static_cast<std::size_t>(loads_[k].face)];
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = static_cast<std::size_t>(corners[corner]);
-      sum[v] += loads_[k].weights[corner] * contacts_[k].slip;
+      sum[v] += loads_[k].weights[corner] * (*slip_)[due_[k]];
       weight[v] += loads_[k].weights[corner];
     }
   }

@@ -89,7 +89,7 @@ PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const Surfac
 }
 
 struct Push {
-  LaneMask active, sliding;
+  LaneMask active;
   Triple<Pack> shear;
   Pack normal_force, elastic, friction_loss, damping_loss, slip;
 };
@@ -112,7 +112,6 @@ PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r,
       dem::spring_with_friction<How>(choose<How>(touched, turned, spring), scale(Pack(-s.dt), slide),
                                      push.normal_force, k_t, slides_above, Pack(s.friction_dynamic));
   push.shear = f.spring;
-  push.sliding = f.slides;
   push.friction_loss = f.dissipated;
   push.elastic = push.elastic + Pack(0.5) * dot(f.spring, f.spring) / k_t;
   push.slip = How::choose(push.active, read(c.slip, r) + f.slip, zero);
@@ -162,35 +161,28 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
   return push;
 }
 
-// Vectors first, four numbers at once, which run into what is written next.
+// Four numbers at once; what runs into the next one is written before it.
 PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Push &push,
                         RowLoad *load, RowContact *contact) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
-  const Pack zero = Pack(0.0);
-  dem::kernels::Row forces[lanes], torques[lanes], points[lanes], normals[lanes], shears[lanes];
-  dem::kernels::Row sums[lanes], pressing[lanes];
+  const Triple<Pack> point = gather(c.position, r.particle) + p.arm;
+  dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes];
   dem::kernels::to_rows(force, forces);
   dem::kernels::to_rows(cross(p.arm, force), torques);
-  dem::kernels::to_rows(Rotation<Pack>{push.elastic, push.friction_loss, push.damping_loss, zero}, sums);
-  dem::kernels::to_rows(gather(c.position, r.particle) + p.arm, points);
-  dem::kernels::to_rows(p.normal, normals);
-  dem::kernels::to_rows(push.shear, shears);
-  dem::kernels::to_rows(Rotation<Pack>{zero, zero, push.normal_force, push.slip}, pressing);
+  dem::kernels::to_rows(
+      Rotation<Pack>{push.normal_force, push.elastic, push.friction_loss, push.damping_loss}, sums);
+  dem::kernels::to_rows(Rotation<Pack>{point.x, point.y, point.z, p.normal.x}, places);
+  dem::kernels::to_rows(Rotation<Pack>{point.z, p.normal.x, p.normal.y, p.normal.z}, normals);
   const unsigned active = dem::kernels::bits_of(push.active);
-  const unsigned sliding = c.spring != nullptr ? dem::kernels::bits_of(push.sliding) : 0;
   for (int l = 0; l < r.count; ++l) {
     load[l].particle = active >> l & 1u ? r.particle[l] : -1;
     load[l].face = r.point[l]->face;
     dem::kernels::store_row(load[l].weights.data(), dem::kernels::load_row(r.point[l]->local.weights.data()));
     dem::kernels::store_row(&load[l].force.x, forces[l]);
     dem::kernels::store_row(&load[l].torque.x, torques[l]);
-    dem::kernels::store_row(&load[l].elastic, sums[l]);
-    dem::kernels::store_row(&contact[l].point.x, points[l]);
-    dem::kernels::store_row(&contact[l].normal.x, normals[l]);
-    dem::kernels::store_row(&contact[l].shear.x, shears[l]);
-    contact[l].moment.x = 0;
-    dem::kernels::store_row(&contact[l].moment.y, pressing[l]);
-    contact[l].sliding = sliding >> l & 1u;
+    dem::kernels::store_row(&load[l].normal_force, sums[l]);
+    dem::kernels::store_row(&contact[l].point.x, places[l]);
+    dem::kernels::store_row(&contact[l].point.z, normals[l]);
   }
 }
 

@@ -13,15 +13,16 @@ struct alignas(64) RowLoad {
   int face = -1;
   std::array<double, 4> weights{};
   Vector3 force, torque;                                   // N, N m about the centre
+  double normal_force = 0;                                 // N, share of the force along the normal
   double elastic = 0, friction_loss = 0, damping_loss = 0; // J
   double depth = 0;                                        // 1, overlap over radius
 };
 
-// What else is told of it when somebody asks.
+static_assert(sizeof(RowLoad) == 2 * 64);
+
+// Where it touches. What else is told of a contact is in its row's history.
 struct RowContact {
-  Vector3 point, normal, shear, moment; // m, 1, N, N m
-  double normal_force = 0, slip = 0;    // N, m
-  bool sliding = false;
+  Vector3 point, normal; // m, 1
 };
 
 constexpr double idle_margin = 1e-9; // of a gap, for round-off
