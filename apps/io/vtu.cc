@@ -26,6 +26,9 @@
 namespace platen::apps {
 namespace {
 
+// Of 9. VTK's own choice, 5, makes files 2 % smaller and takes a quarter of the time of all output.
+constexpr int quick_compression = 1;
+
 // A VTK array on the caller's numbers without a copy: they must live as long as the grid.
 template <class Number>
 vtkSmartPointer<vtkDataArray> view(const Number *numbers, std::size_t count, int components) {
@@ -76,6 +79,7 @@ void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
   writer.SetDataModeToAppended();
   writer.EncodeAppendedDataOff();
   writer.SetCompressorTypeToZLib();
+  writer.SetCompressionLevel(quick_compression);
   const int written = writer.Write();
   const unsigned long error = writer.GetErrorCode();
   if (written == 0 || error != vtkErrorCode::NoError)
