@@ -14,9 +14,6 @@ namespace {
 
 // Broken rows are dropped once they are this share of all rows.
 constexpr double compaction_share = 0.02;
-// On ranks, of each thread: some fifty microseconds.
-constexpr std::size_t blocks_between_progress = 2;
-
 const ModelSettings &checked(const ModelSettings &settings) {
   require_in_range(settings);
   return settings;
@@ -101,17 +98,6 @@ void Model::begun(double dt) {
   if (exchange_) start_exchange(dt);
 }
 
-// Messages are on their way while inner blocks are computed.
-void Model::start_exchange(double dt) {
-  exchange_->send_motion(particles);
-  exchange_->start_sums({motion_.fastest, motion_.speed_squares, own_breaks_});
-  compute_portions(dt, exchange_->blocks().first_inner);
-  exchange_->receive_motion(particles);
-  const StepSums sums = exchange_->finish_sums();
-  motion_ = {sums.fastest, sums.speed_squares};
-  known_breaks_ = breaks_before_sharing_ + sums.breaks;
-}
-
 void Model::search_contacts() {
   if (!contacts) return;
   StageClock::Lap lap(clock, Stage::search);
@@ -131,40 +117,6 @@ void Model::compute_forces(double dt, const Loop &beside, const std::function<vo
     StageClock::Lap lap(clock, Stage::contacts);
     contacts->compute(particles, dt);
   }
-}
-
-// Outer blocks come first, so that what they exert on particles of other ranks is under way while the rest of
-// the inner ones is computed.
-void Model::compute_shared(double dt, const Loop &beside, const std::function<void()> &done) {
-  const OwnBlocks &blocks = exchange_->blocks();
-  compute_portions(dt, blocks.outer, beside);
-  if (done) done();
-  finish_breaks(dt);
-  if (bonds) exchange_->send_bond_ghosts(bonds->blocks);
-  compute_portions(dt, blocks.last_inner);
-  finish_breaks(dt);
-  if (!contacts) return;
-  {
-    StageClock::Lap lap(clock, Stage::contacts);
-    contacts->compute(particles, dt, &blocks.all);
-  }
-  exchange_->send_contact_ghosts(contacts->blocks());
-}
-
-// What is done beside comes with the last of them.
-void Model::compute_portions(double dt, const BlockList &listed, const Loop &beside) {
-  const std::size_t portion = blocks_between_progress * static_cast<std::size_t>(loop_threads());
-  BlockList some;
-  for (std::size_t first = 0; first + portion < listed.size(); first += portion) {
-    some.assign(listed.begin() + static_cast<std::ptrdiff_t>(first),
-                listed.begin() + static_cast<std::ptrdiff_t>(first + portion));
-    compute_bonds(dt, &some);
-    exchange_->progress();
-  }
-  const std::size_t rest = listed.empty() ? 0 : (listed.size() - 1) / portion * portion;
-  some.assign(listed.begin() + static_cast<std::ptrdiff_t>(rest), listed.end());
-  compute_bonds(dt, &some, beside);
-  exchange_->progress();
 }
 
 void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside) {
@@ -229,57 +181,6 @@ void Model::set_strain_of_cracks(double strain) {
   for (std::vector<Crack> *list : {&cracks, &unsettled_})
     for (std::size_t k = list->size(); k-- > 0 && (*list)[k].time == time;)
       (*list)[k].strain = strain;
-}
-
-void Model::share(std::unique_ptr<Exchange> exchange) {
-  exchange_ = std::move(exchange);
-}
-
-void Model::settle() {
-  if (!exchange_) return;
-  for (const Crack &crack : exchange_->all_cracks(std::exchange(unsettled_, {}))) {
-    count(crack);
-    bonds->state[crack.record] = static_cast<int>(crack.mode);
-    bonds->break_time[crack.record] = crack.time;
-  }
-}
-
-void Model::gather_motion() {
-  if (!exchange_ || !cut_) return;
-  settle();
-  exchange_->gather_motion(particles);
-}
-
-void Model::settle_state() {
-  if (!exchange_ || !cut_) return;
-  settle();
-  if (bonds) bonds->compact();
-  exchange_->sum_up(*this);
-}
-
-void Model::gather() {
-  if (!exchange_ || !cut_) return;
-  settle();
-  if (bonds) bonds->compact();
-  exchange_->gather(*this);
-  cut_ = false;
-}
-
-void Model::scatter() {
-  if (!exchange_ || cut_) return;
-  exchange_->scatter(*this);
-  own_breaks_ = 0;
-  breaks_before_sharing_ = broken_tension + broken_shear;
-  cut_ = true;
-}
-
-Ghosts Model::ghosts() const {
-  return {bonds ? &bonds->blocks : nullptr, contacts ? &contacts->blocks() : nullptr};
-}
-
-void Model::receive_ghosts() {
-  if (exchange_)
-    exchange_->receive_ghosts(bonds ? &bonds->blocks : nullptr, contacts ? &contacts->blocks() : nullptr);
 }
 
 void Model::add_sums() {

@@ -14,6 +14,7 @@ set(PLATEN_REPORT_SOURCES
   report/calibration.cc
   report/canvas.cc
   report/chart.cc
+  report/chart_points.cc
   report/chart_svg.cc
   report/cones.cc
   report/crack_pictures.cc
