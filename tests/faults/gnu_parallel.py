@@ -28,9 +28,11 @@ def processes(folder):
     for entry in pathlib.Path("/proc").iterdir():
         try:
             words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
+            name = (entry / "comm").read_text().strip() if words else ""
         except OSError:  # it has ended
             continue
-        if words and words[0].endswith(b"platen-compress") and any(word.startswith(os.fsencode(folder)) for word in words):
+        # A run may be a copy of platen-study, whose command line it has.
+        if name == "platen-compress" and any(word.startswith(os.fsencode(folder)) for word in words):
             found.append(int(entry.name))
     return sorted(found)
 
