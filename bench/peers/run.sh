@@ -6,27 +6,17 @@
 # plain x86-64, which is what Debian builds Yade for).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-fail() {
-  echo "run.sh: $1" >&2
-  exit 1
-}
+source "$here/common.sh"
 [ $# -eq 2 ] || fail "usage: run.sh BUILD OUT"
 build=$1 out=$2
 particles=${PARTICLES:-22500} steps=${STEPS:-500} repeats=${REPEATS:-3} pairs=${PAIRS:-5}
 platen_options=(--alone)
 [ "${BASELINE:-0}" = 0 ] || platen_options+=(--baseline)
-read -ra thread_counts <<<"${THREADS:-1 2}"
-read -ra within <<<"${WITHIN:-}"
-
-command -v yade >/dev/null || fail "yade is missing: apt-get install yade"
-command -v python3 >/dev/null || fail "python3 is missing: apt-get install python3"
+check_machine
 for bench in "$build"/{bench,bin,.}/bench_step; do
   [ -x "$bench" ] && break
 done
 [ -x "$bench" ] || fail "no bench_step in $build: configure with PLATEN_APPS=ON and build it"
-for threads in "${thread_counts[@]}"; do
-  [ "$threads" -le "$(nproc)" ] || fail "$threads threads on $(nproc) cores would measure the scheduler; set THREADS"
-done
 mkdir -p "$out"
 
 # Runs a command with its output in a log; prints the peak of its resident memory, MB. Fails as the command does.
@@ -69,19 +59,8 @@ for threads in "${thread_counts[@]}"; do
   done
 done
 
-commit=$(git -C "$here" rev-parse --short HEAD 2>/dev/null || echo unknown)
-[ "$commit" = unknown ] || git -C "$here" diff --quiet HEAD || commit="$commit with changes"
 {
-  echo "# One step of Platen and of Yade, measured"
-  echo
-  echo "Written by \`bench/peers/run.sh\`; bench/peers/README.md says what is the same and what is not."
-  echo
-  echo "- machine: $(LC_ALL=C lscpu | sed -n 's/^Model name: *//p' | head -n 1), $(nproc) cores," \
-    "$(awk '/^MemTotal/ { printf "%.0f GB", $2 / 1048576 }' /proc/meminfo)," \
-    "$(sed -nE 's/^PRETTY_NAME="?([^"]*)"?$/\1/p' /etc/os-release)"
-  echo "- date: $(date -u +%Y-%m-%d); commit: $commit"
-  echo "- Yade: $(yade --version 2>&1 </dev/null | sed -nE 's/^Yade version: *([^ ]+).*/\1/p' | head -n 1)," \
-    "package $(dpkg-query -W -f '${Version}' yade 2>/dev/null || echo "not Debian's")"
+  table_head "One step of Platen and of Yade"
   echo "- kernels of Platen: $(found "$out/packing.log" '^.*threads, (.*) kernels.*$'); step $time_step s in both"
   echo "- $steps steps a repeat, median of $repeats repeats a run, $pairs pairs of runs in turn"
   echo

@@ -7,25 +7,15 @@
 # WITHIN (nothing; a command that runs each program, such as "flock FILE").
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-fail() {
-  echo "whole.sh: $1" >&2
-  exit 1
-}
+source "$here/common.sh"
 [ $# -eq 2 ] || fail "usage: whole.sh BUILD OUT"
 build=$1 out=$2
 radius=${RADIUS:-1.78 mm} pairs=${PAIRS:-1}
-read -ra thread_counts <<<"${THREADS:-1 2}"
-read -ra within <<<"${WITHIN:-}"
-
-command -v yade >/dev/null || fail "yade is missing: apt-get install yade"
-command -v python3 >/dev/null || fail "python3 is missing: apt-get install python3"
+check_machine
 for apps in "$build"/{apps,bin,.}; do
   [ -x "$apps/platen-compress" ] && [ -x "$apps/platen-pack" ] && break
 done
 [ -x "$apps/platen-compress" ] || fail "no platen-compress in $build: configure with PLATEN_APPS=ON and build it"
-for threads in "${thread_counts[@]}"; do
-  [ "$threads" -le "$(nproc)" ] || fail "$threads threads on $(nproc) cores would measure the scheduler; set THREADS"
-done
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 
@@ -52,19 +42,8 @@ for threads in "${thread_counts[@]}"; do
   done
 done
 
-commit=$(git -C "$here" rev-parse --short HEAD 2>/dev/null || echo unknown)
-[ "$commit" = unknown ] || git -C "$here" diff --quiet HEAD || commit="$commit with changes"
 {
-  echo "# A whole test in Platen and in Yade, measured"
-  echo
-  echo "Written by \`bench/peers/whole.sh\`; bench/peers/README.md says what is the same and what is not."
-  echo
-  echo "- machine: $(LC_ALL=C lscpu | sed -n 's/^Model name: *//p' | head -n 1), $(nproc) cores," \
-    "$(awk '/^MemTotal/ { printf "%.0f GB", $2 / 1048576 }' /proc/meminfo)," \
-    "$(sed -nE 's/^PRETTY_NAME="?([^"]*)"?$/\1/p' /etc/os-release)"
-  echo "- date: $(date -u +%Y-%m-%d); commit: $commit"
-  echo "- Yade: $(yade --version 2>&1 </dev/null | sed -nE 's/^Yade version: *([^ ]+).*/\1/p' | head -n 1)," \
-    "package $(dpkg-query -W -f '${Version}' yade 2>/dev/null || echo "not Debian's")"
+  table_head "A whole test in Platen and in Yade"
   python3 "$here/whole_table.py" "$out"
 } >"$out/whole.md.part"
 mv "$out/whole.md.part" "$out/whole.md"
