@@ -194,11 +194,34 @@ void ContactLayer::set_rows(const std::vector<int> &particles) {
       ++old;
     order[k] = old < old_rows && particle_[old] == particles[k] ? static_cast<int>(old) : fresh++;
   }
+  find_due_rows_again(order, old_rows);
   table_.resize(static_cast<std::size_t>(fresh));
   table_.permute(order);
   for (std::size_t k = 0; k < particles.size(); ++k)
     particle_[k] = particles[k];
   idle_until_.assign(particles.size(), 0);
+}
+
+// What was worked out last is told by the history of its rows, which get other numbers. A row that leaves the
+// list was far from any contact.
+void ContactLayer::find_due_rows_again(const std::vector<int> &order, std::size_t old_rows) {
+  std::vector<int> now(old_rows, -1);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (index(order[k]) < old_rows) now[index(order[k])] = static_cast<int>(k);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < due_.size(); ++k) {
+    if (now[due_[k]] < 0) continue;
+    due_[kept] = index(now[due_[k]]);
+    loads_[kept] = loads_[k], contacts_[kept] = contacts_[k];
+    if (!moments_.empty()) moments_[kept] = moments_[k];
+    ++kept;
+  }
+  keep_due(kept);
+}
+
+void ContactLayer::keep_due(std::size_t count) {
+  due_.resize(count), loads_.resize(count), contacts_.resize(count);
+  if (seat_spring_ != nullptr) moments_.resize(count);
 }
 
 double ContactLayer::indentation(const SurfacePoint &at) const {
@@ -313,7 +336,9 @@ void ContactLayer::describe(Archive &archive) {
     archive("counted", counted_, "1");
   }
   archive.table("rows", table_);
-  if (archive.reads()) search_.forget();
+  if (!archive.reads()) return;
+  search_.forget();
+  keep_due(0); // of other rows
 }
 
 } // namespace platen::coupling

@@ -191,6 +191,8 @@ private:
   bool is_own(std::size_t row) const;
   void set_rows(const std::vector<int> &particles);
   void find_due_rows();
+  void find_due_rows_again(const std::vector<int> &order, std::size_t old_rows); // as set_rows orders them
+  void keep_due(std::size_t count);                                              // the first ones
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
   void seat(int particle, double offset);           // m, the gap at rest, negative where it overlaps

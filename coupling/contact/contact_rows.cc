@@ -48,9 +48,7 @@ void ContactLayer::find_due_rows() {
   due_.clear();
   for (std::size_t row = 0; row < table_.size(); ++row)
     if (!(travelled_ < idle_until_[row]) && is_own(row)) due_.push_back(row);
-  loads_.resize(due_.size());
-  contacts_.resize(due_.size());
-  if (seat_spring_ != nullptr) moments_.resize(due_.size());
+  keep_due(due_.size());
 }
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {

@@ -1,6 +1,7 @@
 // Friction remembers through facets, turns, lists, checkpoints and threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -165,6 +166,35 @@ TEST(contact_history, the_result_does_not_know_when_the_list_was_made) {
   EXPECT_GT(often->layer.friction_work, 0.0);
   EXPECT_GT(often->layer.damping_work, 0.0);
   expect_same(*often, *seldom);
+}
+
+// Time steps are estimated on lists made for them, between the forces and what is told of them.
+TEST(contact_history, contacts_are_told_the_same_after_the_list_was_made_anew) {
+  const auto scene = heap(0.5 * sphere_radius);
+  run(*scene, 3000);
+  const std::vector<int> rows = scene->layer.search().particles();
+  const std::vector<ActiveContact> before = scene->layer.contacts();
+  const std::vector<double> slip = scene->layer.vertex_slip(scene->body);
+  ASSERT_GT(before.size(), 5u);
+  scene->layer.make_list(scene->particles, scene->body);
+  const std::vector<int> now = scene->layer.search().particles();
+  const auto place = [](const std::vector<int> &in, int particle) {
+    return std::find(in.begin(), in.end(), particle) - in.begin();
+  };
+  EXPECT_NE(place(rows, before.back().particle), place(now, before.back().particle)); // or this shows nothing
+  const std::vector<ActiveContact> after = scene->layer.contacts();
+  ASSERT_EQ(after.size(), before.size());
+  double sheared = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(after[k].particle, before[k].particle) << k;
+    EXPECT_EQ(after[k].normal_force, before[k].normal_force) << k;
+    EXPECT_EQ(norm(after[k].shear - before[k].shear), 0) << k;
+    EXPECT_EQ(after[k].sliding, before[k].sliding) << k;
+    EXPECT_EQ(after[k].slip, before[k].slip) << k;
+    sheared += norm(before[k].shear);
+  }
+  EXPECT_GT(sheared, 0);
+  EXPECT_EQ(scene->layer.vertex_slip(scene->body), slip);
 }
 
 TEST(contact_history, a_checkpoint_goes_on_to_the_same_bit) {
