@@ -11,14 +11,14 @@ apps=$(cd "$1/apps" && pwd)
 mkdir -p "$2"
 cd "$2"
 
-# study NAME KIND SCENE [ENTRY ...]
+# study NAME KIND SCENE [ENTRY ...]. What the scene expects need not hold (status 1): some runs are too fast on purpose.
 study() {
   local name=$1 kind=$2 scene=$3 entries=() resume=()
   shift 3
   for entry in "$@"; do entries+=(-s "$entry"); done
   [ ! -d "$name" ] || resume=(--resume)
   echo "== $name"
-  "$apps/platen-study" "$kind" "$scenes/$scene.prm" -o "$name" "${resume[@]}" "${entries[@]}"
+  "$apps/platen-study" "$kind" "$scenes/$scene.prm" -o "$name" "${resume[@]}" "${entries[@]}" || [ $? -eq 1 ]
   "$apps/platen-report" "$name"
 }
 
