@@ -1,7 +1,6 @@
 #include "apps/report/report.h"
 
 #include <fmt/format.h>
-#include <vtkBase64Utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <ostream>
 
 #include "apps/io/file.h"
+#include "apps/report/base64.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -125,12 +125,10 @@ figure { margin: 1.5rem 0 2.5rem; } img { max-width: 100%; } figcaption { margin
 
 std::string base64_of(const std::filesystem::path &file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream),
+                                         std::istreambuf_iterator<char>()};
   if (!stream || bytes.empty()) throw OutputError(file.string() + ": cannot be read back");
-  std::vector<unsigned char> text(bytes.size() / 3 * 4 + 8);
-  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char *>(bytes.data()),
-                                                 bytes.size(), text.data());
-  return {text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length)};
+  return base64(bytes);
 }
 
 std::string html_row(const std::vector<std::string> &fields, const std::string &kind) {
@@ -247,6 +245,7 @@ std::string Album::Section::html() const {
     html = fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(), escaped(heading));
   for (const TableOfFigures &table : tables)
     html += html_table(table);
+  html += element;
   for (const Picture &picture : pictures)
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"

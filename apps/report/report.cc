@@ -10,6 +10,7 @@
 #include "apps/report/platens.h"
 #include "apps/report/specimen_view.h"
 #include "apps/report/stages.h"
+#include "apps/report/viewer.h"
 
 namespace platen::apps::report {
 namespace {
@@ -166,6 +167,8 @@ void draw_one_run(const Run &run, Album &album) {
   if (run.specimen.empty()) return;
   const Spheres before_test = read_spheres(run.specimen.front());
   const Extent extent = extent_of(before_test);
+  album.begin("The specimen, to be turned");
+  album.add_element(specimen_view_html(run, extent));
   draw_specimen(run, extent, album);
   draw_all_cracks(run, before_test, extent.is_plane(), album);
   draw_ends(run, before_test, extent, album);

@@ -35,7 +35,7 @@ public:
   // Makes the folder where it is not there. Throws OutputError.
   explicit Album(std::filesystem::path folder);
   void begin(const std::string &heading) {
-    sections_.push_back({heading, {}, {}});
+    sections_.push_back({heading, {}, {}, {}});
   } // empty: without a heading
   // Draws a picture into the folder by draw(inputs..., file); the caption tells what to see in it.
   template <class Draw, class... Inputs>
@@ -45,6 +45,8 @@ public:
   }
   // A table of its own before the pictures of the section.
   void add_table(const TableOfFigures &table) { sections_.back().tables.push_back(table); }
+  // HTML of its own before the pictures of the section.
+  void add_element(std::string html) { sections_.back().element = std::move(html); }
   std::size_t size() const; // pictures
   // Writes report.html (title, list of sections, figures, remarks, pictures held in the page itself) and
   // prints the pictures, the page, the figures and other tables. Throws OutputError.
@@ -60,7 +62,9 @@ private:
     std::string heading;
     std::vector<TableOfFigures> tables;
     std::vector<Picture> pictures;
-    bool is_empty() const { return tables.empty() && pictures.empty(); } // then it is left out
+    std::string element;
+    // Then it is left out.
+    bool is_empty() const { return tables.empty() && pictures.empty() && element.empty(); }
     std::string anchor() const;
     std::string html() const;
   };

@@ -9,6 +9,7 @@ set(PLATEN_REPORT_SOURCES
   report/accuracy_study.cc
   report/bar_report.cc
   report/bars.cc
+  report/base64.cc
   report/biaxial.cc
   report/bond_report.cc
   report/calibration.cc
@@ -41,4 +42,5 @@ set(PLATEN_REPORT_SOURCES
   report/state_listing.cc
   report/stress_flow.cc
   report/study_curves.cc
-  report/target_study.cc)
+  report/target_study.cc
+  report/viewer.cc)
