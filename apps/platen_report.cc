@@ -15,6 +15,7 @@
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
 #include "apps/report/target_study.h"
+#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/rank.h"
 #include "apps/scene/version.h"
@@ -105,13 +106,9 @@ int fail(const std::exception &error, int status) {
 } // namespace
 
 int main(int argc, char **argv) {
-  CLI::App app{
-      "Turns an output folder of a run, of a study, or of a calibration by a curve, "
-      "into pictures (PNG) and one "
-      "HTML page, and "
-      "compares several runs."};
+  CLI::App app{report_purpose, "platen-report"};
   Wishes wishes;
-  app.add_option("folder", wishes.folder, "Output folder of a run or a study")->required();
+  app.add_option("folder", wishes.folder, "Output folder of a run or a study");
   app.add_option("-c,--compare", wishes.others, "Further output folders, drawn and tabled beside the first");
   app.add_option("-o,--output", wishes.pictures, "Folder for pictures and page; default: FOLDER/pictures");
   app.add_flag("--fields", wishes.fields,
@@ -124,12 +121,20 @@ int main(int argc, char **argv) {
                  "Tell the first difference to the newest checkpoint of another output folder, and end with "
                  "status 1 where there is one; draws nothing");
   app.add_flag("-q,--quiet", wishes.quiet, "Print errors only");
-  app.set_version_flag("--version", version_text());
+  bool version = false, json = false;
+  app.add_flag("--version", version, "Print version and libraries and exit");
+  app.add_flag("--json", json, "With --version: as JSON");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
     return app.exit(error) == 0 ? status_done : status_bad_input;
   }
+  if (version) {
+    std::cout << (json ? version_json() : version_text()) << '\n';
+    return status_done;
+  }
+  if (json) return fail(InputError("--json needs --version"), status_bad_input);
+  if (wishes.folder.empty()) return fail(InputError("no folder is given. See --help"), status_bad_input);
   try {
     require_one_process("platen-report");
     if (wishes.state || !wishes.other_state.empty()) return tell_state(wishes);

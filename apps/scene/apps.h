@@ -11,6 +11,12 @@ namespace platen::apps {
 inline constexpr std::array study_words{"friction", "slenderness", "size",  "packing",
                                         "rate",     "accuracy",    "target"};
 
+// What platen-report, which reads results instead of scenes, is for.
+inline constexpr const char *report_purpose =
+    "Turns an output folder of a run, of a study, or of a calibration by a curve, into pictures (PNG) and "
+    "one "
+    "HTML page, and compares several runs.";
+
 AppDescription description_of(AppKind kind);
 
 } // namespace platen::apps

@@ -118,7 +118,7 @@ void check(const CommandLine &line, const AppDescription &app) {
     fail("--resume and --overwrite exclude each other. Allowed: one of them.");
   if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
   check_planned(line);
-  if (line.json && !line.print_parameters) fail("--json needs --print-parameters.");
+  if (line.json && !line.print_parameters) fail("--json needs --print-parameters or --version.");
   check_name(line.scene, "SCENE");
   check_name(line.output, "--output");
   check_name(line.packings, "--packings");
@@ -158,7 +158,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   parser.add_flag("--print-parameters", line.print_parameters,
                   "Print every parameter that this program reads and exit; followed by SECTION or "
                   "SECTION/KEY: these alone");
-  parser.add_flag("--json", line.json, "With --print-parameters: as JSON");
+  parser.add_flag("--json", line.json, "With --print-parameters or --version: as JSON");
   parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
   CLI::Option *packings = nullptr;
   if (app.shares_packings)
@@ -194,7 +194,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   } catch (const CLI::ParseError &error) {
     fail(std::string(error.what()) + ". See --help.");
   }
-  if (version) throw PrintAndExit{version_text() + "\n"};
+  if (version) throw PrintAndExit{(line.json ? version_json() : version_text()) + "\n"};
   const std::vector<std::string> extras = parser.remaining();
   if (!extras.empty()) refuse_extra(extras.front(), line, app);
   line.output_given = output->count() > 0;

@@ -36,6 +36,7 @@ set(PLATEN_SCENE_SOURCES
   scene/scene_bond.cc
   scene/scene_stages.cc
   scene/scene_targets.cc
+  scene/shipped.cc
   scene/surfaces.cc
   scene/layers.cc
   scene/expect.cc

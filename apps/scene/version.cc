@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #ifdef PLATEN_COMMIT_HEADER
 #include PLATEN_COMMIT_HEADER // defines PLATEN_COMMIT; written at each build
 #endif
@@ -22,6 +24,18 @@
 
 namespace platen::apps {
 
+namespace {
+
+std::string compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#else
+  return "GCC " __VERSION__;
+#endif
+}
+
+} // namespace
+
 std::string version_line() {
   return "Platen " PLATEN_VERSION " (commit " PLATEN_COMMIT ", " PLATEN_BUILD_TYPE ")";
 }
@@ -32,14 +46,26 @@ bool has_commit_of_its_own() {
 }
 
 std::string version_text() {
-#if defined(__clang__)
-  const std::string compiler = "Clang " __clang_version__;
-#else
-  const std::string compiler = "GCC " __VERSION__;
-#endif
   const std::string trilinos = PLATEN_TRILINOS;
-  return version_line() + "\ncompiler " + compiler + "\ndeal.II " PLATEN_DEAL_II +
+  return version_line() + "\ncompiler " + compiler() + "\ndeal.II " PLATEN_DEAL_II +
          (trilinos.empty() ? ", no Trilinos" : ", Trilinos " + trilinos) + ", VTK " PLATEN_VTK;
+}
+
+std::string version_json() {
+  const auto or_null = [](const std::string &text, const std::string &unknown) {
+    return text == unknown ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+  };
+  const std::string commit = PLATEN_COMMIT;
+  nlohmann::ordered_json json;
+  json["version"] = PLATEN_VERSION;
+  json["commit"] = or_null(commit.substr(0, commit.find("-dirty")), "unknown");
+  json["changed"] = commit.find("dirty") != std::string::npos;
+  json["build_type"] = PLATEN_BUILD_TYPE;
+  json["compiler"] = compiler();
+  json["deal.II"] = PLATEN_DEAL_II;
+  json["trilinos"] = or_null(PLATEN_TRILINOS, "");
+  json["vtk"] = PLATEN_VTK;
+  return json.dump();
 }
 
 } // namespace platen::apps

@@ -10,6 +10,12 @@ std::string version_text();
 
 // The first line only: for summary.json and logs.
 std::string version_line();
+
+// The same for programs: one line of JSON with the keys `version`, `commit` (null where it is not known),
+// `changed` (whether the source was changed after it), `build_type`, `compiler`, `deal.II`, `trilinos` (null
+// without), `vtk`.
+std::string version_json();
+
 // Whether that names the source: it is of a commit, and nothing was changed since.
 bool has_commit_of_its_own();
 

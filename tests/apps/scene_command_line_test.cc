@@ -5,6 +5,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/scene/command_line.h"
 
 namespace platen::apps {
@@ -63,6 +65,21 @@ TEST(CommandLine, help_and_version_are_texts) {
   } catch (const PrintAndExit &asked) {
     for (const char *part : {"Platen ", "commit ", "compiler ", "deal.II ", "Trilinos", "VTK "})
       EXPECT_NE(asked.text.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(CommandLine, a_program_can_read_the_version) {
+  try {
+    parse({"--version", "--json"});
+    ADD_FAILURE();
+  } catch (const PrintAndExit &asked) {
+    const nlohmann::json json = nlohmann::json::parse(asked.text);
+    EXPECT_EQ(asked.text.find('\n'), asked.text.size() - 1) << "one line";
+    for (const char *key : {"version", "build_type", "compiler", "deal.II", "vtk"})
+      EXPECT_TRUE(json.at(key).is_string()) << key;
+    EXPECT_TRUE(json.at("changed").is_boolean());
+    EXPECT_TRUE(json.at("commit").is_string() || json.at("commit").is_null());
+    EXPECT_TRUE(json.at("trilinos").is_string() || json.at("trilinos").is_null());
   }
 }
 
@@ -135,7 +152,7 @@ TEST(CommandLine, bad_lines_are_refused) {
       {{"a.prm", "--output="}, "--output"},
       {{"a.prm", "--resume", "--overwrite"}, "--resume and --overwrite exclude each other"},
       {{"a.prm", "--quiet", "--verbose"}, "--quiet and --verbose exclude each other"},
-      {{"a.prm", "--json"}, "--json needs --print-parameters"}};
+      {{"a.prm", "--json"}, "--json needs --print-parameters or --version"}};
   for (const BadLine &bad : lines)
     try {
       parse(bad.arguments);

@@ -1,0 +1,46 @@
+#include "apps/scene/shipped.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace platen::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Value of the first `set Title = ` in the file.
+std::string title_in(const fs::path &file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const std::string key = "set Title";
+    const std::size_t found = line.find(key), equals = line.find('=');
+    if (found == std::string::npos || equals == std::string::npos) continue;
+    const std::size_t first = line.find_first_not_of(' ', equals + 1);
+    return first == std::string::npos ? "" : line.substr(first);
+  }
+  return "";
+}
+
+} // namespace
+
+fs::path shipped_scenes() {
+  std::error_code none;
+  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path(),
+                 scenes = fs::path("share") / "platen" / "scenes";
+  for (const fs::path &up : {here / "..", here / ".." / ".."}) // of a program, of an engine
+    if (fs::is_directory(up / scenes, none)) return (up / scenes).lexically_normal();
+  return (here / ".." / scenes).lexically_normal();
+}
+
+std::vector<ShippedScene> shipped_scene_list() {
+  std::vector<ShippedScene> list;
+  std::error_code none;
+  for (const fs::directory_entry &file : fs::directory_iterator(shipped_scenes(), none))
+    if (file.path().extension() == ".prm")
+      list.push_back({file.path().stem().string(), title_in(file.path())});
+  std::sort(list.begin(), list.end(),
+            [](const ShippedScene &a, const ShippedScene &b) { return a.name < b.name; });
+  return list;
+}
+
+} // namespace platen::apps
