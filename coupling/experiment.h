@@ -65,6 +65,7 @@ public:
 
   const std::vector<std::unique_ptr<Boundary>> &boundaries() const { return boundaries_; }
   const Program &program() const { return *program_; }
+  void change_rate(double rate) { program_->change_rate(rate); } // m/s, as the program does
   // After a state was read that had been finished by an earlier end: goes on.
   void go_on() { program_->go_on(); }
   const dem::Shape &shape() const { return shape_; }

@@ -67,6 +67,7 @@ public:
   std::optional<RateControl::Parameters> rate_control() const;
   StageScope stage_scope() const;
   const Platen *platen(Side side) const { return platens_[static_cast<std::size_t>(side)]; }
+  Platen *platen(Side side) { return platens_[static_cast<std::size_t>(side)]; }
   const ElasticPlaten *elastic_top() const { return elastic_top_; }
   Sleeve *sleeve() { return sleeve_; }
   const Sleeve *sleeve() const { return sleeve_; }

@@ -259,6 +259,13 @@ double Contacts::energy() const {
   return sum;
 }
 
+void Contacts::set_friction(double friction) {
+  if (!(friction >= 0)) throw std::invalid_argument("contacts: friction must not be negative");
+  if (settings_.tangential == TangentialContact::none)
+    throw std::invalid_argument("contacts: were made without friction and have no springs for it");
+  settings_.friction = friction;
+}
+
 std::size_t Contacts::touching_count() const {
   return table.size() - static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0));
 }

@@ -92,6 +92,8 @@ public:
   const ContactSearch &search_state() const { return search_; }
   void describe(Archive &archive);
   const ContactSettings &settings() const { return settings_; }
+  // From the next step on; 1, not negative. Of contacts that were made with tangential springs.
+  void set_friction(double friction);
 
 private:
   kernels::ContactColumns columns(const Particles &particles);

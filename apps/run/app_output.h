@@ -52,6 +52,9 @@ public:
   // exit status, status_done or status_check_failed.
   int tell_expectations(const Json &summary);
 
+  // Of a run that writes no more: the folder is free for another one.
+  void release() { lock_.reset(); }
+
   int threads() const { return loop_threads(); }
   double seconds() const; // since the start
 

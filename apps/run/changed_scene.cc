@@ -39,6 +39,20 @@ Texts texts_of(const std::string &prm) {
   return texts;
 }
 
+std::vector<SceneChange> differences(const Texts &before, const Texts &now) {
+  std::map<std::string, std::string> was(before.begin(), before.end());
+  std::vector<SceneChange> changes;
+  for (const auto &[entry, text] : now) {
+    const auto found = was.find(entry);
+    const std::string earlier = found == was.end() ? "" : found->second;
+    if (earlier != text) changes.push_back({entry, earlier, text});
+    if (found != was.end()) was.erase(found);
+  }
+  for (const auto &[entry, text] : was)
+    changes.push_back({entry, text, ""}); // of a program that had it
+  return changes;
+}
+
 constexpr std::array<const char *, 5> free_entries{"Scene/Title", "Loading/Stop at residual", "Output/Every",
                                                    "Output/Fields every", "Checkpoint/Every"};
 constexpr const char *expectations = "Expect/";
@@ -69,19 +83,13 @@ std::vector<SceneChange> changes_of_scene(const Scene &scene, const OutputPaths 
   const std::string path = paths.scene().string();
   if (!std::filesystem::is_regular_file(path))
     throw InputError(path + ": error: is missing: the folder holds nothing to resume; leave out --resume");
-  const Texts before = texts_of(completed_scene_text(path, paths.folder.string())),
-              now = texts_of(scene_text(scene, paths.folder));
-  std::map<std::string, std::string> was(before.begin(), before.end());
-  std::vector<SceneChange> changes;
-  for (const auto &[entry, text] : now) {
-    const auto found = was.find(entry);
-    const std::string earlier = found == was.end() ? "" : found->second;
-    if (earlier != text) changes.push_back({entry, earlier, text});
-    if (found != was.end()) was.erase(found);
-  }
-  for (const auto &[entry, text] : was)
-    changes.push_back({entry, text, ""}); // of a program that had it
-  return changes;
+  return differences(texts_of(completed_scene_text(path, paths.folder.string())),
+                     texts_of(scene_text(scene, paths.folder)));
+}
+
+std::vector<SceneChange> differences(const Scene &before, const Scene &now,
+                                     const std::filesystem::path &folder) {
+  return differences(texts_of(scene_text(before, folder)), texts_of(scene_text(now, folder)));
 }
 
 void require_same_scene(const Scene &scene, const OutputPaths &paths,

@@ -17,6 +17,10 @@ struct SceneChange {
   std::string entry, was, now; // "Bond/Gap", and its texts
 };
 
+// Between two scenes whose paths hold from `folder`, in the order of the sections.
+std::vector<SceneChange> differences(const Scene &before, const Scene &now,
+                                     const std::filesystem::path &folder);
+
 // In the order of the sections. Throws InputError where the folder has no scene.prm.
 std::vector<SceneChange> changes_of_scene(const Scene &scene, const OutputPaths &paths);
 

@@ -74,41 +74,54 @@ void CompressionRun::look_around() {
   checkpoint_asked_ = ranks_->largest(checkpoint_asked_) > 0;
 }
 
+bool CompressionRun::pass() {
+  const std::size_t ended = test_->program().stages_ended();
+  test_->advance(steps_unobserved());
+  tell_unsettled(ended);
+  if (std::exchange(tells_cut_, false)) tell_cut();
+  look_around();
+  const bool row = due(scene_.output.every, automatic_rows);
+  const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
+  if (frame || signal_ != 0 || finished())
+    test_->gather();
+  else if (row)
+    test_->gather_motion();
+  else
+    test_->settle();
+  if (!test_->model.cracks.empty()) write_cracks();
+  if (row) sample();
+  if (finished()) test_->gather(); // what a row shows may end the test
+  // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
+  if (fields_ && (finished() || frame)) {
+    dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
+    fields_->write(*test_, results_.moves_with(*test_));
+  }
+  // The last state too: a test that has not shown its peak is led on from there.
+  if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_asked_) {
+    dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
+    checkpoint();
+  }
+  return signal_ == 0;
+}
+
 void CompressionRun::loop() {
   Progress progress(log_);
-  loop_start_ = Clock::now();
-  bool tells_cut = ranks_ != nullptr;
-  while (!finished()) {
-    const std::size_t ended = test_->program().stages_ended();
-    test_->advance(steps_unobserved());
-    tell_unsettled(ended);
-    if (std::exchange(tells_cut, false)) tell_cut();
-    look_around();
-    const bool row = due(scene_.output.every, automatic_rows);
-    const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
-    if (frame || signal_ != 0 || finished())
-      test_->gather();
-    else if (row)
-      test_->gather_motion();
-    else
-      test_->settle();
-    if (!test_->model.cracks.empty()) write_cracks();
-    if (row) sample();
-    if (finished()) test_->gather(); // what a row shows may end the test
-    // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
-    if (fields_ && (finished() || frame)) {
-      dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
-      fields_->write(*test_, results_.moves_with(*test_));
-    }
-    // The last state too: a test that has not shown its peak is led on from there.
-    if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_asked_) {
-      dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
-      checkpoint();
-    }
-    if (signal_ != 0) break;
+  while (!finished() && pass())
     if (progress.due()) progress.update(where());
-  }
   progress.finish(where());
+}
+
+void CompressionRun::begin() {
+  log_.info("{}", description());
+  open_files();
+  loop_start_ = Clock::now();
+  tells_cut_ = ranks_ != nullptr;
+}
+
+void CompressionRun::give_up() {
+  failed_ = true;
+  test_->gather(); // all ranks have the same program and boundaries: all stop here
+  save_summary("failed");
 }
 
 int CompressionRun::run() {
@@ -122,33 +135,32 @@ int CompressionRun::run() {
                scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
     return status_done;
   }
-  log_.info("{}", description());
-  open_files();
+  begin();
   try {
     loop();
   } catch (const coupling::NumericsStopped &e) {
-    failed_ = true;
-    test_->gather(); // all ranks have the same program and boundaries: all stop here
-    save_summary("failed");
+    give_up();
     std::error_code ignored;
     const bool kept = std::filesystem::exists(paths_.checkpoints(), ignored);
     throw NumericsError(fmt::format("{}\n{}", scene_.parameters->with_entries(e.what()),
                                     kept ? "the last checkpoint is in " + paths_.checkpoints().string()
                                          : "no checkpoint had been written"));
   }
-  results_.finish(*test_, event_window());
+  return end();
+}
+
+void CompressionRun::finish_files() {
   if (test_->model.bonds) write_bond_stress();
   if (scene_.model.crack_log) write_events();
-  if (fields_) {
-    fields_->write(*test_, results_.moves_with(*test_));
-    fields_->finish();
-    if (cracks_) {
-      cracks_->sync();
-      write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());
-    }
-  }
-  save_summary(signal_ != 0 ? "stopped" : "done");
-  log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
+  if (!fields_) return;
+  fields_->write(*test_, results_.moves_with(*test_));
+  fields_->finish();
+  if (!cracks_) return;
+  cracks_->sync();
+  write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());
+}
+
+void CompressionRun::tell_doubts() {
   if (ended_by() == "shortened too far")
     log_.warning(
         "the specimen is shortened by {:.0f} % of its length: the test ends, for what is between the "
@@ -168,6 +180,14 @@ int CompressionRun::run() {
         "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
         "Platens/Motion = explicit, or fewer Platens/Steps per solve",
         100 * share, 100 * most_unbalanced);
+}
+
+int CompressionRun::end() {
+  results_.finish(*test_, event_window());
+  finish_files();
+  save_summary(signal_ != 0 ? "stopped" : "done");
+  log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
+  tell_doubts();
   if (signal_ != 0) {
     log_.info("stopped by a signal; go on with: {}", resuming_command());
     return exit_status_of_signal(signal_);
@@ -177,7 +197,7 @@ int CompressionRun::run() {
     log_.info("it goes on from here with: {} -s \"{} = {:.3g}\"", resuming_command(target_entry),
               target_entry, 2 * scene_.loading.target_strain);
   log_.info("results are in {}", paths_.folder.string());
-  return output_.tell_expectations(summary_of_run("done", scene_, *test_, results_, costs()));
+  return output_.tell_expectations(summary("done"));
 }
 
 int run_compression(const CommandLine &command, const Scene &scene) {

@@ -152,6 +152,7 @@ void CompressionRun::keep(const Sample &s) {
   const bool fallen = results_.add(s, *test_);
   if (fallen && fields_)
     fields_->write(*test_, results_.moves_with(*test_)); // the state that damage and opening are measured in
+  if (listener_) listener_(s);
 }
 
 void CompressionRun::write_cracks() {
@@ -177,6 +178,7 @@ void CompressionRun::checkpoint() {
   marks.frames = fields_ ? fields_->count() : 0;
   marks.wall_seconds = costs().wall_seconds;
   marks.target_strain = scene_.loading.target_strain;
+  marks.changes = changes_.empty() ? "" : changes_.dump();
   const auto step = static_cast<std::uint64_t>(test_->steps());
   const auto fill = [&](StateSink &to) { save_state(to, *test_, results_, marks); };
   test_->settle_state();
@@ -218,7 +220,13 @@ void CompressionRun::write_events() const {
 }
 
 void CompressionRun::save_summary(const std::string &status) {
-  output_.save(summary_of_run(status, scene_, *test_, results_, costs()));
+  output_.save(summary(status));
+}
+
+Json CompressionRun::summary(const std::string &status) const {
+  Json made = summary_of_run(status, scene_, *test_, results_, costs());
+  if (!changes_.empty()) made["changes"] = changes_;
+  return made;
 }
 
 } // namespace platen::apps

@@ -1,9 +1,11 @@
 // One test between platens: its set-up, its schedule, its files.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/io/csv_writer.h"
 #include "apps/io/progress.h"
@@ -32,6 +34,29 @@ public:
   CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed);
   int run(); // the exit status; throws NumericsError
 
+  // The same in pieces, for who does something between them. begin(), pass() until finished() or false,
+  // end(). A pass makes up to 16 steps, to the next that something is written after; false where a signal has
+  // stopped the run.
+  void begin();
+  bool pass();
+  bool finished() const { return !ended_by().empty(); }
+  int end(); // the exit status
+  // Nothing more is written: the folder is free for another run.
+  void release() { output_.release(); }
+  // After something has been thrown: summary.json says that the run failed.
+  void give_up();
+  // From the next step on, what another scene has of entries that can change on the way: friction of platens
+  // and grains, the axial rate, where to stop, intervals of output and checkpoints. Told in run.log and
+  // summary.json. Throws InputError, and has changed nothing, where it differs in anything else. Who calls it
+  // then gives scene() the new one.
+  void change(const Scene &now);
+  // Called after each row of history.csv.
+  void listen(std::function<void(const Sample &)> listener) { listener_ = std::move(listener); }
+
+  coupling::PlatenTest &test() { return *test_; }
+  const Results &results() const { return results_; }
+  Json summary(const std::string &status) const;
+
 private:
   KeepPacking keep_packing();
   void require_memory(const dem::Shape &shape);
@@ -57,10 +82,11 @@ private:
   void tell_cut();
   bool keeps_checkpoints() const { return scene_.checkpoint.every.kind != Interval::Kind::none; }
   ProgressSample where() const;
-  bool finished() const { return !ended_by().empty(); }
   std::string ended_by() const; // empty: it goes on
   void tell_unsettled(std::size_t from) const;
   void tell_path() const;
+  void tell_doubts();
+  void finish_files();
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
   void write_events() const;
@@ -88,6 +114,9 @@ private:
   long first_step_ = 0;
   int signal_ = 0;
   bool checkpoint_asked_ = false, failed_ = false;
+  bool tells_cut_ = false;       // once, after the first steps on ranks
+  Json changes_ = Json::array(); // on the way
+  std::function<void(const Sample &)> listener_;
 };
 
 } // namespace platen::apps

@@ -133,6 +133,11 @@ KeepPacking CompressionRun::keep_packing() {
 
 void CompressionRun::require_files_of_checkpoint() {
   const FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
+  if (!marks.changes.empty())
+    throw CheckpointError(
+        paths_.checkpoints().string() +
+        ": error: the run was changed on its way by a script, which the scene does not tell: " +
+        marks.changes + "; run the script anew");
   require_same_files(marks, paths_, log_);
   require_same_inputs(marks, scene_, output_.inputs());
 }

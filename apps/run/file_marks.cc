@@ -28,7 +28,7 @@ std::string fault_of(const fs::path &file, std::uint64_t bytes, const std::strin
 } // namespace
 
 void FileMarks::describe(Archive &archive) {
-  const int version = archive.version(3);
+  const int version = archive.version(4);
   archive("cracks_bytes", cracks_bytes);
   if (version != 2) archive("history_bytes", history_bytes); // which the second left out
   if (version >= 3) {
@@ -41,6 +41,7 @@ void FileMarks::describe(Archive &archive) {
   archive("frames", frames);
   archive("wall_seconds", wall_seconds, "s");
   archive("target_strain", target_strain, "1", unknown_target);
+  if (version >= 4) archive.text("changes", changes);
 }
 
 void require_same_files(const FileMarks &marks, const OutputPaths &paths, RunLog &log) {

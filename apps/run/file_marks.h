@@ -30,6 +30,9 @@ struct FileMarks {
   // That the test was to reach: with another one now, what had finished goes on.
   static constexpr double unknown_target = std::numeric_limits<double>::quiet_NaN();
   double target_strain = unknown_target;
+  // What was changed on the way by who drives the run, as text of JSON; "": nothing. Such a run is not
+  // resumed by an app, which knows the scene alone.
+  std::string changes;
   void describe(Archive &archive);
 };
 

@@ -1,5 +1,6 @@
 set(PLATEN_RUN_SOURCES
   run/app_output.cc
+  run/change_on_the_way.cc
   run/changed_scene.cc
   run/at_peak.cc
   run/compression.cc

@@ -39,15 +39,20 @@ void Faults::keep_common(const Faults &others) {
   all_.erase(std::remove_if(all_.begin(), all_.end(), lacks), all_.end());
 }
 
-std::string Faults::text(const std::vector<std::string> &files) const {
+std::vector<EntryError> Faults::sorted(const std::vector<std::string> &files) const {
   std::vector<EntryError> sorted = all_;
   std::stable_sort(sorted.begin(), sorted.end(), [&](const EntryError &a, const EntryError &b) {
     return place_of(a.origin, files) < place_of(b.origin, files);
   });
+  return sorted;
+}
+
+std::string Faults::text(const std::vector<std::string> &files) const {
+  const std::vector<EntryError> told = sorted(files);
   std::string text;
-  for (std::size_t k = 0; k < std::min(sorted.size(), most_told); ++k)
-    text += (k == 0 ? "" : "\n") + std::string(sorted[k].what());
-  if (sorted.size() > most_told) text += "\n... and " + std::to_string(sorted.size() - most_told) + " more";
+  for (std::size_t k = 0; k < std::min(told.size(), most_told); ++k)
+    text += (k == 0 ? "" : "\n") + std::string(told[k].what());
+  if (told.size() > most_told) text += "\n... and " + std::to_string(told.size() - most_told) + " more";
   return text;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/scene/errors.h"
@@ -27,6 +28,14 @@ public:
   std::string entry;
 };
 
+// All that is wrong, as text, and one by one in the same order.
+class SceneFaults : public InputError {
+public:
+  SceneFaults(const std::string &text, std::vector<EntryError> faults)
+      : InputError(text), all(std::move(faults)) {}
+  std::vector<EntryError> all;
+};
+
 class Faults {
 public:
   void add(const EntryError &error) { all_.push_back(error); }
@@ -37,7 +46,9 @@ public:
   // Leaves what `others` hold too.
   void keep_common(const Faults &others);
 
-  // In the order of files (as they were read), lines and options, each on its own line, twenty at most.
+  // In the order of files (as they were read), lines and options.
+  std::vector<EntryError> sorted(const std::vector<std::string> &files) const;
+  // The same, each on its own line, twenty at most.
   std::string text(const std::vector<std::string> &files) const;
 
 private:

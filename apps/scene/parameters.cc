@@ -325,7 +325,7 @@ void Parameters::add_independent(const Faults &found) {
 }
 
 void Parameters::throw_faults() const {
-  if (!faults_.empty()) throw InputError(faults_.text(sources_));
+  if (!faults_.empty()) throw SceneFaults(faults_.text(sources_), faults_.sorted(sources_));
 }
 
 void Parameters::pretend(const std::string &path, const std::string &word) {

@@ -87,6 +87,9 @@ public:
   const fem::Body &body() const { return *body_; }
   fem::Body &body() { return *body_; }
   const ContactLayer &layer() const override { return layer_; }
+  void set_friction(const dem::SurfaceFriction &friction) {
+    layer_.set_friction(friction);
+  } // as the layer does
   const fem::LoadedSurface &surface() const override { return *body_; }
   using ContactBoundary::layer;
   using ContactBoundary::surface;

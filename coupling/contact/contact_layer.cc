@@ -120,6 +120,19 @@ std::size_t ContactLayer::add_row(int particle) {
 
 ContactLayer::~ContactLayer() = default;
 
+void ContactLayer::set_friction(const dem::SurfaceFriction &friction) {
+  SurfaceContact changed = parameters_;
+  static_cast<dem::SurfaceFriction &>(changed) = friction;
+  check(changed, true);
+  const bool rubs = friction.friction_static > 0 || friction.dynamic() > 0;
+  require(!rubs || spring_ != nullptr,
+          "surface contact: was made without friction and has no springs for it");
+  require(friction.weakening.by == parameters_.weakening.by,
+          "surface contact: friction weakens by another law");
+  parameters_ = changed;
+  friction_ = dem::friction_law(changed);
+}
+
 void ContactLayer::seat(int particle, double offset) {
   require(std::isfinite(offset), "surface contact: a seat's offset must be finite");
   const std::size_t row = add_row(particle);

@@ -161,6 +161,10 @@ public:
 
   std::size_t bytes() const; // of rows and search lists
   const SurfaceContact &parameters() const { return parameters_; }
+  // From the next step on. Springs keep what they hold; one that holds more than it now may slides. Throws
+  // std::invalid_argument as the constructor does, and where a layer that was made without friction is to get
+  // some, for it has no springs.
+  void set_friction(const dem::SurfaceFriction &friction);
   const SurfaceSearch &search() const { return search_; }
 
 private:

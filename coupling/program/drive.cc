@@ -25,6 +25,11 @@ void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
   rate_ = rate, ramp_ = ramp;
 }
 
+void Drive::change_rate(double rate, const Measures &m) {
+  if (!(rate > 0) || !is_asked()) throw std::invalid_argument("drive: a rate of nothing");
+  ask(std::copysign(rate, rate_), ramp_, m, begun_); // goes on from the speed that it has
+}
+
 double Drive::speed(const Measures &m) {
   const double dt = m.time_step(), middle = m.time() - 0.5 * dt;
   const double most = ramp_ > 0 ? 2 * dt / ramp_ : std::abs(factor_) + 1;

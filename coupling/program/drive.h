@@ -23,6 +23,10 @@ public:
   // A stage that begins at `begun` (s) asks this closure rate (m/s, of all platens together, not 0), within
   // `ramp` (s; 0: at once).
   void ask(double rate, double ramp, const Measures &m, double begun);
+  // Between two steps: from the next on another size of the rate (m/s, positive), the way it goes now,
+  // reached evenly within the ramp. Throws std::invalid_argument where none was asked.
+  void change_rate(double rate, const Measures &m);
+  bool is_asked() const { return rate_ != 0; }
   // Of the step that is being made: m/s, of each platen, inward.
   double speed(const Measures &m);
   void update(const Measures &m); // after forces

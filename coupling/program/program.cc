@@ -63,6 +63,14 @@ void Program::go_on() {
   stages_[now_]->go_on();
 }
 
+void Program::change_rate(double rate) {
+  std::vector<Drive *> asked;
+  for (const auto &drive : drives_)
+    if (drive->is_asked()) asked.push_back(drive.get());
+  if (asked.size() != 1) throw std::invalid_argument("program: not one pair of platens is driven at a rate");
+  asked.front()->change_rate(rate, measures_);
+}
+
 double Program::fastest() const {
   double speed = 0;
   for (const auto &stage : stages_)

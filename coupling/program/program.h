@@ -116,6 +116,11 @@ public:
   // yet met. It is asked nothing else than if it had not finished in between.
   void go_on();
 
+  // The platens that are driven close at another rate (m/s, positive) from the next step on, the way they go
+  // now, until a stage asks anew. Throws std::invalid_argument where nothing, or more than one pair of
+  // platens, is driven.
+  void change_rate(double rate);
+
   bool finished() const { return finished_; }
   const Stage &stage() const { return *stages_[now_]; }
   const Stage &stage(std::size_t number) const { return *stages_[number]; }
