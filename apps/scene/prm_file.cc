@@ -6,6 +6,7 @@
 
 #include "apps/scene/file_text.h"
 #include "apps/scene/scene_files.h"
+#include "apps/scene/shipped.h"
 
 namespace platen::apps {
 namespace {
@@ -40,6 +41,17 @@ private:
 
 [[noreturn]] void fail(const Origin &origin, const std::string &what, const std::string &entry = "") {
   throw EntryError(origin.text() + ": error: " + what, origin, entry);
+}
+
+// Beside the file that includes it, else among the scenes that came with the programs; the former where
+// neither is there.
+std::string place_of(const std::string &file, const std::string &including) {
+  const std::filesystem::path beside = std::filesystem::path(including).parent_path() / file,
+                              shipped = shipped_scenes() / file;
+  std::error_code none;
+  const bool is_shipped =
+      !std::filesystem::exists(beside, none) && std::filesystem::is_regular_file(shipped, none);
+  return (is_shipped ? shipped : beside).string();
 }
 
 std::string PrmReader::path(const std::string &name) const {
@@ -154,7 +166,7 @@ void PrmReader::include(const std::string &file, const Origin &origin) {
   if (file.empty()) fail(origin, "\"include\" needs the name of a file.");
   if (origin.depth >= deepest_include)
     fail(origin, "include " + file + ": files include each other without end.");
-  const std::string included = (std::filesystem::path(origin.file).parent_path() / file).string();
+  const std::string included = place_of(file, origin.file);
   std::string text;
   try {
     text = read_text(included);

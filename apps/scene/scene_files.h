@@ -11,7 +11,8 @@
 namespace platen::apps {
 
 // Reads a file by its ending, .prm or .json. Line ends of any system and a byte order mark are fine. Throws
-// InputError. `include` in a .prm takes a path relative to the folder of the file that it stands in.
+// InputError. `include` in a .prm takes a path relative to the folder of the file that it stands in, or else
+// of the scenes that came with the programs.
 void read_scene_file(const std::string &path, Parameters &parameters);
 
 // The same for text in memory; `name` stands in messages and gives the folder for `include`.

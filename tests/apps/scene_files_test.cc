@@ -210,6 +210,23 @@ TEST_F(SceneFiles, a_scene_overrides_what_it_includes) {
   EXPECT_DOUBLE_EQ(scene.bond.number("tensile_strength"), 8.9e6);
 }
 
+// The parts of scenes that came with the programs; what lies beside the scene goes first.
+TEST_F(SceneFiles, what_is_not_beside_a_scene_is_included_from_the_scenes_of_platen) {
+  const std::string text = "include parts/concrete.prm\nsubsection Bond\n  set Gap = 0.04 R_min\nend\n";
+  const Scene shipped = read("a.prm", text);
+  EXPECT_DOUBLE_EQ(shipped.model.bond_layout.modulus, 48e9);
+  EXPECT_DOUBLE_EQ(shipped.model.bond_layout.gap.value, 0.04);
+  put("parts/concrete.prm", concrete);
+  EXPECT_DOUBLE_EQ(read("a.prm", text).model.bond_layout.modulus, 40e9);
+  try {
+    read("b.prm", "include parts/no_such.prm\n");
+    ADD_FAILURE() << "a part that is nowhere is refused";
+  } catch (const InputError &error) {
+    EXPECT_NE(std::string(error.what()).find((folder_ / "parts/no_such.prm").string()), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(SceneFiles, the_last_override_holds) {
   const Scene scene = read("a.prm", concrete, {"Contact/Friction = 0.2", " Contact / Friction=0.3 "});
   EXPECT_EQ(scene.contact.friction, 0.3);
