@@ -19,6 +19,7 @@ packages=(
   libeigen3-dev voro++-dev             # particle library
   libcli11-dev nlohmann-json3-dev libfmt-dev libudunits2-dev libxxhash-dev # apps
   libnlopt-dev libnlopt-cxx-dev # the search of platen-calibrate
+  pybind11-dev python3-dev python3-numpy # the Python package
   libgtest-dev                         # tests; holds GTest's CMake configuration too
   xvfb xauth                           # pictures where there is no display
   libfontconfig-dev                    # and their letters: Latin, Greek, Cyrillic; Chinese, Japanese, Korean

@@ -1,0 +1,115 @@
+#include "python/module/experiment.h"
+
+#include <signal.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/scene/errors.h"
+
+namespace platen::python {
+namespace {
+
+// A run catches signals to leave a checkpoint; in a script they are Python's, who asks for Ctrl-C itself.
+class KeptSignals {
+public:
+  KeptSignals() {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      ::sigaction(numbers[k], nullptr, &former_[k]);
+  }
+  ~KeptSignals() {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      ::sigaction(numbers[k], &former_[k], nullptr);
+  }
+  KeptSignals(const KeptSignals &) = delete;
+  KeptSignals &operator=(const KeptSignals &) = delete;
+
+private:
+  static constexpr std::array<int, 6> numbers{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXFSZ, SIGPIPE};
+  std::array<struct sigaction, 6> former_{};
+};
+
+apps::CommandLine command_of(const Experiment::Options &options) {
+  apps::CommandLine command;
+  command.scene = options.scene;
+  command.output_given = !options.output.empty();
+  command.output =
+      command.output_given
+          ? options.output
+          : (std::filesystem::path("results") / std::filesystem::path(options.scene).stem()).string();
+  command.overrides = options.overrides;
+  command.threads = options.threads;
+  command.overwrite = options.overwrite;
+  command.quiet = !options.verbose;
+  command.text = "platen.Experiment(" + options.scene + ") in Python";
+  return command;
+}
+
+} // namespace
+
+Experiment::Experiment(const Options &options)
+    : command_(command_of(options)),
+      kind_(options.disc ? apps::AppKind::brazilian : apps::AppKind::compress),
+      scene_(apps::read_scene(options.scene, options.overrides, kind_)) {
+  const KeptSignals kept;
+  run_ = std::make_unique<apps::CompressionRun>(
+      command_, scene_, options.disc ? apps::Pressed::across_axis : apps::Pressed::along_axis);
+  run_->begin();
+}
+
+Experiment::~Experiment() = default;
+
+void Experiment::pass() {
+  if (ended_ || failed_ || closed_) throw apps::InputError("the experiment has ended: make a new one");
+  if (run_->finished()) return;
+  try {
+    run_->pass();
+  } catch (...) {
+    failed_ = true;
+    run_->give_up();
+    throw;
+  }
+}
+
+bool Experiment::end() {
+  if (failed_ || closed_)
+    throw apps::InputError("the experiment has failed or was closed: it has no results");
+  if (std::exchange(ended_, true)) return true;
+  const bool holds = run_->end() == apps::status_done;
+  run_->release();
+  return holds;
+}
+
+void Experiment::close() {
+  closed_ = true;
+  run_->release();
+}
+
+void Experiment::change(const std::vector<std::string> &assignments) {
+  if (ended_ || failed_ || closed_)
+    throw apps::InputError("the experiment has ended: nothing can be changed");
+  std::vector<std::string> overrides = command_.overrides;
+  overrides.insert(overrides.end(), assignments.begin(), assignments.end());
+  apps::Scene now = apps::read_scene(command_.scene, overrides, kind_);
+  run_->change(now);
+  command_.overrides = std::move(overrides);
+  scene_ = std::move(now);
+}
+
+std::string Experiment::summary() const {
+  return run_->summary(ended_ ? "done" : failed_ ? "failed" : "running").dump();
+}
+
+double Experiment::stress() const {
+  const coupling::PlatenTest &test = run_->test();
+  return test.platens_along(run_->results().axis()).stress(test);
+}
+
+double Experiment::strain() const {
+  return run_->test().closure_strain(run_->results().axis());
+}
+
+} // namespace platen::python

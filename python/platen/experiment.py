@@ -1,0 +1,190 @@
+"""Experiments that a script builds, runs and changes on the way."""
+import json
+import os
+from pathlib import Path
+
+from . import _core
+from .errors import InputError
+from .results import Run, Table
+
+
+def version():
+    """What Platen was made of, as `platen --version --json` says it."""
+    return json.loads(_core.version_json())
+
+
+def _scene_folder():
+    """Scenes that came with Platen: where the package's prefix has them, or beside the build folder's programs."""
+    here = Path(__file__).resolve().parent
+    for up in here.parents:
+        folder = up / "share" / "platen" / "scenes"
+        if folder.is_dir():
+            return folder
+    return Path(_core.scenes_beside_programs())
+
+
+def scenes():
+    """Paths of the scenes that came with Platen, by name."""
+    return {path.stem: path for path in sorted(_scene_folder().glob("*.prm"))}
+
+
+def _path_of(scene):
+    """A file, or the name of a scene that came with Platen."""
+    if os.path.exists(scene):
+        return os.fspath(scene)
+    return os.fspath(scenes().get(str(scene), scene))
+
+
+def _assignments(entries):
+    """"Section/Key = value" of each entry of a dictionary; on and off may be True and False."""
+
+    def text(value):
+        if isinstance(value, bool):
+            return "on" if value else "off"
+        if isinstance(value, float):
+            return repr(value)
+        if isinstance(value, (list, tuple)):
+            return ", ".join(text(one) for one in value)
+        return str(value)
+
+    return [f"{entry} = {text(value)}" for entry, value in dict(entries or {}).items()]
+
+
+class Experiment:
+    """A test between platens, as platen-compress makes it, under the hands of a script.
+
+    experiment = platen.Experiment("demo_dry", set={"Platens/Friction static": 0.1}, output="results/mine", threads=2)
+    experiment.on_sample = lambda row: print(row["axial_strain_platen"])
+    experiment.advance(strain=0.001)
+    experiment.change({"Platens/Friction static": 0.3})
+    run = experiment.run()              # to its end: a platen.Run
+
+    scene: a file, or the name of a scene that came with Platen; set: entries of it, numbers in SI or texts with units;
+    output: the folder, results/NAME by default; overwrite: an earlier run there is replaced; disc: the specimen lies on its
+    rim, as platen-brazilian lays it; verbose: it prints what the program prints. What it writes without a change is what the
+    program writes, byte by byte. Raises InputError, NumericsError, OutputError.
+    """
+
+    def __init__(self, scene, set=None, output="", threads=1, overwrite=False, disc=False, verbose=False):
+        if not isinstance(threads, int) or isinstance(threads, bool) or not 1 <= threads <= max(64, 4 * (os.cpu_count() or 1)):
+            raise InputError(f"threads = {threads!r} is no count of threads. Allowed: 1 ... {max(64, 4 * (os.cpu_count() or 1))}")
+        self._core = _core.Experiment(_path_of(scene), _assignments(set), os.fspath(output), threads, disc, overwrite, verbose)
+        self._on_sample = None
+        self._failure = None
+
+    # ---- running
+    def advance(self, strain=None, time=None, steps=None, samples=None):
+        """Runs until the strain of the platens (1), the time (s), so many steps or so many samples more are reached, or the
+        test is over; at least one of them. It stops at the next moment that something is written or looked at, 16 steps at
+        most beyond. True while the test goes on."""
+        if all(limit is None for limit in (strain, time, steps, samples)):
+            raise InputError("advance() needs a limit: strain, time, steps or samples")
+        core = self._core
+        last_step = None if steps is None else core.steps + steps
+        last_sample = None if samples is None else core.samples + samples
+        if core.ended:
+            raise InputError("the experiment has ended: make a new one")
+        while not core.finished:
+            if ((strain is not None and abs(core.strain) >= abs(strain)) or (time is not None and core.time >= time)
+                    or (last_step is not None and core.steps >= last_step)
+                    or (last_sample is not None and core.samples >= last_sample)):
+                return True
+            self._pass()
+        return False
+
+    def run(self):
+        """Runs to the end and writes the results: the platen.Run. `expected` tells whether what the scene expects holds."""
+        while not self._core.finished:
+            self._pass()
+        return self.end()
+
+    def end(self):
+        """Ends here: events, cracks, the last frame and summary.json are written. The platen.Run."""
+        if not self._core.ended:
+            self.expected = self._core.end()
+        return Run(self.folder)
+
+    def close(self):
+        """Leaves the test where it is, without summary.json: checkpoints stay, and the folder is free for another run, for the program
+        with --resume for one. `with platen.Experiment(...) as experiment:` closes at its end. Views stay right."""
+        if not self._core.ended:
+            self._core.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *failure):
+        self.close()
+
+    def _pass(self):
+        """Python looks at Ctrl-C between two passes."""
+        self._core.passes()
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            raise failure
+
+    # ---- changing
+    def change(self, entries):
+        """From the next step on: friction of platens and grains, Loading/Axial rate, Loading/Stop at residual, Output/Every,
+        Output/Fields every, Checkpoint/Every. It is noted in run.log and summary.json. InputError for anything else."""
+        self._core.change(_assignments(entries))
+
+    @property
+    def on_sample(self):
+        """Called with each row of history.csv, a dictionary, once it is written; None: nothing is."""
+        return self._on_sample
+
+    @on_sample.setter
+    def on_sample(self, function):
+        self._on_sample = function
+        if function is None:
+            self._core.listen(None)
+            return
+
+        def call(row):
+            try:
+                function(row)
+            except BaseException as failure:  # what a callback raises comes out of advance() and run()
+                self._failure = failure
+
+        self._core.listen(call)
+
+    # ---- looking
+    finished = property(lambda self: self._core.finished, doc="Whether the test is over.")
+    folder = property(lambda self: Path(self._core.folder), doc="Where it writes.")
+    time = property(lambda self: self._core.time, doc="s")
+    time_step = property(lambda self: self._core.time_step, doc="s")
+    steps = property(lambda self: self._core.steps, doc="Made so far.")
+    strain = property(lambda self: self._core.strain, doc="Closure of the platens over the length; compression positive.")
+    stress = property(lambda self: self._core.stress, doc="Pa, mean of both platens; compression positive.")
+
+    @property
+    def history(self):
+        """The rows of history.csv so far: a platen.Table, a copy."""
+        return Table(self._core.history())
+
+    @property
+    def summary(self):
+        """What summary.json would say now."""
+        return json.loads(self._core.summary())
+
+    @property
+    def spheres(self):
+        """Columns of the spheres by name: id, position (n x 3, m), reference_position, velocity, force, radius, mass and, where
+        the scene has rotation, orientation, angular_velocity, torque, inertia. Views of the memory, no copies: to be read, and
+        right whenever no step is being made."""
+        return self._core.spheres()
+
+    @property
+    def bonds(self):
+        """Columns of all bonds that ever were: first, second (rows of spheres), state (0 intact, 1 damaged, 2 broken in tension, 3
+        in shear), break_time (s). Views, as those of the spheres."""
+        return self._core.bonds()
+
+    @property
+    def units(self):
+        """Unit of each column of spheres and bonds."""
+        return self._core.units()
+
+    def __repr__(self):
+        return f"<platen.Experiment in {self.folder}: step {self.steps}, strain {self.strain:.5f}>"

@@ -1,0 +1,202 @@
+"""Results of the programs as numpy arrays: a run's folder, and what stands in it."""
+import csv
+import json
+from pathlib import Path
+
+import numpy
+
+from . import vtu
+from .errors import InputError
+
+
+class Table(dict):
+    """A CSV file: columns by name, each a numpy array; numbers as float64 with NaN for an empty cell, words as strings."""
+
+    @property
+    def rows(self):
+        return len(next(iter(self.values()))) if self else 0
+
+    def to_pandas(self):
+        """A pandas.DataFrame. ImportError where pandas is not installed."""
+        import pandas
+
+        return pandas.DataFrame(dict(self))
+
+
+def _column(cells):
+    try:
+        return numpy.array([float(cell) if cell else numpy.nan for cell in cells])
+    except ValueError:
+        return numpy.array(cells)
+
+
+def read_table(path):
+    """Any CSV file of the programs. A last line without a line end, which a run still writes, is left out. InputError where
+    the file cannot be read or a row has another number of cells than the header."""
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    lines = text[: text.rfind("\n") + 1].splitlines()
+    if not lines:
+        raise InputError(f"{path}: has no header")
+    header, *rows = csv.reader(lines)
+    for number, row in enumerate(rows, 2):
+        if len(row) != len(header):
+            raise InputError(f"{path}:{number}: {len(row)} cells where the header has {len(header)}", file=str(path), line=number)
+    return Table((name, _column([row[k] for row in rows])) for k, name in enumerate(header))
+
+
+class Frames:
+    """A series of frames, such as specimen.pvd: `times` (s); frames[k] reads frame k, frames.at(time) the nearest one."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self._frames = vtu.read_pvd(path)
+        self.times = numpy.array([time for time, _ in self._frames])
+
+    def __len__(self):
+        return len(self._frames)
+
+    def __getitem__(self, k):
+        files = self._frames[k][1]
+        grids = [grid for file in files for grid in _pieces(file)]
+        return grids[0] if len(grids) == 1 else _joined(grids)
+
+    def parts(self, k):
+        """The grids of frame k one by one: of platens.pvd each platen."""
+        return [grid for file in self._frames[k][1] for grid in _pieces(file)]
+
+    def at(self, time):
+        return self[int(numpy.abs(self.times - time).argmin())]
+
+    def to_pyvista(self, k):
+        """A pyvista.UnstructuredGrid of frame k. ImportError where PyVista is not installed."""
+        import pyvista
+
+        files = self._frames[k][1]
+        grids = [pyvista.read(str(file)) for file in files]
+        return grids[0] if len(grids) == 1 else pyvista.MultiBlock(grids).combine()
+
+
+def _pieces(file):
+    """Grids of a .vtu, or of the pieces that a .pvtu names."""
+    if file.suffix != ".pvtu":
+        return [vtu.read(file)]
+    from xml.etree import ElementTree
+
+    try:
+        pieces = ElementTree.fromstring(file.read_bytes()).findall("PUnstructuredGrid/Piece")
+    except (OSError, ElementTree.ParseError) as error:
+        raise InputError(f"{file}: cannot be read: {error}") from None
+    return [vtu.read(file.parent / piece.get("Source")) for piece in pieces]
+
+
+def _joined(grids):
+    """One grid of several."""
+
+    def of_all(dicts):
+        return {name: numpy.concatenate([d[name] for d in dicts]) for name in dicts[0] if all(name in d for d in dicts)}
+
+    points = numpy.cumsum([0] + [len(g.points) for g in grids])
+    cells = numpy.cumsum([0] + [len(g.connectivity) for g in grids])
+    return vtu.Grid(numpy.concatenate([g.points for g in grids]), of_all([g.point_data for g in grids]),
+                    of_all([g.cell_data for g in grids]), grids[0].field_data,
+                    numpy.concatenate([g.connectivity + n for g, n in zip(grids, points)]),
+                    numpy.concatenate([g.offsets + n for g, n in zip(grids, cells)]))
+
+
+class Run:
+    """The folder of a run. Files are read when they are asked for, and kept.
+
+    run = platen.Run("results/demo_dry")
+    run.summary["strength_pa"]           # what summary.json says; null is None
+    run.history["axial_strain_platen"]   # numpy arrays by column, also run.cracks, run.events, run.bond_stress
+    run.specimen[-1].point_data["damage"], run.bonds.at(run.peak_time), run.platens, run.contacts, run.sleeve
+    """
+
+    _tables = {"history": "history.csv", "cracks": "cracks.csv", "events": "events.csv", "bond_stress": "bond_stress.csv",
+               "spheres": "specimen.csv"}
+    _series = ("specimen", "bonds", "platens", "contacts", "sleeve")
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not self.folder.is_dir():
+            raise InputError(f"{self.folder}: no folder")
+        self._read = {}
+        if not (self.folder / "history.csv").is_file() and not (self.folder / "summary.json").is_file():
+            raise InputError(f"{self.folder}: holds no run: neither history.csv nor summary.json is there")
+
+    def _once(self, name, read):
+        if name not in self._read:
+            self._read[name] = read()
+        return self._read[name]
+
+    @property
+    def summary(self):
+        """summary.json as a dictionary; InputError where the run has not ended."""
+
+        def read():
+            path = self.folder / "summary.json"
+            try:
+                return json.loads(path.read_text(encoding="utf-8"))
+            except OSError as error:
+                raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+            except ValueError as error:
+                raise InputError(f"{path}: damaged: {error}") from None
+
+        return self._once("summary", read)
+
+    @property
+    def scene(self):
+        """Every parameter as used: the text of scene.prm."""
+        return (self.folder / "scene.prm").read_text(encoding="utf-8")
+
+    def __getattr__(self, name):
+        if name in Run._tables:
+            path = self.folder / Run._tables[name]
+            return self._once(name, lambda: read_table(path))
+        if name in Run._series:
+            path = self.folder / f"{name}.pvd"
+            return self._once(name, lambda: Frames(path))
+        raise AttributeError(f"a Run has no {name}")
+
+    def __dir__(self):
+        return [*super().__dir__(), *Run._tables, *Run._series]
+
+    @property
+    def stress(self):
+        """Pa, mean of both platens that load, one a row of the history; compression positive."""
+        axis = self.summary.get("loaded_axis", "z") if (self.folder / "summary.json").is_file() else "z"
+        sides = {"x": ("stress_left_pa", "stress_right_pa"), "y": ("stress_front_pa", "stress_back_pa"),
+                 "z": ("axial_stress_top_pa", "axial_stress_bottom_pa")}[axis]
+        return 0.5 * (self.history[sides[0]] + self.history[sides[1]])
+
+    @property
+    def peak_time(self):
+        """s, of the largest stress by size."""
+        return float(self.history["time_s"][int(numpy.abs(self.stress).argmax())])
+
+    def __repr__(self):
+        return f"platen.Run({str(self.folder)!r})"
+
+
+class Study:
+    """The folder of a platen-study: `table` (study.csv, a row a run), `costs`, `summary` (study.json), runs[name]."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not (self.folder / "study.csv").is_file():
+            raise InputError(f"{self.folder}: holds no study: study.csv is not there")
+        self.table = read_table(self.folder / "study.csv")
+        self.costs = read_table(self.folder / "costs.csv") if (self.folder / "costs.csv").is_file() else None
+        path = self.folder / "study.json"
+        self.summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+    @property
+    def runs(self):
+        return {path.name: Run(path) for path in sorted((self.folder / "runs").iterdir()) if (path / "history.csv").is_file()}
+
+    def __repr__(self):
+        return f"platen.Study({str(self.folder)!r})"

@@ -1,0 +1,296 @@
+"""Experiments driven from Python: the bytes of the program, views without copies, changes on the way, exceptions."""
+import json
+import signal
+import unittest
+
+import numpy
+
+from folders import CRUSHED, SMALL, InFolder, bytes_in, entries, run_app
+
+import platen
+
+
+class Bytes(InFolder):
+    def test_a_run_from_python_writes_what_the_program_writes(self):
+        done = run_app("platen-compress", CRUSHED, self.folder / "app", *entries(SMALL), "-t", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "python")
+        while experiment.advance(samples=7):  # in pieces, looked at in between
+            experiment.history, experiment.summary, experiment.spheres["force"].sum()
+        run = experiment.end()
+        app, python = bytes_in(self.folder / "app"), bytes_in(self.folder / "python")
+        self.assertGreater(len(app), 10)
+        self.assertEqual(sorted(app), sorted(python))
+        self.assertEqual([name for name in app if app[name] != python[name]], [])
+        told = json.loads((self.folder / "app" / "summary.json").read_text())
+        for key in ("strength_pa", "broken_tension", "pattern", "steps", "energy_residual_relative", "scene_sha256"):
+            self.assertEqual(run.summary.get(key), told.get(key), key)
+
+    def test_two_threads_write_the_same(self):
+        platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "one").run()
+        platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "two", threads=2).run()
+        self.assertEqual(bytes_in(self.folder / "one"), bytes_in(self.folder / "two"))
+
+
+class Looking(InFolder):
+    def test_the_history_is_that_of_the_file_to_the_bit(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        experiment.advance(samples=20)
+        table = platen.read_table(self.folder / "run" / "history.csv")
+        history = experiment.history
+        self.assertEqual(list(history), list(table))
+        self.assertEqual(history.rows, table.rows)
+        self.assertGreaterEqual(table.rows, 20)
+        for name in table:
+            self.assertEqual(history[name].tobytes(), table[name].astype(float).tobytes(), name)
+
+    def test_columns_are_views_that_are_only_read(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        position = experiment.spheres["position"]
+        before = position.copy()
+        self.assertFalse(position.flags.owndata)
+        self.assertEqual(position.shape, (len(experiment.spheres["id"]), 3))
+        self.assertEqual(position.ctypes.data, experiment.spheres["position"].ctypes.data)
+        experiment.advance(steps=200)
+        self.assertGreater(numpy.abs(position - before).max(), 1e-7, "the view must follow the spheres")
+        self.assertEqual(position.ctypes.data, experiment.spheres["position"].ctypes.data)
+        with self.assertRaises(ValueError):
+            position[0, 0] = 0
+        state = experiment.bonds["state"]
+        self.assertFalse(state.flags.owndata)
+        self.assertEqual(experiment.units["position"], "m")
+        self.assertEqual(experiment.units["break_time"], "s")
+
+    def test_a_view_outlives_its_experiment(self):
+        position = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run").spheres["position"]
+        self.assertTrue(numpy.isfinite(position).all())
+
+    def test_broken_bonds_agree_with_the_history(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        run = experiment.run()
+        state = experiment.bonds["state"]
+        self.assertGreater(run.summary["broken_tension"], 10)
+        self.assertEqual(int((state == 2).sum()), run.summary["broken_tension"])
+        self.assertEqual(int((state == 3).sum()), run.summary["broken_shear"])
+        times = experiment.bonds["break_time"]
+        self.assertEqual(int(numpy.isnan(times).sum()), int((state < 2).sum()))
+
+    def test_the_mass_times_velocity_is_the_kinetic_energy_of_the_history(self):
+        without = dict(SMALL, **{"Effects/Rotation": False, "Output/Every": 10})
+        experiment = platen.Experiment(CRUSHED, set=without, output=self.folder / "run")
+        experiment.advance(samples=5)
+        spheres = experiment.spheres
+        kinetic = 0.5 * (spheres["mass"] * (spheres["velocity"] ** 2).sum(axis=1)).sum()
+        # Between two steps velocities are those of the last full or half step: within their change in one step.
+        self.assertAlmostEqual(kinetic / experiment.history["kinetic_energy_j"][-1], 1, delta=0.05)
+
+
+class Advancing(InFolder):
+    def test_each_limit_is_met_within_a_pass(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        self.assertTrue(experiment.advance(steps=100))
+        self.assertTrue(100 <= experiment.steps <= 116, experiment.steps)
+        self.assertTrue(experiment.advance(strain=0.001))
+        self.assertTrue(0.001 <= experiment.strain <= 0.0011, experiment.strain)
+        time = experiment.time + 50 * experiment.time_step
+        self.assertTrue(experiment.advance(time=time))
+        self.assertTrue(time <= experiment.time <= time + 17 * experiment.time_step)
+        rows = experiment.history.rows
+        experiment.advance(samples=2)
+        self.assertEqual(experiment.history.rows, rows + 2)
+        self.assertFalse(experiment.advance(strain=1))
+        self.assertTrue(experiment.finished)
+
+    def test_a_callback_sees_each_row(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        rows = []
+        experiment.on_sample = rows.append
+        first = experiment.history.rows
+        run = experiment.run()
+        self.assertEqual(len(rows), run.history.rows - first)
+        for name, column in run.history.items():
+            seen = numpy.array([row[name] for row in rows])
+            self.assertEqual(seen.tobytes(), column[first:].astype(float).tobytes(), name)
+
+    def test_what_a_callback_raises_comes_out(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+
+        def stop(row):
+            raise KeyError("enough")
+
+        experiment.on_sample = stop
+        with self.assertRaises(KeyError):
+            experiment.run()
+        experiment.on_sample = None
+        self.assertTrue(experiment.advance(samples=1), "it can go on")
+
+    def test_control_c_interrupts_and_can_be_gone_on_from(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        experiment.on_sample = lambda row: signal.raise_signal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            experiment.run()
+        experiment.on_sample = None
+        self.assertGreater(experiment.run().summary["strength_pa"], 1e6)
+
+
+class Changing(InFolder):
+    def test_friction_changes_what_the_ends_do(self):
+        rough = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "rough")
+        changed = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "changed")
+        for experiment in (rough, changed):
+            experiment.advance(strain=0.001)
+        changed.change({"Platens/Friction static": 0.01, "Platens/Friction dynamic": 0.01})
+        work = changed.history["friction_work_j"][-1]
+        for experiment in (rough, changed):
+            experiment.advance(strain=0.002)
+
+        def sliding(experiment):
+            contacts = experiment.end().contacts[-1]
+            shear = numpy.linalg.norm(contacts.point_data["shear_force"].reshape(len(contacts.points), -1), axis=1)
+            return (shear / contacts.point_data["normal_force"]).max()
+
+        self.assertGreater(sliding(rough), 0.1)
+        self.assertLessEqual(sliding(changed), 0.01 * (1 + 1e-9))
+        changes = changed.summary["changes"]
+        self.assertEqual([change["entry"] for change in changes], ["Platens/Friction static", "Platens/Friction dynamic"])
+        self.assertEqual((changes[0]["was"], changes[0]["now"]), ("0.3", "0.01"))
+        self.assertIn("Platens/Friction static = 0.01, was 0.3", (self.folder / "changed" / "run.log").read_text())
+        self.assertGreaterEqual(changed.history["friction_work_j"][-1], work)
+
+    def test_half_the_rate_closes_half_as_fast(self):
+        experiment = platen.Experiment(CRUSHED, set=dict(SMALL, **{"Loading/Stop at residual": 0}), output=self.folder / "run")
+        experiment.advance(strain=0.001)
+
+        def speed():
+            strain, time = experiment.strain, experiment.time
+            experiment.advance(steps=64)
+            return (experiment.strain - strain) / (experiment.time - time)
+
+        before = speed()
+        experiment.change({"Loading/Axial rate": "0.3 m/s"})
+        experiment.advance(strain=experiment.strain + 3e-3)  # the ramp between the two
+        self.assertAlmostEqual(speed() / before, 0.5, delta=0.01)
+
+    def test_what_cannot_change_is_refused_and_changes_nothing(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        experiment.advance(samples=3)
+        for entry, value in (("Bond/Modulus", "30 GPa"), ("Specimen/Height", "30 mm"), ("Loading/Target strain", 0.01)):
+            with self.assertRaises(platen.InputError) as caught:
+                experiment.change({entry: value, "Platens/Friction static": 0.2})
+            self.assertIn(entry, str(caught.exception))
+        self.assertNotIn("changes", experiment.summary)
+
+    def test_a_surface_without_friction_gets_none(self):
+        smooth = dict(SMALL, **{"Platens/Friction static": 0, "Platens/Friction dynamic": 0})
+        experiment = platen.Experiment(CRUSHED, set=smooth, output=self.folder / "run")
+        experiment.advance(samples=3)
+        with self.assertRaisesRegex(platen.InputError, "without friction"):
+            experiment.change({"Platens/Friction static": 0.2})
+
+    def test_a_changed_run_is_not_resumed_by_the_program(self):
+        values = dict(SMALL, **{"Checkpoint/Every": 50})
+        experiment = platen.Experiment(CRUSHED, set=values, output=self.folder / "run")
+        experiment.advance(strain=0.001)
+        experiment.change({"Platens/Friction static": 0.2, "Platens/Friction dynamic": 0.1})
+        experiment.advance(steps=200)
+        experiment.close()
+        done = run_app("platen-compress", CRUSHED, self.folder / "run", *entries(values), "--resume")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("changed on its way by a script", done.stderr)
+
+
+class Closing(InFolder):
+    def test_a_folder_is_free_again_after_the_end(self):
+        first = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        first.advance(samples=2)
+        with self.assertRaisesRegex(platen.PlatenError, "at work"):
+            platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run", overwrite=True)
+        first.end()
+        second = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run", overwrite=True)
+        second.close()
+        with platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run", overwrite=True) as third:
+            third.advance(samples=2)
+        for over in (first, second, third):
+            with self.assertRaises(platen.PlatenError):
+                over.advance(samples=1)
+            self.assertTrue(numpy.isfinite(over.spheres["position"]).all(), "what it computed is still there")
+
+    def test_a_closed_run_is_resumed_by_the_program_to_the_same_bytes(self):
+        values = dict(SMALL, **{"Checkpoint/Every": 50})
+        whole = run_app("platen-compress", CRUSHED, self.folder / "whole", *entries(values))
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        with platen.Experiment(CRUSHED, set=values, output=self.folder / "run") as experiment:
+            experiment.advance(strain=0.002)
+        done = run_app("platen-compress", CRUSHED, self.folder / "run", *entries(values), "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(bytes_in(self.folder / "whole"), bytes_in(self.folder / "run"))
+
+
+class BadInput(InFolder):
+    def refused(self, error=platen.InputError, scene=CRUSHED, **options):
+        with self.assertRaises(error) as caught:
+            platen.Experiment(scene, **dict({"output": self.folder / "run"}, **options))
+        self.assertFalse((self.folder / "run" / "history.csv").exists())
+        return caught.exception
+
+    def test_a_value_out_of_its_range(self):
+        error = self.refused(set={"Platens/Friction static": 300})
+        self.assertEqual(error.entry, "Platens/Friction static")
+        self.assertEqual(error.file, "command line, --set 1")
+        self.assertIn("Allowed: 0 ... 5", error.reason)
+
+    def test_an_entry_that_is_not_known(self):
+        error = self.refused(set={"Bond/Modulu": 1})
+        self.assertEqual(error.entry, "Bond/Modulus")
+        self.assertIn("Did you mean", error.reason)
+
+    def test_a_unit_that_does_not_fit(self):
+        self.assertEqual(self.refused(set={"Specimen/Radius": "3 MPa"}).entry, "Specimen/Radius")
+
+    def test_a_scene_that_is_not_there(self):
+        self.assertIn("no such scene.prm", str(self.refused(scene="no such scene.prm")))
+
+    def test_a_line_of_a_scene(self):
+        scene = self.folder / "mine.prm"
+        scene.write_text(f"include {CRUSHED}\nsubsection Bond\n  set Gap = -3\nend\n")
+        error = self.refused(scene=scene)
+        self.assertEqual((error.entry, error.file, error.line), ("Bond/Gap", str(scene), 3))
+
+    def test_entries_that_contradict_each_other(self):
+        self.refused(set={"Specimen/Height": "200 m"})
+
+    def test_a_folder_that_holds_a_run(self):
+        platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "held").end()
+        before = bytes_in(self.folder / "held")
+        with self.assertRaises((platen.InputError, platen.OutputError)):
+            platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "held")
+        self.assertEqual(before, bytes_in(self.folder / "held"))
+
+    def test_a_count_of_threads_that_is_none(self):
+        for threads in (0, -1, 100000, 1.5, True):
+            self.refused(threads=threads)
+
+    def test_a_time_step_above_the_limit(self):
+        self.refused(set=dict(SMALL, **{"Integration/Time step": "1 s"}))
+
+    def test_advancing_to_nothing(self):
+        experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
+        with self.assertRaises(platen.InputError):
+            experiment.advance()
+
+    def test_numerics_that_stop(self):
+        # A step far above the limit cannot be asked for; a sphere that is driven through the other platen can.
+        values = dict(SMALL, **{"Loading/Axial rate": "30 m/s", "Loading/Target strain": 0.3, "Bond/Tensile strength": "unbreakable",
+                                "Bond/Shear strength": "unbreakable"})
+        try:
+            platen.Experiment(CRUSHED, set=values, output=self.folder / "run").run()
+        except platen.PlatenError as error:
+            self.assertIsInstance(error, (platen.NumericsError, platen.InputError))
+
+    def test_every_error_of_platen_is_one_class(self):
+        for error in (platen.InputError, platen.NumericsError, platen.OutputError):
+            self.assertTrue(issubclass(error, platen.PlatenError))
+
+
+if __name__ == "__main__":
+    unittest.main()
