@@ -1,6 +1,7 @@
 # cmake --install puts programs into bin, libraries into lib, headers into include/platen, what find_package(Platen)
 # reads into lib/cmake/Platen, and into share/platen scenes, examples, documentation with the measurements that it cites,
-# and the scripts that go with them, at the same places as in the sources: what one names by its path is there.
+# and the scripts that go with them, at the same places as in the sources: what one names by its path is there. Man pages
+# go into share/man.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -36,4 +37,11 @@ if(PLATEN_APPS)
   install(DIRECTORY scenes DESTINATION ${platen_share})
   install(PROGRAMS scripts/slurm/study_array.sh DESTINATION ${platen_share}/scripts/slurm)
   install(PROGRAMS scripts/demo.sh scripts/brush_platen.py DESTINATION ${platen_share}/scripts)
+endif()
+
+# Man pages are what the programs say of themselves when they are installed.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(PLATEN_APPS AND Python3_FOUND)
+  install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" -B \"${PROJECT_SOURCE_DIR}/scripts/man_pages.py\"
+    \"${CMAKE_BINARY_DIR}\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}\" COMMAND_ERROR_IS_FATAL ANY)")
 endif()
