@@ -30,7 +30,7 @@ install(FILES ${CMAKE_BINARY_DIR}/PlatenConfig.cmake ${CMAKE_BINARY_DIR}/PlatenC
 
 set(platen_share ${CMAKE_INSTALL_DATADIR}/platen)
 install(DIRECTORY examples DESTINATION ${platen_share})
-install(DIRECTORY docs DESTINATION ${platen_share})
+install(DIRECTORY docs DESTINATION ${platen_share} PATTERN manual EXCLUDE PATTERN sketches EXCLUDE)
 install(DIRECTORY bench/results DESTINATION ${platen_share}/bench)
 install(FILES README.md LICENSE DESTINATION ${platen_share})
 if(PLATEN_APPS)

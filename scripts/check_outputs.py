@@ -19,7 +19,7 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent
 PAGE = SOURCE / "docs/outputs.md"
 # Members that are names of their own: of other keys, of entries, of patterns.
 FREE = {"validity", "inputs_sha256", "patterns", "found", "training", "verification", "sensitivities", "correlations",
-        "bounding", "effective", "mass", "bulk", "tension", "bending", "torsion", "impact", "bounds", "abacus",
+        "bulk", "tension", "bending", "torsion", "impact", "bounds", "abacus",
         "targets", "values", "scatter_of_seeds", "prices", "wall_seconds", "correlated", "targets_missed", "missed",
         "undetermined"}
 SAME = {"plan.json": None, "curve_2.csv": "curve.csv", "curve_3.csv": "curve.csv"}  # None: not on the page
