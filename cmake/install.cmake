@@ -1,7 +1,8 @@
 # cmake --install puts programs into bin, libraries into lib, headers into include/platen, what find_package(Platen)
 # reads into lib/cmake/Platen, and into share/platen scenes, examples, documentation with the measurements that it cites,
-# and the scripts that go with them, at the same places as in the sources: what one names by its path is there. Each rule
-# belongs to a component, of which packages are made (package.cmake): programs, development, documentation, python.
+# and the scripts that go with them, at the same places as in the sources: what one names by its path is there. Man pages
+# go into share/man. Each rule belongs to a component, of which packages are made (package.cmake): programs, development,
+# documentation, python.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -34,7 +35,8 @@ install(FILES ${CMAKE_BINARY_DIR}/PlatenConfig.cmake ${CMAKE_BINARY_DIR}/PlatenC
 
 set(platen_share ${CMAKE_INSTALL_DATADIR}/platen)
 install(DIRECTORY examples DESTINATION ${platen_share} COMPONENT development)
-install(DIRECTORY docs DESTINATION ${platen_share} COMPONENT documentation)
+install(DIRECTORY docs DESTINATION ${platen_share} COMPONENT documentation
+  PATTERN manual EXCLUDE PATTERN sketches EXCLUDE)
 install(DIRECTORY bench/results DESTINATION ${platen_share}/bench COMPONENT documentation)
 install(FILES README.md LICENSE DESTINATION ${platen_share} COMPONENT documentation)
 if(PLATEN_APPS)
@@ -49,4 +51,11 @@ if(PLATEN_APPS)
     file(CREATE_LINK platen ${CMAKE_BINARY_DIR}/completions/platen-${program} SYMBOLIC)
     install(FILES ${CMAKE_BINARY_DIR}/completions/platen-${program} DESTINATION ${completions} COMPONENT programs)
   endforeach()
+endif()
+
+# Man pages are what the programs say of themselves when they are installed.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(PLATEN_APPS AND Python3_FOUND)
+  install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" -B \"${PROJECT_SOURCE_DIR}/scripts/man_pages.py\"
+    \"${CMAKE_BINARY_DIR}\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT programs)
 endif()

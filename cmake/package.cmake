@@ -43,6 +43,14 @@ foreach(pair IN LISTS platen_packages)
   endif()
 endforeach()
 
+# Policy too: man pages are packed small. The manual is in platen-doc where scripts/manual.sh has made it.
+install(CODE "file(GLOB pages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/*.1\")
+  if(pages)
+    execute_process(COMMAND gzip -9nf \${pages} COMMAND_ERROR_IS_FATAL ANY)
+  endif()" COMPONENT programs EXCLUDE_FROM_ALL)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/platen-doc/html
+  COMPONENT documentation EXCLUDE_FROM_ALL OPTIONAL PATTERN man EXCLUDE)
+
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "xvfb, xauth, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "bash-completion, fonts-wqy-microhei, python3")

@@ -12,6 +12,7 @@ if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=cc
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DPLATEN_APPS=ON -DPLATEN_PYTHON=ON \
   -DPLATEN_TESTS=OFF -DPLATEN_BENCH=OFF "${launcher[@]}"
 cmake --build "$build"
+scripts/manual.sh "$build"
 (cd "$build" && rm -f ./*.deb && cpack -G DEB)
 # The compiled part of each package is checked; what lintian calls an error ends this with its status.
 lintian --fail-on error --suppress-tags bad-distribution-in-changes-file "$build"/*.deb

@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
 # Installs what Platen needs on Debian 12 and is not there yet, and further packages that are named. Where all is there it
 # says so and touches nothing, the network included. --cluster: what tests of studies over nodes need too, Slurm and GNU
-# parallel.
-#   scripts/setup.sh [--cluster] [PACKAGE...]
+# parallel. --manual: what scripts/manual.sh makes the manual with, Sphinx and Doxygen.
+#   scripts/setup.sh [--cluster] [--manual] [PACKAGE...]
 set -euo pipefail
 
-cluster=()
-if [ "${1:-}" = --cluster ]; then
-  cluster=(munge slurmctld slurmd slurm-client parallel)
+further=()
+while true; do
+  case "${1:-}" in
+    --cluster) further+=(munge slurmctld slurmd slurm-client parallel) ;;
+    --manual) further+=(python3-sphinx python3-myst-parser furo doxygen groff man-db mandoc) ;;
+    *) break ;;
+  esac
   shift
-fi
+done
 
 packages=(
   git g++ cmake ninja-build pkg-config # tools
@@ -24,7 +28,7 @@ packages=(
   xvfb xauth                           # pictures where there is no display
   libfontconfig-dev                    # and their letters: Latin, Greek, Cyrillic; Chinese, Japanese, Korean
   fonts-dejavu-core fonts-wqy-microhei
-  "${cluster[@]}"
+  "${further[@]}"
   "$@"
 )
 
