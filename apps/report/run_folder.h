@@ -40,7 +40,7 @@ struct Run {
   Json summary;         // null where the run wrote none
   std::optional<CsvTable> cracks;                 // "mode" as words
   std::optional<CsvTable> events;                 // acoustic ones
-  FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
+  FrameSeries specimen, bonds, platens, contacts, sleeve; // empty where the run wrote none
   std::vector<std::string> remarks;               // what is not there, one sentence each
 
   // Along the loaded axis, one per row of the history: Pa; of the platens, 1.
