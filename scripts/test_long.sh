@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up (Clang, valgrind, Slurm and GNU parallel too), builds everything into build/ and runs all tests with their long forms: hours on two
+# Sets up (Clang, valgrind, chromium, Slurm and GNU parallel too), builds everything into build/ and runs all tests with their long forms: hours on two
 # cores. What they find is kept in tests/verification/found.json and written to docs/verification.md. Then some single
 # faults are made in a copy of the sources, and the tests asked whether they notice (build-mutation/). Arguments are
 # those of verification.py:
@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/setup.sh --cluster clang libclang-rt-dev llvm valgrind # fuzzing, sanitizers, memcheck
+scripts/setup.sh --cluster clang libclang-rt-dev llvm valgrind chromium chromium-driver # fuzzing, sanitizers, memcheck, pages
 scripts/build.sh
 status=0
 scripts/verification.py build --long --write "$@" || status=$?

@@ -119,6 +119,7 @@ body { font-family: sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 
 table { border-collapse: collapse; } td, th { padding: 0.2rem 1rem; border-bottom: 1px solid #ccc; text-align: right; }
 td:first-child, th:first-child { text-align: left; padding-left: 0; }
 h2 { margin-top: 3rem; border-bottom: 2px solid #0072b2; } nav { margin: 1rem 0; } a { color: #0072b2; }
+@media (max-width: 40rem) { body { margin: 0.5rem auto; padding: 0 0.6rem; } table { display: block; overflow-x: auto; } td, th { padding: 0.2rem 0.5rem; } }
 figure { margin: 1.5rem 0 2.5rem; } img { max-width: 100%; } figcaption { margin-top: 0.5rem; color: #333; }
 </style>
 )";
@@ -269,6 +270,7 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
   const std::filesystem::path html = folder_ / "report.html";
   write_text_aside(html,
                    fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                                "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{2}{3}"
                                "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
                                escaped(title), style_sheet, links, html_table(figures), list, sections));

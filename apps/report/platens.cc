@@ -94,10 +94,12 @@ void add_contacts(vtkChartXY &chart, const PlatenContacts &contacts, bool slidin
 } // namespace
 
 PlatenContacts contacts_with(Side side, const Frame &frame) {
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame);
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = read_frame(frame, Points::maybe_none);
+  if (grid->GetNumberOfPoints() == 0) return {};
   vtkDataArray &normal = point_data(*grid, "normal", 3, frame), &shear = point_data(*grid, "shear", 3, frame),
                &force = point_data(*grid, "normal_force", 1, frame),
                &sliding = point_data(*grid, "sliding", 1, frame);
+  vtkDataArray *slip = grid->GetPointData()->GetArray("slip");
   const int axis = coupling::axis_of(side);
   const double inward = coupling::inward(side)[axis];
   const auto [across, up] = plane_of(side);
@@ -106,8 +108,11 @@ PlatenContacts contacts_with(Side side, const Frame &frame) {
     if (!(inward * normal.GetComponent(k, axis) > upright)) continue;
     const double x = grid->GetPoint(k)[across], y = grid->GetPoint(k)[up], radius = std::hypot(x, y);
     const double sx = shear.GetComponent(k, across), sy = shear.GetComponent(k, up);
-    contacts.push_back({x, y, force.GetComponent(k, 0), radius > 0 ? -(sx * x + sy * y) / radius : 0,
-                        sliding.GetComponent(k, 0) != 0});
+    contacts.push_back(
+        {x, y, force.GetComponent(k, 0), radius > 0 ? -(sx * x + sy * y) / radius : 0,
+         sliding.GetComponent(k, 0) != 0,
+         std::hypot(shear.GetComponent(k, 0), shear.GetComponent(k, 1), shear.GetComponent(k, 2)),
+         slip != nullptr ? slip->GetComponent(k, 0) : 0});
   }
   return contacts;
 }

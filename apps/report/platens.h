@@ -17,6 +17,8 @@ struct PlatenContact {
   double normal_force; // N, pressing
   double inward_shear; // N, on the specimen, towards the origin of the plane
   bool sliding;
+  double shear_force = 0; // N, size
+  double slip = 0;        // m, so far; 0 where the frame does not tell
 };
 using PlatenContacts = std::vector<PlatenContact>; // with one platen in one frame of contacts.pvd
 

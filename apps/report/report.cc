@@ -4,12 +4,16 @@
 
 #include "apps/report/bars.h"
 #include "apps/report/biaxial.h"
+#include "apps/report/confinement.h"
 #include "apps/report/cracks.h"
 #include "apps/report/curves.h"
 #include "apps/report/fields.h"
+#include "apps/report/friction.h"
 #include "apps/report/platens.h"
+#include "apps/report/sleeve.h"
 #include "apps/report/specimen_view.h"
 #include "apps/report/stages.h"
+#include "apps/report/strips.h"
 #include "apps/report/viewer.h"
 
 namespace platen::apps::report {
@@ -61,6 +65,18 @@ void draw_curves(const Run &run, Album &album) {
             "The energy ledger: where the work of the platens went. Its residual should not leave the zero "
             "line.",
             draw_energies, run);
+  if (tells_opening(run))
+    album.add("opening.png",
+              run.history.has("deflection_m")
+                  ? "Nominal flexural stress against what the bar bends at mid-span."
+                  : "Splitting stress against what the disc widens across the loaded diameter.",
+              draw_opening, run);
+  if (has_cell(run))
+    album.add("confinement.png",
+              "What the cell leaves to the platens: deviator and volume against strain, and the pressure of "
+              "the cell "
+              "over time. Where the volume begins to grow, cracks open against the pressure.",
+              draw_confinement, run);
   if (has_stress_path(run))
     album.add(
         "stress_path.png",
@@ -143,22 +159,51 @@ void draw_ends(const Run &run, const Spheres &before_test, const Extent &extent,
         "stress, compression positive, on the right the largest shear. Elastic platens carry it on; rigid "
         "ones are grey.",
         draw_stress_flow, run, before_test);
-  if (has_further_sides(run) || extent.form == Extent::Form::box) {
+  if (tells_friction(run))
+    album.add("friction.png",
+              "How friction holds: the share of spheres at each platen that slide, friction over pressure "
+              "beside the "
+              "limits of the scene, how far they have slid (the mean, by pressure), and the work of it. "
+              "Platens hold "
+              "as long as friction stays below its limit.",
+              draw_friction, run);
+  const double radius = mean_radius(before_test);
+  if (has_strips(run))
+    album.add("strip_loads.png",
+              "Load along each strip near the peak: an even strip bears the same everywhere.",
+              draw_strip_loads, run, extent, radius);
+  else if (has_further_sides(run) || extent.form == Extent::Form::box)
     album.add("side_pressure.png",
               "Pressure on each platen over the face of the specimen near the peak, over the mean of that "
               "platen: what stays dark is borne "
               "elsewhere.",
-              draw_face_pressures, run, extent, mean_radius(before_test));
+              draw_face_pressures, run, extent, radius);
+  else if (extent.form == Extent::Form::cylinder)
+    album.add(
+        "platen_pressure.png",
+        "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
+        "end together by inward shear.",
+        draw_platen_profiles, run, extent);
+  if (!is_glued(run))
     album.add("stick_slip.png", "Spheres at each platen near the peak: which stick and which slide.",
               draw_stick_and_slip, run, extent);
-  }
-  if (extent.form != Extent::Form::cylinder || has_further_sides(run)) return;
-  album.add("platen_pressure.png",
-            "Pressure on the platens and shear on the ends over the radius, near the peak: friction holds an "
-            "end together by inward shear.",
-            draw_platen_profiles, run, extent);
-  album.add("stick_slip.png", "Spheres at the platens near the peak: which stick and which slide.",
-            draw_stick_and_slip, run, extent);
+}
+
+void draw_sleeves(const Run &run, const Extent &extent, Album &album) {
+  if (run.sleeve.empty()) return;
+  album.begin("The sleeve");
+  album.add(
+      "sleeve.png",
+      "Half of the specimen in its sleeve, as it is deformed. Spheres by outward displacement: where the "
+      "sleeve bulges, the specimen fails.",
+      draw_sleeve, run, extent);
+  album.add(
+      "sleeve_unrolled.png",
+      "The inner face of the sleeve unrolled: how much it is stretched around, what the spheres press on it "
+      "(what the cell's pressure does not find there, it finds in gaps between spheres), and how far they "
+      "have slid "
+      "along it.",
+      draw_sleeve_unrolled, run);
 }
 
 void draw_one_run(const Run &run, Album &album) {
@@ -172,6 +217,7 @@ void draw_one_run(const Run &run, Album &album) {
   draw_specimen(run, extent, album);
   draw_all_cracks(run, before_test, extent.is_plane(), album);
   draw_ends(run, before_test, extent, album);
+  draw_sleeves(run, extent, album);
 }
 
 // Throws InputError where a frame that pictures are drawn of is damaged: before the first of them.

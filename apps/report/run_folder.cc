@@ -227,6 +227,8 @@ Run read_run(const fs::path &folder) {
   run.bonds =
       optional_series(run, "bonds.pvd", "crack density is given per volume, not as a share of the bonds");
   run.platens = optional_series(run, "platens.pvd", "pictures are drawn without platens");
+  if (fs::exists(folder / "sleeve.pvd")) // few runs have one
+    run.sleeve = optional_series(run, "sleeve.pvd", "no pictures of the sleeve");
   run.contacts = optional_series(run, "contacts.pvd", "no pictures of what presses on the platens");
   return run;
 }

@@ -38,10 +38,10 @@ struct Run {
   Moments moments;
   std::size_t zero = 0; // row at the end of the consolidation, from which strains count; else the first
   Json summary;         // null where the run wrote none
-  std::optional<CsvTable> cracks;                 // "mode" as words
-  std::optional<CsvTable> events;                 // acoustic ones
-  FrameSeries specimen, bonds, platens, contacts; // empty where the run wrote none
-  std::vector<std::string> remarks;               // what is not there, one sentence each
+  std::optional<CsvTable> cracks;                         // "mode" as words
+  std::optional<CsvTable> events;                         // acoustic ones
+  FrameSeries specimen, bonds, platens, contacts, sleeve; // empty where the run wrote none
+  std::vector<std::string> remarks;                       // what is not there, one sentence each
 
   // Along the loaded axis, one per row of the history: Pa; of the platens, 1.
   std::vector<double> stress() const { return platen_stress(history, axis); }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/chart.h"
 #include "apps/report/report.h"
 
 namespace platen::apps::report {
@@ -34,6 +33,14 @@ std::vector<Side> sides_of(const Run &run) {
   for (const Side side : coupling::all_sides)
     if (coupling::axis_of(side) == 2 || run.history.has(stress_column(side))) sides.push_back(side);
   return sides;
+}
+
+Colour side_colour(Side side) {
+  return side_colours[static_cast<std::size_t>(side)];
+}
+
+Stroke side_stroke(Side side) {
+  return coupling::is_high(side) ? Stroke::dashed : Stroke::solid;
 }
 
 bool has_further_sides(const Run &run) {
@@ -80,12 +87,11 @@ void draw_side_stresses(const Run &run, const std::filesystem::path &png) {
   const std::vector<double> strain = scaled(run.strain(), mm_per_m);
   for (const Side side : sides_of(run)) {
     const std::vector<double> stress = scaled(stress_on(run, side), 1 / pa_per_mpa);
-    chart.curves.push_back({coupling::name_of(side), strain, stress,
-                            side_colours[static_cast<std::size_t>(side)],
-                            coupling::is_high(side) ? Stroke::dashed : Stroke::solid, 4});
+    chart.curves.push_back(
+        {coupling::name_of(side), strain, stress, side_colour(side), side_stroke(side), 4});
     const std::size_t peak = run.moments.peak_row;
     if (coupling::is_high(side)) continue; // one of each pair
-    chart.marks.push_back({strain[peak], stress[peak], "", side_colours[static_cast<std::size_t>(side)]});
+    chart.marks.push_back({strain[peak], stress[peak], "", side_colour(side)});
   }
   chart.x_title = run.strain_title();
   chart.y_title = "Stress (MPa), compression positive";

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/report/chart.h"
 #include "apps/report/run_folder.h"
 #include "coupling/side.h"
 
@@ -38,6 +39,10 @@ struct StressPath {
 StressPath stress_path_of(const Run &run);
 // Whether anything presses the sides.
 bool has_stress_path(const Run &run);
+
+// Of its curves in every picture: a colour an axis, the high side dashed.
+Colour side_colour(Side side);
+Stroke side_stroke(Side side);
 
 // A curve for each side against axial strain. The run must have further sides.
 void draw_side_stresses(const Run &run, const std::filesystem::path &png);

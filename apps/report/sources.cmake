@@ -19,6 +19,7 @@ set(PLATEN_REPORT_SOURCES
   report/chart_svg.cc
   report/cones.cc
   report/crack_pictures.cc
+  report/confinement.cc
   report/cracks.cc
   report/csv.cc
   report/curves.cc
@@ -26,6 +27,8 @@ set(PLATEN_REPORT_SOURCES
   report/envelope.cc
   report/fields.cc
   report/frames.cc
+  report/friction.cc
+  report/joined.cc
   report/letters.cc
   report/other_results.cc
   report/packing_report.cc
@@ -36,11 +39,14 @@ set(PLATEN_REPORT_SOURCES
   report/report.cc
   report/run_folder.cc
   report/sides.cc
+  report/sleeve.cc
+  report/sleeve_pictures.cc
   report/specimen_pictures.cc
   report/specimen_view.cc
   report/stages.cc
   report/state_listing.cc
   report/stress_flow.cc
+  report/strips.cc
   report/study_curves.cc
   report/target_study.cc
   report/viewer.cc)

@@ -108,9 +108,10 @@ vtkRenderer *add_panel(Canvas &canvas, int k, int panel_width, const std::string
   return canvas.add_renderer({left, foot / height, right, 1 - Canvas::head_height / height});
 }
 
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right) {
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right, double bottom,
+                    double top) {
   if (colouring.ramp == Ramp::pieces) return; // their colours mean nothing
-  vtkRenderer *renderer = canvas.add_renderer({left, 0, right, 1});
+  vtkRenderer *renderer = canvas.add_renderer({left, bottom, right, top});
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colour_ramp(colouring.ramp, colouring.ticks.front(), colouring.ticks.back()));
   bar->SetTitle((colouring.title + "\n ").c_str());
@@ -178,7 +179,7 @@ void light_cut(vtkRenderer *renderer) {
   add(0.7, 0.1, 0.3);
 }
 
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before) {
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before, const Colour &colour) {
   const bool whole = std::isinf(before);
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(0, whole ? 0 : before, 0);
@@ -194,7 +195,7 @@ void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double bef
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.62, 0.66, 0.70);
+  actor->GetProperty()->SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
   actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetAmbient(0.25);
   renderer->AddActor(actor);
@@ -213,6 +214,7 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
                        : views[k].shows_front ? std::numeric_limits<double>::infinity()
                                               : 0.9 * extent.half_depth;
     if (views[k].platens) add_platens(renderer, views[k].platens, cut);
+    if (views[k].sleeve) add_platens(renderer, views[k].sleeve, 0, {120, 94, 88});
     light_cut(renderer);
     add_outlines(renderer, views[k].outlines, 2 * extent.half_depth);
     look_at_cut(canvas, renderer, extent, 0.12 * extent.height());

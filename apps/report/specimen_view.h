@@ -33,6 +33,7 @@ struct CutView {
   bool is_whole = false;                        // not cut
   bool shows_front = true;                      // whole: platens before the specimen too, which would hide it
   vtkSmartPointer<vtkUnstructuredGrid> platens; // may be null
+  vtkSmartPointer<vtkUnstructuredGrid> sleeve;  // may be null; cut in half as the specimen is
   std::vector<Outline> outlines;
   std::vector<Note> notes;
 };
@@ -83,14 +84,17 @@ vtkRenderer *add_panel(Canvas &canvas, int k, int panel_width, const std::string
 // A parallel view from +y, a little from above, that holds the extent and what lies up to `margin` (m) around
 // it.
 void look_at_cut(const Canvas &canvas, vtkRenderer *renderer, const Extent &extent, double margin);
-// A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` (fractions).
-void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1);
+// A bar of the colours (none for pieces) in the part of the canvas from `left` to `right` and from `bottom`
+// to `top` (fractions).
+void add_colour_bar(Canvas &canvas, const Colouring &colouring, double left, double right = 1,
+                    double bottom = 0, double top = 1);
 // Lines without light, `width` pixels wide; grey: 0 black, 1 white. The mapper may be set further.
 vtkPolyDataMapper *add_lines(vtkRenderer *renderer, const std::vector<Outline> &lines, double grey,
                              float width);
 // Light from the upper left before the cut, and a weaker one from the right.
 void light_cut(vtkRenderer *renderer);
-// The platens in grey: what of them lies below y = `before` (m), infinite: all.
-void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before = 0);
+// The platens in grey: what of them lies below y = `before` (m), infinite: all. A sleeve in another colour.
+void add_platens(vtkRenderer *renderer, vtkUnstructuredGrid *platens, double before = 0,
+                 const Colour &colour = {158, 168, 179});
 
 } // namespace platen::apps::report

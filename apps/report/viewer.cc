@@ -10,6 +10,8 @@
 
 #include "apps/report/base64.h"
 #include "apps/report/cracks.h"
+#include "apps/report/joined.h"
+#include "apps/report/sleeve.h"
 #include "apps/report/viewer_text.h"
 #include "apps/scene/errors.h"
 #include "base/pi.h"
@@ -102,17 +104,38 @@ void add_cracks(const std::vector<Crack> &cracks, const std::vector<double> &tim
   }
 }
 
-// Corners of each platen, m: low x, y, z, high x, y, z.
+// Of each platen; two supports are two.
 Json platens_at(const Run &run, double time) {
   Json boxes = Json::array();
   if (run.platens.empty()) return boxes;
   const Frame &frame = nearest(run.platens, time);
-  for (const auto &part : frame.parts) {
-    std::array<double, 6> b{};
-    read_frame({frame.time, {part}})->GetBounds(b.data());
-    boxes.push_back({b[0], b[2], b[4], b[1], b[3], b[5]});
-  }
+  for (const auto &part : frame.parts)
+    for (const Bounds &bounds : bounds_of_bodies(*read_frame({frame.time, {part}})))
+      boxes.push_back(bounds);
   return boxes;
+}
+
+// The outer face of the sleeve: places of its corners in every frame; corners of each face in `meta`.
+void add_sleeve(const Run &run, const std::vector<double> &times, const Box &box, Json &meta, Bytes bytes) {
+  const SleeveFaces faces = faces_of_sleeve(run.sleeve.front());
+  std::vector<int> number(faces.points.size(), -1); // of the corners of the outer face alone
+  std::vector<std::size_t> corners;
+  Json outer = Json::array();
+  for (const auto &face : faces.outer)
+    for (const int corner : face) {
+      int &at = number[static_cast<std::size_t>(corner)];
+      if (at < 0) at = static_cast<int>(corners.size()), corners.push_back(static_cast<std::size_t>(corner));
+      outer.push_back(at);
+    }
+  const auto add = [&](const std::vector<Position> &places) {
+    for (const std::size_t corner : corners)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        bytes.two(box.steps[axis].of(places[corner][axis]));
+  };
+  add(faces.initial);
+  for (const double time : times)
+    add(sleeve_places(faces, nearest(run.sleeve, time)));
+  meta["sleeve"] = {{"corners", corners.size()}, {"faces", outer}};
 }
 
 // Strain and stress of the sample nearest to a time.
@@ -192,6 +215,7 @@ SpecimenView pack_view(const Run &run, const Extent &extent, std::size_t most_fr
                {"start_frame", start - times.begin()},
                {"ids", first.id},
                {"frames", frames}};
+  if (!run.sleeve.empty()) add_sleeve(run, times, box, view.meta, bytes);
   return view;
 }
 

@@ -14,7 +14,8 @@ namespace platen::apps::report {
 // radius_step); for each frame the places of all spheres (3 x 2 bytes, multiples of `step` from `origin`),
 // their damage (1 byte, 255: all bonds broken) and piece (1 byte; 0 the largest, 255 a single sphere); then
 // for all cracks places (3 x 2 bytes), normals (3 x 1 byte, 127: 1), modes (1 byte; 0 tension, 1 shear),
-// radii of their areas (2 bytes) and the first frame that has them (1 byte).
+// radii of their areas (2 bytes) and the first frame that has them (1 byte); then, with a sleeve, the places
+// of the corners of its outer face (3 x 2 bytes) before the test and in each frame.
 struct SpecimenView {
   Json meta;
   std::vector<unsigned char> bytes;

@@ -1,5 +1,5 @@
 // The specimen of a report's page, turned by hand: spheres as shaded discs with their own depth, cracks as discs, platens
-// as frames of boxes, all in one WebGL 2 canvas. Data come with the page (apps/report/viewer.cc says in which layout).
+// as frames of boxes, the sleeve as a veil, all in one WebGL 2 canvas. Data come with the page (apps/report/viewer.cc says in which layout).
 (function () {
   'use strict';
   const root = document.getElementById('specimen-view');
@@ -7,7 +7,7 @@
   const canvas = root.querySelector('canvas'), message = root.querySelector('.view-message');
   const started = performance.now();
   const tell = (text) => { message.textContent = text; };
-  const gl = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+  const gl = canvas.getContext('webgl2', {alpha: false, antialias: true, preserveDrawingBuffer: true});
   if (!gl) { tell('This browser shows no WebGL 2: the pictures below hold the same.'); return; }
 
   // ---- data
@@ -24,12 +24,14 @@
   const frames = meta.frames.map(() => ({place: take(Uint16Array, 3 * N), damage: take(Uint8Array, N), piece: take(Uint8Array, N)}));
   const crack = {place: take(Uint16Array, 3 * C), normal: take(Int8Array, 3 * C), mode: take(Uint8Array, C),
                  size: take(Uint16Array, C), frame: take(Uint8Array, C)};
+  const sleeve_corners = meta.sleeve ? meta.sleeve.corners : 0;
+  const sleeve_first = take(Uint16Array, 3 * sleeve_corners), sleeve_frames = meta.frames.map(() => take(Uint16Array, 3 * sleeve_corners));
   const metre = (frame, sphere, axis) => meta.origin[axis] + meta.step * frame.place[3 * sphere + axis];
 
   // ---- state of the view
   const words = ['damage', 'displacement', 'outward', 'piece'].filter((w) => w !== 'piece' || meta.pieces);
-  const state = {frame: meta.start_frame, quantity: words[0], cut: 'y', depth: 0.5, tension: false, shear: false, magnify: 1, yaw: 0.6,
-                 pitch: 0.25, zoom: 1, pan: [0, 0], picked: -1, playing: false};
+  const state = {frame: meta.start_frame, quantity: words[0], cut: 'y', depth: 0.5, tension: false, shear: false, sleeve: true, magnify: 1,
+                 yaw: 0.6, pitch: 0.25, zoom: 1, pan: [0, 0], picked: -1, playing: false};
   const low = meta.low, high = meta.high; // corners of the specimen before the test, m
   const middle = [0, 1, 2].map((k) => (low[k] + high[k]) / 2);
   const reach = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
@@ -72,8 +74,8 @@ void main() {
   if (inside < 0.0) discard;
   float z = sqrt(inside);
   gl_FragDepth = 0.5 + 0.5 * (spread.x - spread.y * z);
-  float light = 0.35 + 0.65 * max(0.0, dot(vec3(at, z), normalize(vec3(-0.4, 0.5, 0.8))));
-  colour = vec4(tint * light, 1.0);
+  float light = max(0.0, dot(vec3(at, z), normalize(vec3(-0.4, 0.5, 0.8))));
+  colour = vec4(tint * (0.4 + 0.6 * light) + 0.06 * light, 1.0);
 }`);
   const disc_program = compile(common + `
 in vec2 corner; in vec3 place, normal; in float size, mode, since; uniform vec2 shown; uniform float now;
@@ -88,6 +90,20 @@ void main() {
 }`, `
 in vec2 at; in vec3 tint; out vec4 colour;
 void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
+  const veil_program = compile(common + `
+in vec3 place, first;
+out vec3 was, now;
+void main() {
+  was = origin + step_ * first - middle;
+  now = turn * (was + magnify * step_ * (place - first));
+  gl_Position = seen(now);
+}`, `
+in vec3 was, now; uniform vec3 cut, ink; uniform float depth, veil; out vec4 colour;
+void main() {
+  if (dot(cut, was) > depth) discard;
+  float facing = abs(normalize(cross(dFdx(now), dFdy(now))).z);
+  colour = vec4(ink, veil * (1.5 - facing));
+}`);
   const line_program = compile(common + 'in vec3 place; void main() { gl_Position = seen(turn * (place - middle)); }',
     'uniform vec3 ink; out vec4 colour; void main() { colour = vec4(ink, 1.0); }');
 
@@ -129,6 +145,19 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   gl.bindBuffer(gl.ARRAY_BUFFER, line_places);
   gl.bufferData(gl.ARRAY_BUFFER, 12, gl.DYNAMIC_DRAW);
   attribute(line_program, 'place', line_places, 3, gl.FLOAT, false, 0);
+  // Triangles of each face of the sleeve, and the edges around it.
+  const veil = gl.createVertexArray(), veil_places = buffer(sleeve_frames[0], gl.DYNAMIC_DRAW);
+  const sleeve_faces = meta.sleeve ? meta.sleeve.faces : [], triangles = [], edges_of_sleeve = [];
+  for (let k = 0; k < sleeve_faces.length; k += 4) {
+    const [a, b, c, d] = sleeve_faces.slice(k, k + 4);
+    triangles.push(a, b, c, a, c, d);
+    edges_of_sleeve.push(a, b, b, c); // the other two are those of its neighbours
+  }
+  gl.bindVertexArray(veil);
+  attribute(veil_program, 'place', veil_places, 3, gl.UNSIGNED_SHORT, false, 0);
+  attribute(veil_program, 'first', buffer(sleeve_first), 3, gl.UNSIGNED_SHORT, false, 0);
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(triangles.concat(edges_of_sleeve)), gl.STATIC_DRAW);
   gl.bindVertexArray(null);
 
   // ---- colours
@@ -138,7 +167,7 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   ramps.outward = ramps.displacement;
   const palette = [[0.72, 0.72, 0.72], [0.90, 0.62, 0.0], [0.34, 0.71, 0.91], [0.0, 0.62, 0.45], [0.94, 0.89, 0.26], [0.0, 0.45, 0.70],
                    [0.84, 0.37, 0.0], [0.80, 0.47, 0.65], [0.55, 0.34, 0.29], [0.45, 0.65, 0.12]];
-  const loose = [0.15, 0.15, 0.15];
+  const loose = [0.36, 0.32, 0.42];
   const ramp = (stops, share) => {
     const x = Math.min(Math.max(share, 0), 1) * (stops.length - 1), k = Math.min(Math.floor(x), stops.length - 2);
     return [0, 1, 2].map((c) => stops[k][c] + (x - k) * (stops[k + 1][c] - stops[k][c]));
@@ -178,18 +207,26 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   };
 
   // ---- geometry of the view: x to the right, z up, y away
-  const turn = () => {
-    const cy = Math.cos(state.yaw), sy = Math.sin(state.yaw), cp = Math.cos(state.pitch), sp = Math.sin(state.pitch);
+  const turned_by = (yaw, pitch) => {
+    const cy = Math.cos(yaw), sy = Math.sin(yaw), cp = Math.cos(pitch), sp = Math.sin(pitch);
     return [[cy, sy, 0], [-sp * sy, sp * cy, cp], [sy * cp, -cy * cp, sp]]; // right, up, towards the eye
   };
+  const turn = () => turned_by(state.yaw, state.pitch);
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const cut_direction = () => ({none: [0, 0, 0], x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1]}[state.cut]);
   const cut_depth = () => { // m from the middle along the direction: 0 keeps nothing, 1 all
     const axis = {x: 0, y: 1, z: 2}[state.cut];
     return axis === undefined ? 0 : (2 * state.depth - 1) * (high[axis] - low[axis]) / 2;
   };
+  const corners_of = (b) => [...Array(8).keys()].map((k) => [b[k & 1 ? 3 : 0], b[k & 2 ? 4 : 1], b[k & 4 ? 5 : 2]]);
+  // Half width and height of what is seen, m: specimen and platens fit as they are seen at the beginning; platens that are much
+  // larger do not count.
+  const framed = [corners_of([...low, ...high]), meta.frames[0].platens.flatMap(corners_of)].map((places) => [0, 1].map((k) =>
+    Math.max(0, ...places.map((p) => Math.abs(dot(turned_by(0.6, 0.25)[k], p.map((x, axis) => x - middle[axis])))))));
   const extent = () => {
-    const half = 1.05 * reach / state.zoom, wide = canvas.width / canvas.height;
-    return wide > 1 ? [half * wide, half] : [half, half / wide];
+    const wide = canvas.width / canvas.height, half = ([x, y]) => Math.max(y, x / wide);
+    const height = 1.05 * Math.min(Math.max(half(framed[0]), half(framed[1])), 1.3 * half(framed[0])) / state.zoom;
+    return [height * wide, height];
   };
   const uniforms = (program, m) => {
     gl.useProgram(program);
@@ -207,9 +244,8 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
     return u;
   };
   const box_edges = (b) => {
-    const p = (k) => [b[k & 1 ? 3 : 0], b[k & 2 ? 4 : 1], b[k & 4 ? 5 : 2]];
-    const edges = [];
-    for (let k = 0; k < 8; ++k) for (const bit of [1, 2, 4]) if (!(k & bit)) edges.push(...p(k), ...p(k | bit));
+    const p = corners_of(b), edges = [];
+    for (let k = 0; k < 8; ++k) for (const bit of [1, 2, 4]) if (!(k & bit)) edges.push(...p[k], ...p[k | bit]);
     return edges;
   };
 
@@ -242,11 +278,27 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
       gl.bufferData(gl.ARRAY_BUFFER, edges, gl.DYNAMIC_DRAW);
       gl.drawArrays(gl.LINES, 0, edges.length / 3);
     }
+    if (meta.sleeve && state.sleeve) draw_sleeve(m);
     gl.bindVertexArray(null);
+  };
+  const draw_sleeve = (m) => { // over all else, which it lets through
+    const u = uniforms(veil_program, m);
+    gl.uniform3f(u('ink'), 0.55, 0.43, 0.4);
+    gl.bindVertexArray(veil);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    gl.uniform1f(u('veil'), 0.35);
+    gl.drawElements(gl.TRIANGLES, triangles.length, gl.UNSIGNED_INT, 0);
+    gl.uniform1f(u('veil'), 0.5);
+    gl.drawElements(gl.LINES, edges_of_sleeve.length, gl.UNSIGNED_INT, 4 * triangles.length);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
   };
   const redraw = () => { if (!wanted) { wanted = true; requestAnimationFrame(draw); } };
 
   // ---- words
+  const control = (name) => root.querySelector('[data-view=' + name + ']');
   const units = {damage: '', displacement: ' mm', outward: ' mm', piece: ''};
   const said = (quantity, v) => (quantity === 'damage' ? v.toFixed(2)
     : quantity === 'piece' ? (v === 255 ? 'loose' : v === 0 ? 'largest' : String(v + 1)) : (1e3 * v).toPrecision(3)) + units[quantity];
@@ -255,7 +307,13 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   const describe = () => {
     const f = meta.frames[state.frame];
     caption.textContent = 'frame ' + (state.frame + 1) + ' of ' + F + ': ' + f.words;
-    if (state.quantity === 'piece') legend.textContent = 'pieces: grey the largest, dark single spheres';
+    const so_far = (mode) => crack.frame.reduce((sum, since, c) => sum + (since <= state.frame && crack.mode[c] === mode), 0);
+    control('tension-count').textContent = '(' + so_far(0) + ')';
+    control('shear-count').textContent = '(' + so_far(1) + ')';
+    const axis = 'xyz'.indexOf(state.cut), depth = axis < 0 ? 0 : middle[axis] + cut_direction()[axis] * cut_depth();
+    control('depth-words').textContent = axis < 0 ? '' : state.cut + ' = ' + (1e3 * depth).toFixed(1) + ' mm';
+    control('depth').disabled = axis < 0;
+    if (state.quantity === 'piece') legend.textContent = 'pieces that bonds hold together: grey the largest, violet-grey single spheres';
     else {
       const stops = ramps[state.quantity].map((c) => 'rgb(' + c.map((v) => Math.round(255 * v)).join(',') + ')').join(',');
       legend.innerHTML = '';
@@ -270,6 +328,8 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   const show_frame = () => {
     gl.bindBuffer(gl.ARRAY_BUFFER, now_places);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames[state.frame].place);
+    gl.bindBuffer(gl.ARRAY_BUFFER, veil_places);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, sleeve_frames[state.frame]);
     refresh();
   };
   const refresh = () => { colour_all(); describe(); redraw(); };
@@ -299,6 +359,11 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
     if (best < 0) tell('');
     refresh();
   };
+  const pan_by = (dx, dy) => { // pixels
+    const e = extent();
+    state.pan[0] += 2 * e[0] * dx / canvas.clientWidth;
+    state.pan[1] -= 2 * e[1] * dy / canvas.clientHeight;
+  };
   let hand = null;
   const fingers = new Map();
   canvas.addEventListener('pointerdown', (event) => {
@@ -316,14 +381,13 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
       const [a, b] = [...fingers.values()];
       const other = event.pointerId === a.pointerId ? b : a;
       const length = (p) => Math.hypot(p.clientX - other.clientX, p.clientY - other.clientY);
-      state.zoom = Math.min(50, Math.max(0.2, state.zoom * length(event) / Math.max(1, length(before))));
+      zoom_by(length(event) / Math.max(1, length(before)));
+      pan_by(dx / 2, dy / 2); // by the middle of both fingers
     } else if (hand.pan) {
-      const e = extent();
-      state.pan[0] += 2 * e[0] * dx / canvas.clientWidth;
-      state.pan[1] -= 2 * e[1] * dy / canvas.clientHeight;
+      pan_by(dx, dy);
     } else {
       state.yaw -= dx * 0.008;
-      state.pitch = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, state.pitch + dy * 0.008));
+      tilt(dy * 0.008);
     }
     redraw();
   });
@@ -337,42 +401,52 @@ void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   canvas.addEventListener('wheel', (event) => {
     event.preventDefault();
-    state.zoom = Math.min(50, Math.max(0.2, state.zoom * Math.exp(-event.deltaY * 0.001)));
+    zoom_by(Math.exp(-event.deltaY * 0.001));
     redraw();
   }, {passive: false});
 
   // ---- controls
-  const control = (name) => root.querySelector('[data-view=' + name + ']');
   const bind = (name, event, act) => { const c = control(name); if (c) c.addEventListener(event, () => act(c)); return c; };
   const slider = bind('frame', 'input', (c) => { state.frame = Number(c.value); show_frame(); });
   slider.max = String(F - 1);
   slider.value = String(state.frame);
   const colour = bind('quantity', 'change', (c) => { state.quantity = c.value; refresh(); });
   for (const word of words) colour.add(new Option(names[word], word));
-  bind('cut', 'change', (c) => { state.cut = c.value; redraw(); }).value = state.cut;
-  bind('depth', 'input', (c) => { state.depth = Number(c.value); redraw(); });
+  bind('cut', 'change', (c) => { state.cut = c.value; describe(); redraw(); }).value = state.cut;
+  bind('depth', 'input', (c) => { state.depth = Number(c.value); describe(); redraw(); });
   bind('magnify', 'input', (c) => { state.magnify = Number(c.value); c.nextElementSibling.textContent = '×' + c.value; redraw(); });
   bind('tension', 'change', (c) => { state.tension = c.checked; redraw(); });
   bind('shear', 'change', (c) => { state.shear = c.checked; redraw(); });
-  bind('reset', 'click', () => { Object.assign(state, {yaw: 0.6, pitch: 0.25, zoom: 1, pan: [0, 0]}); redraw(); });
+  bind('sleeve', 'change', (c) => { state.sleeve = c.checked; redraw(); });
+  control('sleeve-label').hidden = !meta.sleeve;
+  for (const name of ['tension-label', 'shear-label']) control(name).hidden = C === 0;
+  const look_from_the_start = () => { Object.assign(state, {yaw: 0.6, pitch: 0.25, zoom: 1, pan: [0, 0]}); redraw(); };
+  bind('reset', 'click', look_from_the_start);
+  const go_to = (frame) => {
+    state.frame = Math.min(F - 1, Math.max(0, frame));
+    slider.value = String(state.frame);
+    show_frame();
+  };
   bind('play', 'click', (c) => {
     state.playing = !state.playing;
     c.textContent = state.playing ? 'stop' : 'play';
     const next = () => {
       if (!state.playing) return;
-      state.frame = (state.frame + 1) % F;
-      slider.value = String(state.frame);
-      show_frame();
+      go_to((state.frame + 1) % F);
       setTimeout(next, 200);
     };
     next();
   });
+  const tilt = (by) => { state.pitch = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, state.pitch + by)); };
+  const zoom_by = (factor) => { state.zoom = Math.min(50, Math.max(0.2, state.zoom * factor)); };
+  const keys = {
+    ArrowLeft: () => { state.yaw += 0.1; }, ArrowRight: () => { state.yaw -= 0.1; }, ArrowUp: () => tilt(-0.1), ArrowDown: () => tilt(0.1),
+    '+': () => zoom_by(1.15), '=': () => zoom_by(1.15), '-': () => zoom_by(1 / 1.15), Home: look_from_the_start,
+    PageUp: () => go_to(state.frame - 1), PageDown: () => go_to(state.frame + 1)};
   canvas.addEventListener('keydown', (event) => {
-    const by = {ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]}[event.key];
-    if (!by) return;
+    if (!(event.key in keys) || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    state.yaw += by[0];
-    state.pitch = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, state.pitch + by[1]));
+    keys[event.key]();
     redraw();
   });
   window.addEventListener('resize', redraw);
