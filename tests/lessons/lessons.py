@@ -102,7 +102,10 @@ def type_lesson(path, folder, environment):
             said = run("\n".join(lines[k + 1 : end]) + "\n", int(fence.group(1) or 0), folder, environment, where)
             k = end
         elif comment:
-            claim(comment.group(1), folder, said, where)
+            try:
+                claim(comment.group(1), folder, said, where)
+            except (OSError, KeyError, TypeError, ValueError) as error:
+                check(False, where, f"{comment.group(1)}: {error!r}")
             number = claimed_number(comment.group(1))
             text = " ".join(line for line in lines[k + 1 : k + 14] if not line.startswith("<!--"))
             if number is not None:
