@@ -42,7 +42,8 @@ install(FILES README.md LICENSE DESTINATION ${platen_share} COMPONENT documentat
 if(PLATEN_APPS)
   install(DIRECTORY scenes DESTINATION ${platen_share} COMPONENT programs)
   install(PROGRAMS scripts/slurm/study_array.sh DESTINATION ${platen_share}/scripts/slurm COMPONENT programs)
-  install(PROGRAMS scripts/demo.sh scripts/brush_platen.py DESTINATION ${platen_share}/scripts COMPONENT programs)
+  install(PROGRAMS scripts/demo.sh DESTINATION ${platen_share}/scripts COMPONENT programs)
+  install(FILES scripts/brush_platen.py DESTINATION ${platen_share}/scripts COMPONENT programs)
   # One file for all programs; the shell looks for it by the name of each.
   set(completions ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   install(FILES scripts/completion/platen DESTINATION ${completions} COMPONENT programs)

@@ -37,10 +37,6 @@ foreach(pair IN LISTS platen_packages)
   endif()
   install(FILES ${own}/copyright ${own}/changelog.Debian.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
     COMPONENT ${component} EXCLUDE_FROM_ALL)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/debian/${package}.lintian-overrides)
-    install(FILES debian/${package}.lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
-      RENAME ${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
-  endif()
 endforeach()
 
 # Policy too: man pages are packed small. The manual is in platen-doc where scripts/manual.sh has made it.
@@ -56,31 +52,31 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "xvfb, xauth, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "bash-completion, fonts-wqy-microhei, python3")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "platen-doc, python3-platen, paraview, openmpi-bin")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "laboratory of bonded spheres between finite-element platens
- Platen crushes, confines, bends, splits and pulls specimens of bonded discrete
- elements (concrete, rock, glass) between the platens of a testing machine,
- which are finite elements, rigid or elastic, coupled by contact with friction.
- It answers how much of a measured strength is the doing of the platens. Every
- run closes its energy balance and repeats to the byte.
- .
- This package has the programs, their man pages and the scenes.")
+Platen crushes, confines, bends, splits and pulls specimens of bonded discrete
+elements (concrete, rock, glass) between the platens of a testing machine,
+which are finite elements, rigid or elastic, coupled by contact with friction.
+It answers how much of a measured strength is the doing of the platens. Every
+run closes its energy balance and repeats to the byte.
+.
+This package has the programs, their man pages and the scenes.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libdeal.ii-dev, libeigen3-dev, voro++-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "bonded spheres between finite-element platens, library
- Platen crushes specimens of bonded discrete elements between the platens of a
- testing machine, which are finite elements.
- .
- This package has headers, static libraries, the configuration for CMake's
- find_package(Platen) and examples.")
+Platen crushes specimens of bonded discrete elements between the platens of a
+testing machine, which are finite elements.
+.
+This package has headers, static libraries, the configuration for CMake's
+find_package(Platen) and examples.")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "bonded spheres between finite-element platens, manual
- Platen crushes specimens of bonded discrete elements between the platens of a
- testing machine, which are finite elements.
- .
- This package has the manual, the theory and the measurements behind it.")
+Platen crushes specimens of bonded discrete elements between the platens of a
+testing machine, which are finite elements.
+.
+This package has the manual, the theory and the measurements behind it.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -88,11 +84,11 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "platen")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "bonded spheres between finite-element platens, Python
- Platen crushes specimens of bonded discrete elements between the platens of a
- testing machine, which are finite elements.
- .
- This package reads its results as numpy arrays, and builds, runs and changes
- experiments in a script.")
+Platen crushes specimens of bonded discrete elements between the platens of a
+testing machine, which are finite elements.
+.
+This package reads its results as numpy arrays, and builds, runs and changes
+experiments in a script.")
 if(NOT PLATEN_PYTHON)
   list(REMOVE_ITEM CPACK_COMPONENTS_ALL python)
 endif()
