@@ -8,8 +8,8 @@ set -euo pipefail
 packages=$(cd "$1" && pwd)
 mkdir -p "$2"
 root=$(cd "$2" && pwd)/bookworm
-mirror=$(grep -rhoE '^(URIs: *|deb +(\[[^]]*\] +)?)https?://[^ ]+' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null | grep -v security |
-  grep -oE 'https?://.*' | head -1)
+mirror=$(grep -rhoE 'https?://[^ ]+/debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null | tr -d ' ' | head -1 || true)
+[ -n "$mirror" ] || { echo "bare_debian: no mirror of Debian in /etc/apt" >&2; exit 2; }
 
 inside() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive TERM=dumb "$@"; }
 say() { printf '\n== %s\n' "$*"; }
@@ -21,8 +21,8 @@ if [ ! -e "$root/.made" ]; then
   debootstrap --variant=minbase bookworm "$root" "$mirror" > "$root.log" 2>&1 || { tail -20 "$root.log"; exit 1; }
   touch "$root/.made"
 fi
-rm -rf "$root/etc/apt"
-cp -rL /etc/apt "$root/etc/apt"
+echo "deb $mirror bookworm main" > "$root/etc/apt/sources.list"
+cp -rL /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
 mkdir -p "$root/usr/share/keyrings" "$root/packages"
 cp -n /usr/share/keyrings/*.gpg "$root/usr/share/keyrings/" 2>/dev/null || true
 cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
