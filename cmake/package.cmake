@@ -81,6 +81,8 @@ This package has the manual, the theory and the measurements behind it.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/debian/python3-platen/postinst ${PROJECT_SOURCE_DIR}/debian/python3-platen/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "platen")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "bonded spheres between finite-element platens, Python

@@ -32,8 +32,9 @@ for mount in proc dev; do mountpoint -q "$root/$mount" || mount --bind "/$mount"
 trap 'umount "$root/proc" "$root/dev" 2>/dev/null || true' EXIT
 
 inside apt-get -qq update
-inside apt-get -qq -y purge platen libplaten-dev platen-doc python3-platen > /dev/null 2>&1 || true
-of_platen() { inside find / -xdev -path /proc -prune -o -path /packages -prune -o -iname '*platen*' -print | sort; }
+inside dpkg --purge platen libplaten-dev platen-doc python3-platen > /dev/null 2>&1 || true
+# But for what man keeps of any page that was read.
+of_platen() { inside find / -xdev \( -path /proc -o -path /packages -o -path /var/cache/man \) -prune -o -iname '*platen*' -print | sort; }
 of_platen > "$root.before"
 
 say "apt install ./platen_*.deb"
