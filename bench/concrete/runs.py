@@ -26,18 +26,21 @@ def cones(s):
 
 def under_pressure(folder, s):
     """Of a test in the sleeve: what is left of the deviator at 1.45 times the strain at peak, and at a strain of 3.45e-2, over
-    the largest, none where the run ends before; and the volume inside of the sleeve, %, larger positive, from the bare specimen."""
+    the largest, none where the run ends before; and the volume inside of the sleeve, %, larger positive, from the bare specimen.
+    Strains count from the end of the consolidation. One that flows has no peak: its strength here is the largest stress."""
     with open(folder / "history.csv") as file:
         rows = [{k: float(v) if v else 0.0 for k, v in row.items()} for row in csv.DictReader(file)]
     peak = max(range(len(rows)), key=lambda i: rows[i]["deviator_pa"])
-    start = rows[peak]["axial_strain_platen"] - s["strain_at_peak_platen"]
+    start = next(row for row in rows if row["time_s"] >= s["consolidation_end_time_s"])["axial_strain_platen"]
+    at_peak = s["strain_at_peak_platen"]
 
     def left(strain):
         later = [row["deviator_pa"] for row in rows[peak:] if row["axial_strain_platen"] >= start + strain]
         return later[0] / rows[peak]["deviator_pa"] if later else None
 
     volumes = [-100 * row["volumetric_strain_sleeve"] for row in rows]
-    return {"left_at_1.45": left(1.45 * s["strain_at_peak_platen"]), "left_at_0.0345": left(0.0345),
+    return {"strength_pa": s["largest_stress_pa"] if s["strength_pa"] is None else s["strength_pa"],
+            "left_at_1.45": left(1.45 * at_peak) if at_peak is not None else None, "left_at_0.0345": left(0.0345),
             "least_volume_percent": min(volumes[:peak + 1]), "volume_at_peak_percent": volumes[peak]}
 
 
