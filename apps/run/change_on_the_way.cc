@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include "apps/run/changed_scene.h"
 #include "apps/run/compression_run.h"
@@ -44,24 +46,33 @@ void CompressionRun::change(const Scene &now) {
       refuse(now, change.entry,
              fmt::format("cannot be changed while a test runs. Allowed: {}, friction of platens.",
                          fmt::join(changeable, ", ")));
+  // What is refused changes nothing: what was set before it is set back. The rate, which would not come back
+  // to the same bits, goes last.
+  std::vector<std::function<void()>> undo;
   const auto attempt = [&](const std::string &entry, const auto &act) {
     try {
       act();
     } catch (const std::invalid_argument &error) {
+      for (const auto &back : undo)
+        back();
       refuse(now, entry, std::string("cannot be changed now: ") + error.what() + ". Allowed: as it is.");
     }
   };
-  if (differ(now.loading.rate, scene_.loading.rate))
-    attempt("Loading/Axial rate", [&] { test_->change_rate(now.loading.rate); });
   for (const coupling::Side side : coupling::all_sides) {
     coupling::Platen *platen = test_->platen(side);
     if (platen == nullptr) continue;
     const coupling::PlatenSide &was = scene_.platens.at(side), &is = now.platens.at(side);
-    if (was.friction_static != is.friction_static || was.dynamic() != is.dynamic())
-      attempt(fmt::format("Platens/{}/Friction static", platen->name()), [&] { platen->set_friction(is); });
+    if (was.friction_static == is.friction_static && was.dynamic() == is.dynamic()) continue;
+    attempt(fmt::format("Platens/{}/Friction static", platen->name()), [&] { platen->set_friction(is); });
+    undo.push_back([platen, &was] { platen->set_friction(was); });
   }
-  if (now.contact.friction != scene_.contact.friction && test_->model.contacts)
-    attempt("Contact/Friction", [&] { test_->model.contacts->set_friction(now.contact.friction); });
+  const double friction = scene_.contact.friction;
+  if (dem::Contacts *contacts = test_->model.contacts.get(); contacts && now.contact.friction != friction) {
+    attempt("Contact/Friction", [&] { contacts->set_friction(now.contact.friction); });
+    undo.push_back([contacts, friction] { contacts->set_friction(friction); });
+  }
+  if (differ(now.loading.rate, scene_.loading.rate))
+    attempt("Loading/Axial rate", [&] { test_->change_rate(now.loading.rate); });
   for (const SceneChange &change : changes) {
     log_.info("changed at {:.6g} s, strain {:.6g}: {} = {}, was {}", test_->time(),
               test_->closure_strain(results_.axis()), change.entry, change.now, change.was);
