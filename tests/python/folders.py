@@ -30,6 +30,13 @@ def bytes_in(folder):
             if path.is_file() and path.name not in skipped and path.parent.name != "checkpoint"}
 
 
+def differing(one, other):
+    """Names of the files in which two folders differ; [] where they agree. (A difference of the bytes themselves would take
+    minutes to print.)"""
+    a, b = bytes_in(one), bytes_in(other)
+    return sorted(name for name in {*a, *b} if a.get(name) != b.get(name))
+
+
 class InFolder(unittest.TestCase):
     def setUp(self):
         self.kept = tempfile.TemporaryDirectory(prefix="platen python ")
