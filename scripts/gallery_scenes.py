@@ -18,86 +18,91 @@ CALIBRATE, STUDY = "platen-calibrate", "platen-study"
 GROUPS = [
     ("Concrete between platens", [
         Scene("demo_dry", COMPRESS, "cones",
-              "Friction holds the ends: what stands still with each platen while the stress falls is a cone, and what lies "
-              "around and between them moves away. The lines are the fitted cones."),
+              "Friction restrains the ends: the part that does not move relative to each platen while the stress "
+              "falls is a cone, and the material around and between the cones moves outwards. The lines are the "
+              "fitted cones."),
         Scene("demo_lubricated", COMPRESS, "outward_displacement",
-              "Nothing holds the ends: one of them opens and moves outwards most at the platen, where the dry specimen "
-              "stands still."),
+              "Nothing restrains the ends: one of them opens and moves outwards most at the platen, where the dry "
+              "specimen does not move."),
         Scene("concrete_dry", COMPRESS, "outward_displacement",
-              "The hourglass, with twice as many spheres as in the demo: two cones stand still, the skin of the middle "
-              "is pushed out."),
+              "The hourglass shape, with twice as many spheres as in the demo: two cones do not move, the surface of "
+              "the middle is pushed outwards."),
         Scene("concrete_lubricated", COMPRESS, "outward_displacement",
-              "The same spheres without friction at the platens: a little weaker, one end opens, and there are no "
-              "cones."),
+              "The same spheres without friction at the platens: the strength is slightly lower, one end opens, and "
+              "there are no cones."),
         Scene("cube_dry", COMPRESS, "outward_displacement",
-              "A cube is so short that its held ends reach through its middle: it bears a third more than the prism. "
-              "Two blunt cones meet in its core, its sides come off."),
+              "A cube is so short that the effect of its restrained ends reaches through its middle: it carries a "
+              "third more than the prism. Two blunt cones meet in its core, its sides spall."),
         Scene("cube_lubricated", COMPRESS, "outward_displacement",
               "Without friction the cube has the strength of the prism, and its sides open from platen to platen."),
         Scene("prism_dry", COMPRESS, "fragments",
-              "A prism leaves room between its ends: the middle fails as if the platens were far away, and a cone is "
-              "left on each."),
+              "In a prism the ends are far apart: the middle fails as if the platens were far away, and a cone is "
+              "left on each end."),
         Scene("prism_lubricated", COMPRESS, "outward_displacement",
-              "One end opens and splits, yet the strength is nearly that between dry platens: slender specimens hardly "
-              "ask about their ends."),
+              "One end opens and splits, but the strength is nearly that between dry platens: in slender specimens "
+              "the ends have little influence on the strength."),
         Scene("flat_dry", COMPRESS, "stress_strain",
-              "Flat specimens are crushed as under pressure: nearly twice the strength of the slender cylinder, a peak because "
-              "bonds yield, and a slow fall."),
+              "Flat specimens fail as under confining pressure: nearly twice the strength of the slender cylinder, a "
+              "peak because bonds yield, and a slow decrease of the stress."),
         Scene("brittle_concrete_dry", COMPRESS, "outward_displacement",
-              "The cylinder with the brittle bonds that stood behind Platen's concrete before: the same strength and hourglass. "
-              "Under pressure it gains too much, and flat specimens of it never peak."),
+              "The cylinder with the brittle bonds of Platen's earlier concrete: the same strength and hourglass "
+              "shape. Under pressure its strength increases too much, and flat specimens of it have no peak."),
     ]),
     ("Elastic platens and sleeves", [
         Scene("elastic_platens", COMPRESS, "stress_flow",
-              "Stress in concrete and steel in one scale, near the peak: the steel spreads what the concrete brings "
-              "and bears least beyond its edge."),
+              "Stress in concrete and steel in one scale, near the peak: the steel spreads the load of the concrete "
+              "and has the lowest stress beyond its edge."),
         Scene("brush_platens", COMPRESS, "outward_displacement",
-              "Pins 10 mm wide bear as steel does: the strength and the hourglass are those of demo_dry. But they bend "
-              "sideways a little, and the ends are damaged twice as much."),
+              "Pins 10 mm wide carry the load like solid steel: the strength and the hourglass shape are those of "
+              "demo_dry. But they bend sideways a little, and the damage of the ends is twice as large."),
         Scene("rubber_pads", COMPRESS, "stress_flow",
-              "Sheets of hard rubber (the dark lines of the right picture: they bear next to no shear) are pressed out "
-              "sideways and take the ends along: the upper end splits into columns, seen as streaks of stress, and a "
-              "fourth of the strength is lost."),
+              "Sheets of hard rubber (the dark lines of the right picture: they carry almost no shear) are pressed "
+              "out sideways and pull the ends with them: the upper end splits into columns, visible as streaks of "
+              "stress, and the strength is lower by a fourth."),
         Scene("soft_platens", COMPRESS, "damage",
-              "Polyethylene spreads more than concrete under the same stress and pulls the ends apart where steel "
-              "holds them together: both ends break (left), then the rest, at two thirds of the strength between "
-              "steel."),
+              "Polyethylene expands laterally more than concrete under the same stress and pulls the ends apart, "
+              "where steel restrains them: both ends break (left), then the rest, at two thirds of the strength "
+              "between steel."),
         Scene("triaxial_concrete", COMPRESS, "stress_strain",
-              "In a rubber sleeve at 9 MPa: nearly twice the strength that it has bare, at twice the strain, and a rest that flows. "
-              "The table counts strain from where all sides bear 9 MPa."),
+              "In a rubber sleeve at 9 MPa: nearly twice the unconfined strength, at twice the strain, and a "
+              "residual stress with plastic flow. The table counts strain from the time at which all sides carry 9 "
+              "MPa."),
         Scene("brittle_concrete_triaxial", COMPRESS, "stress_strain",
-              "Brittle bonds calibrated at 0 and 4.5 MPa for this test alone: nearly twice the 36 MPa that it bears bare, and a "
-              "rest that flows. A third of the cracks are of shear."),
+              "Brittle bonds calibrated at 0 and 4.5 MPa only for this test: nearly twice the unconfined strength of "
+              "36 MPa, and a residual stress with plastic flow. A third of the cracks are shear cracks."),
         Scene("triaxial_cement", COMPRESS, "stress_strain",
-              "A cell at 3.4 MPa: a low peak, then flow, while ever more interfaces fail, most of them in shear. The "
-              "kink is where all sides bear that pressure and the platens begin to close; from there the table counts "
+              "A cell at 3.4 MPa: a low peak, then flow, while more and more interfaces fail, most of them in shear. "
+              "At the kink all sides carry this pressure and the platens begin to close; from there the table counts "
               "strain."),
         Scene("hydrostatic_concrete", COMPRESS, "stress_strain",
-              "All sides pressed alike: nearly straight lines and no crack. The bulk modulus agrees with E / (3 (1 - 2 "
-              "nu))."),
+              "The same pressure on all sides: nearly straight lines and no crack. The bulk modulus agrees with E / "
+              "(3 (1 - 2 nu))."),
         Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain",
-              "Held by a stiff wall it has no peak: the strength in the table is the stress at the end of the test. "
-              "Unloading and reloading (the lines back) break hardly any bond."),
+              "Restrained by a stiff wall it has no peak: the strength in the table is the stress at the end of the "
+              "test. Unloading and reloading (the lines back) break almost no bond."),
     ]),
     ("Stages and platens on all sides", [
         Scene("hold_concrete", COMPRESS, "stress_strain",
-              "In a cell at 4 MPa by stages: sheared, unloaded, loaded again, held at 30 MPa, then crushed. Unloading and "
-              "reloading follow one line, and while the stress is held nothing moves: no law here depends on time."),
+              "In a cell at 4 MPa by stages: sheared, unloaded, loaded again, held at 30 MPa, then loaded to "
+              "failure. Unloading and reloading follow one line, and while the stress is held nothing moves: no law "
+              "here depends on time."),
         Scene("multistage_triaxial", COMPRESS, "stress_strain",
-              "One specimen at 2, 5 and 10 MPa: near each peak it is unloaded and the pressure goes up. Each loading "
-              "climbs a little less steeply than the one before, for bonds have broken."),
+              "One specimen at 2, 5 and 10 MPa: near each peak it is unloaded and the pressure is increased. The "
+              "slope of each loading is a little smaller than that of the one before, because bonds have broken."),
         Scene("biaxial_steel", COMPRESS, "side_stresses",
-              "A square in plane stress: the platens at the sides bear half of what those above and below do, all along. "
-              "It bears 1.8 times its uniaxial strength; between brushes laboratories find 1.27 times."),
+              "A square in plane stress: the platens at the sides carry half the stress of those at top and bottom "
+              "during the whole test. It carries 1.8 times its uniaxial strength; between brushes laboratories find "
+              "1.27 times."),
         Scene("biaxial_brush", COMPRESS, "side_stresses",
-              "The same square between brushes: steel pins that bend with the concrete. It fails at an eighth less than between dry "
-              "steel, 1.8 times what it bears along one axis; at equal stresses (`Lateral x = share of Axial 1`) it bears 1.6 times that."),
+              "The same square between brushes: steel pins that bend with the concrete. Its strength is an eighth "
+              "lower than between dry steel, 1.8 times its strength along one axis; at equal stresses (`Lateral x = "
+              "share of Axial 1`) it is 1.6 times that."),
         Scene("true_triaxial", COMPRESS, "side_stresses",
-              "Six greased platens: 5 MPa on all sides, then the axial ones close while the others hold their stress by "
-              "their servos against a cube that widens ever faster."),
+              "Six greased platens: 5 MPa on all sides, then the axial ones close while the others hold their stress "
+              "by their servos against a cube that expands faster and faster."),
         Scene("class_two_concrete", COMPRESS, "stress_strain",
-              "Led by how fast it widens: past the peak the platens part again and again, and the strain goes back while "
-              "the stress falls. Between platens that only close nobody sees that."),
+              "Controlled by the rate of its circumferential strain: after the peak the platens move apart again and "
+              "again, and the strain decreases while the stress falls. Platens that only close cannot show this."),
     ]),
     ("Tension, bending, Brazilian", [
         Scene("concrete_tension", COMPRESS, "damage",
@@ -106,40 +111,42 @@ GROUPS = [
               "A single crack rises from the lower edge at mid-span. The nominal strength is above that in direct "
               "tension, as in small beams of laboratories."),
         Scene("brazilian_concrete", BRAZILIAN, "crack_times",
-              "The first cracks lie along the loaded diameter, apart from each other; past the peak they grow together "
-              "and part the disc."),
+              "The first cracks lie along the loaded diameter, separate from each other; after the peak they join "
+              "and split the disc."),
     ]),
     ("Cement, concrete and shale of Oñate et al. 2015", [
         Scene("onate_cement", COMPRESS, "damage",
-              "Experiment 17 MPa. A band at a slant cuts through the upper half; below it next to nothing is broken."),
+              "Experiment 17 MPa. An inclined band crosses the upper half; below it almost nothing is broken."),
         Scene("onate_cement_triaxial", COMPRESS, "damage",
-              "The same test as triaxial_cement, with the pressure on the spheres of the skin instead of a sleeve: the "
-              "same strength. One zone is crushed, the rest stays sound."),
+              "The same test as triaxial_cement, with the pressure on the spheres of the skin instead of a sleeve: "
+              "the same strength. One zone is crushed, the rest remains intact."),
         Scene("onate_cement_uniaxial_strain", COMPRESS, "stress_strain",
-              "Compaction with the radius held: the curve bends where interfaces yield and lies down where they fail, "
-              "nearly all in shear. There is no peak: the strength in the table is the stress at the end."),
+              "Compaction with the radius held: the slope of the curve decreases where interfaces yield and is small "
+              "where they fail, nearly all in shear. There is no peak: the strength in the table is the stress at "
+              "the end."),
         Scene("onate_cement_brazilian", BRAZILIAN, "crack_times",
-              "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is crushed under a strip first (left), then "
-              "it splits from there (right)."),
+              "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is first crushed under a strip (left), "
+              "then it splits from there (right)."),
         Scene("onate_concrete", COMPRESS, "damage",
-              "Experiment 32.8 to 38 MPa, E 28 GPa. Caps of sound spheres are left at both ends; what has failed goes "
-              "on rubbing, so nothing falls apart."),
+              "Experiment 32.8 to 38 MPa, E 28 GPa. Caps of intact spheres remain at both ends; failed interfaces "
+              "still carry friction, so the specimen does not fall apart."),
         Scene("onate_concrete_triaxial", COMPRESS, "damage",
-              "A cell of 9 MPa: nearly twice the strength of onate_concrete. Damage begins as a belt and grows over "
-              "all but the ends; nearly as many interfaces fail in shear as in tension."),
+              "A cell of 9 MPa: nearly twice the strength of onate_concrete. Damage begins as a belt and spreads "
+              "over the whole specimen except the ends; nearly as many interfaces fail in shear as in tension."),
         Scene("onate_concrete_brazilian", BRAZILIAN, "crack_times",
-              "Experiment 3 MPa. Cracks fill the loaded diameter before the peak, and part the disc after it."),
+              "Experiment 3 MPa. Cracks fill the loaded diameter before the peak, and split the disc after it."),
         Scene("onate_shale", COMPRESS, "damage",
-              "Experiment 50 MPa, the paper's model 48. Caps of sound spheres stay at both ends, the skin of the "
-              "middle fails first."),
+              "Experiment 50 MPa, the paper's model 48. Caps of intact spheres remain at both ends, the surface of "
+              "the middle fails first."),
         Scene("onate_shale_brazilian", BRAZILIAN, "crack_times",
               "Experiment 5.0 MPa, the paper's model 5.4. The same packing as the concrete, other interfaces: nearly "
               "the same cracks."),
     ]),
     ("Cylinders of Tannu 2017", [
         Scene("tannu_r1.25_ground", COMPRESS, "damage",
-              "With ground ends this network bears 150 MPa, three times what was published, and ends suddenly: a band "
-              "two spheres thick gives way, ends stay sound, there are no cones ([why](tannu_cylinder.md))."),
+              "With ground ends the strength of this network is 150 MPa, three times the published value, and "
+              "failure is sudden: a band two spheres thick fails, the ends remain intact, there are no cones "
+              "([why](tannu_cylinder.md))."),
         Scene("tannu_r1.00_ground", COMPRESS, "damage",
               "As tannu_r1.25_ground with spheres of 1 mm.",
               "about a quarter of an hour on one core"),
@@ -150,8 +157,8 @@ GROUPS = [
               "As tannu_r1.25_ground with spheres of 0.5 mm, 160 110 of them.",
               "about three hours on one core"),
         Scene("tannu_r1.25", COMPRESS, "damage",
-              "Ends as packed: the platens meet one protruding sphere after the other, and each is sheared off at 1 to "
-              "12 MPa ([more](tannu_cylinder.md)).",
+              "Ends as packed: the platens touch one protruding sphere after the other, and each is sheared off at 1 "
+              "to 12 MPa ([more](tannu_cylinder.md)).",
               "about half an hour on one core"),
         Scene("tannu_r1.00", COMPRESS, "damage",
               "As tannu_r1.25 with spheres of 1 mm.",
@@ -165,78 +172,82 @@ GROUPS = [
     ]),
     ("Three laws", [
         Scene("three_laws_parallel_bond", COMPRESS, "damage",
-              "One packing under three laws of equal E and tensile strength. Parallel bonds: the middle is lost, what "
-              "is left at the ends is sound."),
+              "One packing with three laws of equal E and tensile strength. Parallel bonds: the middle is destroyed, "
+              "the rest at the ends is intact."),
         Scene("three_laws_cohesive_beam", COMPRESS, "damage",
-              "Beams part in tension, one and all, at less than half the stress and strain of the others: a law for "
+              "All beams break in tension, at less than half the stress and strain of the other laws: a law for "
               "glass, not for concrete."),
         Scene("three_laws_elasto_damage_plastic", COMPRESS, "damage",
-              "Interfaces bear what parallel bonds do, at a larger strain, for they yield before they break; the ends "
-              "stay whole."),
+              "The strength with interfaces is that with parallel bonds, at a larger strain, because they yield "
+              "before they break; the ends remain intact."),
     ]),
     ("Bonds and bars", [
         Scene("two_particles", BONDS, "",
-              "One bond pulled, with the moduli of Tannu 2017 (tables 4 and 5): its stiffness beside the closed form, "
-              "and the load at which it would break."),
+              "One bond in tension, with the moduli of Tannu 2017 (tables 4 and 5): its stiffness compared with the "
+              "closed form, and the load at which it would break."),
         Scene("three_particles", BONDS, "",
-              "Two spheres on a plate, pressed apart by a third: lateral over vertical strain beside the linear "
-              "solution. It falls as bonds become stiffer in shear, where the published one rises."),
+              "Two spheres on a plate, pressed apart by a third: lateral over vertical strain compared with the "
+              "linear solution. It decreases as the shear stiffness of bonds increases, while the published one "
+              "increases."),
         Scene("softening_bond", BONDS, "",
-              "One elasto-damage-plastic bond led through its softening: load and energy beside the closed form."),
+              "One elasto-damage-plastic bond on a prescribed path through its softening: load and energy compared "
+              "with the closed form."),
         Scene("yielding_bond", BONDS, "",
-              "One parallel bond that yields in compression, loaded, unloaded and loaded again: load and energy beside the "
-              "closed form."),
+              "One parallel bond that yields in compression, loaded, unloaded and loaded again: load and energy "
+              "compared with the closed form."),
         Scene("bar_silica", BAR, "",
-              "A bar of bonded spheres pulled, bent, twisted and struck: errors against strength of materials with the "
-              "effective section of that bar. The energy residual is that of the blow; of the other tests it is below "
-              "0.001."),
+              "A bar of bonded spheres in tension, bending, torsion and impact: errors against strength of materials "
+              "with the effective section of that bar. The energy residual is that of the impact; for the other "
+              "tests it is below 0.001."),
         Scene("silica_bulk", BAR, "",
-              "The inside of a close packing led through six uniform strains; published for this glass: 72.5 GPa and "
-              "0.17."),
+              "The inside of a dense packing under six prescribed uniform strains; published for this glass: 72.5 "
+              "GPa and 0.17."),
     ]),
     ("Calibrations", [
         Scene("calibrate_concrete", CALIBRATE, "",
-              "Wanted: E 17 GPa, Poisson's ratio 0.15, 47.6 MPa in compression, 4 MPa in tension. The bonds that were "
-              "found, and what five other packings make of them."),
+              "Targets: E 17 GPa, Poisson's ratio 0.15, 47.6 MPa in compression, 4 MPa in tension. The bond "
+              "parameters found, and the results with five other packings."),
         Scene("calibrate_triaxial", CALIBRATE, "",
-              "Wanted: 36 MPa bare and 54.5 MPa in a cell of 4.5 MPa, E 27 GPa, Poisson's ratio 0.17. The friction "
-              "angle of the bonds is the knob for the pressure; two other packings judge."),
+              "Targets: 36 MPa unconfined and 54.5 MPa in a cell of 4.5 MPa, E 27 GPa, Poisson's ratio 0.17. The "
+              "friction angle of the bonds is the parameter for the pressure; two other packings verify the result."),
         Scene("calibrate_many", CALIBRATE, "",
-              "Eight numbers wanted at once of one concrete, from bonds that nobody has calibrated: E 26 GPa, Poisson's "
-              "ratio 0.2, 43 MPa at 2.4 mm/m, 4.5 MPa in tension, 62 and 83 MPa under 3 and 9 MPa, a gain of cubes by "
-              "friction of 1.45. Coarse spheres; five other packings judge."),
+              "Eight targets at once for one concrete, from bond parameters without any calibration: E 26 GPa, "
+              "Poisson's ratio 0.2, 43 MPa at 2.4 mm/m, 4.5 MPa in tension, 62 and 83 MPa under 3 and 9 MPa, a gain "
+              "of cubes by friction of 1.45. Coarse spheres; five other packings verify the result."),
         Scene("abacus_silica", CALIBRATE, "",
-              "What the radius of beams does to a glass: rows of abacus.csv with one modulus and one Poisson's ratio "
-              "of the beams. Published at 0.71: 72.5 GPa and 0.17."),
+              "The effect of the radius of beams on the moduli of a glass: rows of abacus.csv with one modulus and "
+              "one Poisson's ratio of the beams. Published at 0.71: 72.5 GPa and 0.17."),
     ]),
     ("Studies", [
         Scene("study_friction_quick", f"{STUDY} friction", "strength_slenderness",
-              "How much of the strength is the platen's doing: at height over width 1 dry steel gains a third over "
-              "grease, at 2 less than a tenth. The diamonds are of laboratories. One packing."),
+              "How much of the strength is due to the platens: at height over width 1 dry steel gives a third more "
+              "than grease, at 2 less than a tenth. The diamonds are laboratory results. One packing."),
         Scene("study_friction_concrete", f"{STUDY} friction", "strength_slenderness",
-              "The same on five packings, finer spheres, more platens and slendernesses: 100 runs. Figures and a picture of "
-              "them are in [bench/results/laboratory.md](../bench/results/laboratory.md).",
+              "The same on five packings, with finer spheres, more platens and slendernesses: 100 runs. Figures and "
+              "a picture of them are in [bench/results/laboratory.md](../bench/results/laboratory.md).",
               "about two hours on one core"),
         Scene("study_laboratory_concrete", f"{STUDY} friction", "strength_friction",
-              "Cubes and prisms as a laboratory crushed them in 1967, five packings of each: gains by dry platens of "
+              "Cubes and prisms as tested in a laboratory in 1967, five packings of each: gains by dry platens of "
               "1.45 and 1.07 (measured then: 1.42 and 1.08).",
               "about 20 minutes on one core"),
         Scene("study_laboratory_interfaces", f"{STUDY} friction", "strength_friction",
-              "The same of elasto-damage-plastic interfaces: cubes gain 1.43, prisms 1.14, more than in the laboratory.",
+              "The same with elasto-damage-plastic interfaces: the gain of cubes is 1.43, of prisms 1.14, more than "
+              "in the laboratory.",
               "about half an hour on one core"),
         Scene("study_slenderness_concrete", f"{STUDY} slenderness", "strength_slenderness",
-              "Short cores between dry steel beside the factors of ASTM C42 (black diamonds), five packings of each: on them "
-              "from 1.75 on, above them the shorter they are.",
+              "Short cores between dry steel compared with the factors of ASTM C42 (black diamonds), five packings "
+              "of each: equal to them from 1.75 on, increasingly above them for shorter cores.",
               "about 20 minutes on one core"),
         Scene("study_slenderness_interfaces", f"{STUDY} slenderness", "strength_slenderness",
-              "The same of elasto-damage-plastic interfaces, on the factors at all heights; packings scatter more.",
+              "The same with elasto-damage-plastic interfaces, equal to the factors at all heights; packings scatter "
+              "more.",
               "about half an hour on one core"),
         Scene("study_cones_concrete", f"{STUDY} size", "",
               "Four sphere radii of the thesis on concrete between dry steel: are cones sharper with smaller spheres?",
               "about six hours on one core, most of it for 0.5 mm"),
         Scene("study_size_concrete", f"{STUDY} size", "",
-              "Spheres from 6 to 12.5 across the diameter: coarse ones pack looser and are softer; what they bear differs by "
-              "less than the scatter."),
+              "Spheres from 6 to 12.5 across the diameter: coarse spheres pack looser and the specimen is softer; "
+              "the strengths differ by less than the scatter."),
         Scene("study_size_tannu", f"{STUDY} size", "",
               "The four sphere radii and three cylinders of Tannu 2017, ends ground.",
               "about eight hours on one core"),
@@ -244,21 +255,22 @@ GROUPS = [
               "A wider gap bonds more neighbours, a thicker bond has a larger section: both make the specimen stiffer "
               "and stronger."),
         Scene("study_rate_concrete", f"{STUDY} rate", "",
-              "From four times the speed of study_size_concrete down to half of it the strength stays within the "
+              "From four times the speed of study_size_concrete down to half of it, the strength stays within the "
               "scatter."),
         Scene("study_accuracy_concrete", f"{STUDY} accuracy", "accuracy",
-              "What accuracy costs: error against the finest run over seconds, one knob a line. Step and speed are lost "
-              "in the scatter of the seeds (grey) and in what is chaos of the strength, 2 %; a hundredfold mass, coarse "
-              "spheres and what is left out of the physics are not."),
+              "What accuracy costs: error against the finest run over seconds, one line per parameter. Step and "
+              "speed have no effect above the scatter of the seeds (grey) and the chaotic scatter of the strength, 2 "
+              "%; a hundredfold mass, coarse spheres and missing physical effects do."),
         Scene("study_quality_concrete", f"{STUDY} accuracy", "accuracy",
-              "The words of Scene/Quality and the speed in wave crossings: fast costs a ninth of the steps of reference, "
-              "nothing that its strength could tell, and one percent of the modulus."),
+              "The words of Scene/Quality and the speed in wave crossings: fast needs a ninth of the steps of "
+              "reference, with no visible error of the strength and one percent of the modulus."),
         Scene("study_quality_cylinder", f"{STUDY} accuracy", "accuracy",
-              "The same for a cylinder of seven times as many spheres, where chaos is smaller and haste shows: half the "
-              "speed, half the error. A hurry while it is elastic costs nothing."),
+              "The same for a cylinder of seven times as many spheres, where chaotic scatter is smaller and the rate "
+              "effect is visible: half the speed, half the error. A rate multiplier in the elastic stage causes no "
+              "error."),
         Scene("study_target_cylinder", f"{STUDY} target", "target",
-              "Accuracy on order: the strength for slow loading within 2 %, by the cheapest runs at several speeds; the interval "
-              "narrows with each batch."),
+              "Accuracy on order: the strength for slow loading within 2 %, by the cheapest runs at several speeds; "
+              "the interval becomes narrower with each batch."),
         Scene("study_target_gain", f"{STUDY} target", "target",
               "The gain of a cube by platen friction within 3 %, both platens on the same packings."),
     ]),

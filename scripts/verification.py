@@ -28,11 +28,12 @@ FOUND = SOURCE / "tests/verification/found.json"
 TABLE = SOURCE / "docs/verification.md"
 HEADING = """# Verification
 
-What can go wrong in such a program, what watches it, and how far off it is. Written by `scripts/verification.py BUILD
---write` from a run of the tests; rows and tests are those of [rows.json](../tests/verification/rows.json). Figures are
-what tests have noted on the machine of that run, each beside what its test allows. Rows without a figure pass or fail by
-equality, by a refusal, or within the bounds of their tests. Tests in *italics* are long forms, which `scripts/test_long.sh`
-runs; the date is that of the row's oldest run.
+What can go wrong in such a program, the tests that check it, and the size of the errors. Written by
+`scripts/verification.py BUILD --write` from a run of the tests; rows and tests are those of
+[rows.json](../tests/verification/rows.json). Figures are the values that tests have recorded on the machine of that run,
+each with the value that its test allows. Rows without a figure pass or fail by equality, by a refusal, or within the
+bounds of their tests. Tests in *italics* are long forms, which `scripts/test_long.sh` runs; the date is that of the row's
+oldest run.
 
 | row | what can go wrong | what is measured | threshold | tests | figures, allowed | run | result |
 | --- | --- | --- | --- | --- | --- | --- | --- |

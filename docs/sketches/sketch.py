@@ -3,6 +3,7 @@
 import math
 
 INK, SHADE, LIGHT, RED, BLUE, ORANGE = "#222", "#b9c4cf", "#e8edf2", "#c0392b", "#2a6fb0", "#d9822b"
+PALE_RED, PALE_BLUE, PALE_ORANGE, PALE_GREEN = "#f0c9c4", "#c7dbee", "#f6d9b8", "#d5e8d4"
 HEAD = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" width="{w}" height="{h}" '
         'font-family="DejaVu Sans, sans-serif" font-size="11" stroke-linejoin="round">\n'
         '<title>{title}</title>\n<rect width="{w}" height="{h}" fill="#fff"/>\n')
@@ -10,6 +11,11 @@ HEAD = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" width="{w
 
 def n(value):
     return f"{value:.1f}".rstrip("0").rstrip(".")
+
+
+def by_name(*sketches):
+    """The functions that draw, by the names of their files."""
+    return {sketch.__name__: sketch for sketch in sketches}
 
 
 class Sketch:
@@ -47,10 +53,26 @@ class Sketch:
         self.parts.append(f'<text x="{n(x)}" y="{n(y)}" text-anchor="{anchor}" fill="{fill}" '
                           f'font-size="{n(size)}">{safe}</text>\n')
 
+    def lines_of_words(self, x, y, lines, spacing=13, **style):
+        for k, text in enumerate(lines):
+            self.words(x, y + spacing * k, text, **style)
+
     def platens(self, x=60, w=100, top=30, bottom=160):
         """Both platens; what is between them is the caller's."""
         self.box(x - 14, top - 14, w + 28, 14, fill=SHADE)
         self.box(x - 14, bottom, w + 28, 14, fill=SHADE)
+
+    def specimen_between_platens(self):
+        self.platens()
+        self.box(60, 30, 100, 130)
+
+    def widened_specimen_between_platens(self, opening, x=60, w=100, top=30, bottom=160, steps=30):
+        """The lateral surface has moved outwards by opening(z), z from 0 at the top to 1 at the bottom."""
+        self.platens(x, w, top, bottom)
+        zs = [k / steps for k in range(steps + 1)]
+        left = [(x - opening(z), top + z * (bottom - top)) for z in zs]
+        right = [(x + w + opening(z), top + z * (bottom - top)) for z in reversed(zs)]
+        self.path(left + right, fill=LIGHT, close=True)
 
     def curve(self, of, x0, x1, steps=40, **style):
         self.path([(x0 + (x1 - x0) * k / steps, of(k / steps)) for k in range(steps + 1)], **style)

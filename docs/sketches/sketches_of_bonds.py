@@ -2,7 +2,7 @@
 
 import math
 
-from sketch import BLUE, LIGHT, ORANGE, RED, SHADE, Sketch
+from sketch import BLUE, LIGHT, ORANGE, PALE_BLUE, PALE_ORANGE, PALE_RED, RED, SHADE, Sketch, by_name
 
 
 def coordination_number():
@@ -22,7 +22,7 @@ def bond():
     s = Sketch("Bond between two spheres: radius, gap")
     s.circle(80, 90, 48)
     s.circle(186, 90, 48)
-    s.box(80, 60, 106, 60, fill="#c7dbee", stroke=BLUE)
+    s.box(80, 60, 106, 60, fill=PALE_BLUE, stroke=BLUE)
     s.circle(80, 90, 3, fill=BLUE)
     s.circle(186, 90, 3, fill=BLUE)
     s.arrow(133, 90, 133, 60, stroke=BLUE)
@@ -36,12 +36,12 @@ def bond():
 
 def moment_contribution():
     s = Sketch("Moment contribution: share of bending in the stress that breaks a bond", 300, 190)
-    s.box(30, 50, 70, 80, fill="#c7dbee", stroke=BLUE)
+    s.box(30, 50, 70, 80, fill=PALE_BLUE, stroke=BLUE)
     for y in range(58, 130, 12):
         s.arrow(100, y, 124, y, stroke=BLUE)
     s.words(78, 148, "from the force", "middle", fill=BLUE, size=10)
     s.words(150, 95, "+ beta", "middle", size=13)
-    s.box(180, 50, 50, 80, fill="#f0c9c4", stroke=RED)
+    s.box(180, 50, 50, 80, fill=PALE_RED, stroke=RED)
     for y in range(54, 132, 12):
         length = (90 - y) * .75
         s.arrow(230, y, 230 + length if length > 0 else 230 - abs(length), y, stroke=RED)
@@ -71,12 +71,12 @@ def end_layer():
     s.line(30, 70, 230, 70, dash="4 3", stroke=RED)
     for x, y, r, near in ((52, 58, 15, 1), (84, 66, 18, 1), (118, 58, 16, 1), (152, 78, 17, 0), (186, 62, 17, 1),
                           (214, 82, 14, 0), (64, 98, 17, 0), (100, 104, 17, 0), (134, 112, 16, 0), (176, 110, 17, 0)):
-        s.circle(x, y, r, fill="#f6d9b8" if near else LIGHT)
+        s.circle(x, y, r, fill=PALE_ORANGE if near else LIGHT)
         if near:
             s.line(x, y - r, x, 40, stroke=ORANGE, width=3)
     s.arrow(240, 40, 240, 70, stroke=RED, both=True)
-    s.words(130, 150, "distance of the surface to the plane:", "middle", size=10)
-    s.words(130, 164, "at most End layer times the mean radius", "middle", size=10)
+    s.lines_of_words(130, 150, ("distance of the surface to the plane:", "at most End layer times the mean radius"),
+                     spacing=14, anchor="middle", size=10)
     return s
 
 
@@ -108,5 +108,4 @@ def crack():
     return s
 
 
-BONDS = {f.__name__: f for f in (coordination_number, bond, moment_contribution, stiffness_ratio, end_layer,
-                                 unbalanced_force, crack)}
+BONDS = by_name(coordination_number, bond, moment_contribution, stiffness_ratio, end_layer, unbalanced_force, crack)

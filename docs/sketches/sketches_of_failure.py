@@ -2,22 +2,12 @@
 
 import math
 
-from sketch import BLUE, LIGHT, ORANGE, RED, SHADE, Sketch
-
-
-def skin(s, opening, x=60, w=100, top=30, bottom=160, fill=LIGHT):
-    """A specimen whose skin has opened by opening(z), z from 0 on top to 1 below."""
-    steps = 30
-    zs = [k / steps for k in range(steps + 1)]
-    left = [(x - opening(z), top + z * (bottom - top)) for z in zs]
-    right = [(x + w + opening(z), top + z * (bottom - top)) for z in reversed(zs)]
-    s.path(left + right, fill=fill, close=True)
+from sketch import BLUE, ORANGE, PALE_BLUE, PALE_GREEN, PALE_ORANGE, PALE_RED, RED, SHADE, Sketch, by_name
 
 
 def end_spread():
     s = Sketch("End spread: opening of the skin near the ends over its largest")
-    s.platens()
-    skin(s, lambda z: 3 + 22 * math.sin(math.pi * z))
+    s.widened_specimen_between_platens(lambda z: 3 + 22 * math.sin(math.pi * z))
     for y in (38, 152):
         s.arrow(160, y, 172, y, stroke=RED)
     s.arrow(160, 95, 184, 95, stroke=BLUE)
@@ -30,8 +20,7 @@ def end_spread():
 
 def barrel():
     s = Sketch("Barrel: opening at the ends over opening of the middle, at the peak")
-    s.platens()
-    skin(s, lambda z: 6 + 16 * math.sin(math.pi * z))
+    s.widened_specimen_between_platens(lambda z: 6 + 16 * math.sin(math.pi * z))
     s.line(160, 30, 160, 160, dash="3 3")
     for y in (37, 153):
         s.arrow(160, y, 169, y, stroke=RED)
@@ -45,16 +34,13 @@ def barrel():
 
 def damage():
     s = Sketch("End damage and middle damage: shares of broken bonds in three regions of the core")
-    s.platens()
-    s.box(60, 30, 100, 130)
-    s.box(85, 30, 50, 25, fill="#f0c9c4", stroke=RED)
-    s.box(85, 135, 50, 25, fill="#f0c9c4", stroke=RED)
-    s.box(85, 82, 50, 25, fill="#c7dbee", stroke=BLUE)
-    s.words(178, 46, "end damage", fill=RED)
-    s.words(178, 60, "top", fill=RED)
+    s.specimen_between_platens()
+    s.box(85, 30, 50, 25, fill=PALE_RED, stroke=RED)
+    s.box(85, 135, 50, 25, fill=PALE_RED, stroke=RED)
+    s.box(85, 82, 50, 25, fill=PALE_BLUE, stroke=BLUE)
+    s.lines_of_words(178, 46, ("end damage", "top"), spacing=14, fill=RED)
     s.words(178, 98, "middle damage", fill=BLUE, size=10)
-    s.words(178, 146, "end damage", fill=RED)
-    s.words(178, 160, "bottom", fill=RED)
+    s.lines_of_words(178, 146, ("end damage", "bottom"), spacing=14, fill=RED)
     s.arrow(85, 121, 135, 121, both=True)
     s.words(110, 119, "Rc", "middle", size=9)
     return s
@@ -62,18 +48,15 @@ def damage():
 
 def cone():
     s = Sketch("Cone by displacement: what has moved with the platen since the peak")
-    s.platens()
-    skin(s, lambda z: 2 + 16 * math.sin(math.pi * z))
-    s.path([(62, 30), (158, 30), (110, 92)], fill="#f6d9b8", stroke=ORANGE, close=True)
-    s.path([(62, 160), (158, 160), (110, 98)], fill="#c7dbee", stroke=BLUE, close=True)
+    s.widened_specimen_between_platens(lambda z: 2 + 16 * math.sin(math.pi * z))
+    s.path([(62, 30), (158, 30), (110, 92)], fill=PALE_ORANGE, stroke=ORANGE, close=True)
+    s.path([(62, 160), (158, 160), (110, 98)], fill=PALE_BLUE, stroke=BLUE, close=True)
     s.line(110, 16, 110, 92, dash="4 3")
     s.path([(110, 66), (119, 70), (124, 74)], width=1)
     s.words(116, 64, "half-angle", size=9)
     s.arrow(110, 30, 110, 50, stroke=RED)
-    s.words(192, 44, "moves with", fill=ORANGE, size=10)
-    s.words(192, 57, "the top", fill=ORANGE, size=10)
-    s.words(192, 140, "with the", fill=BLUE, size=10)
-    s.words(192, 153, "bottom", fill=BLUE, size=10)
+    s.lines_of_words(192, 44, ("moves with", "the top"), fill=ORANGE, size=10)
+    s.lines_of_words(192, 140, ("with the", "bottom"), fill=BLUE, size=10)
     s.words(110, 188, "the rest is wedged aside", "middle")
     return s
 
@@ -82,7 +65,8 @@ def dead_zone():
     s = Sketch("Dead zone and r0: radius of its base over that of the specimen")
     s.box(46, 16, 128, 14, fill=SHADE)
     s.box(60, 30, 100, 130)
-    s.path([(74, 30), (146, 30), (140, 55), (122, 76), (104, 80), (84, 60)], fill="#f6d9b8", stroke=ORANGE, close=True)
+    s.path([(74, 30), (146, 30), (140, 55), (122, 76), (104, 80), (84, 60)], fill=PALE_ORANGE, stroke=ORANGE,
+           close=True)
     s.arrow(110, 38, 146, 38, stroke=ORANGE)
     s.words(120, 51, "r", fill=ORANGE)
     s.arrow(110, 110, 160, 110)
@@ -95,10 +79,9 @@ def dead_zone():
 
 def sound_cone():
     s = Sketch("Sound cone: the piece on a platen whose spheres have kept their bonds")
-    s.platens()
-    s.box(60, 30, 100, 130)
+    s.specimen_between_platens()
     s.path([(64, 30), (156, 30), (142, 46), (134, 68), (120, 74), (110, 94), (98, 70), (86, 64), (78, 44)],
-           fill="#d5e8d4", stroke="#3c7a3a", close=True)
+           fill=PALE_GREEN, stroke="#3c7a3a", close=True)
     s.path([(62, 30), (158, 30), (110, 96)], stroke=ORANGE, dash="4 3", close=True)
     for x, y in ((75, 110), (90, 130), (105, 115), (120, 140), (140, 105), (148, 130), (100, 148), (78, 86), (146, 82)):
         s.line(x - 4, y + 3, x + 4, y - 3, stroke=RED)
@@ -126,7 +109,7 @@ def pattern():
 def fragments():
     s = Sketch("Fragments: pieces that hang together by bonds")
     groups = (((70, 50), (96, 44), (84, 72), (110, 68)), ((150, 90), (176, 84), (168, 110)), ((90, 130),), ((205, 50),))
-    for colour, group in zip(("#c7dbee", "#f6d9b8", "#fff", "#fff"), groups):
+    for colour, group in zip((PALE_BLUE, PALE_ORANGE, "#fff", "#fff"), groups):
         for a in group:
             for b in group:
                 if a < b and math.dist(a, b) < 32:
@@ -150,5 +133,4 @@ def acoustic_event():
     return s
 
 
-FAILURE = {f.__name__: f for f in (end_spread, barrel, damage, cone, dead_zone, sound_cone, pattern, fragments,
-                                   acoustic_event)}
+FAILURE = by_name(end_spread, barrel, damage, cone, dead_zone, sound_cone, pattern, fragments, acoustic_event)

@@ -2,14 +2,13 @@
 
 import math
 
-from sketch import BLUE, LIGHT, ORANGE, RED, SHADE, Sketch
+from sketch import BLUE, LIGHT, ORANGE, PALE_BLUE, PALE_GREEN, PALE_ORANGE, PALE_RED, RED, SHADE, Sketch, by_name
 
 
 def strains():
     s = Sketch("Platen strain between the faces, gauge strain of the middle half")
-    s.platens()
-    s.box(60, 30, 100, 130)
-    s.box(60, 62, 100, 65, fill="#c7dbee", stroke=BLUE)
+    s.specimen_between_platens()
+    s.box(60, 62, 100, 65, fill=PALE_BLUE, stroke=BLUE)
     s.arrow(38, 30, 38, 160, stroke=RED, both=True)
     s.words(32, 90, "H", "end", fill=RED)
     s.arrow(180, 62, 180, 127, stroke=BLUE, both=True)
@@ -22,13 +21,11 @@ def strains():
 
 def wave_crossing():
     s = Sketch("Wave crossing: a wave runs from one platen to the other")
-    s.platens()
-    s.box(60, 30, 100, 130)
+    s.specimen_between_platens()
     for k, y in enumerate((44, 72, 100, 128)):
         s.curve(lambda t, y=y: y + 5 * math.sin(2 * math.pi * t), 66, 154, stroke=BLUE, width=2.4 - .5 * k)
     s.arrow(180, 34, 180, 156, stroke=BLUE)
-    s.words(187, 90, "one crossing", fill=BLUE, size=10)
-    s.words(187, 103, "T = H / c", fill=BLUE, size=10)
+    s.lines_of_words(187, 90, ("one crossing", "T = H / c"), fill=BLUE, size=10)
     return s
 
 
@@ -102,10 +99,10 @@ def confinement():
 
 def energy_balance():
     s = Sketch("Energy balance: work done against what is stored and lost")
-    s.box(50, 40, 46, 120, fill="#c7dbee")
+    s.box(50, 40, 46, 120, fill=PALE_BLUE)
     s.words(73, 178, "work done", "middle", size=10)
     at = 160
-    for name, h, fill in (("bonds", 52, "#d5e8d4"), ("motion", 6, "#f6d9b8"), ("fracture", 34, "#f0c9c4"),
+    for name, h, fill in (("bonds", 52, PALE_GREEN), ("motion", 6, PALE_ORANGE), ("fracture", 34, PALE_RED),
                           ("friction", 18, SHADE), ("damping", 6, LIGHT)):
         at -= h
         s.box(130, at, 46, h, fill=fill)
@@ -129,5 +126,5 @@ def slenderness():
     return s
 
 
-TESTS = {f.__name__: f for f in (strains, wave_crossing, quasi_static, peak, packing_fraction, friction, confinement,
-                                 energy_balance, slenderness)}
+TESTS = by_name(strains, wave_crossing, quasi_static, peak, packing_fraction, friction, confinement, energy_balance,
+                slenderness)
