@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/setup.sh --cluster clang libclang-rt-dev llvm valgrind chromium chromium-driver lintian debootstrap python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas # fuzzing, sanitizers, memcheck, pages, packages, notebooks
+scripts/setup.sh --cluster clang libclang-rt-dev llvm valgrind chromium chromium-driver lintian debootstrap buildah python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas # fuzzing, sanitizers, memcheck, pages, packages, notebooks
 scripts/build.sh
 status=0
 scripts/verification.py build --long --write "$@" || status=$?
