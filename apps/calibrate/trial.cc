@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/io/stop_signal.h"
 #include "apps/run/peak.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/parameters.h"
@@ -18,6 +19,8 @@ constexpr double readings = 600;
 constexpr double fallen = 0.8, modulus_share = 0.4;
 // A fall before this share of the largest strain is none: what a cell leaves shakes about zero at first.
 constexpr double begun = 0.02;
+// Steps between two looks for a signal.
+constexpr long between_signals = 1000;
 
 struct Reading {
   double stress = 0, strain_platen = 0, axial = 0, lateral = 0; // signed by the sense of the test
@@ -84,15 +87,20 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
             -sign * strain.axial, sign * strain.lateral(),
             problem.model.broken_tension + problem.model.broken_shear > 0};
   };
+  // A test may take minutes: after a signal it is given up, and made again by --resume.
+  const auto advance = [&](long count) {
+    if (stop_requested() != 0) throw Stopped{stop_requested()};
+    return problem.advance(count);
+  };
   while (!problem.axial_stage())
-    problem.advance(steps);
+    advance(steps);
   const Reading start = problem.cell() ? read() : Reading{};
   std::vector<Reading> all{{}};
   double peak = 0;
   bool fell = false;
   while (all.back().strain_platen < target && !(fell && all.back().strain_platen >= test.curve_strain)) {
     for (long made = 0; made < steps;)
-      made += problem.advance(steps - made);
+      made += advance(std::min(steps - made, between_signals));
     all.push_back(read().minus(start));
     const Reading &now = all.back();
     if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;

@@ -27,6 +27,7 @@ dem::Specimen placed(const dem::Specimen &specimen, const SpecimenTest &test);
 // between glued ends, splitting between strips, under pressure counted from where it stands on all sides. A
 // peak counts as in platen-compress (judge_peak): a fall by 2 %, or a plateau. The strength is the largest
 // mean of both platens' stresses, the pressure included. Moduli are secants at 40 % of what the platens add.
+// Throws Stopped after a signal.
 TrialResult run_test(const Scene &scene, const dem::Specimen &specimen, const Choice &choice,
                      const SpecimenTest &test);
 // Without a solve.

@@ -4,15 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/io/sha256.h"
+#include "apps/io/stop_signal.h"
+#include "apps/program.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -60,7 +65,7 @@ std::string text_of(const fs::path &path) {
   return text.str();
 }
 
-class CalibrateApp : public testing::Test {
+class CalibrateApp : public ::testing::Test {
 protected:
   CalibrateApp() : folder(fs::temp_directory_path() / ("platen_calibrate_" + std::to_string(::getpid()))) {
     fs::remove_all(folder);
@@ -213,6 +218,25 @@ TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {
   EXPECT_NE(refused("b").find("b/scene.prm: error: is missing: the folder holds nothing to resume"),
             std::string::npos)
       << refused("b");
+}
+
+// A test of minutes is given up, not waited for; what was written before is there to go on with.
+TEST_F(CalibrateApp, a_signal_ends_it_within_a_trial) {
+  const fs::path table = folder / "a/trials.csv";
+  testing::Program program(
+      {PLATEN_CALIBRATE_PROGRAM, "case.prm", "-o", "a", "-t", "1", "--quiet", "-s",
+       "Calibrate/Young modulus = 17 GPa", "-s", "Calibrate/Compressive strength = 40 MPa", "-s",
+       "Loading/Axial rate = 1e-4 m/s", "-s", "Loading/Target strain = 0.2"},
+      folder);
+  ASSERT_TRUE(program.wait_until([&] { return text_of(table).find("elastic,") != std::string::npos; }))
+      << text_of(folder / "error");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300)); // after the static solves the trial begins
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait(), exit_status_of_signal(SIGTERM)) << text_of(folder / "error");
+  const std::string rows = text_of(table);
+  EXPECT_NE(rows.find("elastic,"), std::string::npos);
+  EXPECT_EQ(rows.find("compression,"), std::string::npos) << rows;
+  EXPECT_FALSE(fs::exists(folder / "a/summary.json"));
 }
 
 TEST_F(CalibrateApp, strengths_are_found) {
