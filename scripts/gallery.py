@@ -15,7 +15,6 @@ bad input.
 
 import argparse
 import concurrent.futures
-import json
 import os
 import pathlib
 import re
@@ -29,6 +28,9 @@ from gallery_numbers import tables
 from gallery_scenes import GROUPS
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(SOURCE / "python"))
+import platen
+
 SCENES = SOURCE / "scenes"
 PAGE = SOURCE / "docs/gallery.md"
 IMAGES = SOURCE / "docs/images/gallery"
@@ -55,9 +57,8 @@ class Result(NamedTuple):
 
 def whole(folder):
     """The run's summary, None where it did not come to its end."""
-    path = folder / "summary.json"
-    summary = json.loads(path.read_text()) if path.exists() else None
-    return summary if summary and summary["status"] == "done" else None
+    run = platen.Run(folder) if (folder / "summary.json").exists() else None
+    return run.summary if run and run.status == "done" else None
 
 
 def said(command):

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The table of docs/theory.md, 5.3: what tells a test that was too fast, at five speeds.
 Usage: speeds.py STUDY, the folder of `platen-study rate` of run.sh, study `speeds`."""
-import json
 import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 COLUMNS = (
     ("wave crossings", "wave_crossings_to_peak", "{:.0f}", 1),
@@ -29,10 +31,9 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     rows = []
-    for path in pathlib.Path(sys.argv[1]).glob("runs/*/summary.json"):
-        summary = json.loads(path.read_text())
-        if summary.get("status") == "done":
-            rows.append((float(path.parent.name.split("_seed_")[0].rsplit("_", 1)[1]), summary))
+    for name, run in platen.Study(sys.argv[1]).runs.items():
+        if run.status == "done":
+            rows.append((float(name.split("_seed_")[0].rsplit("_", 1)[1]), run.summary))
     print("| speed, m/s | " + " | ".join(c[0] for c in COLUMNS) + " |")
     print("|" + " --- |" * (len(COLUMNS) + 1))
     for speed, summary in sorted(rows, key=lambda row: row[0]):

@@ -3,9 +3,11 @@
 Usage: tables.py STUDY..., folders of `platen-study accuracy` of run.sh. A row of a table differs from the scene in one entry; errors
 are against the last row on the same seed, mean +- standard deviation over the seeds; in the last row, in brackets, the
 scatter of the seeds. Below each: what an accuracy costs, by the root mean square over the seeds of a row and all finer ones."""
-import json
 import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 ERRORS = (("strength", "strength"), ("strain at peak", "strain_at_peak"), ("E", "modulus"), ("broken bonds", "broken_bonds"))
 
@@ -53,7 +55,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     for folder in sys.argv[1:]:
-        study = json.loads((pathlib.Path(folder) / "study.json").read_text())
+        study = platen.Study(folder).summary
         print(f"## {pathlib.Path(folder).name}, {len(study['seeds'])} seeds\n")
         for knob in study["accuracy"]:
             unit = f", {knob['unit']}" if knob["unit"] else ""

@@ -11,13 +11,15 @@ that it asks for, whoever made it. Prints a table, leaves it in FOLDER/target.md
 costs. What is done is kept: call it again after a stop; --tables runs nothing and tells what is there.
 """
 import argparse
-import csv
-import json
 import math
 import pathlib
 import shutil
 import statistics
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 SPEEDS = "15, 30, 60, 120"
@@ -36,7 +38,7 @@ def study(build, kind, scene, folder, entries, threads, accuracy=None):
     """Makes a study, or goes on with it; one that has ended, of a target with this accuracy, is left."""
     summary = folder / "study.json"
     if summary.exists():
-        left = json.loads(summary.read_text())
+        left = platen.Study(folder).summary
         if left.get("status") == "done" and left.get("target", {}).get("accuracy") == accuracy:
             return
     command = [str(build / "apps/platen-study"), kind, str(SCENES / f"{scene}.prm"), "-o", str(folder), "-t", str(threads), "--quiet"]
@@ -51,13 +53,10 @@ def study(build, kind, scene, folder, entries, threads, accuracy=None):
 
 def rows_of(folder):
     """By (wave crossings, seed): strength, steps times spheres, seconds."""
-    rows = {}
-    with open(folder / "study.csv") as table, open(folder / "costs.csv") as costs:
-        for row, cost in zip(csv.DictReader(table), csv.DictReader(costs)):
-            rows[float(row["wave_crossings"]), int(row["seed"])] = (
-                float(row["strength_pa"]), float(cost["steps"]) * float(row["particles"]), float(cost["wall_seconds"]),
-                float(row["particles"]))
-    return rows
+    found = platen.Study(folder)
+    return {(row["wave_crossings"], int(row["seed"])): (row["strength_pa"], cost["steps"] * row["particles"], cost["wall_seconds"],
+                                                        row["particles"])
+            for row, cost in zip(found.table.records(), found.costs.records())}
 
 
 def line(x, y):
@@ -166,17 +165,15 @@ def order(build, folder, subject, accuracy, number, threads):
 def tables_of(folder, over):
     """Rows of an order; of a gain those of both scenes."""
     tables = {False: {}, True: {}}
-    with open(folder / "study.csv") as table:
-        for row in csv.DictReader(table):
-            value = float(row["strength_pa"]) if row["strength_pa"] else math.nan
-            tables[row["case"].startswith("over_")][float(row["wave_crossings"]), int(row["seed"])] = (value,)
+    for row in platen.Study(folder).table.records():
+        tables[row["case"].startswith("over_")][row["wave_crossings"], int(row["seed"])] = (row["strength_pa"],)
     return [tables[False], tables[True]] if over else [tables[False]]
 
 
 def measure(folder, subject, accuracy, truth, repetitions):
     """Of the repetitions that are there. The truth of each: by the reference and by all runs of the other repetitions."""
     orders = [folder / "orders" / name_of(subject, accuracy, k) for k in range(repetitions)]
-    studies = {k: json.loads((o / "study.json").read_text()) for k, o in enumerate(orders) if (o / "study.json").exists()}
+    studies = {k: platen.Study(o).summary for k, o in enumerate(orders) if (o / "study.json").exists()}
     if not studies:
         return None
     all_logs = {}

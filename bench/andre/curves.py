@@ -11,12 +11,11 @@ scatter.csv     figure 17: modulus and Poisson's ratio against the number of sph
 Isotropy: chi_squared of the directions of contacts, 1 +- .11 where they have no preference. e is the paper's measure (11),
 sum (f - 1/N)^2 / N over N = 320 cells, of the same contacts, each with both its ends; e_chance is what that is for as
 many contacts without preference in equal cells, e_isotropic in these cells, which are not equal."""
-import csv
 import pathlib
 import statistics
 import sys
 
-from runs import figure, summaries, write
+from runs import figure, platen, summaries, write
 
 folder = pathlib.Path(sys.argv[1])
 CELLS = 160  # pairs of opposite cells
@@ -25,8 +24,7 @@ ENOUGH = 7500
 
 
 def directions(name):
-    with open(folder / name / "directions.csv", newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return platen.read_table(folder / name / "directions.csv").records()
 
 
 def isotropy(tables):
@@ -58,8 +56,7 @@ def packings(pattern):
 
 # Figures 6 and 7.
 rows, cells = [], []
-if (folder / "lattice" / "summary.json").exists():
-    lattice = summaries(folder, "lattice")["lattice"]
+if lattice := summaries(folder, "lattice").get("lattice"):
     rows.append(["face-centred cubic", 0, ""] + [lattice[key] for key in PACKING] + isotropy([directions("lattice")]))
     cells.append(("face-centred cubic", 0, "lattice"))
 spreads = packings("pack_4000_*")

@@ -1,12 +1,15 @@
 """Reading the runs of run.sh and writing tables: what table.py and curves.py share."""
 import csv
-import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 
 def summaries(folder, pattern):
     """summary.json of the runs whose name fits, by name."""
-    paths = sorted(folder.glob(pattern + "/summary.json"))
-    return {p.parent.name: json.loads(p.read_text()) for p in paths}
+    return {name: run.summary for name, run in platen.runs(folder, pattern).items() if run.status}
 
 
 def figure(summary, path):
@@ -14,6 +17,11 @@ def figure(summary, path):
     for key in path.split("/"):
         summary = (summary or {}).get(key)
     return summary
+
+
+def text(value):
+    """A cell as the programs write it: the shortest digits that give the number."""
+    return value if isinstance(value, str) else repr(value).removesuffix(".0")
 
 
 def write(path, header, rows):

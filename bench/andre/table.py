@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Tables 3 and 4, moduli of the bulk, and figures 12, 19, 20 and 21 of the runs that run.sh made, as CSV.
 Usage: table.py FOLDER"""
-import csv
 import pathlib
 import statistics
 import sys
 
-from runs import figure, summaries, write
+from runs import figure, platen, summaries, text, write
 
 folder = pathlib.Path(sys.argv[1])
 
@@ -54,10 +53,9 @@ write(folder / "energy_static.csv", ["run", "load"] + shares,
 
 # Figures 19, 20 and 21, of the first seed.
 if bars:
-    with open(folder / next(iter(bars)) / "history.csv", newline="") as file:
-        history = list(csv.DictReader(file))
+    history = platen.Run(folder / next(iter(bars))).history.records()
     energy = ["load", "time_s", "kinetic_energy_j", "axial_energy_j", "bending_energy_j", "torsion_energy_j"]
-    write(folder / "energy_dynamic.csv", energy, [[r[k] for k in energy] for r in history])
+    write(folder / "energy_dynamic.csv", energy, [[text(r[k]) for k in energy] for r in history])
     wave = ["time_s", "end_velocity_m_s", "far_end_velocity_m_s", "quarter_z_m", "half_z_m"]
-    write(folder / "wave.csv", wave, [[r[k] for k in wave] for r in history if r["load"] == "impact"])
+    write(folder / "wave.csv", wave, [[text(r[k]) for k in wave] for r in history if r["load"] == "impact"])
 print((folder / "tables.csv").read_text(), end="")

@@ -1,6 +1,10 @@
 """What the table of one concrete takes from its runs: one line each, kept in FOLDER/runs.csv when their folders are gone."""
 import csv
-import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 OF_SUMMARY = ("strength_pa", "strain_at_peak_platen", "youngs_modulus_gauge_pa", "poisson_ratio", "bulk_modulus_pa",
               "constrained_modulus_pa", "lateral_over_axial_stress", "worse_end_damage", "middle_damage",
@@ -24,12 +28,11 @@ def cones(s):
     return figures
 
 
-def under_pressure(folder, s):
+def under_pressure(run):
     """Of a test in the sleeve: what is left of the deviator at 1.45 times the strain at peak, and at a strain of 3.45e-2, over
     the largest, none where the run ends before; and the volume inside of the sleeve, %, larger positive, from the bare specimen.
     Strains count from the end of the consolidation. One that flows has no peak: its strength here is the largest stress."""
-    with open(folder / "history.csv") as file:
-        rows = [{k: float(v) if v else 0.0 for k, v in row.items()} for row in csv.DictReader(file)]
+    s, rows = run.summary, run.history.records()
     peak = max(range(len(rows)), key=lambda i: rows[i]["deviator_pa"])
     start = next(row for row in rows if row["time_s"] >= s["consolidation_end_time_s"])["axial_strain_platen"]
     at_peak = s["strain_at_peak_platen"]
@@ -44,16 +47,12 @@ def under_pressure(folder, s):
             "least_volume_percent": min(volumes[:peak + 1]), "volume_at_peak_percent": volumes[peak]}
 
 
-def figures(folder):
-    """Of a finished run, else None."""
-    path = folder / "summary.json"
-    s = json.loads(path.read_text()) if path.exists() else {}
-    if s.get("status") != "done":
-        return None
-    run = {"run": folder.name, **{key: s.get(key) for key in COLUMNS[1:]}, **cones(s)}
-    if folder.name.startswith("triaxial_") and not folder.name.startswith("triaxial_0_"):
-        run.update(under_pressure(folder, s))
-    return run
+def figures(name, run):
+    """Of a finished run."""
+    found = {"run": name, **{key: run.summary.get(key) for key in COLUMNS[1:]}, **cones(run.summary)}
+    if name.startswith("triaxial_") and not name.startswith("triaxial_0_"):
+        found.update(under_pressure(run))
+    return found
 
 
 def read(path):
@@ -79,9 +78,8 @@ def gather(where):
         return read(where)
     kept = where / "runs.csv"
     runs = read(kept) if kept.exists() else {}
-    for folder in sorted(path for path in where.iterdir() if path.is_dir()):
-        run = figures(folder)
-        if run:
-            runs[run["run"]] = run
+    for name, run in platen.runs(where).items():
+        if run.status == "done":
+            runs[name] = figures(name, run)
     write(kept, runs)
     return runs

@@ -1,16 +1,18 @@
 """Table of the runs of run.sh. Usage: table.py FOLDER"""
-import json
 import pathlib
 import statistics
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 folder = pathlib.Path(sys.argv[1])
 laws = ("parallel_bond", "cohesive_beam", "elasto_damage_plastic")
 
 
 def summaries(law, pulled):
-    folders = (path for path in sorted(folder.glob(f"{law}_*")) if path.name.endswith("_tension") == pulled)
-    return [json.loads((path / "summary.json").read_text()) for path in folders if (path / "summary.json").exists()]
+    found = platen.runs(folder, f"{law}_*")
+    return [run.summary for name, run in found.items() if name.endswith("_tension") == pulled and run.status]
 
 
 def figure(all_of, key, scale=1.0, digits=2):

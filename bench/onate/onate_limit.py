@@ -1,17 +1,13 @@
 """Limit of elasticity in uniaxial strain."""
-import csv
 
 
 def of(run):
     """Axial stress, and axial less lateral (Pa), where their difference leaves the line through 1 and 4 MPa by a tenth;
-    None without such a run. `run` is its folder."""
-    path = run / "history.csv"
-    if not path.exists():
+    None without such a limit. `run` is a platen.Run, None where there is none."""
+    if run is None or not (run.folder / "history.csv").exists():
         return None
-    with open(path, newline="") as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    points = [(r["axial_strain_platen"], 0.5 * (r["axial_stress_top_pa"] + r["axial_stress_bottom_pa"]), r["confining_pressure_pa"])
-              for r in rows]
+    columns = run.history["axial_strain_platen"], run.stress, run.history["confining_pressure_pa"]
+    points = list(zip(*(column.tolist() for column in columns)))
     line = [(e, a - p) for e, a, p in points if 1e6 < a - p < 4e6]
     if len(line) < 2:
         return None

@@ -1,9 +1,11 @@
 """Mean and scatter over seeds of the scalars of run.sh, beside experiment and paper (Onate et al. 2015).
 Usage: seeds.py FOLDER ... (one folder of run.sh a seed)"""
-import json
 import pathlib
 import statistics
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 import onate_limit
 
@@ -20,19 +22,19 @@ scalars = {
 
 
 def value(run, name):
-    """MPa, of one run; None where it gave none."""
+    """MPa, of one run; None where it gave none, or is not there."""
     if name == "cement_uniaxial_strain":
         limit = onate_limit.of(run)
         return limit and 1e-6 * limit[1]
-    path = run / "summary.json"
-    strength = json.loads(path.read_text())["strength_pa"] if path.exists() else None
+    strength = run.summary["strength_pa"] if run and run.status else None
     return strength and 1e-6 * strength
 
 
+folders = [platen.runs(folder) for folder in sys.argv[1:]]
 print("| scalar | experiment, MPa | paper's model, MPa | here, MPa | seeds |")
 print("| --- | --- | --- | --- | --- |")
 for name, (what, experiment, model) in scalars.items():
-    values = [v for v in (value(pathlib.Path(folder) / name, name) for folder in sys.argv[1:]) if v is not None]
+    values = [v for v in (value(runs.get(name), name) for runs in folders) if v is not None]
     if not values:
         continue
     scatter = f" +- {statistics.stdev(values):.2f}" if len(values) > 1 else ""

@@ -1,12 +1,13 @@
 """Table of the runs of run.sh beside experiment and paper (Onate et al. 2015). Usage: table.py FOLDER"""
-import csv
-import json
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
+
 import onate_limit
 
-folder = pathlib.Path(sys.argv[1])
+runs = platen.runs(sys.argv[1])
 # Figures that the paper prints as numbers: experiment, the paper's model (MPa).
 published = {
     "concrete_ucs": ("32.8-38", ""),
@@ -19,25 +20,19 @@ published = {
 
 
 def summary(name):
-    path = folder / name / "summary.json"
-    return json.loads(path.read_text()) if path.exists() else None
-
-
-def history(name):
-    with open(folder / name / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return [{key: float(value) for key, value in row.items()} for row in rows]
+    return runs[name].summary if name in runs and runs[name].status else None
 
 
 def number(value, scale=1.0, digits=2):
     return "-" if value is None else f"{value * scale:.{digits}f}"
 
 
-names = sorted(path.parent.name for path in folder.glob("*/summary.json"))
 print("| test | spheres | strength MPa | experiment, paper | strain at peak % | E GPa, nu | broken t, s of bonds | residual | seconds |")
 print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
-for name in names:
+for name in runs:
     s = summary(name)
+    if s is None:
+        continue
     experiment, model = published.get(name, ("", ""))
     print(
         f"| {name} | {s['particles']} | {number(s['strength_pa'], 1e-6)} | {experiment}{', ' if model else ''}{model} | "
@@ -58,12 +53,12 @@ for psi in (500, 1000, 2000, 4000):
 
 if summary("cement_500psi"):
     print("\nCement at 500 psi, broken interfaces by axial strain:")
-    rows = history("cement_500psi")
+    rows = runs["cement_500psi"].history.records()
     for strain in (0.0128, 0.0155, 0.018, 0.02):
         near = min(rows, key=lambda row: abs(row["axial_strain_platen"] - strain))
         print(f"  {100 * near['axial_strain_platen']:.2f} %: {near['broken_tension'] + near['broken_shear']:.0f}")
 
-limit = onate_limit.of(folder / "cement_uniaxial_strain")
+limit = onate_limit.of(runs.get("cement_uniaxial_strain"))
 if limit:
     axial, difference = limit
     print(f"\nCement, uniaxial strain: leaves its line at {axial * 1e-6:.1f} MPa axial, {difference * 1e-6:.1f} MPa difference (experiment about 10 MPa)")

@@ -4,9 +4,12 @@ same specimen, found by the same rules from the histories of both. Writes OUT/wh
 Usage: whole_table.py OUT"""
 import collections
 import csv
-import json
+import pathlib
 import statistics
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 BONDS_MAY_DIFFER = 1e-3  # of each other: two programs round the same rule
 UNDISTURBED = 0.9  # processor seconds over seconds; a program that got less waited for others
@@ -15,12 +18,9 @@ UNDISTURBED = 0.9  # processor seconds over seconds; a program that got less wai
 def told(out, run):
     """A row of runs.csv with what the run found."""
     folder = f"{out}/{run['folder']}"
-    with open(f"{folder}/summary.json") as file:
-        summary = json.load(file)
-    with open(f"{folder}/history.csv") as file:
-        curve = [(float(r["axial_strain_platen"]),
-                  0.5 * (float(r["axial_stress_top_pa"]) + float(r["axial_stress_bottom_pa"])))
-                 for r in csv.DictReader(file)]
+    results = platen.Run(folder)  # Yade's as well: yade_test.py writes the same files
+    summary = results.summary
+    curve = list(zip(results.history["axial_strain_platen"].tolist(), results.stress.tolist()))
     if run["program"] == "platen":
         summary["step_seconds"] = summary["wall_seconds"] - summary["setup_seconds"]
         summary["broken"] = summary["broken_tension"] + summary["broken_shear"]

@@ -1,22 +1,19 @@
 """Tables of the runs of run.sh. Usage: table.py FOLDER"""
-import csv
-import json
 import pathlib
-import re
 import statistics
 import sys
 
-import frames
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
-folder = pathlib.Path(sys.argv[1])
+runs = platen.runs(sys.argv[1])
 height, radius = 0.1, 0.025  # m, of the specimen
 first = 50  # cracks that are called the first
 rings = 5  # of equal area, for the pressure on the platen
 
 
 def summary(name):
-    path = folder / name / "summary.json"
-    return json.loads(path.read_text()) if path.exists() else None
+    return runs[name].summary if name in runs and runs[name].status else None
 
 
 def number(value, scale=1.0, digits=2):
@@ -31,23 +28,18 @@ def spread(values, digits=2):
 
 def first_cracks(name):
     """Mean height from the nearer end (mm), and the share of them within 15 mm of an end."""
-    with open(folder / name / "cracks.csv", newline="") as file:
-        z = [float(row["z_m"]) for row in csv.DictReader(file)][:first]
-    ends = [min(h, height - h) for h in z]
+    ends = [min(h, height - h) for h in runs[name].cracks["z_m"][:first].tolist()]
     return statistics.mean(ends) * 1e3, sum(e < 0.015 for e in ends) / len(ends)
 
 
 def pressure_profile(name, strain):
     """Load of the spheres on the lower platen in rings of equal area, over their mean, in the frame nearest to a
     closure strain before the peak."""
-    with open(folder / name / "history.csv", newline="") as file:
-        rows = [(float(r["time_s"]), float(r["axial_strain_platen"])) for r in csv.DictReader(file)]
-    time = next(t for t, e in rows if e >= strain)
-    pvd = (folder / name / "contacts.pvd").read_text()
-    series = [(float(t), f) for t, f in re.findall(r'timestep="([^"]*)"[^>]*file="([^"]*)"', pvd)]
-    data = frames.arrays(folder / name / min(series, key=lambda entry: abs(entry[0] - time))[1])
+    history = runs[name].history
+    time = next(t for t, e in zip(history["time_s"], history["axial_strain_platen"]) if e >= strain)
+    frame = runs[name].contacts.at(time)
     load = [0.0] * rings
-    for point, force in zip(data["Points"], data["normal_force"]):
+    for point, force in zip(frame.points.tolist(), frame.point_data["normal_force"].tolist()):
         if point[2] > 0.5 * height:
             continue
         ring = int(rings * min(0.999, (point[0] ** 2 + point[1] ** 2) / radius**2))

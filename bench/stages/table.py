@@ -1,24 +1,20 @@
 """Tables of the runs of run.sh. Usage: table.py FOLDER"""
-import csv
-import json
 import pathlib
 import statistics
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
+
 folder = pathlib.Path(sys.argv[1])
+runs = platen.runs(folder)
 
 
 def run(name):
-    """Summary and rows of history.csv (numbers, None where empty) of a finished run; None where there is none."""
-    path = folder / name / "summary.json"
-    if not path.exists():
+    """Summary and rows of history.csv of a finished run; None where there is none."""
+    if name not in runs or runs[name].status != "done":
         return None
-    summary = json.loads(path.read_text())
-    if summary["status"] != "done":
-        return None
-    with open(folder / name / "history.csv") as file:
-        rows = [{key: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
-    return summary, rows
+    return runs[name].summary, runs[name].history.records()
 
 
 def axial(row):

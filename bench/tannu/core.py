@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """The spheres of a packing that lie wholly in an upright cylinder about its middle, as specimen.csv on the screen.
 Usage: core.py SPECIMEN.CSV RADIUS HEIGHT, in m."""
-import csv
 import math
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     radius, height = float(sys.argv[2]), float(sys.argv[3])
-    with open(sys.argv[1], encoding="utf-8") as file:
-        spheres = [tuple(float(v) for v in row) for row in csv.reader(file) if row[0][0] not in "#x"]
+    spheres = list(zip(*(column.tolist() for column in platen.read_table(sys.argv[1]).values())))
     middle = 0.5 * (max(s[2] for s in spheres) + min(s[2] for s in spheres))
     print(f"# shape: cylinder radius_m={radius!r} height_m={height!r}\nx_m,y_m,z_m,radius_m")
     for x, y, z, r in spheres:

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """The runs of run.sh as a table: mean over the seeds, and in brackets their number where there are several.
 Usage: table.py FOLDER"""
-import json
 import pathlib
 import statistics
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
 PACKINGS = {"front": "front in its own mould", "core": "core of a larger front", "jammed": "grown until it jams"}
 STIFFNESSES = {"thesis": "thesis", "bond": "that of the bond"}
@@ -19,8 +21,8 @@ def main():
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for packing, name in PACKINGS.items():
         for stiffness, of in STIFFNESSES.items():
-            runs = [json.loads(p.read_text()) for p in pathlib.Path(sys.argv[1]).glob(f"{packing}_{stiffness}_*/summary.json")]
-            runs = [run for run in runs if run["status"] == "done"]
+            found = platen.runs(sys.argv[1], f"{packing}_{stiffness}_*").values()
+            runs = [run.summary for run in found if run.status == "done"]
             if not runs:
                 continue
             cells = [text.format(factor * statistics.mean(run[key] for run in runs)) for key, factor, text in KEYS]

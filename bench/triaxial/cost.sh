@@ -28,15 +28,16 @@ packed=("Specimen/Packing = file" "Specimen/File = $(realpath "$folder")/pack/sp
 for turn in $(seq "$turns"); do
   for kind in particles sleeve; do run "${kind}_$turn" "${packed[@]}" "Loading/Confinement = $kind"; done
 done
-python3 - "$folder" "$turns" <<'P'
-import json, sys
+PYTHONPATH=$here/../../python python3 - "$folder" "$turns" <<'P'
+import sys
+
+import platen
 
 print("| turn | particles | sleeve | |\n| --- | --- | --- | --- |")
 for turn in range(1, int(sys.argv[2]) + 1):
     seconds = []
     for kind in ("particles", "sleeve"):
-        with open(f"{sys.argv[1]}/{kind}_{turn}/summary.json") as file:
-            s = json.load(file)
+        s = platen.Run(f"{sys.argv[1]}/{kind}_{turn}").summary
         seconds.append(1000 * (s["wall_seconds"] - s["setup_seconds"]) / s["steps"])
     print(f"| {turn} | {seconds[0]:.3f} | {seconds[1]:.3f} | {100 * (seconds[1] / seconds[0] - 1):+.0f} % |")
 P

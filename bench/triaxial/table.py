@@ -1,29 +1,20 @@
 """Table of the runs of run.sh. Usage: table.py FOLDER"""
-import csv
-import json
 import pathlib
 import sys
 
-folder = pathlib.Path(sys.argv[1])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
+
+runs = platen.runs(sys.argv[1])
 pressures = ("0", "1.5", "4.5", "9", "30", "60")
-
-
-def run(law, kind, pressure):
-    path = folder / f"{law}_{'none' if pressure == '0' else kind}_{pressure}"
-    if not (path / "summary.json").exists():
-        return None
-    summary = json.loads((path / "summary.json").read_text())
-    with open(path / "history.csv") as file:
-        rows = [{key: float(value) if value else 0.0 for key, value in row.items()} for row in csv.DictReader(file)]
-    return summary, rows
 
 
 def figures(law, kind, pressure):
     """Strength (MPa), strain there (%), last over largest deviator, cracks at the peak and at the end, and the rest."""
-    found = run(law, kind, pressure)
-    if found is None:
+    run = runs.get(f"{law}_{'none' if pressure == '0' else kind}_{pressure}")
+    if run is None or not run.status:
         return None
-    summary, rows = found
+    summary, rows = run.summary, run.history.records()
     stress = [0.5e-6 * (row["axial_stress_top_pa"] + row["axial_stress_bottom_pa"]) for row in rows]
     cell = float(pressure)
     deviator = [s - row["confining_pressure_pa"] * 1e-6 for s, row in zip(stress, rows)]

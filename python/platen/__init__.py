@@ -8,7 +8,7 @@
     experiment.run()
 """
 from .errors import InputError, NumericsError, OutputError, PlatenError
-from .results import Frames, Run, Study, Table, read_table
+from .results import Frames, Run, Study, Table, read_table, runs
 
 try:
     from .experiment import Experiment, scenes, version
@@ -22,4 +22,4 @@ except ImportError as error:  # results can be read without the compiled part
 
 
 __all__ = ["Experiment", "Frames", "InputError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Table",
-           "read_table", "scenes", "version"]
+           "read_table", "runs", "scenes", "version"]

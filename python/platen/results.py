@@ -1,6 +1,7 @@
 """Results of the programs as numpy arrays: a run's folder, and what stands in it."""
 import csv
 import json
+from functools import cached_property
 from pathlib import Path
 
 import numpy
@@ -22,6 +23,10 @@ class Table(dict):
 
         return pandas.DataFrame(dict(self))
 
+    def records(self):
+        """The rows one by one, as dictionaries by column; numbers are Python's own, NaN for an empty cell."""
+        return [dict(zip(self, row)) for row in zip(*(column.tolist() for column in self.values()))]
+
 
 def _column(cells):
     try:
@@ -31,21 +36,31 @@ def _column(cells):
 
 
 def read_table(path):
-    """Any CSV file of the programs. A last line without a line end, which a run still writes, is left out. InputError where
-    the file cannot be read or a row has another number of cells than the header."""
+    """Any CSV file of the programs. A last line without a line end, which a run still writes, is left out, and so are lines of
+    comment above the header. InputError where the file cannot be read or a row has another number of cells than the header."""
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from None
     lines = text[: text.rfind("\n") + 1].splitlines()
-    if not lines:
+    above = next((k for k, line in enumerate(lines) if not line.startswith("#")), len(lines))
+    if above == len(lines):
         raise InputError(f"{path}: has no header")
-    header, *rows = csv.reader(lines)
-    for number, row in enumerate(rows, 2):
+    header, *rows = csv.reader(lines[above:])
+    for number, row in enumerate(rows, above + 2):
         if len(row) != len(header):
             raise InputError(f"{path}:{number}: {len(row)} cells where the header has {len(header)}", file=str(path), line=number)
     return Table((name, _column([row[k] for row in rows])) for k, name in enumerate(header))
+
+
+def _read_json(path):
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise InputError(f"{path}: damaged: {error}") from None
 
 
 class Frames:
@@ -107,6 +122,15 @@ def _joined(grids):
                     numpy.concatenate([g.offsets + n for g, n in zip(grids, cells)]))
 
 
+def _holds_run(folder):
+    return (folder / "history.csv").is_file() or (folder / "summary.json").is_file()
+
+
+def runs(folder, pattern="*"):
+    """The runs in a folder by name, in order, of those whose name fits the pattern: {"dry_1": platen.Run, ...}."""
+    return {path.name: Run(path) for path in sorted(Path(folder).glob(pattern)) if _holds_run(path)}
+
+
 class Run:
     """The folder of a run. Files are read when they are asked for, and kept.
 
@@ -125,7 +149,7 @@ class Run:
         if not self.folder.is_dir():
             raise InputError(f"{self.folder}: no folder")
         self._read = {}
-        if not (self.folder / "history.csv").is_file() and not (self.folder / "summary.json").is_file():
+        if not _holds_run(self.folder):
             raise InputError(f"{self.folder}: holds no run: neither history.csv nor summary.json is there")
 
     def _once(self, name, read):
@@ -136,17 +160,12 @@ class Run:
     @property
     def summary(self):
         """summary.json as a dictionary; InputError where the run has not ended."""
+        return self._once("summary", lambda: _read_json(self.folder / "summary.json"))
 
-        def read():
-            path = self.folder / "summary.json"
-            try:
-                return json.loads(path.read_text(encoding="utf-8"))
-            except OSError as error:
-                raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-            except ValueError as error:
-                raise InputError(f"{path}: damaged: {error}") from None
-
-        return self._once("summary", read)
+    @property
+    def status(self):
+        """How the run has ended, in the word of summary.json ("done", "failed", ...); None where it has not."""
+        return self.summary.get("status") if (self.folder / "summary.json").is_file() else None
 
     @property
     def scene(self):
@@ -183,20 +202,31 @@ class Run:
 
 
 class Study:
-    """The folder of a platen-study: `table` (study.csv, a row a run), `costs`, `summary` (study.json), runs[name]."""
+    """The folder of a platen-study: `table` (study.csv, a row a run), `costs` (costs.csv; None where it is not there), `summary`
+    (study.json), runs[name]. Files are read when they are asked for, and kept."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        if not (self.folder / "study.csv").is_file():
-            raise InputError(f"{self.folder}: holds no study: study.csv is not there")
-        self.table = read_table(self.folder / "study.csv")
-        self.costs = read_table(self.folder / "costs.csv") if (self.folder / "costs.csv").is_file() else None
+        if not (self.folder / "study.csv").is_file() and not (self.folder / "study.json").is_file():
+            raise InputError(f"{self.folder}: holds no study: neither study.csv nor study.json is there")
+
+    @cached_property
+    def table(self):
+        return read_table(self.folder / "study.csv")
+
+    @cached_property
+    def costs(self):
+        path = self.folder / "costs.csv"
+        return read_table(path) if path.is_file() else None
+
+    @cached_property
+    def summary(self):
         path = self.folder / "study.json"
-        self.summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+        return _read_json(path) if path.is_file() else {}
 
     @property
     def runs(self):
-        return {path.name: Run(path) for path in sorted((self.folder / "runs").iterdir()) if (path / "history.csv").is_file()}
+        return runs(self.folder / "runs")
 
     def __repr__(self):
         return f"platen.Study({str(self.folder)!r})"

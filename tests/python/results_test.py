@@ -28,6 +28,33 @@ class Results(InFolder):
             self.assertEqual(numpy.array(cells).tobytes(), self.run_.history[name].tobytes(), name)
         self.assertEqual(set(self.run_.cracks["mode"]) - {"tension", "shear"}, set())
 
+    def test_records_are_the_rows_of_the_file(self):
+        with (self.path / "cracks.csv").open() as file:
+            rows = [{name: cell if name == "mode" else float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+        self.assertEqual(self.run_.cracks.records(), rows)
+        self.assertEqual({type(cell) for row in self.run_.cracks.records() for cell in row.values()}, {float, str})
+
+    def test_the_specimen_is_read_below_its_shape(self):
+        self.assertEqual(list(self.run_.spheres), ["x_m", "y_m", "z_m", "radius_m"])
+        self.assertEqual(self.run_.spheres.rows, self.run_.summary["particles"])
+        specimen = self.path / "specimen.csv"
+        specimen.write_text(specimen.read_text() + "1,2,3\n")
+        with self.assertRaisesRegex(platen.InputError, f"specimen.csv:{self.run_.spheres.rows + 3}: 3 cells"):
+            platen.Run(self.path).spheres
+
+    def test_runs_of_a_folder_are_found_by_name(self):
+        (self.folder / "rung").mkdir()
+        (self.folder / "run.txt").touch()
+        self.assertEqual(list(platen.runs(self.folder)), ["run"])
+        self.assertEqual(platen.runs(self.folder, "ru?")["run"].summary, self.run_.summary)
+        self.assertEqual(platen.runs(self.folder, "other_*"), {})
+        self.assertEqual(platen.runs(self.folder / "none"), {})
+
+    def test_a_run_without_a_summary_has_not_ended(self):
+        self.assertEqual(self.run_.status, "done")
+        (self.path / "summary.json").unlink()
+        self.assertIsNone(platen.Run(self.path).status)
+
     def test_the_peak_is_the_strength_of_the_summary(self):
         summary = json.loads((self.path / "summary.json").read_text())
         self.assertAlmostEqual(self.run_.stress.max() / summary["strength_pa"], 1, delta=1e-12)
@@ -85,6 +112,27 @@ class Results(InFolder):
         frame = self.run_.history.to_pandas()
         self.assertEqual(list(frame.columns), list(self.run_.history))
         self.assertEqual(len(frame), self.run_.history.rows)
+
+
+class Studies(InFolder):
+    def test_files_of_a_study_are_read_as_they_come(self):
+        with self.assertRaises(platen.InputError):
+            platen.Study(self.folder)
+        (self.folder / "study.json").write_text('{"status": "running"}')
+        study = platen.Study(self.folder)
+        self.assertEqual((study.summary["status"], study.costs, study.runs), ("running", None, {}))
+        with self.assertRaisesRegex(platen.InputError, "study.csv"):
+            study.table
+        (self.folder / "study.csv").write_text("case,seed,strength_pa\ndry,1,3e7\ndry,2,\n")
+        self.assertEqual(study.table["strength_pa"][0], 3e7)
+        self.assertTrue(math.isnan(study.table.records()[1]["strength_pa"]))
+        run = self.folder / "runs" / "dry_seed_1"
+        run.mkdir(parents=True)
+        (run / "history.csv").write_text("time_s\n0\n")
+        self.assertEqual(list(study.runs), ["dry_seed_1"])
+        (self.folder / "study.json").write_text("{")
+        with self.assertRaisesRegex(platen.InputError, "study.json"):
+            platen.Study(self.folder).summary
 
 
 class Shipped(unittest.TestCase):
