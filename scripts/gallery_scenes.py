@@ -214,6 +214,24 @@ GROUPS = [
               "Eight targets at once for one concrete, from bond parameters without any calibration: E 26 GPa, "
               "Poisson's ratio 0.2, 43 MPa at 2.4 mm/m, 4.5 MPa in tension, 62 and 83 MPa under 3 and 9 MPa, a gain "
               "of cubes by friction of 1.45. Coarse spheres; five other packings verify the result."),
+        Scene("calibrate_c40", CALIBRATE, "",
+              "Ready bonds, `materials/concrete_c40.prm`: the concrete of Imran and Pantazopoulou, 47.4 MPa unconfined, 119.8 and "
+              "204.2 MPa under 17.2 and 43 MPa.", cost="about 20 minutes on two cores"),
+        Scene("calibrate_c70", CALIBRATE, "",
+              "Ready bonds, `materials/concrete_c70.prm`: a concrete of class C70, 78 MPa unconfined, 118.7 and 167.5 MPa under 8 "
+              "and 20 MPa.", cost="about 15 minutes on two cores"),
+        Scene("calibrate_granite", CALIBRATE, "",
+              "Ready bonds, `materials/granite.prm`: Lac du Bonnet granite, 200 MPa unconfined, 6.9 MPa in tension, 332 and 512 "
+              "MPa under 10 and 30 MPa.", cost="about 15 minutes on two cores"),
+        Scene("calibrate_marble", CALIBRATE, "",
+              "Ready bonds, `materials/marble.prm`: Carrara marble, 59.5 MPa unconfined, 130.2 and 189.8 MPa under 10 and 30 MPa.",
+              cost="about 15 minutes on two cores"),
+        Scene("calibrate_sandstone", CALIBRATE, "",
+              "Ready bonds, `materials/sandstone.prm`: Berea sandstone, 77 MPa unconfined, 126 and 277 MPa under 10 and 50 MPa.",
+              cost="about 15 minutes on two cores"),
+        Scene("calibrate_silica", CALIBRATE, "",
+              "Ready bonds, `materials/silica.prm`: E, Poisson's ratio and tension of fused silica. Its strength in compression "
+              "is not calibrated.", cost="two minutes on two cores"),
         Scene("abacus_silica", CALIBRATE, "",
               "The effect of the radius of beams on the moduli of a glass: rows of abacus.csv with one modulus and "
               "one Poisson's ratio of the beams. Published at 0.71: 72.5 GPa and 0.17."),

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Ready materials of finished searches: scenes/materials/NAME.prm and the table of bench/results/materials.md.
+
+    bench/materials/materials.py FOLDER     FOLDER/NAME is what platen-calibrate wrote for scenes/calibrate_NAME.prm
+"""
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+import platen  # noqa: E402
+
+# Name of the search: name of the material's file, heading, what it is calibrated on and its sources.
+MATERIALS = {
+    "c40": ("concrete_c40", "Concrete of 47 MPa",
+            ["strength, and that under 17.2 and 43 MPa: Imran and Pantazopoulou 1996, ACI Materials Journal 93(6) (measured)",
+             "E and tension: fib Model Code 2020 for that strength (formulas, not measured); Poisson's ratio: its design value"]),
+    "c70": ("concrete_c70", "Concrete of 78 MPa",
+            ["strength, E, tension, Poisson's ratio: means of class C70 in fib Model Code 2020 (a standard)",
+             "strength under 8 and 20 MPa: EN 1998-3 (A.6), after Newman and Newman 1971 (a formula)"]),
+    "granite": ("granite", "Lac du Bonnet granite",
+                ["E and Poisson's ratio: Eberhardt et al. 1998, Can. Geotech. J. 35(2); strength: Martin and Chandler 1994 (both quoted second-hand)",
+                 "tension: direct tests, Rock Mech. Rock Eng. 2019 (abstract)",
+                 "strength under 10 and 30 MPa: Hoek and Brown with mi = 32 of granites (a formula, not tests of this rock)"]),
+    "marble": ("marble", "Carrara marble",
+               ["strength, and that under 10 and 30 MPa: McCormick and Rutter 2022 (measured; \"bare\" is at .1 MPa)",
+                "tension: triaxial extension, Ramsey and Chester 2004, Nature 428",
+                "E and Poisson's ratio: input of a public analysis of these tests, which names no test"]),
+    "sandstone": ("sandstone", "Berea sandstone",
+                  ["strength: Cleveland Quarries, ASTM C170; under 10 and 50 MPa: Bernabe and Brace 1990 (measured)",
+                   "tension: triaxial extension under 10 MPa, Bobich 2005",
+                   "E and Poisson's ratio: input of a public analysis, which names no test"]),
+    "silica": ("silica", "Fused silica",
+               ["E and Poisson's ratio: Crystran handbook, 5th edition, 2023 (its producer's data)",
+                "tension: a data page that names no test; glass is as strong as its surface. Compression is not calibrated: no test of a specimen was found"]),
+}
+UNITS = {"youngs_modulus_gauge_pa": ("E", 1e9, "GPa"), "poisson_ratio": ("Poisson's ratio", 1, ""),
+         "strength_pa": ("strength", 1e6, "MPa"), "tensile_strength_pa": ("tension", 1e6, "MPa")}
+
+
+def label(target):
+    """What a target is called, the factor and the unit that it is shown in."""
+    if target["kind"] == "strength at pressure":
+        return f"strength at {target['pressure_pa'] / 1e6:g} MPa", 1e6, "MPa"
+    return UNITS[target["key"]]
+
+
+def figures(summary):
+    """For each target: label, unit, wanted, mean and deviation of the unseen packings, how far off (%)."""
+    for target in summary["targets"]:
+        name, factor, unit = label(target)
+        seen = target["verification"]
+        yield name, unit, target["wanted"] / factor, seen["mean"] / factor, seen["deviation"] / factor, 100 * target["verification_miss"]
+
+
+def entry(found, name):
+    """The value of `set NAME = value` in the section that `found` is of, shortened to what a reader needs."""
+    value = next(line.split("=", 1)[1].strip() for line in found if line.split("=", 1)[0].split() == ["set", *name.split()])
+    return ", ".join(rounded(part.strip()) for part in value.split(","))
+
+
+def rounded(text):
+    number, *unit = text.split(" ", 1) if text else [""]
+    try:
+        value = float(number)
+    except ValueError:
+        return text
+    if unit == ["Pa"]:
+        factor, name = (1e9, "GPa") if value >= 1e9 else (1e6, "MPa")
+        return f"{value / factor:.5g} {name}"
+    return " ".join([f"{value:.5g}", *unit])
+
+
+def sections(path):
+    """The lines of a scene by section."""
+    result, here = {}, None
+    for line in path.read_text().splitlines():
+        if line.startswith("subsection "):
+            here = result.setdefault(line.split(None, 1)[1], [])
+        elif here is not None:
+            here.append(line)
+    return result
+
+
+KEYS = {
+    "Material": ["Density"],
+    "Effects": ["Bond", "Contact", "Tangential", "Rotation"],
+    "Bond": ["Modulus", "Stiffness ratio", "Tensile strength", "Shear strength", "Friction angle", "Moment contribution",
+             "Compression limits", "Compression slopes", "Radius multiplier", "Radius rule", "Gap"],
+    "Contact": ["Friction", "Stiffness", "Tangential ratio", "Damping"],
+}
+
+
+def material_file(search, folder):
+    """The text of scenes/materials/NAME.prm."""
+    _, heading, sources = MATERIALS[search]
+    summary, found = platen.Run(folder).summary, sections(folder / "found.prm")
+    lines = [f"# {heading}: bonds for a scene that includes this file and sets Specimen, Platens and Loading.", "# Calibrated on:"]
+    lines += [f"#   {source}" for source in sources]
+    specimen = found["Specimen"]
+    lines += [f"# Holds for spheres of {entry(specimen, 'Sphere radius')} mean radius with a spread of {entry(specimen, 'Radius spread')}, packed random close, ends "
+              f"ground by {entry(specimen, 'End layer')} radii, as in a cylinder of",
+              f"# 50 mm x 100 mm ({summary['particles']} spheres), between dry steel platens (friction {entry(found['Platens'], 'Friction static')}). "
+              "Other sizes of spheres: Bond/Calibrated radius.",
+              "# On five packings that the search did not see:"]
+    for name, unit, wanted, mean, deviation, off in figures(summary):
+        lines.append(f"#   {name} {mean:.4g} +- {deviation:.2g} {unit}".rstrip() + f" (source {wanted:.4g}, {off:+.1f} %)")
+    lines.append(f"# Found by: platen-calibrate scenes/calibrate_{search}.prm")
+    for section, keys in KEYS.items():
+        lines.append(f"subsection {section}")
+        for key in keys:
+            value = entry(found[section], key)
+            if value:
+                lines.append(f"  set {key} = {value}")
+        lines.append("end")
+    return "\n".join(lines) + "\n"
+
+
+def table(folders):
+    """The table of bench/results/materials.md: one row for each target of each material."""
+    lines = ["| material | figure | source | five unseen packings | off | allowed |", "| --- | --- | --- | --- | --- | --- |"]
+    for search, folder in folders:
+        allowed = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}
+        for name, unit, wanted, mean, deviation, off in figures(platen.Run(folder).summary):
+            limit = allowed.get(name, 10)
+            verdict = "" if abs(off) <= limit else " **missed**"
+            lines.append(f"| {MATERIALS[search][0]} | {name}{', ' + unit if unit else ''} | {wanted:.4g} | {mean:.4g} +- {deviation:.2g} | "
+                         f"{off:+.1f} %{verdict} | {limit} % |")
+    return "\n".join(lines)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folders = [(name, Path(sys.argv[1]) / name) for name in MATERIALS if (Path(sys.argv[1]) / name / "found.prm").exists()]
+    for search, folder in folders:
+        path = ROOT / "scenes" / "materials" / f"{MATERIALS[search][0]}.prm"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(material_file(search, folder))
+        print(f"wrote {path.relative_to(ROOT)}")
+    print(table(folders))
+
+
+if __name__ == "__main__":
+    main()
