@@ -3,6 +3,7 @@
 
     bench/materials/materials.py FOLDER     FOLDER/NAME is what platen-calibrate wrote for scenes/calibrate_NAME.prm
 """
+import math
 import sys
 from pathlib import Path
 
@@ -68,6 +69,8 @@ def rounded(text):
     if unit == ["Pa"]:
         factor, name = (1e9, "GPa") if value >= 1e9 else (1e6, "MPa")
         return f"{value / factor:.5g} {name}"
+    if unit == ["rad"]:
+        return f"{math.degrees(value):.5g} degree"
     return " ".join([f"{value:.5g}", *unit])
 
 
