@@ -113,7 +113,7 @@ private:
   double expected_steps_ = 1;
   long first_step_ = 0;
   int signal_ = 0;
-  bool checkpoint_asked_ = false, failed_ = false;
+  bool checkpoint_asked_ = false, failed_ = false, ending_ = false;
   bool tells_cut_ = false;       // once, after the first steps on ranks
   Json changes_ = Json::array(); // on the way
   std::function<void(const Sample &)> listener_;

@@ -99,9 +99,12 @@ class Experiment:
         return self.end()
 
     def end(self):
-        """Ends here: events, cracks, the last frame and summary.json are written. The platen.Run."""
+        """Ends here: events, cracks, the last frame and summary.json are written. The platen.Run. Before its target the test has not
+        measured what the scene expects: `expected` is None then, and `ended_by` in the summary is "script"."""
         if not self._core.ended:
-            self.expected = self._core.end()
+            whole = self._core.finished
+            held = self._core.end()
+            self.expected = held if whole else None
         return Run(self.folder)
 
     def close(self):

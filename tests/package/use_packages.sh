@@ -29,8 +29,18 @@ platen --version --json
 platen-compress /usr/share/platen/scenes/demo_dry.prm --quiet
 ls results/demo_dry
 platen-report results/demo_dry | sed -n 1,3p
-say "a first own result: a shorter cylinder between smoother platens"
-platen-compress /usr/share/platen/scenes/demo_dry.prm -o own -s "Specimen/Height = 50 mm" -s "Platens/Friction static = 0.1" --quiet
+say "a first own result: a cube's height between smoother platens, in a scene of five lines"
+cat > own.prm <<'END'
+include parts/concrete.prm
+subsection Specimen
+  set Height = 50 mm
+  set Sphere radius = 1.8 mm
+end
+subsection Platens
+  set Friction static = 0.1
+end
+END
+platen-compress own.prm -o own --quiet
 platen-report own | sed -n 1,3p
 say "done"
 [ -s results/demo_dry/pictures/report.html ] || fail "no page was made"
@@ -72,6 +82,7 @@ sed -n 1,3p "$work/page"
 
 say "removed again"
 cd /
+rm -rf ~/.cache/platen # packings that runs have kept: of the user, not of the packages
 quietly apt-get -qq -y purge platen libplaten-dev platen-doc python3-platen
 of_platen > "$work/after" # its own folder holds files of that name; they are not of the packages
 sed -i "\\|^$work|d" "$work/after"

@@ -214,6 +214,20 @@ class Changing(InFolder):
 
 
 class Closing(InFolder):
+    def test_an_early_end_says_so_and_judges_nothing(self):
+        expecting = {**SMALL, "Expect/strength_pa": "1 MPa ... 2 MPa"}
+        early = platen.Experiment(CRUSHED, set=expecting, output=self.folder / "early")
+        early.advance(samples=3)
+        self.assertEqual(early.end().summary["ended_by"], "script")
+        self.assertIsNone(early.expected)
+        log = (self.folder / "early" / "run.log").read_text()
+        self.assertNotIn("expected:", log)
+        self.assertIn("ended before its target: what the scene expects is not checked", log)
+        whole = platen.Experiment(CRUSHED, set=expecting, output=self.folder / "whole")
+        self.assertEqual(whole.run().summary["ended_by"], "target")
+        self.assertIs(whole.expected, False)
+        self.assertIn("error: expected: ", (self.folder / "whole" / "run.log").read_text())
+
     def test_a_folder_is_free_again_after_the_end(self):
         first = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
         first.advance(samples=2)
