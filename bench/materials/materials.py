@@ -4,6 +4,7 @@
     bench/materials/materials.py FOLDER     FOLDER/NAME is what platen-calibrate wrote for scenes/calibrate_NAME.prm
 """
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -36,20 +37,20 @@ MATERIALS = {
                 "tension: a data page that names no test; glass is as strong as its surface. Compression is not calibrated: no test of a specimen was found"]),
 }
 UNITS = {"youngs_modulus_gauge_pa": ("E", 1e9, "GPa"), "poisson_ratio": ("Poisson's ratio", 1, ""),
-         "strength_pa": ("strength", 1e6, "MPa"), "tensile_strength_pa": ("tension", 1e6, "MPa")}
+         "compressive_strength_pa": ("strength", 1e6, "MPa"), "tensile_strength_pa": ("tension", 1e6, "MPa")}
 
 
-def label(target):
-    """What a target is called, the factor and the unit that it is shown in."""
-    if target["kind"] == "strength at pressure":
-        return f"strength at {target['pressure_pa'] / 1e6:g} MPa", 1e6, "MPa"
-    return UNITS[target["key"]]
+def pressures(found):
+    """Pressures of the targets of a scene, as it writes them; None where a target has none."""
+    targets = re.findall(r"subsection Target \d+\n(.*?)\n  end", found, re.S)
+    return [m[1].strip() if (m := re.search(r"set Pressure *= *(.*)", target)) and m[1].strip() else None for target in targets]
 
 
-def figures(summary):
-    """For each target: label, unit, wanted, mean and deviation of the unseen packings, how far off (%)."""
-    for target in summary["targets"]:
-        name, factor, unit = label(target)
+def figures(folder):
+    """For each target of a search: label, unit, wanted, mean and deviation of the unseen packings, how far off (%)."""
+    targets = platen.Run(folder).summary["targets"]
+    for target, pressure in zip(targets, pressures((folder / "found.prm").read_text()), strict=True):
+        name, factor, unit = (f"strength at {pressure}", 1e6, "MPa") if pressure else UNITS[target["key"]]
         seen = target["verification"]
         yield name, unit, target["wanted"] / factor, seen["mean"] / factor, seen["deviation"] / factor, 100 * target["verification_miss"]
 
@@ -106,7 +107,7 @@ def material_file(search, folder):
               f"# 50 mm x 100 mm ({summary['particles']} spheres), between dry steel platens (friction {entry(found['Platens'], 'Friction static')}). "
               "Other sizes of spheres: Bond/Calibrated radius.",
               "# On five packings that the search did not see:"]
-    for name, unit, wanted, mean, deviation, off in figures(summary):
+    for name, unit, wanted, mean, deviation, off in figures(folder):
         lines.append(f"#   {name} {mean:.4g} +- {deviation:.2g} {unit}".rstrip() + f" (source {wanted:.4g}, {off:+.1f} %)")
     lines.append(f"# Found by: platen-calibrate scenes/calibrate_{search}.prm")
     for section, keys in KEYS.items():
@@ -124,12 +125,32 @@ def table(folders):
     lines = ["| material | figure | source | five unseen packings | off | allowed |", "| --- | --- | --- | --- | --- | --- |"]
     for search, folder in folders:
         allowed = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}
-        for name, unit, wanted, mean, deviation, off in figures(platen.Run(folder).summary):
+        for name, unit, wanted, mean, deviation, off in figures(folder):
             limit = allowed.get(name, 10)
             verdict = "" if abs(off) <= limit else " **missed**"
             lines.append(f"| {MATERIALS[search][0]} | {name}{', ' + unit if unit else ''} | {wanted:.4g} | {mean:.4g} +- {deviation:.2g} | "
                          f"{off:+.1f} %{verdict} | {limit} % |")
     return "\n".join(lines)
+
+
+HEADING = """# Ready materials
+
+Bonds of `scenes/materials`, each found by `platen-calibrate scenes/calibrate_NAME.prm` on four packings and judged on five others: mean +-
+standard deviation of these five, beside the figure of the source. Cylinders of 50 mm x 100 mm with spheres of 2.2 mm mean radius (about 2 600, 11
+across), packed random close, between dry steel platens (friction 0.57); tension between glued ends; pressure on the outer spheres. Yielding parallel
+bonds; silica: parallel bonds. Written by `bench/materials/materials.py FOLDER`. Sources, with what was measured, what is a formula and what names
+no test: the heads of the files, and [sources.csv](../materials/sources.csv).
+
+"""
+NOTES = """
+* **Scatter.** Strengths of five packings of so few spheres differ by 3 to 9 %, so that the mean of five is known within 1 to 4 %. A scene of one packing
+  may be further off.
+* **What is calibrated is not predicted.** Six figures of each material were targets. Other figures (post-peak slope, strain at peak, flexural and
+  splitting strength, toughness) are those of the bonds, and nobody has compared them.
+* **No mortar.** No source was found that has E, strength, tension and triaxial strengths of one mortar: only the strength of a high-strength mortar
+  (82 MPa), and a friction angle of cement-lime mortars. To make one, copy `scenes/calibrate_c40.prm` and set targets of your own.
+* **Silica** has no strength in compression: no test of a specimen was found, and glass is as strong as its surface allows.
+"""
 
 
 def main():
@@ -141,7 +162,9 @@ def main():
         path.parent.mkdir(exist_ok=True)
         path.write_text(material_file(search, folder))
         print(f"wrote {path.relative_to(ROOT)}")
-    print(table(folders))
+    results = ROOT / "bench" / "results" / "materials.md"
+    results.write_text(HEADING + table(folders) + "\n" + NOTES)
+    print(f"wrote {results.relative_to(ROOT)}")
 
 
 if __name__ == "__main__":

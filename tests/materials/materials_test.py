@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Ready materials of scenes/materials: included by a scene of a few lines in another folder they are accepted without a remark, they
+come from a search that ships, and the figures in their heads are those of bench/results/materials.md and within what it allows.
+
+    materials_test.py APPS     APPS: folder of the programs
+"""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ALLOWED = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}  # %; strengths under pressure 10
+SCENE = """include materials/{}.prm
+subsection Specimen
+  set Shape = cylinder
+  set Radius = 25 mm
+  set Height = 100 mm
+  set Sphere radius = 5 mm
+  set Ends = ground
+end
+subsection Platens
+  set Friction static = 0.57
+end
+subsection Loading
+  set Axial rate = 0.1 m/s
+  set Target strain = 0.01
+end
+"""
+FIGURE = re.compile(r"^#   (.+?) ([\d.]+) \+- ([\d.]+)(?: [GM]Pa)? \(source ([\d.]+), ([-+][\d.]+) %\)$", re.M)
+
+faults = []
+
+
+def check(holds, what):
+    print(f"{'ok     ' if holds else 'FAILED '} {what}")
+    if not holds:
+        faults.append(what)
+
+
+def included(apps, name):
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "mine.prm").write_text(SCENE.format(name))
+        done = subprocess.run([apps / "platen-compress", "mine.prm", "--dry-run"], cwd=folder, capture_output=True, text=True)
+    said = [line for line in (done.stdout + done.stderr).splitlines() if re.search(r"\b(error|warning|note):", line)]
+    check(done.returncode == 0 and not said, f"{name} is accepted by a scene that includes it: status {done.returncode} {said}")
+
+
+def figures(name, text, table):
+    found = FIGURE.findall(text)
+    check(len(found) >= 3, f"{name} has figures in its head: {len(found)}")
+    for what, mean, _, source, off in found:
+        bound = ALLOWED.get(what, 10)
+        check(abs(float(off)) <= bound, f"{name}: {what} {mean}, source {source}: {off} %, at most {bound} %")
+        difference = 100 * (float(mean) / float(source) - 1)
+        check(abs(difference - float(off)) <= 0.2, f"{name}: {what} {mean} is {off} % off {source}: {difference:+.2f} %")
+        row = re.search(rf"^\| {name} \| {re.escape(what)}(?:, [GM]Pa)? \| {source} \| {mean} \+- ", table, re.M)
+        check(row is not None, f"{name}: {what} = {mean} stands in the table")
+
+
+def main():
+    apps = Path(sys.argv[1]).resolve()
+    files = sorted((ROOT / "scenes/materials").glob("*.prm"))
+    table = (ROOT / "bench/results/materials.md").read_text()
+    check(len(files) >= 4, f"there are materials: {[path.stem for path in files]}")
+    for path in files:
+        text = path.read_text()
+        search = re.search(r"^# Found by: platen-calibrate (scenes/\S+\.prm)$", text, re.M)
+        check(search is not None and (ROOT / search[1]).exists(), f"{path.stem} comes from a search that ships")
+        included(apps, path.stem)
+        figures(path.stem, text, table)
+    check(set(re.findall(r"^\| (\w+) \| E,", table, re.M)) == {path.stem for path in files}, "the table has every material and no other")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
