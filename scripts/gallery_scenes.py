@@ -221,8 +221,8 @@ GROUPS = [
               "Ready bonds, `materials/concrete_c70.prm`: a concrete of class C70, 78 MPa unconfined, 118.7 and 167.5 MPa under 8 "
               "and 20 MPa.", cost="about 15 minutes on two cores"),
         Scene("calibrate_granite", CALIBRATE, "",
-              "Ready bonds, `materials/granite.prm`: Lac du Bonnet granite, 200 MPa unconfined, 6.9 MPa in tension, 332 and 512 "
-              "MPa under 10 and 30 MPa.", cost="about 15 minutes on two cores"),
+              "Ready bonds, `materials/granite.prm`: Westerly granite, 256 MPa unconfined, 10 MPa in tension, 385 and 632 MPa under 13 and "
+              "42 MPa.", cost="about 15 minutes on two cores"),
         Scene("calibrate_marble", CALIBRATE, "",
               "Ready bonds, `materials/marble.prm`: Carrara marble, 59.5 MPa unconfined, 130.2 and 189.8 MPa under 10 and 30 MPa.",
               cost="about 15 minutes on two cores"),
