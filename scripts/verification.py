@@ -16,6 +16,7 @@ Exit status: 0; 1 where a test fails or a check does not hold; 2 on bad input; 7
 import argparse
 import datetime
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -48,6 +49,7 @@ class Test:
         self.command = entry.get("command", [])
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.folder = properties.get("WORKING_DIRECTORY")
+        self.environment = dict(line.split("=", 1) for line in properties.get("ENVIRONMENT", []))
         filters = [a for a in self.command if a.startswith("--gtest_filter=")]
         self.filter = filters[0].split("=", 1)[1] if filters else None
 
@@ -120,7 +122,7 @@ def outcomes(tests):
 def read_printed(test):
     """Outcome of a script, under None."""
     print(test.name, file=sys.stderr)
-    ran = subprocess.run(test.command, cwd=test.folder, capture_output=True, text=True)
+    ran = subprocess.run(test.command, cwd=test.folder, env={**os.environ, **test.environment}, capture_output=True, text=True)
     figures = [[int(n), what, value] for n, what, value
                in re.findall(r"^row (\d+) ([^:\n]+): (.+)$", ran.stdout, re.M)]
     if ran.returncode not in (0, 77):
