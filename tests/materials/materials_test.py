@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Ready materials of scenes/materials: included by a scene of a few lines in another folder they are accepted without a remark, they
-come from a search that ships, and the figures in their heads are those of bench/results/materials.md and within what it allows.
+come from a search that ships, with its packing, and the figures in their heads are those of bench/results/materials.md and within what it allows.
 
     materials_test.py APPS     APPS: folder of the programs
 """
@@ -46,6 +46,14 @@ def included(apps, name):
     check(done.returncode == 0 and not said, f"{name} is accepted by a scene that includes it: status {done.returncode} {said}")
 
 
+def packing(name, text):
+    """Bonds hold for one packing: without its entries a scene takes the default one, and gave half of the strength."""
+    part = (ROOT / "scenes/parts/material_search.prm").read_text()
+    for key in ("Sphere radius", "Radius spread", "Packing", "Ends", "End layer", "Gap", "Radius rule", "Radius multiplier"):
+        line = re.search(rf"^  set {key} = .*$", part, re.M)
+        check(line is not None and line[0] in text.splitlines(), f"{name} has the search's {key}: {line and line[0].strip()}")
+
+
 def figures(name, text, table):
     found = FIGURE.findall(text)
     check(len(found) >= 3, f"{name} has figures in its head: {len(found)}")
@@ -68,6 +76,7 @@ def main():
         search = re.search(r"^# Found by: platen-calibrate (scenes/\S+\.prm)$", text, re.M)
         check(search is not None and (ROOT / search[1]).exists(), f"{path.stem} comes from a search that ships")
         included(apps, path.stem)
+        packing(path.stem, text)
         figures(path.stem, text, table)
     check(set(re.findall(r"^\| (\w+) \| E,", table, re.M)) == {path.stem for path in files}, "the table has every material and no other")
     return 1 if faults else 0
