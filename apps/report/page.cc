@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <ostream>
 
 #include "apps/io/file.h"
-#include "apps/report/base64.h"
+#include "apps/report/embedded.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -123,14 +121,6 @@ h2 { margin-top: 3rem; border-bottom: 2px solid #0072b2; } nav { margin: 1rem 0;
 figure { margin: 1.5rem 0 2.5rem; } img { max-width: 100%; } figcaption { margin-top: 0.5rem; color: #333; }
 </style>
 )";
-
-std::string base64_of(const std::filesystem::path &file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream),
-                                         std::istreambuf_iterator<char>()};
-  if (!stream || bytes.empty()) throw OutputError(file.string() + ": cannot be read back");
-  return base64(bytes);
-}
 
 std::string html_row(const std::vector<std::string> &fields, const std::string &kind) {
   std::string row = "<tr>";
@@ -249,9 +239,9 @@ std::string Album::Section::html() const {
   html += element;
   for (const Picture &picture : pictures)
     html += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+        "<figure><img alt=\"{0}\" src=\"{1}\">"
         "<figcaption>{0}</figcaption></figure>\n",
-        escaped(picture.caption), base64_of(picture.file));
+        escaped(picture.caption), source_of_picture(picture.file));
   return html;
 }
 

@@ -24,6 +24,7 @@ set(PLATEN_REPORT_SOURCES
   report/csv.cc
   report/curves.cc
   report/display.cc
+  report/embedded.cc
   report/envelope.cc
   report/fields.cc
   report/frames.cc

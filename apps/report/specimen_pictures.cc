@@ -61,7 +61,7 @@ std::vector<double> values_of(const Spheres &spheres, Quantity quantity) {
 void mark_cone(CutView &view, const FittedCone &cone, Side end, const Extent &extent) {
   if (cone.verdict == FittedCone::Verdict::not_measured) return;
   const double up = end == Side::top ? 1 : -1;
-  const double beside = extent.half_width + 0.19 * extent.height() / 2,
+  const double beside = extent.half_width + 0.205 * extent.height() / 2,
                height = (end == Side::top ? extent.top : extent.bottom) - up * 0.09 * extent.height();
   if (cone.verdict == FittedCone::Verdict::none) {
     view.notes.push_back({{beside, 0, height}, "no cone"});

@@ -2,14 +2,18 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <vtkImageData.h>
+#include <vtkJPEGReader.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
+#include <vtkPNGWriter.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "apps/io/file.h"
+#include "apps/report/embedded.h"
 #include "apps/report_example.h"
 #include "apps/report_folder.h"
 #include "apps/scene/errors.h"
@@ -100,6 +104,51 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   EXPECT_NE(page.find("dry platens"), std::string::npos);
   EXPECT_NE(page.find("on top 45 degrees (confidence 0.80), at the bottom 30 degrees"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
+}
+
+// Shaded: smooth, of which a PNG is large and a JPEG small. Flat: as a chart.
+TEST(ReportApp, pictures_of_spheres_are_embedded_as_jpeg_and_charts_as_they_are) {
+  const TestFolder folder;
+  const auto write = [&](const char *name, bool shaded) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(300, 200, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 300; ++x)
+        for (int c = 0; c < 3; ++c)
+          image->SetScalarComponentFromDouble(
+              x, y, 0, c,
+              shaded ? 128 + 100 * std::sin(x / 17. + c) * std::cos(y / 23.) : (y == 50 ? 0 : 255));
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName((folder / name).c_str());
+    writer->SetInputData(image);
+    writer->Write();
+    return source_of_picture(folder / name);
+  };
+  EXPECT_EQ(write("flat.png", false).rfind("data:image/png;base64,iVBOR", 0), 0);
+  const std::string shaded = write("shaded.png", true), head = "data:image/jpeg;base64,";
+  ASSERT_EQ(shaded.rfind(head + "/9j/", 0), 0) << shaded.substr(0, 40);
+  EXPECT_LT(shaded.size() - head.size(), 2 * std::filesystem::file_size(folder / "shaded.png") / 3 + 4);
+  folder.write("shaded.base64", shaded.substr(head.size()));
+  ASSERT_EQ(
+      std::system(
+          ("base64 -d " + quoted(folder / "shaded.base64") + " > " + quoted(folder / "shaded.jpg")).c_str()),
+      0);
+  vtkNew<vtkJPEGReader> reader;
+  reader->SetFileName((folder / "shaded.jpg").c_str());
+  reader->Update();
+  const Image jpeg{reader->GetOutput(), 300, 200}, png = read_png(folder / "shaded.png");
+  double most = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x)
+      for (int c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(jpeg.at(x, y, c) - png.at(x, y, c)));
+  EXPECT_LT(most, 12) << "of 255: turned over or in other colours it were 100";
+}
+
+TEST(ReportApp, a_picture_that_cannot_be_read_back_is_told) {
+  const TestFolder folder;
+  EXPECT_THROW(source_of_picture(folder / "none.png"), OutputError);
 }
 
 TEST(ReportApp, compared_side_by_side_the_hourglass_is_red_in_the_middle_and_the_other_at_its_ends) {
