@@ -19,6 +19,7 @@ constexpr ExpectedNumber expected_numbers[] = {
     {"steps", "1"},
     {"time_step_s", "s"},
     {"strength_pa", "Pa"},
+    {"largest_stress_pa", "Pa"},
     {"strain_at_peak_platen", "1"},
     {"strain_at_peak_gauge", "1"},
     {"youngs_modulus_gauge_pa", "Pa"},
