@@ -102,6 +102,8 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
   std::vector<std::string> overrides = command.overrides;
   for (const std::string &one : overrides_of(scene, judged.found.choice))
     overrides.push_back(one);
+  if (!scene.bond.calibrated.figures.empty())
+    overrides.emplace_back("Bond/Calibrated figures="); // of other bonds
   const Scene found = read_scene(command.scene, overrides, AppKind::calibrate);
   const std::string comment =
       fmt::format("Found by platen-calibrate from {} ({}).\n{}{}", found.name, version_line(),

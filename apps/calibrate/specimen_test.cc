@@ -98,6 +98,7 @@ Scene scene_of_form(const Scene &scene, const SpecimenTest &test) {
 
 Scene scene_of_test(const Scene &scene, const SpecimenTest &test) {
   Scene s = scene_of_form(scene, test);
+  s.bond.calibrated.figures.clear(); // what is calibrated now
   Loading &loading = s.loading;
   const double width = width_of(scene.specimen);
   loading.test = test.kind == TestKind::tension ? LoadingTest::tension : LoadingTest::compression;

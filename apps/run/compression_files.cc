@@ -53,7 +53,7 @@ std::string CompressionRun::description() const {
                       test_->facts().packing_fraction);
   text += text_of(tiling_of(scene_, test_->shape()));
   text += text_of(specimen_state_);
-  if (const SizeCorrection &size = scene_.bond.size; size.reference > 0) {
+  if (const SizeCorrection &size = scene_.bond.size; size.reference > 0 && size.corrects()) {
     const double share = scene_.specimen.sphere_radius / size.reference;
     text += fmt::format(
         "  bonds for spheres of {:.4g} times the calibrated radius: modulus x {:.4f}, strengths x {:.4f}\n",

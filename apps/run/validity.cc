@@ -8,6 +8,7 @@
 #include "apps/run/at_peak.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/summary_of_run.h"
+#include "apps/scene/parameters.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
@@ -180,6 +181,26 @@ void judge_damage(Validity &of, const Scene &scene, const coupling::PlatenTest &
   cone("cone_bottom", results.pattern().failure.dead[dem::bottom_end]);
 }
 
+// Bonds of a material of which such a test was no part say nothing of that material in it.
+void judge_calibration(Validity &of, const Scene &scene, const coupling::PlatenTest &problem) {
+  using Figure = CalibratedFigure;
+  const CalibratedFor &bonds = scene.bond.calibrated;
+  const auto check = [&](const Figures &figures, Figure needed) {
+    if (bonds.covers(needed)) return;
+    of.add(figures,
+           fmt::format("the bonds are not calibrated for it: Bond/Calibrated figures = {}, without {}",
+                       scene.parameters->at("Bond/Calibrated figures").text,
+                       word_of(calibrated_figures, needed)));
+  };
+  check(of_modulus, Figure::elastic);
+  const LoadingTest test = scene.loading.test;
+  const bool tension =
+      test == LoadingTest::tension || problem.bent() || problem.shape().kind == dem::ShapeKind::disc;
+  check(of_strength, tension ? Figure::tension : Figure::compression);
+  if (!tension && (problem.cell() || problem.wall() != nullptr || !further_sides(problem).empty()))
+    check(of_strength, Figure::confined);
+}
+
 // What summary.json says the validity of, in this order.
 const Figures headline{"strength_pa",
                        "deviator_strength_pa",
@@ -243,6 +264,7 @@ void Validity::complete(Json &summary) const {
 Validity judge(const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
   Validity of;
   judge_kind_of_test(of, problem, results);
+  judge_calibration(of, scene, problem);
   judge_strength(of, problem, results);
   judge_moduli(of, problem, results);
   judge_shared_load(of, results);

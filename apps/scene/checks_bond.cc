@@ -1,4 +1,6 @@
 // What acts between grains.
+#include <fmt/format.h>
+
 #include "apps/scene/scene_check.h"
 
 #include "apps/scene/units.h"
@@ -15,6 +17,7 @@ void SceneCheck::bond() const {
   if (scene_.bond.scattered && app_ == AppKind::bonds)
     refuse("Bond/Strength scatter", "leaves no bond of a known strength to test. Allowed: none.");
   size_correction();
+  calibrated_packing();
   if (!scene_.bond.bonded()) return;
   try {
     dem::bond_law(*scene_.bond.parameters());
@@ -30,15 +33,25 @@ void SceneCheck::size_correction() const {
   const double radius = scene_.specimen.sphere_radius;
   if (!(size.reference > 0)) return;
   if (app_ == AppKind::bonds || app_ == AppKind::bar)
-    refuse("Bond/Calibrated radius", "is of specimens of concrete. Allowed: 0.");
+    refuse("Bond/Calibrated radius", "is of specimens between platens. Allowed: 0.");
   if (!given(radius))
     refuse("Bond/Calibrated radius", "needs the mean radius: Specimen/Sphere radius is not set.");
   const double share = radius / size.reference;
   if (!(share >= SizeCorrection::least_share && share <= SizeCorrection::most_share))
     refuse("Bond/Calibrated radius",
            "is too far from Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
-               ". Allowed: " + shortest_text(1 / SizeCorrection::most_share) + " to " +
-               shortest_text(1 / SizeCorrection::least_share) + " times that.");
+               fmt::format(". Allowed: {:.2g} to {:.2g} times that.", 1 / SizeCorrection::most_share,
+                           1 / SizeCorrection::least_share));
+}
+
+void SceneCheck::calibrated_packing() const {
+  const std::optional<PackingKind> wanted = scene_.bond.calibrated.packing;
+  const PackingKind packing = scene_.specimen.packing;
+  if (!wanted || packing == *wanted || packing == PackingKind::file || app_ == AppKind::bonds) return;
+  refuse("Specimen/Packing",
+         "is not what the bonds are calibrated for, " + set_to("Bond/Calibrated packing") +
+             ": with it they are another material. Allowed: " +
+             parameters_.at("Bond/Calibrated packing").text + ", file, or Bond/Calibrated packing = any.");
 }
 
 void SceneCheck::phases() const {

@@ -1,4 +1,8 @@
 // Entries that were set and have no effect: as declared, then what several entries or the app decide.
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "apps/scene/scene_check.h"
 
 namespace platen::apps {
@@ -50,8 +54,22 @@ void SceneCheck::pair_notes() {
     note("Pair test/Slip ratio", "Pair test/Path is not combined");
 }
 
+// A few percent of the radius are a few per mille of the modulus, by the exponents of concrete.
+void SceneCheck::size_note() {
+  constexpr double same = 0.02;
+  const SizeCorrection &size = scene_.bond.size;
+  const double share = scene_.specimen.sphere_radius / size.reference;
+  if (!(size.reference > 0) || size.corrects() || !(std::abs(share - 1) > same)) return;
+  const Entry &radius = parameters_.at("Specimen/Sphere radius");
+  scene_.notes.push_back(radius.origin.text() + ": note: " + radius.path + " = " + radius.text + " is " +
+                         fmt::format("{:.3g}", share) + " times that of the calibration, " +
+                         set_to("Bond/Calibrated radius") +
+                         ", and no exponent corrects the bonds for it: E and strengths differ.");
+}
+
 void SceneCheck::notes() {
   notes_of_declarations();
+  size_note();
   bar_notes();
   if (app_ == AppKind::calibrate && !given(scene_.calibrate.triaxial_strength))
     note("Calibrate/Confining pressure", "Calibrate/Triaxial strength is not set");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/scene_calibrated.h"
 #include "dem/heterogeneity.h"
 #include "dem/laws/bond_law.h"
 
@@ -16,6 +17,7 @@ namespace platen::apps {
 struct SizeCorrection {
   double reference = 0; // m, mean radius that they are calibrated for; 0: taken as they are
   double modulus_exponent = 0, strength_exponent = 0;
+  bool corrects() const { return modulus_exponent != 0 || strength_exponent != 0; }
   // Of the mean radius over the reference: a little beyond the sizes of bench/results/sizes.md (.51 to 1.26).
   static constexpr double least_share = 0.5, most_share = 1.5;
 
@@ -40,6 +42,7 @@ public:
   bool scattered = false; // Strength scatter
   dem::StrengthScatter scatter;
   SizeCorrection size;
+  CalibratedFor calibrated;
 
   bool bonded() const { return law != none; }
   template <class Law>

@@ -18,6 +18,7 @@ public:
   void needed() const;
   void bond() const;
   void size_correction() const;
+  void calibrated_packing() const;
   void phases() const;
   void contact() const;
   void sides() const;
@@ -76,6 +77,7 @@ private:
   void notes_of_declarations();
   void bar_notes();
   void pair_notes();
+  void size_note();
 
   Scene &scene_;
   const Parameters &parameters_;

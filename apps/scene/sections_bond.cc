@@ -15,6 +15,23 @@ std::string strength_is_missing(const Situation &s) {
   return std::string("Effects/Bond is ") + s.scene.bond.word() + ".";
 }
 
+void declare_calibrated(Section &section, CalibratedFor &calibrated) {
+  section.entry<std::optional<PackingKind>>(
+      "Calibrated packing", calibrated.packing,
+      {{"any", std::nullopt},
+       {"advancing front", PackingKind::advancing_front},
+       {"random close", PackingKind::random_close}},
+      "Specimen/Packing that the bonds are calibrated for; with another the same bonds are another material, "
+      "which is refused. Any: nothing is said.");
+  std::vector<std::string> words;
+  for (const auto &one : calibrated_figures)
+    words.push_back(one.first);
+  section.value("Calibrated figures", calibrated.figures, "",
+                "with commas between them, any of " + joined(words), read_calibrated_figures,
+                "What the bonds are calibrated on: strengths and moduli of other tests are null in "
+                "summary.json, with this reason. Empty: nothing is said.");
+}
+
 } // namespace
 
 void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model) {
@@ -66,6 +83,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   for (const char *member : {"modulus_exponent", "strength_exponent"})
     size(member).only_if([](const Scene &s) { return s.bond.size.reference > 0; },
                          "Bond/Calibrated radius = 0");
+  declare_calibrated(section, bond.calibrated);
   layout("interaction_range").only_if("Effects/Bond", by_range).told(joined(by_range));
   layout("area_factor");
   layout.rest();

@@ -138,6 +138,20 @@ std::vector<Quality> read_qualities(const std::string &text) {
       text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
 }
 
+std::vector<CalibratedFigure> read_calibrated_figures(const std::string &text) {
+  std::vector<std::string> words;
+  for (const auto &one : calibrated_figures)
+    words.push_back(one.first);
+  std::vector<CalibratedFigure> so_far;
+  return read_items<CalibratedFigure>(text, [&](const std::string &item) {
+    const CalibratedFigure figure = calibrated_figures[read_word(item, words)].second;
+    if (std::find(so_far.begin(), so_far.end(), figure) != so_far.end())
+      throw ValueError("stands there twice");
+    so_far.push_back(figure);
+    return figure;
+  });
+}
+
 std::vector<std::string> read_assignments(const std::string &text) {
   return read_items<std::string>(text, [](const std::string &item) {
     const std::size_t sign = item.find('=');

@@ -40,6 +40,8 @@ std::vector<std::string> read_assignments(const std::string &text);
 Expectation read_expectation(const std::string &text, const std::string &si_unit);
 // "cones, shear plane": any of `words`.
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
+// "elastic, tension": words of calibrated_figures, each once; "" is none.
+std::vector<CalibratedFigure> read_calibrated_figures(const std::string &text);
 // The place of a word in `words`.
 std::size_t read_word(const std::string &text, const std::vector<std::string> &words);
 

@@ -191,6 +191,18 @@ TEST_F(CalibrateApp, the_search_recovers_the_bonds_of_a_known_specimen) {
   EXPECT_EQ(scene.bond.number("stiffness_ratio"), found["found"]["stiffness_ratio"].get<double>());
 }
 
+// Bonds of a ready material to begin with: what they were calibrated on is not what is calibrated now.
+TEST_F(CalibrateApp, what_the_first_bonds_were_calibrated_on_judges_no_trial) {
+  const auto s = run(
+      {"Calibrate/Compressive strength = 40 MPa", "Calibrate/Seeds = 1", "Calibrate/Verification seeds = 0",
+       "Calibrate/Most trials = 1", "Bond/Calibrated figures = tension"},
+      "a");
+  EXPECT_EQ(s["failed_trials"], 0);
+  EXPECT_GT(s["strength_pa"].get<double>(), 20e6);
+  const Scene found = read_scene((folder / "a/found.prm").string(), {}, AppKind::compress);
+  EXPECT_TRUE(found.bond.calibrated.figures.empty());
+}
+
 TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {
   std::vector<std::string> asked{"Calibrate/Poisson ratio = 0.12", "Calibrate/Tensile strength = 3 MPa",
                                  "Calibrate/Tolerance = 0.05"};

@@ -92,6 +92,41 @@ TEST_F(Figures, a_specimen_that_is_shortened_too_far_ends_its_test) {
   EXPECT_NE(outcome.error.find("is shortened by 30 % of its length"), std::string::npos) << outcome.error;
 }
 
+// Each kind of test asks for a figure of its own; the others stay.
+TEST_F(Figures, for_which_bonds_are_not_calibrated_are_none) {
+  const std::string of = "Bond/Calibrated figures = ";
+  const nlohmann::json tensile = crush("tensile", {of + "elastic, tension"});
+  expect_reason(tensile, strength,
+                "are not calibrated for it: Bond/Calibrated figures = elastic, tension, without compression");
+  expect_valid(tensile, moduli);
+  EXPECT_GT(tensile["largest_stress_pa"].get<double>(), 0);
+  const nlohmann::json crushed = crush("crushed", {of + "compression"});
+  expect_valid(crushed, strength);
+  expect_reason(crushed, moduli, "Bond/Calibrated figures = compression, without elastic");
+  const std::vector<std::string> cell{"Loading/Confinement = particles", "Loading/Confining pressure = 1 MPa",
+                                      "Expect/pattern ="};
+  const auto with = [&](const std::string &figures) {
+    std::vector<std::string> all = cell;
+    all.push_back(of + figures);
+    return all;
+  };
+  expect_reason(crush("cell", with("elastic, compression")), {"strength_pa"}, "without confined");
+  expect_valid(crush("confined", with("compression, confined, elastic")), {"strength_pa"});
+}
+
+TEST_F(Figures, of_a_tension_test_need_bonds_calibrated_in_tension) {
+  const std::vector<std::string> pulled{"Loading/Test = tension",         "Platens/Attachment = glued",
+                                        "Loading/Target strain = 0.002",  "Loading/Axial rate = 0.05 m/s",
+                                        "Loading/Stop at residual = 0.5", "Expect/pattern ="};
+  const auto with = [&](const std::string &figures) {
+    std::vector<std::string> all = pulled;
+    all.push_back("Bond/Calibrated figures = " + figures);
+    return all;
+  };
+  expect_reason(crush("a", with("compression, confined, elastic")), {"strength_pa"}, "without tension");
+  expect_valid(crush("b", with("tension")), {"strength_pa"});
+}
+
 TEST_F(Figures, between_few_readings_are_none) {
   const nlohmann::json s = crush("coarse", {"Output/Every = 600", "Expect/pattern ="});
   expect_reason(s, {"strength_pa"}, "readings before the peak, 8 at least");

@@ -47,6 +47,22 @@ TEST(SceneBindings, every_number_of_every_bond_law_has_an_entry_that_sets_it_in_
   EXPECT_EQ(std::get<dem::ElastoDamagePlastic::Parameters>(scene.bond.laws).poisson_ratio, 0.1);
 }
 
+TEST(SceneBindings,
+     spheres_of_another_size_than_that_of_the_calibration_are_noted_where_nothing_corrects_bonds) {
+  const auto notes = [](const std::vector<std::string> &overrides) { return scene_with(overrides).notes; };
+  const std::string radius = "Specimen/Sphere radius = 1.2 mm";
+  const std::vector<std::string> told = notes({radius, "Bond/Calibrated radius = 1 mm"});
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_NE(told[0].find("note: Specimen/Sphere radius = 1.2 mm is 1.2 times that of the calibration, "
+                         "Bond/Calibrated radius = 1 mm, and no exponent corrects the bonds"),
+            std::string::npos)
+      << told[0];
+  EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1.3 mm"}).size(), 1);
+  EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1.19 mm"}).size(), 0);
+  for (const char *exponent : {"Bond/Modulus exponent = 0.05", "Bond/Strength exponent = -0.05"})
+    EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1 mm", exponent}).size(), 0) << exponent;
+}
+
 TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
   const auto note = [](const std::vector<std::string> &overrides) {
     const std::vector<std::string> notes = scene_with(overrides).notes;
