@@ -110,6 +110,15 @@ KEYS = {
 }
 
 
+def calibrated(folder):
+    """Entries that say what the bonds hold for, of the targets of a search: a run says so where a scene asks for more."""
+    kinds = {"E": "elastic", "Poisson's ratio": "elastic", "strength": "compression", "tension": "tension"}
+    figures_of = {kinds.get(name, "confined") for name, *_ in figures(folder)}
+    return [f"  set Calibrated radius = {entry(sections(folder / 'found.prm')['Specimen'], 'Sphere radius')}",
+            "  set Calibrated packing = random close",
+            f"  set Calibrated figures = {', '.join(word for word in ('elastic', 'compression', 'confined', 'tension') if word in figures_of)}"]
+
+
 def material_file(search, folder):
     """The text of scenes/materials/NAME.prm."""
     _, heading, sources = MATERIALS[search]
@@ -120,7 +129,7 @@ def material_file(search, folder):
     lines += [f"# Holds for spheres of {entry(specimen, 'Sphere radius')} mean radius with a spread of {entry(specimen, 'Radius spread')}, packed random close, ends "
               f"ground by {entry(specimen, 'End layer')} radii, as in a cylinder of",
               f"# 50 mm x 100 mm ({summary['particles']} spheres), between dry steel platens (friction {entry(found['Platens'], 'Friction static')}). "
-              "Another radius or packing\n# needs another calibration, or the rule of Bond/Calibrated radius.",
+              "Another packing is\n# refused, another radius noted: it needs another calibration, or the exponents of Bond/Calibrated radius.",
               "# On five packings that the search did not see:"]
     for name, unit, wanted, mean, deviation, off in figures(folder):
         lines.append(f"#   {name} {mean:.4g} +- {deviation:.2g} {unit}".rstrip() + f" (source {wanted:.4g}, {off:+.1f} %)")
@@ -135,6 +144,8 @@ def material_file(search, folder):
             value = entry(found[section], key)
             if value:
                 lines.append(f"  set {key} = {value}")
+        if section == "Bond":
+            lines += calibrated(folder)
         lines.append("end")
     return "\n".join(lines) + "\n"
 
@@ -188,7 +199,8 @@ NOTES = """
   splitting strength, toughness) are those of the bonds, and nobody has compared them.
 * **No mortar.** No source was found that has E, strength, tension and triaxial strengths of one mortar: only the strength of a high-strength mortar
   (82 MPa), and a friction angle of cement-lime mortars. To make one, copy `scenes/calibrate_c40.prm` and set targets of your own.
-* **Silica** has no strength in compression: no test of a specimen was found, and glass is as strong as its surface allows.
+* **Silica** has no strength in compression: no test of a specimen was found, and glass is as strong as its surface allows. A compression test of it
+  has a curve, but its strength is null, with this reason (`Bond/Calibrated figures = elastic, tension`).
 """
 
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Ready materials of scenes/materials: included by a scene of a few lines in another folder they are accepted without a remark, they
-come from a search that ships, with its packing, and the figures in their heads are those of bench/results/materials.md and within what it allows.
+come from a search that ships, with its packing, another packing is refused and a test that they are not calibrated for has no figure; the figures in their heads are those of bench/results/materials.md and within what it allows.
 
     materials_test.py APPS     APPS: folder of the programs
 """
+import json
 import re
 import subprocess
 import sys
@@ -15,9 +16,8 @@ ALLOWED = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}  # %; stre
 SCENE = """include materials/{}.prm
 subsection Specimen
   set Shape = cylinder
-  set Radius = 25 mm
-  set Height = 100 mm
-  set Sphere radius = 5 mm
+  set Radius = 12 mm
+  set Height = 24 mm
 end
 subsection Platens
   set Friction static = 0.57
@@ -38,12 +38,34 @@ def check(holds, what):
         faults.append(what)
 
 
-def included(apps, name):
+def run(apps, name, *arguments):
+    """A scene that includes the material: its exit status, what it said against it, and its summary where it wrote one."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "mine.prm").write_text(SCENE.format(name))
-        done = subprocess.run([apps / "platen-compress", "mine.prm", "--dry-run"], cwd=folder, capture_output=True, text=True)
+        done = subprocess.run([apps / "platen-compress", "mine.prm", *arguments], cwd=folder, capture_output=True, text=True)
+        summary = Path(folder) / "results/mine/summary.json"
+        summary = json.loads(summary.read_text()) if summary.exists() else {}
     said = [line for line in (done.stdout + done.stderr).splitlines() if re.search(r"\b(error|warning|note):", line)]
-    check(done.returncode == 0 and not said, f"{name} is accepted by a scene that includes it: status {done.returncode} {said}")
+    return done.returncode, said, summary
+
+
+def included(apps, name):
+    status, said, _ = run(apps, name, "--dry-run")
+    check(status == 0 and not said, f"{name} is accepted by a scene that includes it: status {status} {said}")
+    status, said, _ = run(apps, name, "--dry-run", "-s", "Specimen/Packing = advancing front")
+    check(status == 2 and any("Specimen/Packing = advancing front is not what the bonds are calibrated for" in line for line in said),
+          f"{name} is refused with another packing: status {status} {said}")
+    status, said, _ = run(apps, name, "--dry-run", "-s", "Specimen/Sphere radius = 1.8 mm")
+    check(status == 0 and len(said) == 1 and "times that of the calibration" in said[0], f"{name} with other spheres is noted: status {status} {said}")
+
+
+def figures_of_tests(apps):
+    """Silica was not calibrated in compression: a test has a curve and moduli, and no strength."""
+    for name, has in (("silica", False), ("marble", True)):
+        status, said, summary = run(apps, name, "-s", "Output/Fields = off", "-s", "Loading/Stop at residual = 0.5", "--quiet")
+        strength, validity = summary.get("strength_pa"), summary.get("validity", {}).get("strength_pa")
+        check(status == 0 and (strength is not None) == has and (has or any("without compression" in reason for reason in validity)),
+              f"{name} in compression {'has' if has else 'has no'} strength: {strength}, {validity}, status {status} {said}")
 
 
 def packing(name, text):
@@ -78,6 +100,7 @@ def main():
         included(apps, path.stem)
         packing(path.stem, text)
         figures(path.stem, text, table)
+    figures_of_tests(apps)
     check(set(re.findall(r"^\| (\w+) \| E,", table, re.M)) == {path.stem for path in files}, "the table has every material and no other")
     return 1 if faults else 0
 
