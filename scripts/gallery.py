@@ -2,7 +2,8 @@
 """Page of all scenes: a picture of each, what to see, its main numbers and what it cost, from real runs.
 
     scripts/gallery.py BUILD RUNS                   runs scenes that RUNS lacks, draws reports, prints the page
-    scripts/gallery.py BUILD RUNS --write           ... and writes it to docs/gallery.md and docs/images/gallery
+    scripts/gallery.py BUILD RUNS --write           ... and writes it to docs/gallery.md and docs/images/gallery; a
+                                                    long scene that RUNS lacks keeps what the page says of it
     scripts/gallery.py BUILD RUNS --scene NAME ...  runs no scene but these, long ones too
     scripts/gallery.py --check                      runs none: every scene has its place, every picture is there
 
@@ -119,14 +120,14 @@ def spaced(count):
 
 
 def cost(result):
-    """What was computed, for how long, on what."""
+    """What was computed, for how long, on what, by which version."""
     s = result.summary
     kinds = {"particles": "sphere", "bonds": "bond", "steps": "step", "runs": "run", "trials": "trial"}
     counts = [f"{spaced(s[key])} {word}{'s' * (s[key] > 1)}" for key, word in kinds.items()
               if isinstance(s.get(key), int) and s[key] > 0]
     threads = "one thread" if s["threads"] == 1 else f"{s['threads']} threads"
     seconds = s["wall_seconds"]
-    return f"{', '.join(counts)}; {seconds:{'.2g' if seconds < 10 else '.0f'}} s on {threads}, {result.machine}."
+    return f"{', '.join(counts)}; {seconds:{'.2g' if seconds < 10 else '.0f'}} s on {threads}, {result.machine}; {s['version']}."
 
 
 def verdict(result):
@@ -144,8 +145,17 @@ def wrapped(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
 
 
-def section(scene, result):
-    """All that the page says of a scene."""
+def kept_sections():
+    """What the page says of scenes that have been run, by the scene's name."""
+    text = PAGE.read_text() if PAGE.exists() else ""
+    sections = re.findall(r"^### (\S+)\n(.*?)(?=^##|\Z)", text, re.M | re.S)
+    return {name: f"### {name}\n{said.rstrip()}\n" for name, said in sections if re.search(r"^\|", said, re.M)}
+
+
+def section(scene, result, kept):
+    """All that the page says of a scene. What it said before, where its run is long and not here."""
+    if scene.cost and scene.name in kept and not result.summary and not result.fault:
+        return kept[scene.name]
     parts = [f"### {scene.name}"]
     if result.summary:
         parts.append(f"**{result.summary['scene']}.** {scene.see}")
@@ -163,10 +173,9 @@ def section(scene, result):
 
 
 def page(results):
-    versions = sorted({r.summary["version"] for r in results.values() if r.summary})
-    texts = [HEADING + "\n" + wrapped(f"Runs of {', '.join(versions) or 'no version yet'}.") + "\n"]
+    texts, kept = [HEADING], kept_sections()
     for title, scenes in GROUPS:
-        texts += [f"## {title}\n"] + [section(scene, results[scene.name]) for scene in scenes]
+        texts += [f"## {title}\n"] + [section(scene, results[scene.name], kept) for scene in scenes]
     return "\n".join(texts)
 
 

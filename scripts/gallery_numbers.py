@@ -22,6 +22,7 @@ OF_A_RUN = [
     Column("strength", "strength_pa", 1e6, " MPa"),
     Column("strain at peak", "strain_at_peak_platen", 1e-3, " mm/m"),
     *ELASTIC,
+    Column("largest stress (no strength)", "largest_without_peak_pa", 1e6, " MPa"),
     Column("largest deviator", "deviator_strength_pa", 1e6, " MPa"),
     Column("bulk modulus", "bulk_modulus_pa", 1e9, " GPa"),
     Column("constrained modulus", "constrained_modulus_pa", 1e9, " GPa"),
@@ -151,6 +152,8 @@ def tables(summary):
         return [table(slice_of(summary["abacus"]), OF_AN_ABACUS)]
     if app == "platen-calibrate":
         return [table([summary], OF_A_CALIBRATION), table([summary["verification"]], OF_UNSEEN_PACKINGS)]
+    if summary.get("strength_pa") is None:
+        summary = {**summary, "largest_without_peak_pa": summary.get("largest_stress_pa")}
     loads = [{"load": load, **summary[load]} for load in LOADS if load in summary]
     further = [(loads, OF_A_LOAD), (failure(summary), OF_A_FAILURE)]
     return [table([summary], OF_A_RUN)] + [table(rows, columns) for rows, columns in further if rows]

@@ -78,8 +78,8 @@ GROUPS = [
               "The same pressure on all sides: nearly straight lines and no crack. The bulk modulus agrees with E / "
               "(3 (1 - 2 nu))."),
         Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain",
-              "Restrained by a stiff wall it has no peak: the strength in the table is the stress at the end of the "
-              "test. Unloading and reloading (the lines back) break almost no bond."),
+              "Restrained by a stiff wall it has no peak, and no strength. "
+              "Unloading and reloading (the lines back) break almost no bond."),
     ]),
     ("Stages and platens on all sides", [
         Scene("hold_concrete", COMPRESS, "stress_strain",
@@ -122,8 +122,8 @@ GROUPS = [
               "the same strength. One zone is crushed, the rest remains intact."),
         Scene("onate_cement_uniaxial_strain", COMPRESS, "stress_strain",
               "Compaction with the radius held: the slope of the curve decreases where interfaces yield and is small "
-              "where they fail, nearly all in shear. There is no peak: the strength in the table is the stress at "
-              "the end."),
+              "where they fail, nearly all in shear. There is no peak, and no "
+              "strength."),
         Scene("onate_cement_brazilian", BRAZILIAN, "crack_times",
               "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is first crushed under a strip (left), "
               "then it splits from there (right)."),
