@@ -52,8 +52,9 @@ if [ "$way" = container ]; then
   exit 0
 fi
 
-for mount in proc dev; do mountpoint -q "$root/$mount" || mount --bind "/$mount" "$root/$mount"; done
-trap 'umount "$root/proc" "$root/dev" 2>/dev/null || true' EXIT
+# As a machine has them: ranks look for processors in sys, a shell that a test types into needs a terminal of dev/pts.
+for mount in proc sys dev dev/pts; do mountpoint -q "$root/$mount" || mount --bind "/$mount" "$root/$mount"; done
+trap 'umount "$root/dev/pts" "$root/dev" "$root/sys" "$root/proc" 2>/dev/null || true' EXIT
 
 if [ "$way" = source ]; then
   rm -rf "$root/root/platen"
