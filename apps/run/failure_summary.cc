@@ -139,7 +139,9 @@ std::string reason_words(const dem::FailureMeasures &m) {
   const dem::CrackPlane &plane = m.planes.largest;
   switch (dem::judge_failure(m).by) {
     case dem::DecidedBy::two_cones:
-      return "what moves with the platens is a cone on each";
+      return m.dead[dem::top_end].is_cone() && m.dead[dem::bottom_end].is_cone()
+                 ? "what moves with the platens is a cone on each"
+                 : "what moves with the platens is a cone on one and a dome on the other";
     case dem::DecidedBy::one_plane:
       return fmt::format("{:.0f} % of the broken bonds lie in one plane, {:.0f} degrees from the axis",
                          100 * plane.bonds / m.planes.broken, plane.inclination / degree);

@@ -87,12 +87,16 @@ void judge_residual(Validity &of, const Results &results) {
 
 // What a test says nothing of.
 void judge_kind_of_test(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
-  if (problem.shape().kind == dem::ShapeKind::disc)
+  if (problem.shape().kind == dem::ShapeKind::disc) {
     of.add(of_young, "the stress in a disc is not even: a splitting test has no modulus");
-  else if (problem.bent())
+    of.add({"strain_at_peak_platen"},
+           "closure over the diameter is no strain of the material: opening_at_peak_m");
+  } else if (problem.bent()) {
     of.add({"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio", "poisson_ratio_extremal"},
            "the stress in a bent bar is not even: its modulus is flexural_modulus_pa");
-  else if (problem.settings().loading.cell && problem.settings().loading.cell->path != 0)
+    of.add({"strain_at_peak_platen", "strain_at_peak_gauge"},
+           "closure over the depth is no strain of the material: deflection_at_peak_m");
+  } else if (problem.settings().loading.cell && problem.settings().loading.cell->path != 0)
     of.add(of_young,
            "the pressure changes along its path: the ratio of stress and strain is no Young's modulus");
   else if (problem.wall() != nullptr)

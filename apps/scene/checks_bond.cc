@@ -47,7 +47,8 @@ void SceneCheck::size_correction() const {
 void SceneCheck::calibrated_packing() const {
   const std::optional<PackingKind> wanted = scene_.bond.calibrated.packing;
   const PackingKind packing = scene_.specimen.packing;
-  if (!wanted || packing == *wanted || packing == PackingKind::file || app_ == AppKind::bonds) return;
+  if (!wanted || packing == *wanted || packing == PackingKind::file) return;
+  if (app_ == AppKind::bonds || app_ == AppKind::pack) return; // no packing, no bonds
   refuse("Specimen/Packing",
          "is not what the bonds are calibrated for, " + set_to("Bond/Calibrated packing") +
              ": with it they are another material. Allowed: " +

@@ -52,6 +52,8 @@ const std::vector<Reader> &readers() {
                                          {"Bond/Strength scatter", but(bonded, {K::bonds})},
                                          {"Bond/Weibull modulus", but(bonded, {K::bonds})},
                                          {"Bond/Calibrated radius", loading},
+                                         {"Bond/Calibrated packing", but(bonded, {K::bonds})},
+                                         {"Bond/Calibrated figures", written},
                                          {"Bond/Modulus exponent", loading},
                                          {"Bond/Strength exponent", loading},
                                          {"Phases", but(bonded, {K::bonds})},

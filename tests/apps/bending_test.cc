@@ -52,6 +52,11 @@ TEST_F(Bending, a_bar_breaks_in_the_middle) {
   EXPECT_GT(s["broken_tension"], 2 * s["broken_shear"].get<int>());
   EXPECT_LT(s["energy_residual_relative"], 0.02);
   EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
+  for (const char *strain : {"strain_at_peak_platen", "strain_at_peak_gauge"}) {
+    EXPECT_TRUE(s[strain].is_null()) << strain;
+    EXPECT_EQ(s["validity"][strain][0],
+              "closure over the depth is no strain of the material: deflection_at_peak_m");
+  }
   const auto top = column("bar", "axial_stress_top_pa"), sag = column("bar", "deflection_m"),
              moment = column("bar", "midspan_moment_n_m");
   EXPECT_NEAR(*std::max_element(top.begin(), top.end()) / strength, 1, 0.05);

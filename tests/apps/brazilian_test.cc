@@ -51,6 +51,9 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   EXPECT_GE(s["fragments"], 2);
   EXPECT_LT(s["energy_residual_relative"], 0.02);
   EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
+  EXPECT_TRUE(s["strain_at_peak_platen"].is_null());
+  EXPECT_EQ(s["validity"]["strain_at_peak_platen"][0],
+            "closure over the diameter is no strain of the material: opening_at_peak_m");
   const auto opening = column_of(folder_ / "disc/history.csv", "opening_m");
   EXPECT_GT(opening.back(), 5 * s["opening_at_peak_m"].get<double>()); // the halves part
   // A disc has events, but no cones.

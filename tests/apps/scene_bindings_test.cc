@@ -7,6 +7,7 @@
 
 #include "apps/run/model_setup.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/errors.h"
 #include "apps/scene/members.h"
 #include "coupling/platens_of_test.h"
 #include "dem/laws/normal_contact.h"
@@ -61,6 +62,16 @@ TEST(SceneBindings,
   EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1.19 mm"}).size(), 0);
   for (const char *exponent : {"Bond/Modulus exponent = 0.05", "Bond/Strength exponent = -0.05"})
     EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1 mm", exponent}).size(), 0) << exponent;
+}
+
+// The packing alone is made without bonds, and a pair has none.
+TEST(SceneBindings, another_packing_than_the_bonds_are_calibrated_for_is_refused_where_it_is_bonded) {
+  const std::vector<std::string> another{"Bond/Calibrated packing = random close",
+                                         "Specimen/Packing = advancing front"};
+  EXPECT_THROW(scene_with(another), InputError);
+  EXPECT_NO_THROW(read_scene(good, another, AppKind::pack));
+  EXPECT_NO_THROW(scene_with({another[0], "Specimen/Packing = random close"}));
+  EXPECT_NO_THROW(scene_with({"Bond/Calibrated packing = any", another[1]}));
 }
 
 TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
