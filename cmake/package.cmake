@@ -3,7 +3,12 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME platen)
 set(CPACK_PACKAGE_VENDOR "Platen")
-set(CPACK_PACKAGE_CONTACT "Platen developers <platen@packages.debian.org>")
+# Who makes them, as Debian's tools ask; else the address by which Debian would reach the maintainer of a package of this name.
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+else()
+  set(CPACK_PACKAGE_CONTACT "Platen developers <platen@packages.debian.org>")
+endif()
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

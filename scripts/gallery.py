@@ -39,7 +39,8 @@ LARGEST = 120_000  # bytes of a picture
 WIDTHS = (800, 640, 480)  # pixels, tried in turn until a picture is small enough
 HEADING = """# Gallery
 
-Every scene of `scenes/`, run as it stands: what to see, a picture from its report, its main numbers, and what it cost.
+Every scene of `scenes/`, run as it stands (long ones at an earlier time, or not at all: their sections say so): what to see, a picture from its
+report, its main numbers, and what it cost.
 Written by `scripts/gallery.py BUILD RUNS --write`; only the sentences on what to see are written by hand
 ([gallery_scenes.py](../scripts/gallery_scenes.py)). As many runs at a time as the machine has cores, with low priority:
 seconds are upper bounds. One seed each, but for studies; strengths scatter by a few percent from seed to seed.
@@ -51,7 +52,8 @@ class Result(NamedTuple):
 
     summary: Optional[dict] = None
     machine: str = ""
-    missed: list = []  # numbers that the scene expects
+    missed: list = []  # numbers that the scene expects, and targets of a calibration
+    fast: str = ""  # what was not quasi-static
     expects: bool = False
     fault: str = ""  # why there is no run, or no picture
 
@@ -111,8 +113,18 @@ def result_of(scene, build, runs, may_run, write):
     log = (folder / "run.log").read_text()
     expects = (folder / "scene.prm").read_text().split("subsection Expect", 1)[1].split("\nend", 1)[0]
     machine = re.findall(r"^machine (.*?, \d+ cores)", log, re.M)
-    missed = re.findall(r"^error: expected: (.*)", log, re.M)
-    return Result(summary, machine[-1], missed, bool(re.search(r"= *[^ \n]", expects)), fault)
+    missed = re.findall(r"^error: (?:expected|target missed): (.*)", log, re.M)
+    return Result(summary, machine[-1], missed, too_fast(folder, log), bool(re.search(r"= *[^ \n]", expects)), fault)
+
+
+def too_fast(folder, log):
+    """What the program said of the speed of a run, and of how many runs of a study; "" where all were slow enough."""
+    said_of_run = re.findall(r"^warning: too fast to be quasi-static.*?: (.*)", log, re.M)
+    if said_of_run:
+        return f"Too fast to be quasi-static: {said_of_run[-1]}."
+    runs = [platen.Run(path.parent).summary for path in sorted(folder.glob("runs/*/summary.json"))]
+    fast = sum(summary.get("quasi_static") is False for summary in runs)
+    return f"{fast} of {len(runs)} runs are too fast to be quasi-static." if fast else ""
 
 
 def spaced(count):
@@ -132,13 +144,19 @@ def cost(result):
 
 def verdict(result):
     if result.missed:
-        return "**Expected, but:** " + "; ".join(result.missed) + "."
-    return "What the scene expects came out." if result.expects else "The scene expects no numbers."
+        kind = "Missed on unseen packings" if "targets_missed" in result.summary else "Expected, but"
+        words = [f"**{kind}:** " + "; ".join(result.missed) + "."]
+    elif result.summary.get("targets"):
+        words = ["All targets are met on unseen packings."]
+    else:
+        words = ["What the scene expects came out." if result.expects else "The scene expects no numbers."]
+    return " ".join(words + ([result.fast] if result.fast else []))
 
 
-def command(scene):
+def command(scene, result):
     program, *rest = scene.program.split()
-    return "    " + " ".join([f"build/apps/{program}", *rest, f"scenes/{scene.name}.prm", "-t", "1"])
+    threads = str(result.summary["threads"]) if result.summary else "1"
+    return "    " + " ".join([f"build/apps/{program}", *rest, f"scenes/{scene.name}.prm", "-t", threads])
 
 
 def wrapped(text):
@@ -169,7 +187,7 @@ def section(scene, result, kept):
     if result.fault:
         parts.append(f"**Fails:** {result.fault}.")
     texts = [p if p.startswith(("###", "!", "|")) else wrapped(p) for p in parts]
-    return "\n\n".join(texts + [command(scene)]) + "\n"
+    return "\n\n".join(texts + [command(scene, result)]) + "\n"
 
 
 def page(results):

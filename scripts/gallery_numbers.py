@@ -21,6 +21,8 @@ ELASTIC = [
 OF_A_RUN = [
     Column("strength", "strength_pa", 1e6, " MPa"),
     Column("strain at peak", "strain_at_peak_platen", 1e-3, " mm/m"),
+    Column("widening at peak", "opening_at_peak_m", 1e-6, " um"),
+    Column("deflection at peak", "deflection_at_peak_m", 1e-6, " um"),
     *ELASTIC,
     Column("largest stress (no strength)", "largest_without_peak_pa", 1e6, " MPa"),
     Column("largest deviator", "deviator_strength_pa", 1e6, " MPa"),
@@ -141,13 +143,21 @@ def failure(summary):
     return [row for row in rows if row.get("pattern")]
 
 
+def target(found):
+    """What the runs of an ordered accuracy say together."""
+    factor, unit = (1e6, " MPa") if found["unit"] == "Pa" else (1, "")
+    low, mean, high = (f"{found[key] / factor:.3g}{unit}" for key in ("low", "mean", "high"))
+    return (f"| {found['figure']} | estimate | {100 * found['confidence']:.0f} % interval | ordered | came out |\n| --- | --- | --- | --- | --- |\n"
+            f"| for slow loading | {mean} | {low} to {high} | +- {100 * found['accuracy']:g} % | +- {100 * found['half_interval']:.2g} % |")
+
+
 def tables(summary):
     """Markdown tables of what the program has found."""
     app = summary["app"]
     if app == "platen-bonds":
         return [table(summary["runs"], OF_A_BOND)]
     if app == "platen-study":
-        return [table(summary["cases"], OF_A_CASE)]
+        return [table(summary["cases"], OF_A_CASE)] + ([target(summary["target"])] if "target" in summary else [])
     if "abacus" in summary:
         return [table(slice_of(summary["abacus"]), OF_AN_ABACUS)]
     if app == "platen-calibrate":

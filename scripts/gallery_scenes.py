@@ -31,13 +31,13 @@ GROUPS = [
               "The same spheres without friction at the platens: the strength is slightly lower, one end opens, and "
               "there are no cones."),
         Scene("cube_dry", COMPRESS, "outward_displacement",
-              "A cube is so short that the effect of its restrained ends reaches through its middle: it carries a "
-              "third more than the prism. Two blunt cones meet in its core, its sides spall."),
+              "A cube is so short that the effect of its restrained ends reaches through its middle: it carries "
+              "two fifths more than the prism. Two blunt cones meet in its core, its sides spall."),
         Scene("cube_lubricated", COMPRESS, "outward_displacement",
               "Without friction the cube has the strength of the prism, and its sides open from platen to platen."),
         Scene("prism_dry", COMPRESS, "fragments",
-              "In a prism the ends are far apart: the middle fails as if the platens were far away, and a cone is "
-              "left on each end."),
+              "In a prism the ends are far apart: the middle fails as if the platens were far away, and a piece is "
+              "left on each end. The table has cones by displacement, the picture draws those by damage."),
         Scene("prism_lubricated", COMPRESS, "outward_displacement",
               "One end opens and splits, but the strength is nearly that between dry platens: in slender specimens "
               "the ends have little influence on the strength."),
@@ -58,11 +58,11 @@ GROUPS = [
         Scene("rubber_pads", COMPRESS, "stress_flow",
               "Sheets of hard rubber (the dark lines of the right picture: they carry almost no shear) are pressed "
               "out sideways and pull the ends with them: the upper end splits into columns, visible as streaks of "
-              "stress, and the strength is lower by a fourth."),
+              "stress, and the strength is lower by a fifth."),
         Scene("soft_platens", COMPRESS, "damage",
               "Polyethylene expands laterally more than concrete under the same stress and pulls the ends apart, "
-              "where steel restrains them: both ends break (left), then the rest, at two thirds of the strength "
-              "between steel."),
+              "where steel restrains them: both ends break (left), then the rest, at less than three quarters of the "
+              "strength between steel."),
         Scene("triaxial_concrete", COMPRESS, "stress_strain",
               "In a rubber sleeve at 9 MPa: nearly twice the unconfined strength, at twice the strain, and a "
               "residual stress with plastic flow. The table counts strain from the time at which all sides carry 9 "
@@ -75,7 +75,7 @@ GROUPS = [
               "At the kink all sides carry this pressure and the platens begin to close; from there the table counts "
               "strain."),
         Scene("hydrostatic_concrete", COMPRESS, "stress_strain",
-              "The same pressure on all sides: nearly straight lines and no crack. The bulk modulus agrees with E / "
+              "The same pressure on all sides: nearly straight lines and almost no crack. The bulk modulus agrees with E / "
               "(3 (1 - 2 nu))."),
         Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain",
               "Restrained by a stiff wall it has no peak, and no strength. "
@@ -116,7 +116,7 @@ GROUPS = [
     ]),
     ("Cement, concrete and shale of Oñate et al. 2015", [
         Scene("onate_cement", COMPRESS, "damage",
-              "Experiment 17 MPa. An inclined band crosses the upper half; below it almost nothing is broken."),
+              "Experiment 17 MPa, here 20. The lower half is crushed; above it almost nothing is broken."),
         Scene("onate_cement_triaxial", COMPRESS, "damage",
               "The same test as triaxial_cement, with the pressure on the spheres of the skin instead of a sleeve: "
               "the same strength. One zone is crushed, the rest remains intact."),
@@ -125,19 +125,19 @@ GROUPS = [
               "where they fail, nearly all in shear. There is no peak, and no "
               "strength."),
         Scene("onate_cement_brazilian", BRAZILIAN, "crack_times",
-              "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is first crushed under a strip (left), "
-              "then it splits from there (right)."),
+              "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is first crushed at the lower strip (left), "
+              "then at the upper one, from where cracks run inwards (right)."),
         Scene("onate_concrete", COMPRESS, "damage",
-              "Experiment 32.8 to 38 MPa, E 28 GPa. Caps of intact spheres remain at both ends; failed interfaces "
+              "Experiment 32.8 to 38 MPa, E 28 GPa; here 41 and 30. Caps of intact spheres remain at both ends; failed interfaces "
               "still carry friction, so the specimen does not fall apart."),
         Scene("onate_concrete_triaxial", COMPRESS, "damage",
               "A cell of 9 MPa: nearly twice the strength of onate_concrete. Damage begins as a belt and spreads "
-              "over the whole specimen except the ends; nearly as many interfaces fail in shear as in tension."),
+              "over the whole specimen except the upper end; nearly as many interfaces fail in shear as in tension."),
         Scene("onate_concrete_brazilian", BRAZILIAN, "crack_times",
-              "Experiment 3 MPa. Cracks fill the loaded diameter before the peak, and split the disc after it."),
+              "Experiment 3 MPa; here half as much again. Cracks fill the loaded diameter before the peak, and split the disc after it."),
         Scene("onate_shale", COMPRESS, "damage",
-              "Experiment 50 MPa, the paper's model 48. Caps of intact spheres remain at both ends, the surface of "
-              "the middle fails first."),
+              "Experiment 50 MPa, the paper's model 48. A thin layer at both ends stays intact, the surface of the "
+              "middle fails first."),
         Scene("onate_shale_brazilian", BRAZILIAN, "crack_times",
               "Experiment 5.0 MPa, the paper's model 5.4. The same packing as the concrete, other interfaces: nearly "
               "the same cracks."),
@@ -173,7 +173,7 @@ GROUPS = [
     ("Three laws", [
         Scene("three_laws_parallel_bond", COMPRESS, "damage",
               "One packing with three laws of equal E and tensile strength. Parallel bonds: the middle is destroyed, "
-              "the rest at the ends is intact."),
+              "the ends are least damaged."),
         Scene("three_laws_cohesive_beam", COMPRESS, "damage",
               "All beams break in tension, at less than half the stress and strain of the other laws: a law for "
               "glass, not for concrete."),
@@ -238,8 +238,8 @@ GROUPS = [
     ]),
     ("Studies", [
         Scene("study_friction_quick", f"{STUDY} friction", "strength_slenderness",
-              "How much of the strength is due to the platens: at height over width 1 dry steel gives a third more "
-              "than grease, at 2 less than a tenth. The diamonds are laboratory results. One packing."),
+              "How much of the strength is due to the platens: at height over width 1 dry steel gives three tenths more "
+              "than grease, at 2 about a tenth. The diamonds are laboratory results. One packing."),
         Scene("study_friction_concrete", f"{STUDY} friction", "strength_slenderness",
               "The same on five packings, with finer spheres, more platens and slendernesses: 100 runs. Figures and "
               "a picture of them are in [bench/results/laboratory.md](../bench/results/laboratory.md).",

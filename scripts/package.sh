@@ -2,6 +2,7 @@
 # Makes the Debian packages of Platen for the Debian that it runs on, into build-package/: platen, libplaten-dev, platen-doc and
 # python3-platen; and lets lintian judge them.
 #   scripts/package.sh [BUILD]
+# Their maintainer is DEBFULLNAME with the address DEBEMAIL, where both are set.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=${1:-build-package}
