@@ -209,7 +209,7 @@ GROUPS = [
               "parameters found, and the results with five other packings."),
         Scene("calibrate_triaxial", CALIBRATE, "",
               "Targets: 36 MPa unconfined and 54.5 MPa in a cell of 4.5 MPa, E 27 GPa, Poisson's ratio 0.17. The "
-              "friction angle of the bonds is the parameter for the pressure; two other packings verify the result."),
+              "friction angle of the bonds is the parameter for the pressure; five other packings verify the result."),
         Scene("calibrate_many", CALIBRATE, "",
               "Eight targets at once for one concrete, from bond parameters without any calibration: E 26 GPa, "
               "Poisson's ratio 0.2, 43 MPa at 2.4 mm/m, 4.5 MPa in tension, 62 and 83 MPa under 3 and 9 MPa, a gain "
