@@ -229,6 +229,9 @@ GROUPS = [
         Scene("calibrate_sandstone", CALIBRATE, "",
               "Ready bonds, `materials/sandstone.prm`: Berea sandstone, 77 MPa unconfined, 126 and 277 MPa under 10 and 50 MPa.",
               cost="about 15 minutes on two cores"),
+        Scene("calibrate_mortar", CALIBRATE, "",
+              "Ready bonds, `materials/mortar.prm`: a mortar of lime and volcanic ash, 13 MPa unconfined, 0.55 MPa in tension. No strength "
+              "under pressure is known of it.", cost="one minute on two cores"),
         Scene("calibrate_silica", CALIBRATE, "",
               "Ready bonds, `materials/silica.prm`: E, Poisson's ratio and tension of fused silica. Its strength in compression "
               "is not calibrated.", cost="two minutes on two cores"),

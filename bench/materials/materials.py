@@ -33,6 +33,10 @@ MATERIALS = {
                   ["strength: Cleveland Quarries, ASTM C170; under 10 and 50 MPa: Bernabe and Brace 1990 (measured)",
                    "tension: triaxial extension under 10 MPa, Bobich 2005",
                    "E and Poisson's ratio: input of a public analysis, which names no test"]),
+    "mortar": ("mortar", "Mortar of lime and volcanic ash",
+               ["strength and E: replica of Roman architectural mortar, last of three ages; PNAS, a table of mortar reproductions (which names no test)",
+                "tension: reproduction of Trajanic mortar in the same table, of E 3.37 GPa, by an analysis of fracture tests",
+                "Poisson's ratio and density: assumed, the table has none; strength under pressure: none"]),
     "silica": ("silica", "Fused silica",
                ["E and Poisson's ratio: Crystran handbook, 5th edition, 2023 (its producer's data)",
                 "tension: a data page that names no test; glass is as strong as its surface. Compression is not calibrated: no test of a specimen was found"]),
@@ -213,10 +217,12 @@ NOTES = """
   to 40 % of it, and Poisson's ratio rises above .5, which no elastic specimen has, so that a test reports none: do not read deformations off it.
 * **Scatter.** Of five packings of so few spheres unconfined strengths scatter by 5 to 9 %, those under pressure by 2 to 5 %, tension by 1 to 2 %. A scene of one packing
   may be further off.
-* **What is calibrated is not predicted.** Six figures of each material (silica: three) were targets. Other figures (post-peak slope, flexural and
+* **What is calibrated is not predicted.** Six figures of each material (mortar: four, silica: three) were targets. Other figures (post-peak slope, flexural and
   splitting strength, toughness) are those of the bonds, and nobody has compared them.
-* **No mortar.** No source was found that has E, strength, tension and triaxial strengths of one mortar: only the strength of a high-strength mortar
-  (82 MPa), and a friction angle of cement-lime mortars. To make one, copy `scenes/calibrate_c40.prm` and set targets of your own.
+* **Mortar** is one of lime and volcanic ash, soft and weak, for strengths only as granite is: its ratio of strength to tension is the same. No strength
+  under pressure is known of it, Poisson's ratio is assumed. No source was found that has E, strength,
+  tension and triaxial strengths of one cement mortar: only the strength of a high-strength mortar (82 MPa), and a friction angle of cement-lime mortars.
+  To make one, copy `scenes/calibrate_mortar.prm` and set targets of your own.
 * **Silica** has no strength in compression: no test of a specimen was found, and glass is as strong as its surface allows. A compression test of it
   has a curve, but its strength is null, with this reason (`Bond/Calibrated figures = elastic, tension`).
 """
