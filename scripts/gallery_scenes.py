@@ -249,7 +249,7 @@ GROUPS = [
               "about two hours on one core"),
         Scene("study_laboratory_concrete", f"{STUDY} friction", "strength_friction",
               "Cubes and prisms as tested in a laboratory in 1967, five packings of each: gains by dry platens of "
-              "1.45 and 1.07 (measured then: 1.42 and 1.08).",
+              "1.44 and 1.06 (measured then: 1.42 and 1.08).",
               "about 20 minutes on one core"),
         Scene("study_laboratory_interfaces", f"{STUDY} friction", "strength_friction",
               "The same with elasto-damage-plastic interfaces: the gain of cubes is 1.43, of prisms 1.14, more than "
