@@ -167,7 +167,7 @@ def kept_sections():
     """What the page says of scenes that have been run, by the scene's name."""
     text = PAGE.read_text() if PAGE.exists() else ""
     sections = re.findall(r"^### (\S+)\n(.*?)(?=^##|\Z)", text, re.M | re.S)
-    return {name: f"### {name}\n{said.rstrip()}\n" for name, said in sections if re.search(r"^\|", said, re.M)}
+    return {name: f"### {name}\n{body.rstrip()}\n" for name, body in sections if re.search(r"^\|", body, re.M)}
 
 
 def section(scene, result, kept):

@@ -185,7 +185,8 @@ void judge_damage(Validity &of, const Scene &scene, const coupling::PlatenTest &
   cone("cone_bottom", results.pattern().failure.dead[dem::bottom_end]);
 }
 
-// Bonds of a material of which such a test was no part say nothing of that material in it.
+// Bonds that were found without any test of this kind say nothing about their material in it: neither what it
+// bears nor how it breaks.
 void judge_calibration(Validity &of, const Scene &scene, const coupling::PlatenTest &problem) {
   using Figure = CalibratedFigure;
   const CalibratedFor &bonds = scene.bond.calibrated;
@@ -200,9 +201,11 @@ void judge_calibration(Validity &of, const Scene &scene, const coupling::PlatenT
   const LoadingTest test = scene.loading.test;
   const bool tension =
       test == LoadingTest::tension || problem.bent() || problem.shape().kind == dem::ShapeKind::disc;
-  check(of_strength, tension ? Figure::tension : Figure::compression);
-  if (!tension && (problem.cell() || problem.wall() != nullptr || !further_sides(problem).empty()))
-    check(of_strength, Figure::confined);
+  const bool confined = problem.cell() || problem.wall() != nullptr || !further_sides(problem).empty();
+  for (const Figures *figures : {&of_strength, &of_damage}) {
+    check(*figures, tension ? Figure::tension : Figure::compression);
+    if (!tension && confined) check(*figures, Figure::confined);
+  }
 }
 
 // What summary.json says the validity of, in this order.

@@ -28,7 +28,7 @@ void declare_calibrated(Section &section, CalibratedFor &calibrated) {
     words.push_back(one.first);
   section.value("Calibrated figures", calibrated.figures, "",
                 "with commas between them, any of " + joined(words), read_calibrated_figures,
-                "What the bonds are calibrated on: strengths and moduli of other tests are null in "
+                "What the bonds are calibrated on: strengths, damage and moduli of other tests are null in "
                 "summary.json, with this reason. Empty: nothing is said.");
 }
 

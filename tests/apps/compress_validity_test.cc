@@ -98,10 +98,12 @@ TEST_F(Figures, for_which_bonds_are_not_calibrated_are_none) {
   const nlohmann::json tensile = crush("tensile", {of + "elastic, tension"});
   expect_reason(tensile, strength,
                 "are not calibrated for it: Bond/Calibrated figures = elastic, tension, without compression");
+  expect_reason(tensile, {"end_damage_top", "middle_damage", "end_spread"}, "without compression");
   expect_valid(tensile, moduli);
   EXPECT_GT(tensile["largest_stress_pa"].get<double>(), 0);
   const nlohmann::json crushed = crush("crushed", {of + "compression"});
   expect_valid(crushed, strength);
+  expect_valid(crushed, {"end_damage_top", "middle_damage", "end_spread"});
   expect_reason(crushed, moduli, "Bond/Calibrated figures = compression, without elastic");
   const std::vector<std::string> cell{"Loading/Confinement = particles", "Loading/Confining pressure = 1 MPa",
                                       "Expect/pattern ="};

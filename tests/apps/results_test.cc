@@ -1,5 +1,6 @@
 // When a run has its peak behind it.
 #include "apps/run/results.h"
+#include "apps/run/failure_summary.h"
 
 #include <gtest/gtest.h>
 
@@ -148,6 +149,20 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
       EXPECT_EQ(std::isnan(value), results == &x);
   }
   EXPECT_TRUE(std::isnan(x.pattern().failure.broken_share));
+}
+
+// Both ends by turns: a dome is told as one, on whichever platen it stands.
+TEST(FailureWords, name_a_dome_beside_a_cone) {
+  const auto words = [](dem::DeadZoneVerdict bottom, dem::DeadZoneVerdict top) {
+    dem::FailureMeasures m;
+    m.dead[dem::bottom_end].verdict = bottom, m.dead[dem::top_end].verdict = top;
+    return reason_words(m);
+  };
+  const auto cone = dem::DeadZoneVerdict::cone, dome = dem::DeadZoneVerdict::dome;
+  EXPECT_EQ(words(cone, cone), "what moves with the platens is a cone on each");
+  for (const std::string &one : {words(cone, dome), words(dome, cone)})
+    EXPECT_EQ(one, "what moves with the platens is a cone on one and a dome on the other");
+  EXPECT_EQ(words(dome, dome).find("cone"), std::string::npos);
 }
 
 } // namespace
