@@ -65,52 +65,6 @@ std::array<double, 8> corner_volumes(const Corners &x) {
   return volumes;
 }
 
-double smallest_volume_ratio(const ReferenceCell &cell, const Corners &displacement, const Corners &place) {
-  const std::array<double, 8> corners = corner_volumes(place);
-  double smallest = corners[0] / cell.corner_volume[0];
-  const auto take = [&](double ratio) {
-    if (!(ratio >= smallest)) smallest = ratio; // passes on what is not a number
-  };
-  for (std::size_t c = 1; c < 8; ++c)
-    take(corners[c] / cell.corner_volume[c]);
-  const TensorAtPoints f = deformation_gradient(cell, displacement);
-  AtPoints j;
-  for (std::size_t q = 0; q < 8; ++q)
-    j[q] = determinant(tensor_at(f, q));
-  for (const double ratio : j)
-    take(ratio);
-  return smallest;
-}
-
-CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
-  const Deformed at(cell, displacement);
-  const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
-  CellForce result;
-  result.energy = cell.volume * law.volume_energy(ratio);
-  AtPoints shape, beside;
-  for (std::size_t q = 0; q < 8; ++q) {
-    const double w = cell.weight[q], norm2 = squared_norm(tensor_at(at.f, q));
-    shape[q] = w * law.shape_factor(at.j[q]);
-    beside[q] = w * along - shape[q] * norm2 / (3 * at.j[q]);
-    result.energy += 0.5 * (shape[q] * norm2 - 3 * law.shear_modulus * w);
-  }
-  TensorAtPoints p; // first Piola-Kirchhoff stress times weight
-  for (std::size_t k = 0; k < 9; ++k)
-    for (std::size_t q = 0; q < 8; ++q)
-      p[k][q] = shape[q] * at.f[k][q] + beside[q] * at.cof[k][q];
-  for (std::size_t a = 0; a < 8; ++a) {
-    const auto &g = cell.gradient[a];
-    for (std::size_t i = 0; i < 3; ++i) {
-      AtPoints share;
-      for (std::size_t q = 0; q < 8; ++q)
-        share[q] = p[3 * i][q] * g[0][q] + p[3 * i + 1][q] * g[1][q] + p[3 * i + 2][q] * g[2][q];
-      for (std::size_t q = 0; q < 8; ++q)
-        result.force[a][i] += share[q];
-    }
-  }
-  return result;
-}
-
 CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
   const Deformed at(cell, displacement);
   const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
