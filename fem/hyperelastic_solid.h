@@ -81,7 +81,8 @@ public:
 
   // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.
   void half_kick(double dt); // over dt/2, s
-  void drift(double dt);
+  // `looked`: can_drift() has said that it can go this way, to round-off.
+  void drift(double dt, bool looked = false);
   bool can_drift(double dt) const; // without an element that would be inside out
   // Shows the surface where a drift over dt would take it, and moves nothing else: for who steps the solid
   // seldom and looks at its surface often.

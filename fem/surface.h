@@ -57,6 +57,12 @@ public:
     is_loaded_[v] = 1;
     load_[v] = load_[v] + force;
   }
+  // A force at a place of a face, which goes to its corners by these weights.
+  void add_face_force(int face, const std::array<double, 4> &weights, const Vector3 &force) {
+    const std::array<int, 4> &corners = surface_.faces[static_cast<std::size_t>(face)];
+    for (std::size_t k = 0; k < 4; ++k)
+      add_surface_force(corners[k], weights[k] * force);
+  }
   const Vector3 &contact_load(int vertex) const { return load_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Vector3> &contact_loads() const { return load_; } // N, one per vertex
   const std::vector<int> &loaded_vertices() const { return loaded_; } // in the order of their first load

@@ -174,16 +174,18 @@ double Sleeve::find_limit() {
   if (std::fmod(intervals_, intervals_between_limits) == 0) own_limit_ = solid_->stable_step();
   const fem::SurfaceMesh &surface = solid_->surface();
   std::vector<double> stiffness(surface.vertices.size(), 0.0);
-  for (const ActiveContact &c : contact_->contacts()) {
-    const std::array<int, 4> &face = surface.faces[static_cast<std::size_t>(c.face)];
-    const auto far = [&](int v) { return norm(surface.vertices[static_cast<std::size_t>(v)] - c.point); };
-    const int nearest =
-        *std::min_element(face.begin(), face.end(), [&](int a, int b) { return far(a) < far(b); });
-    for (const int v : face)
-      stiffness[static_cast<std::size_t>(v)] += (v == nearest ? 1.0 : 0.5) *
-                                                settings_.contact.particle_stiffness *
-                                                std::max(1.0, settings_.contact.tangential_ratio);
-  }
+  const double stiffest =
+      settings_.contact.particle_stiffness * std::max(1.0, settings_.contact.tangential_ratio);
+  contact_->visit_contacts([&](int number, const Vector3 &place) {
+    const std::array<int, 4> &face = surface.faces[static_cast<std::size_t>(number)];
+    std::array<double, 4> far;
+    for (std::size_t k = 0; k < 4; ++k)
+      far[k] = norm(surface.vertices[static_cast<std::size_t>(face[k])] - place);
+    const auto nearest = std::min_element(far.begin(), far.end()) - far.begin();
+    for (std::size_t k = 0; k < 4; ++k)
+      stiffness[static_cast<std::size_t>(face[k])] +=
+          (static_cast<std::ptrdiff_t>(k) == nearest ? 1.0 : 0.5) * stiffest;
+  });
   double squared = 0; // of the contacts' frequency, 1/s^2
   for (std::size_t v = 0; v < stiffness.size(); ++v)
     squared = std::max(squared, stiffness[v] / solid_->surface_mass(static_cast<int>(v)));
@@ -256,7 +258,7 @@ void Sleeve::move(double dt, const RimMotion &rims) {
 // The loads of the last step stand on the surface.
 void Sleeve::take_loads() {
   if (made_ < planned_) return;
-  solid_->drift(elapsed_);
+  solid_->drift(elapsed_, planned_ > 1); // looked at when the interval began
   solid_->update_forces();
   solid_->half_kick(elapsed_);
   ++intervals_;

@@ -237,19 +237,18 @@ void ContactLayer::keep_due(std::size_t count) {
   if (seat_spring_ != nullptr) moments_.resize(count);
 }
 
-double ContactLayer::indentation(const SurfacePoint &at) const {
+double ContactLayer::indentation(int face, const std::array<double, 4> &w) const {
   if (parameters_.face_compliance.empty()) return 0;
-  const fem::FaceCompliance &c = parameters_.face_compliance[index(at.face)];
-  const std::array<double, 4> &w = at.local.weights;
+  const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     sum += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
   return sum;
 }
 
-double ContactLayer::spring(const SurfacePoint &at) const {
+double ContactLayer::spring(int face, const std::array<double, 4> &weights) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
-  return beside_indentation(stiffness_, indentation(at));
+  return beside_indentation(stiffness_, indentation(face, weights));
 }
 
 double ContactLayer::stiffness_of(double radius) const {

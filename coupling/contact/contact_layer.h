@@ -131,7 +131,13 @@ public:
   void take_rows(const std::vector<char> &of_all);
 
   // Of the last add_forces.
-  std::vector<ActiveContact> contacts() const;              // ascending particle rows
+  std::vector<ActiveContact> contacts() const; // ascending particle rows
+  // visit(face, place in m) for each of them, without more of it.
+  template <class Visit>
+  void visit_contacts(const Visit &visit) const {
+    for (std::size_t k = 0; k < loads_.size(); ++k)
+      if (loads_[k].particle >= 0) visit(loads_[k].face, contacts_[k].point);
+  }
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
   // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
   // elsewhere.
@@ -199,17 +205,19 @@ private:
   void keep_due(std::size_t count);                                              // the first ones
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  void seat(int particle, double offset);           // m, the gap at rest, negative where it overlaps
-  double indentation(const SurfacePoint &at) const; // m/N, of the mesh under a force there
-  double spring(const SurfacePoint &at) const;      // N/m, linear, without that
-  double stiffness_of(double radius) const;         // N/m, of the whole contact of a sphere
+  void seat(int particle, double offset); // m, the gap at rest, negative where it overlaps
+  // Under a force on a face that its corners share by these weights: m/N, of the mesh; N/m, of the linear
+  // spring without that.
+  double indentation(int face, const std::array<double, 4> &weights) const;
+  double spring(int face, const std::array<double, 4> &weights) const;
+  double stiffness_of(double radius) const; // N/m, of the whole contact of a sphere
   double stiffest_spring(int face, double radius) const;
   double tangential_ratio() const;
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
   void compute_in_packs(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
-                        std::size_t first, std::size_t count, const SurfacePoint *point);
+                        std::size_t first, std::size_t count, const SurfacePoints &points);
   // With the point that it finds in `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
@@ -220,6 +228,8 @@ private:
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
+  void push_particles(dem::Particles &particles) const;
+  void load_body(fem::LoadedSurface &body); // and what all rows have in common
   void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;

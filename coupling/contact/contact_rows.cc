@@ -15,8 +15,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
-const double tsuji = std::sqrt(5.0 / 6.0);                // with it Hertz' dashpot is a fraction of critical
-constexpr std::size_t rows_per_part = kernels::most_feet; // a row costs as much as some dozen bonds
+const double tsuji = std::sqrt(5.0 / 6.0);                 // with it Hertz' dashpot is a fraction of critical
+constexpr std::size_t rows_per_part = SurfacePoints::most; // a row costs as much as some bonds
 
 } // namespace
 
@@ -45,10 +45,15 @@ bool ContactLayer::holds_history(std::size_t row) const {
 // A row is passed over while nothing can have brought its particle to the surface since it was last worked
 // out.
 void ContactLayer::find_due_rows() {
-  due_.clear();
-  for (std::size_t row = 0; row < table_.size(); ++row)
-    if (!(travelled_ < idle_until_[row]) && is_own(row)) due_.push_back(row);
-  keep_due(due_.size());
+  const std::size_t rows = table_.size();
+  const bool all = own_blocks_.empty();
+  due_.resize(rows);
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    due_[count] = row;
+    count += !(travelled_ < idle_until_[row]) && (all || is_own(row)) ? 1 : 0;
+  }
+  keep_due(count);
 }
 
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
@@ -67,27 +72,27 @@ std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::Lo
 void ContactLayer::compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                                 std::size_t part) {
   const std::size_t first = part * rows_per_part, last = std::min(due_.size(), first + rows_per_part);
-  Vector3 centre[rows_per_part];
-  thread_local SurfacePoint point[rows_per_part + 1]; // one more to be read; not made anew for each part
+  int at[rows_per_part] = {};
+  thread_local SurfacePoints points; // not made anew for each part
   for (std::size_t k = first; k < last; ++k) {
-    const std::size_t i = static_cast<std::size_t>(particle_[due_[k]]);
-    centre[k - first] = particles.position[i];
+    const std::size_t i = static_cast<std::size_t>(at[k - first] = particle_[due_[k]]);
     // Asked for ahead of the search: particles at a surface stand far apart in memory.
     __builtin_prefetch(&particles.velocity[i]);
     __builtin_prefetch(&particles.radius[i]);
     if (parameters_.damping > 0) __builtin_prefetch(&particles.mass[i]);
     if (particles.has_rotation()) __builtin_prefetch(&(*particles.angular_velocity)[i]);
   }
-  search_.closest(body.surface(), &due_[first], centre, last - first, point);
-  if (compute_rows_ != nullptr) return compute_in_packs(particles, body, dt, first, last - first, point);
+  const Vector3 *position = particles.position.data();
+  search_.closest(body.surface(), &due_[first], position, at, last - first, points);
+  if (compute_rows_ != nullptr) return compute_in_packs(particles, body, dt, first, last - first, points);
   for (std::size_t k = first; k < last; ++k) {
     const std::size_t row = due_[k];
     RowForce r;
-    r.at = point[k - first];
+    r.at = points.at(k - first);
     row_force(particles, body, row, dt, r);
     keep_history(row, r);
     idle_until_[row] = r.idle_until;
-    keep_result(k, r, centre[k - first]);
+    keep_result(k, r, position[at[k - first]]);
   }
 }
 
@@ -112,6 +117,15 @@ void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
 // by row: rows that are passed over may differ from run to run, sums may not.
 void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &body) {
+  at_once(2, [&](std::size_t piece) {
+    if (piece == 0)
+      push_particles(particles);
+    else
+      load_body(body);
+  });
+}
+
+void ContactLayer::push_particles(dem::Particles &particles) const {
   for_each(loads_.size(), [&](std::size_t k) {
     const RowLoad &load = loads_[k];
     if (load.particle < 0) return;
@@ -119,6 +133,9 @@ void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &b
     particles.force[i] += load.force;
     if (particles.has_rotation()) (*particles.torque)[i] += load.torque;
   });
+}
+
+void ContactLayer::load_body(fem::LoadedSurface &body) {
   std::size_t active = 0;
   double elastic = 0, friction_loss = 0, damping_loss = 0, deepest = 0;
   for (std::size_t k = 0; k < loads_.size(); ++k) {
@@ -129,7 +146,7 @@ void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &b
     ++active;
     elastic += load.elastic;
     deepest = std::max(deepest, load.depth);
-    apply_force(body, load.face, load.weights, -load.force);
+    body.add_face_force(load.face, load.weights, -load.force);
     if (seat_spring_ != nullptr && norm_squared(moments_[k]) > 0) apply_moment(body, load.face, -moments_[k]);
   }
   closed = active;
@@ -190,14 +207,15 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
 // The spring by itself, and its dashpot.
 void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion) const {
   if (!parameters_.hertz) {
-    motion.k_n = spring(at);
+    motion.k_n = spring(at.face, at.local.weights);
     if (parameters_.damping > 0) motion.c_n = 2 * parameters_.damping * std::sqrt(stiffness_ * mass);
     motion.pressing = -motion.k_n * motion.gap;
     motion.stored = 0.5 * motion.k_n * motion.gap * motion.gap;
     return;
   }
   if (!(motion.gap < 0)) return;
-  const dem::HertzOnPlane::Response r = (*parameters_.hertz)(-motion.gap, motion.radius, indentation(at));
+  const dem::HertzOnPlane::Response r =
+      (*parameters_.hertz)(-motion.gap, motion.radius, indentation(at.face, at.local.weights));
   motion.k_n = r.stiffness;
   motion.c_n = 2 * tsuji * parameters_.damping * std::sqrt(r.stiffness * mass);
   motion.pressing = r.force;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/contact/face_of_corners.h"
 #include "coupling/contact/foot_of_face.h"
 #include "coupling/contact/surface_search.h"
 
@@ -18,37 +19,19 @@ double size_of(const Quad &q) {
 }
 
 using foot_search::rim;
-constexpr double round_off = 1e-12; // of a face: a box holds it for certain
 
-// Axes of the mean plane, the box and where a foot is single. False: no area.
-bool set_mean_plane(const Quad &q, MovingFace &face) {
-  const Vector3 across = cross(q[2] - q[0], q[3] - q[1]);
-  const double area = norm(across);
-  const Vector3 along = face.e + 0.5 * face.t;
-  if (!(area > 0)) return false;
-  face.normal = across / area;
-  const Vector3 flat = along - dot(along, face.normal) * face.normal;
-  const double length = norm(flat);
-  if (!(length > 0)) return false;
-  face.along = flat / length;
-  face.across = cross(face.normal, face.along);
-  return true;
-}
-
-void set_box(const Quad &q, MovingFace &face) {
-  const Vector3 axes[3] = {face.along, face.across, face.normal};
-  const double noise = round_off * (norm(face.e) + norm(face.f));
-  face.middle = face.corner;
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = 0, high = 0; // of the first corner
-    for (std::size_t k = 1; k < 4; ++k) {
-      const double at = dot(q[k] - q[0], axes[axis]);
-      low = std::min(low, at);
-      high = std::max(high, at);
+// Any axes hold for the box; nothing has a foot.
+void set_without_area(const Quad &q, MovingFace &face) {
+  Vector3 low, high; // of the first corner
+  for (std::size_t k = 1; k < 4; ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], (q[k] - q[0])[axis]);
+      high[axis] = std::max(high[axis], (q[k] - q[0])[axis]);
     }
-    face.middle += 0.5 * (low + high) * axes[axis];
-    face.half[axis] = 0.5 * (high - low) + noise;
-  }
+  const double noise = face_setup::round_off * (norm(face.e) + norm(face.f));
+  face.along = {1, 0, 0}, face.across = {0, 1, 0}, face.normal = {0, 0, 1};
+  face.middle = q[0] + 0.5 * (low + high);
+  face.half = 0.5 * (high - low) + Vector3{noise, noise, noise};
 }
 
 } // namespace
@@ -125,18 +108,23 @@ void FlatFaces::join_pieces(const fem::SurfaceMesh &surface) {
 }
 
 MovingFace moving_face(const Quad &q) {
+  const dem::Triple<double> corners[4] = {dem::triple_of(q[0]), dem::triple_of(q[1]), dem::triple_of(q[2]),
+                                          dem::triple_of(q[3])};
+  FaceOfCorners<double> of;
+  const bool has_area = set_face<dem::OfScalars>(corners, of);
   MovingFace face;
-  face.corner = q[0];
   face.set_corners(q);
-  if (!set_mean_plane(q, face)) {
-    // Any axes hold for the box of a face without area.
-    face.along = {1, 0, 0}, face.across = {0, 1, 0}, face.normal = {0, 0, 1};
-    set_box(q, face);
+  face.corner = q[0];
+  if (!has_area) {
+    set_without_area(q, face);
     return face;
   }
-  set_box(q, face);
-  face.single_foot = single_foot_within(q, face.normal) - 2 * face.half.z;
-  face.set_plane(face.normal);
+  const auto vector = dem::vector_of;
+  face.linear = vector(of.linear), face.free = vector(of.free);
+  face.square = of.square, face.constant = of.constant;
+  face.normal = vector(of.normal), face.single_foot = of.single_foot;
+  face.along = vector(of.along), face.across = vector(of.across);
+  face.middle = vector(of.middle), face.half = vector(of.half);
   return face;
 }
 

@@ -58,13 +58,14 @@ private:
 // The faces of a surface that turns or deforms, as they are in one step: what all particles near a face share
 // is worked out once, so that the foot of each costs two steps of Newton's method. The map is inverted in the
 // mean plane, for a start.
-struct MovingFace : BilinearMap {
+struct alignas(64) MovingFace : BilinearMap {
   Vector3 corner; // m
-  // A box around the face, along its mean plane.
-  Vector3 normal, along, across; // unit
-  Vector3 middle, half;          // m, global axes; along its own: along, across, normal
+  Vector3 normal; // unit, of the mean plane
   // Centres at most this far from the plane through the first corner have a single foot (m); negative: none.
   double single_foot = -1;
+  // A box around the face, along its mean plane.
+  Vector3 along, across; // unit
+  Vector3 middle, half;  // m, global axes; along its own: along, across, normal
 };
 
 // From corners in global axes (m). Any corners are legal.

@@ -1,34 +1,54 @@
-// Feet on faces that move or are flat, in packs. One source, compiled once per instruction set
-// (foot_kernel.inc.h), to the same last bit.
+// Feet on faces that move or are flat, in packs, and the faces themselves. One source, compiled once per
+// instruction set (foot_kernel.inc.h), to the same last bit.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "coupling/contact/faces.h"
+#include "coupling/contact/surface_point.h"
 #include "dem/instruction_set.h"
 
 namespace platen::coupling::kernels {
 
-// find_foot(*face[k], centre[k], foot[k]) for k < count <= most_feet; found[k]: whether there is one, as it
-// says.
-constexpr std::size_t most_feet = 32;
-using FindFeet = void (*)(const MovingFace *const *face, const Vector3 *centre, std::size_t count, Foot *foot,
-                          bool *found);
-void find_feet_baseline(const MovingFace *const *, const Vector3 *, std::size_t, Foot *, bool *);
-void find_feet_avx2(const MovingFace *const *, const Vector3 *, std::size_t, Foot *, bool *);
-void find_feet_avx512(const MovingFace *const *, const Vector3 *, std::size_t, Foot *, bool *);
+// find_foot(*face[k], centre[at[k]], ...) for k < count <= SurfacePoints::most, into `points` but for the
+// face's number. Bit k of the result: whether there is one, as it says; if not, nothing is said. Of `centre`
+// one more is read.
+using FindFeet = std::uint32_t (*)(const MovingFace *const *face, const Vector3 *centre, const int *at,
+                                   std::size_t count, SurfacePoints &points);
+std::uint32_t find_feet_baseline(const MovingFace *const *, const Vector3 *, const int *, std::size_t,
+                                 SurfacePoints &);
+std::uint32_t find_feet_avx2(const MovingFace *const *, const Vector3 *, const int *, std::size_t,
+                             SurfacePoints &);
+std::uint32_t find_feet_avx512(const MovingFace *const *, const Vector3 *, const int *, std::size_t,
+                               SurfacePoints &);
 inline FindFeet find_feet(dem::InstructionSet set) {
   return dem::for_set<FindFeet>(set, find_feet_baseline, find_feet_avx2, find_feet_avx512);
 }
 
-// The same of flat faces; centres relative to the first corner of each.
-using FindFlatFeet = void (*)(const FlatFace *const *face, const Vector3 *centre, std::size_t count,
-                              FlatFoot *foot, bool *found);
-void find_flat_feet_baseline(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
-void find_flat_feet_avx2(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
-void find_flat_feet_avx512(const FlatFace *const *, const Vector3 *, std::size_t, FlatFoot *, bool *);
+// The same of flat faces, with the first corner of each as it is now.
+using FindFlatFeet = std::uint32_t (*)(const FlatFace *const *face, const Vector3 *const *corner,
+                                       const Vector3 *centre, const int *at, std::size_t count,
+                                       SurfacePoints &points);
+std::uint32_t find_flat_feet_baseline(const FlatFace *const *, const Vector3 *const *, const Vector3 *,
+                                      const int *, std::size_t, SurfacePoints &);
+std::uint32_t find_flat_feet_avx2(const FlatFace *const *, const Vector3 *const *, const Vector3 *,
+                                  const int *, std::size_t, SurfacePoints &);
+std::uint32_t find_flat_feet_avx512(const FlatFace *const *, const Vector3 *const *, const Vector3 *,
+                                    const int *, std::size_t, SurfacePoints &);
 inline FindFlatFeet find_flat_feet(dem::InstructionSet set) {
   return dem::for_set<FindFlatFeet>(set, find_flat_feet_baseline, find_flat_feet_avx2, find_flat_feet_avx512);
+}
+
+// moving[number[k]] = moving_face() of the corners that these faces have (vertices, four of each face), k <
+// count.
+using SetFaces = void (*)(const Vector3 *vertex, const int *corners, const int *number, std::size_t count,
+                          MovingFace *moving);
+void set_faces_baseline(const Vector3 *, const int *, const int *, std::size_t, MovingFace *);
+void set_faces_avx2(const Vector3 *, const int *, const int *, std::size_t, MovingFace *);
+void set_faces_avx512(const Vector3 *, const int *, const int *, std::size_t, MovingFace *);
+inline SetFaces set_faces(dem::InstructionSet set) {
+  return dem::for_set<SetFaces>(set, set_faces_baseline, set_faces_avx2, set_faces_avx512);
 }
 
 } // namespace platen::coupling::kernels

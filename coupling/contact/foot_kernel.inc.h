@@ -1,5 +1,7 @@
-// Bodies of the foot kernels; the including file sets PLATEN_LANES, PLATEN_FEET and PLATEN_FLAT_FEET.
+// Bodies of the foot kernels; the including file sets PLATEN_LANES, PLATEN_FEET, PLATEN_FLAT_FEET and
+// PLATEN_SET_FACES.
 // Compiled without contraction, as the rest of the layer is.
+#include "coupling/contact/face_of_corners.h"
 #include "coupling/contact/foot_kernel.h"
 #include "coupling/contact/foot_of_face.h"
 #include "dem/kernels/lane_mask.inc.h"
@@ -8,7 +10,9 @@
 namespace platen::coupling::kernels {
 namespace {
 
+using dem::dot;
 using dem::Rotation;
+using dem::scale;
 using dem::Triple;
 using dem::kernels::lanes;
 using dem::kernels::Pack;
@@ -40,13 +44,11 @@ PLATEN_INLINE Eight read_map(const Face *const *face, Map &m) {
 }
 
 PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
-  static_assert(sizeof(MovingFace) == 36 * sizeof(double));
   FaceMap<Pack> m;
   const Eight rest = read_map(face, m);
   m.corner = {rest.first.x, rest.first.y, rest.first.z};
   m.normal = {rest.second.w, rest.second.x, rest.second.y};
-  for (int l = 0; l < lanes; ++l)
-    m.single_foot.v[l] = face[l]->single_foot;
+  m.single_foot = rest.second.z;
   return m;
 }
 
@@ -59,64 +61,144 @@ PLATEN_INLINE FlatMap<Pack> map_of(const FlatFace *const *face) {
   return m;
 }
 
-PLATEN_INLINE Triple<Pack> gather(const Vector3 *const *from) {
-  Triple<Pack> a;
-  for (int l = 0; l < lanes; ++l)
-    a.x.v[l] = from[l]->x, a.y.v[l] = from[l]->y, a.z.v[l] = from[l]->z;
-  return a;
-}
-
-// Faces and centres from `first` on, lane by lane; the last once more where there are fewer.
-template <class Face>
+// Lanes of a pack from `first` on; the last once more where there are fewer.
 struct Lanes {
-  const Face *face[lanes];
-  const Vector3 *centre[lanes];
+  std::size_t of[lanes];
 
-  PLATEN_INLINE Lanes(const Face *const *faces, const Vector3 *centres, std::size_t first,
-                      std::size_t count) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::size_t k = first + l < count ? first + l : count - 1;
-      face[l] = faces[k], centre[l] = centres + k;
-    }
+  PLATEN_INLINE Lanes(std::size_t first, std::size_t count) {
+    for (std::size_t l = 0; l < lanes; ++l)
+      of[l] = first + l < count ? first + l : count - 1;
+  }
+  template <class T>
+  PLATEN_INLINE void pick(const T *from, T *to) const {
+    for (int l = 0; l < lanes; ++l)
+      to[l] = from[of[l]];
   }
 };
 
-} // namespace
-
-void PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *centre, std::size_t count, FlatFoot *foot,
-                      bool *found) {
-  for (std::size_t first = 0; first < count; first += lanes) {
-    const Lanes<FlatFace> at(face, centre, first, count);
-    FootOnFlat<Pack> feet;
-    const auto inside = search_flat_foot<dem::kernels::OfLanes>(map_of(at.face), gather(at.centre), feet);
-    const unsigned bits = dem::kernels::bits_of(inside);
-    for (std::size_t l = 0; l < lanes && first + l < count; ++l) {
-      found[first + l] = bits >> l & 1u;
-      foot[first + l] = {feet.u.v[l], feet.v.v[l], feet.distance.v[l]};
-    }
-  }
+PLATEN_INLINE void write(double *to, const Pack &a) {
+  __builtin_memcpy(to, &a.v, sizeof a.v);
+}
+template <class Columns>
+PLATEN_INLINE void write(Columns &to, std::size_t first, const Triple<Pack> &a) {
+  write(&to[0][first], a.x), write(&to[1][first], a.y), write(&to[2][first], a.z);
 }
 
-void PLATEN_FEET(const MovingFace *const *face, const Vector3 *centre, std::size_t count, Foot *foot,
-                 bool *found) {
+// bilinear_weights() (closest_point.h).
+PLATEN_INLINE void write_place(SurfacePoints &to, std::size_t first, const Pack &u, const Pack &v) {
+  const Pack one = Pack(1.0), w[3] = {(one - u) * (one - v), u * (one - v), u * v};
+  write(&to.u[first], u), write(&to.v[first], v);
+  for (int corner = 0; corner < 3; ++corner)
+    write(&to.weights[corner][first], w[corner]);
+  write(&to.weights[3][first], one - ((w[0] + w[1]) + w[2]));
+}
+
+// As a surface search sets a point by its foot.
+PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFace<Pack> &foot) {
+  write_place(to, first, foot.u, foot.v);
+  write(to.arm, first, scale(Pack(-1.0), foot.out)), write(to.normal, first, foot.normal);
+  write(to.along_u, first, foot.along_u), write(to.along_v, first, foot.along_v);
+  write(&to.distance[first], dot(foot.out, foot.normal));
+  write(&to.distance_squared[first], dot(foot.out, foot.out));
+}
+PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFlat<Pack> &foot,
+                              const Triple<Pack> &normal) {
+  write_place(to, first, foot.u, foot.v);
+  write(to.arm, first, scale(Pack(-foot.distance), normal)), write(to.normal, first, normal);
+  const Triple<Pack> none = dem::no_vector<Pack>();
+  write(to.along_u, first, none), write(to.along_v, first, none);
+  write(&to.distance[first], foot.distance);
+  write(&to.distance_squared[first], foot.distance * foot.distance);
+}
+
+// Four members of eight faces that stand beside each other.
+PLATEN_INLINE void scatter(const Rotation<Pack> &four, std::size_t place, int count,
+                           MovingFace *const *face) {
+  dem::kernels::Row rows[lanes];
+  dem::kernels::to_rows(four, rows);
+  for (int l = 0; l < count; ++l)
+    dem::kernels::store_row(&face[l]->e.x + place, rows[l]);
+}
+PLATEN_INLINE void scatter(const FaceOfCorners<Pack> &f, int count, MovingFace *const *face) {
+  static_assert(sizeof(MovingFace) == 40 * sizeof(double));
+  scatter({f.e.x, f.e.y, f.e.z, f.f.x}, 0, count, face);
+  scatter({f.f.y, f.f.z, f.t.x, f.t.y}, 4, count, face);
+  scatter({f.t.z, f.linear.x, f.linear.y, f.linear.z}, 8, count, face);
+  scatter({f.free.x, f.free.y, f.free.z, f.square}, 12, count, face);
+  scatter({f.constant, f.corner.x, f.corner.y, f.corner.z}, 16, count, face);
+  scatter({f.normal.x, f.normal.y, f.normal.z, f.single_foot}, 20, count, face);
+  scatter({f.along.x, f.along.y, f.along.z, f.across.x}, 24, count, face);
+  scatter({f.across.y, f.across.z, f.middle.x, f.middle.y}, 28, count, face);
+  scatter({f.middle.z, f.half.x, f.half.y, f.half.z}, 32, count, face);
+}
+
+} // namespace
+
+std::uint32_t PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *const *corner,
+                               const Vector3 *centre, const int *at, std::size_t count,
+                               SurfacePoints &points) {
+  std::uint32_t found = 0;
   for (std::size_t first = 0; first < count; first += lanes) {
-    const std::size_t last = first + lanes < count ? first + lanes : count;
-    const Lanes<MovingFace> at(face, centre, first, count);
+    const Lanes in(first, count);
+    const FlatFace *faces[lanes];
+    int rows[lanes];
+    dem::kernels::Row corners[lanes];
+    in.pick(face, faces), in.pick(at, rows);
+    for (int l = 0; l < lanes; ++l)
+      corners[l] = dem::kernels::load_vector(corner[in.of[l]]);
+    const Triple<Pack> from = dem::kernels::gather(centre, rows) - dem::kernels::to_vectors(corners);
+    const FlatMap<Pack> map = map_of(faces);
+    FootOnFlat<Pack> feet;
+    const auto inside = search_flat_foot<dem::kernels::OfLanes>(map, from, feet);
+    write_foot(points, first, feet, map.normal);
+    found |= static_cast<std::uint32_t>(dem::kernels::bits_of(inside)) << first;
+  }
+  return found;
+}
+
+std::uint32_t PLATEN_FEET(const MovingFace *const *face, const Vector3 *centre, const int *at,
+                          std::size_t count, SurfacePoints &points) {
+  std::uint32_t found = 0;
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const Lanes in(first, count);
+    const MovingFace *faces[lanes];
+    int rows[lanes];
+    in.pick(face, faces), in.pick(at, rows);
     FootOnFace<Pack> feet;
-    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(at.face), gather(at.centre), feet);
+    const auto inside =
+        search_foot<dem::kernels::OfLanes>(map_of(faces), dem::kernels::gather(centre, rows), feet);
     const unsigned bits = dem::kernels::bits_of(inside);
-    if (bits == 0) {
-      for (std::size_t k = first; k < last; ++k)
-        found[k] = false;
-      continue;
+    if (bits == 0) continue;
+    write_foot(points, first, feet);
+    found |= static_cast<std::uint32_t>(bits) << first;
+  }
+  return found;
+}
+
+void PLATEN_SET_FACES(const Vector3 *vertex, const int *corners, const int *number, std::size_t count,
+                      MovingFace *moving) {
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const Lanes in(first, count);
+    int faces[lanes];
+    in.pick(number, faces);
+    Triple<Pack> q[4];
+    for (int corner = 0; corner < 4; ++corner) {
+      dem::kernels::Row rows[lanes];
+      for (int l = 0; l < lanes; ++l)
+        rows[l] = dem::kernels::load_vector(vertex + corners[4 * faces[l] + corner]);
+      q[corner] = dem::kernels::to_vectors(rows);
     }
-    for (std::size_t l = 0; first + l < last; ++l) {
-      found[first + l] = bits >> l & 1u;
-      Foot &to = foot[first + l];
-      const auto vector = [l](const Triple<Pack> &a) { return Vector3{a.x.v[l], a.y.v[l], a.z.v[l]}; };
-      to.u = feet.u.v[l], to.v = feet.v.v[l];
-      to.out = vector(feet.out), to.along_u = vector(feet.along_u), to.along_v = vector(feet.along_v);
-      to.normal = vector(feet.normal);
+    FaceOfCorners<Pack> face;
+    const unsigned whole = dem::kernels::bits_of(set_face<dem::kernels::OfLanes>(q, face));
+    MovingFace *to[lanes];
+    for (int l = 0; l < lanes; ++l)
+      to[l] = moving + faces[l];
+    const int many = static_cast<int>(count - first < lanes ? count - first : lanes);
+    scatter(face, many, to);
+    for (int l = 0; l < many; ++l) {
+      if (whole >> l & 1u) continue;
+      const int *c = corners + 4 * faces[l];
+      *to[l] = moving_face({vertex[c[0]], vertex[c[1]], vertex[c[2]], vertex[c[3]]});
     }
   }
 }

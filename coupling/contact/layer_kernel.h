@@ -41,17 +41,17 @@ struct LayerStep {
   double travelled = 0; // m, as in idle_until
 };
 
-// Rows row[0 ... count), ascending, count <= most_feet, with the points closest to them, one more to be read,
-// and the normal stiffness of each (N/m), most_feet to be read.
+// Rows row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them and the
+// normal stiffness of each (N/m), SurfacePoints::most to be read.
 using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
-                             const SurfacePoint *point, const double *normal_stiffness,
+                             const SurfacePoints &points, const double *normal_stiffness,
                              const std::size_t *row, std::size_t count, RowLoad *load, RowContact *contact);
 void compute_rows_baseline(const LayerColumns &, const LayerSurface &, const LayerStep &,
-                           const SurfacePoint *, const double *, const std::size_t *, std::size_t, RowLoad *,
+                           const SurfacePoints &, const double *, const std::size_t *, std::size_t, RowLoad *,
                            RowContact *);
-void compute_rows_avx2(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoint *,
+void compute_rows_avx2(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
                        const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
-void compute_rows_avx512(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoint *,
+void compute_rows_avx512(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
                          const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
 inline ComputeRows compute_rows(dem::InstructionSet set) {
   return dem::for_set<ComputeRows>(set, compute_rows_baseline, compute_rows_avx2, compute_rows_avx512);

@@ -23,7 +23,7 @@ using How = dem::kernels::OfLanes;
 struct Rows {
   int row[lanes], particle[lanes], count;
   bool follow; // each other in memory, and fill the pack
-  const SurfacePoint *point[lanes];
+  int face[lanes];
 };
 
 // Columns of the layer: most rows stand beside each other.
@@ -43,22 +43,22 @@ PLATEN_INLINE void write(Vector3 *column, const Rows &r, const Triple<Pack> &a) 
 
 // The closest points of a pack.
 struct Points {
-  Triple<Pack> arm, normal, along_u, along_v; // m, 1, m
+  Triple<Pack> arm, normal, along_u, along_v; // m, 1, m, m
   Pack u, v, distance;
 };
-PLATEN_INLINE Points points_of(const SurfacePoint *const *point) {
-  dem::kernels::LongRow local[lanes], normals[lanes];
-  dem::kernels::Row places[lanes], along[lanes];
-  for (int l = 0; l < lanes; ++l) {
-    local[l] = dem::kernels::load_long_row(&point[l]->local.point.x);
-    places[l] = dem::kernels::load_row(&point[l]->local.u);
-    normals[l] = dem::kernels::load_long_row(&point[l]->normal.x);
-    along[l] = dem::kernels::load_row(&point[l]->along_v.x);
-  }
-  const Rotation<Pack> a = dem::kernels::first_columns(local), b = dem::kernels::to_columns(places);
-  const Rotation<Pack> n = dem::kernels::first_columns(normals), t = dem::kernels::second_columns(normals);
-  const Rotation<Pack> s = dem::kernels::to_columns(along);
-  return {{a.w, a.x, a.y}, {n.w, n.x, n.y}, {t.w, t.x, t.y}, {s.w, s.x, s.y}, b.w, b.x, n.z};
+template <class Columns>
+PLATEN_INLINE Triple<Pack> vector_at(const Columns &from, std::size_t first) {
+  return {dem::kernels::load(&from[0][first]), dem::kernels::load(&from[1][first]),
+          dem::kernels::load(&from[2][first])};
+}
+PLATEN_INLINE Points points_at(const SurfacePoints &from, std::size_t first) {
+  return {vector_at(from.arm, first),
+          vector_at(from.normal, first),
+          vector_at(from.along_u, first),
+          vector_at(from.along_v, first),
+          dem::kernels::load(&from.u[first]),
+          dem::kernels::load(&from.v[first]),
+          dem::kernels::load(&from.distance[first])};
 }
 
 struct SurfaceMotions {
@@ -67,11 +67,10 @@ struct SurfaceMotions {
 };
 
 // surface_motion() (transfer.h).
-PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const SurfacePoint *const *point,
-                                       const Points &p) {
+PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const int *faces, const Points &p) {
   const int *corners[lanes];
   for (int l = 0; l < lanes; ++l)
-    corners[l] = surface.corner + 4 * point[l]->face;
+    corners[l] = surface.corner + 4 * faces[l];
   const auto of_corner = [&](int corner) {
     dem::kernels::Row rows[lanes];
     for (int l = 0; l < lanes; ++l)
@@ -132,7 +131,7 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
     const Vector3 &all = surface.velocity[0];
     face = {{Pack(all.x), Pack(all.y), Pack(all.z)}, zero};
   } else {
-    face = motion_of(surface, r.point, p);
+    face = motion_of(surface, r.face, p);
   }
   Triple<Pack> v = gather(c.velocity, r.particle);
   if (c.angular_velocity != nullptr) v = v + cross(gather(c.angular_velocity, r.particle), p.arm);
@@ -162,11 +161,12 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
 }
 
 // Four numbers at once; what runs into the next one is written before it.
-PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Push &push,
-                        RowLoad *load, RowContact *contact) {
+PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Rotation<Pack> &weights,
+                        const Push &push, RowLoad *load, RowContact *contact) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
   const Triple<Pack> point = gather(c.position, r.particle) + p.arm;
-  dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes];
+  dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes], shares[lanes];
+  dem::kernels::to_rows(weights, shares);
   dem::kernels::to_rows(force, forces);
   dem::kernels::to_rows(cross(p.arm, force), torques);
   dem::kernels::to_rows(
@@ -176,8 +176,8 @@ PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, c
   const unsigned active = dem::kernels::bits_of(push.active);
   for (int l = 0; l < r.count; ++l) {
     load[l].particle = active >> l & 1u ? r.particle[l] : -1;
-    load[l].face = r.point[l]->face;
-    dem::kernels::store_row(load[l].weights.data(), dem::kernels::load_row(r.point[l]->local.weights.data()));
+    load[l].face = r.face[l];
+    dem::kernels::store_row(load[l].weights.data(), shares[l]);
     dem::kernels::store_row(&load[l].force.x, forces[l]);
     dem::kernels::store_row(&load[l].torque.x, torques[l]);
     dem::kernels::store_row(&load[l].normal_force, sums[l]);
@@ -189,7 +189,7 @@ PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, c
 } // namespace
 
 void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
-                   const SurfacePoint *point, const double *normal_stiffness, const std::size_t *row,
+                   const SurfacePoints &points, const double *normal_stiffness, const std::size_t *row,
                    std::size_t count, RowLoad *load, RowContact *contact) {
   for (std::size_t first = 0; first < count; first += lanes) {
     Rows r;
@@ -198,12 +198,15 @@ void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const Lay
       const std::size_t k = first + static_cast<std::size_t>(l < r.count ? l : r.count - 1);
       r.row[l] = static_cast<int>(row[k]);
       r.particle[l] = c.particle[row[k]];
-      r.point[l] = point + k;
+      r.face[l] = points.face[k];
     }
     r.follow = r.count == lanes && r.row[lanes - 1] - r.row[0] == lanes - 1; // they ascend
     const Pack k_n = dem::kernels::load(normal_stiffness + first);
-    const Points p = points_of(r.point);
-    keep(c, r, p, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
+    const Points p = points_at(points, first);
+    const auto &w = points.weights;
+    const Rotation<Pack> weights{dem::kernels::load(&w[0][first]), dem::kernels::load(&w[1][first]),
+                                 dem::kernels::load(&w[2][first]), dem::kernels::load(&w[3][first])};
+    keep(c, r, p, weights, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
   }
 }
 

@@ -73,11 +73,11 @@ bool SurfaceSearch::foot(const SurfaceMesh &surface, int face, const Vector3 &ce
 }
 
 // Of a foot on a face listed: every other one lies in the same plane or farther away.
-bool SurfaceSearch::others_are_farther(std::size_t k, const SurfacePoint &foot) const {
-  const double distance = std::abs(foot.distance) * (1 + margin);
-  const int piece = flat_.piece(foot.face);
+bool SurfaceSearch::others_are_farther(std::size_t k, int face, double distance) const {
+  const double limit = std::abs(distance) * (1 + margin);
+  const int piece = flat_.piece(face);
   for (std::size_t other = first_near_[k]; other < first_near_[k + 1]; ++other) {
-    if (near_[other].distance - travelled_ > distance) break;
+    if (near_[other].distance - travelled_ > limit) break;
     if (flat_.piece(near_[other].face) != piece) return false;
   }
   return true;
@@ -87,7 +87,8 @@ bool SurfaceSearch::others_are_farther(std::size_t k, const SurfacePoint &foot) 
 bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
                                     SurfacePoint &result) const {
   for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n)
-    if (foot(surface, near_[n].face, centre, result)) return others_are_farther(k, result);
+    if (foot(surface, near_[n].face, centre, result))
+      return others_are_farther(k, result.face, result.distance);
   return false;
 }
 
@@ -111,47 +112,39 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
 
 // As foot_of_nearest does it: most have their foot on the first face listed.
 void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_t *entry,
-                                    const Vector3 *centre, std::size_t count, SurfacePoint *point) const {
-  const FlatFace *face[kernels::most_feet] = {};
-  Vector3 from[kernels::most_feet];
-  FlatFoot foot[kernels::most_feet];
-  bool found[kernels::most_feet] = {};
+                                    const Vector3 *centre, const int *at, std::size_t count,
+                                    SurfacePoints &points) const {
+  const FlatFace *face[SurfacePoints::most] = {};
+  const Vector3 *corner[SurfacePoints::most] = {};
   for (std::size_t n = 0; n < count; ++n) {
-    const int first = near_[first_near_[entry[n]]].face;
+    const int first = points.face[n] = first_face(entry[n]);
     face[n] = &flat_.face(first);
-    from[n] = from_corner(surface, first, centre[n]);
+    corner[n] = &vertex_at(surface, corners_of(surface, first)[0]);
   }
-  find_flat_feet_(face, from, count, foot, found);
-  for (std::size_t n = 0; n < count; ++n) {
-    if (found[n]) set_flat_foot(near_[first_near_[entry[n]]].face, foot[n], point[n]);
-    if (!found[n] || !others_are_farther(entry[n], point[n]))
-      point[n] = closest(surface, entry[n], centre[n]);
-  }
+  const std::uint32_t found = find_flat_feet_(face, corner, centre, at, count, points);
+  for (std::size_t n = 0; n < count; ++n)
+    if (!(found >> n & 1u) || !others_are_farther(entry[n], points.face[n], points.distance[n]))
+      points.set(n, closest(surface, entry[n], centre[at[n]]));
 }
 
 // A foot on the first face of the list is the answer where every other face listed is sure to be farther.
 void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
-                            std::size_t count, SurfacePoint *point) const {
-  if (surface.only_shifted) return closest_on_flat(surface, entry, centre, count, point);
+                            const int *at, std::size_t count, SurfacePoints &points) const {
+  if (surface.only_shifted) return closest_on_flat(surface, entry, centre, at, count, points);
   if (!looked_) {
     for (std::size_t n = 0; n < count; ++n)
-      point[n] = closest(surface, entry[n], centre[n]);
+      points.set(n, closest(surface, entry[n], centre[at[n]]));
     return;
   }
-  const MovingFace *face[kernels::most_feet] = {};
-  Foot foot[kernels::most_feet];
-  bool found[kernels::most_feet] = {};
-  for (std::size_t n = 0; n < count; ++n)
-    face[n] = &moving_[static_cast<std::size_t>(near_[first_near_[entry[n]]].face)];
-  find_feet_(face, centre, count, foot, found);
+  const MovingFace *face[SurfacePoints::most] = {};
   for (std::size_t n = 0; n < count; ++n) {
-    if (found[n] && is_nearest(entry[n], centre[n], norm_squared(foot[n].out))) {
-      point[n].face = near_[first_near_[entry[n]]].face;
-      set_foot(foot[n], point[n]);
-    } else {
-      point[n] = closest_listed(surface, entry[n], centre[n]);
-    }
+    points.face[n] = first_face(entry[n]);
+    face[n] = &moving_[static_cast<std::size_t>(points.face[n])];
   }
+  const std::uint32_t found = find_feet_(face, centre, at, count, points);
+  for (std::size_t n = 0; n < count; ++n)
+    if (!(found >> n & 1u) || !is_nearest(entry[n], centre[at[n]], points.distance_squared[n]))
+      points.set(n, closest_listed(surface, entry[n], centre[at[n]]));
 }
 
 // Whether no face behind the first can be as near as that.

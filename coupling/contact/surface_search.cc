@@ -26,6 +26,7 @@ SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin, dem::Instr
     : skin_(skin),
       find_feet_(kernels::find_feet(instruction_set)),
       find_flat_feet_(kernels::find_flat_feet(instruction_set)),
+      set_faces_(kernels::set_faces(instruction_set)),
       tree_(face_boxes(surface)),
       flat_(surface),
       faces_of_vertex_(fem::faces_of_vertices(surface)) {
@@ -98,11 +99,11 @@ void SurfaceSearch::update(const SurfaceMesh &surface) {
   if (surface.only_shifted || looked_) return;
   moving_.resize(surface.faces.size());
   constexpr std::size_t faces_per_part = 32;
-  for_each(
+  for_each_block(
       near_faces_.size(),
-      [&](std::size_t k) {
-        const int face = near_faces_[k];
-        moving_[static_cast<std::size_t>(face)] = moving_face(face_corners(surface, face, {}));
+      [&](std::size_t first, std::size_t last, std::size_t) {
+        set_faces_(surface.vertices.data(), surface.faces[0].data(), &near_faces_[first], last - first,
+                   moving_.data());
       },
       faces_per_part);
   looked_ = true;

@@ -9,6 +9,7 @@
 #include "coupling/contact/closest_point.h"
 #include "coupling/contact/faces.h"
 #include "coupling/contact/foot_kernel.h"
+#include "coupling/contact/surface_point.h"
 #include "dem/particles.h"
 #include "fem/surface.h"
 
@@ -59,16 +60,6 @@ private:
   std::vector<Node> nodes_; // parents before children
 };
 
-// The closest point of a whole surface to a particle's centre.
-struct SurfacePoint {
-  int face = -1;
-  ClosestPoint local;  // point relative to the centre; weights of the face's corners
-  Vector3 normal;      // unit, out of the body; from the surface to the centre where the centre is outside
-  double distance = 0; // m, of the centre; negative inside the body
-  // m, of the face by u and v; where a surface only shifts nobody asks, and they are zero.
-  Vector3 along_u, along_v;
-};
-
 const Vector3 &vertex_at(const fem::SurfaceMesh &surface, int vertex); // m
 
 // Corners of a face relative to a point.
@@ -111,10 +102,10 @@ public:
   // called from several threads.
   SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
 
-  // The same for the entries [0, count), count <= kernels::most_feet, of lists of them and of their centres:
-  // in vectors, to the same bits.
+  // The same for `count` entries, at most SurfacePoints::most, whose centres are centre[at[k]], of which one
+  // more is read: in vectors, to the same bits.
   void closest(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
-               std::size_t count, SurfacePoint *point) const;
+               const int *at, std::size_t count, SurfacePoints &points) const;
 
   // The same by looking at every face: the oracle of the tests, and right for a single question.
   SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const Vector3 &centre) const;
@@ -142,8 +133,9 @@ private:
   bool foot(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, SurfacePoint &result) const;
   void set_flat_foot(int face, const FlatFoot &foot, SurfacePoint &result) const;
   void closest_on_flat(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
-                       std::size_t count, SurfacePoint *point) const;
-  bool others_are_farther(std::size_t k, const SurfacePoint &foot) const;
+                       const int *at, std::size_t count, SurfacePoints &points) const;
+  int first_face(std::size_t k) const { return near_[first_near_[k]].face; }
+  bool others_are_farther(std::size_t k, int face, double distance) const;
   bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
                        SurfacePoint &result) const;
   SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
@@ -155,6 +147,7 @@ private:
   double skin_;
   kernels::FindFeet find_feet_;
   kernels::FindFlatFeet find_flat_feet_;
+  kernels::SetFaces set_faces_;
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;
   FlatFaces flat_;

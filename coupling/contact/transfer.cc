@@ -65,13 +65,6 @@ Vector3 face_rotation(const fem::SurfaceMesh &surface, int face) {
   return turn_by_arms(r, circulation);
 }
 
-void apply_force(fem::LoadedSurface &body, int face, const std::array<double, 4> &weights,
-                 const Vector3 &force) {
-  const std::array<int, 4> corners = body.surface().faces[static_cast<std::size_t>(face)];
-  for (std::size_t k = 0; k < 4; ++k)
-    body.add_surface_force(corners[k], weights[k] * force);
-}
-
 void apply_moment(fem::LoadedSurface &body, int face, const Vector3 &moment) {
   const Quad r = arms(body.surface(), face);
   const Vector3 turn = turn_by_arms(r, moment);

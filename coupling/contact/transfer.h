@@ -22,10 +22,6 @@ SurfaceMotion surface_motion(const fem::SurfaceMesh &surface, const SurfacePoint
 // they move rigidly; zero for corners on a line.
 Vector3 face_rotation(const fem::SurfaceMesh &surface, int face);
 
-// Puts a force (N), acting on the body at a point of the face, on the corners by the point's weights.
-void apply_force(fem::LoadedSurface &body, int face, const std::array<double, 4> &weights,
-                 const Vector3 &force);
-
 // Puts a moment (N m) on the corners as forces without a sum: the transpose of face_rotation.
 void apply_moment(fem::LoadedSurface &body, int face, const Vector3 &moment);
 

@@ -78,6 +78,11 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
   const auto same_bits = [](const FlatFoot &a, const FlatFoot &b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
   };
+  std::vector<Vector3> corners, turned_round(centres.size() + 1); // one to spare
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    corners.push_back({0.1 * static_cast<double>(k % 7), -0.2 * static_cast<double>(k % 3), 1});
+    turned_round[centres.size() - 1 - k] = corners[k] + centres[k];
+  }
   int feet = 0, none = 0;
   for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
                                   {dem::InstructionSet::avx2, "avx2"},
@@ -85,19 +90,25 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
     if (set > dem::best_instruction_set()) continue;
     for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
       many = std::min(many, faces.size() - first);
-      const FlatFace *face[kernels::most_feet];
-      FlatFoot foot[kernels::most_feet];
-      bool found[kernels::most_feet];
-      for (std::size_t k = 0; k < many; ++k)
-        face[k] = &faces[first + k];
-      kernels::find_flat_feet(set)(face, &centres[first], many, foot, found);
+      const FlatFace *face[SurfacePoints::most];
+      const Vector3 *corner[SurfacePoints::most];
+      int at[SurfacePoints::most];
+      for (std::size_t k = 0; k < many; ++k) {
+        face[k] = &faces[first + k], corner[k] = &corners[first + k];
+        at[k] = static_cast<int>(faces.size() - 1 - first - k);
+      }
+      SurfacePoints points;
+      const std::uint32_t found =
+          kernels::find_flat_feet(set)(face, corner, turned_round.data(), at, many, points);
       for (std::size_t k = 0; k < many; ++k) {
         FlatFoot alone;
-        const bool expected = find_foot(faces[first + k], centres[first + k], alone);
-        ASSERT_EQ(found[k], expected) << name << ", face " << first + k << ", " << many << " in the call";
+        const bool expected = find_foot(
+            faces[first + k], turned_round[static_cast<std::size_t>(at[k])] - corners[first + k], alone);
+        ASSERT_EQ((found >> k & 1u) != 0, expected) << name << ", face " << first + k << ", " << many;
         ++(expected ? feet : none);
         if (!expected) continue;
-        ASSERT_TRUE(same_bits(foot[k], alone)) << name << ", face " << first + k;
+        ASSERT_TRUE(same_bits({points.u[k], points.v[k], points.distance[k]}, alone))
+            << name << ", face " << first + k;
       }
     }
   }
@@ -132,15 +143,16 @@ TEST(FlatFaces, of_a_plate_that_drops_have_one_answer) {
         many = std::min(many, listed - first);
         std::vector<std::size_t> entry;
         std::vector<Vector3> asked;
+        const int *at = &search.particles()[first];
         for (std::size_t k = first; k < first + many; ++k) {
           entry.push_back(k);
-          asked.push_back(particles.position[static_cast<std::size_t>(search.particles()[k])]);
+          asked.push_back(particles.position[static_cast<std::size_t>(at[k - first])]);
         }
-        std::vector<SurfacePoint> packed(many);
-        search.closest(surface, entry.data(), asked.data(), many, packed.data());
+        SurfacePoints packed;
+        search.closest(surface, entry.data(), particles.position.data(), at, many, packed);
         for (std::size_t k = 0; k < many; ++k) {
           const SurfacePoint all = search.closest_of_all(surface, asked[k]);
-          for (const SurfacePoint &p : {packed[k], search.closest(surface, entry[k], asked[k])}) {
+          for (const SurfacePoint &p : {packed.at(k), search.closest(surface, entry[k], asked[k])}) {
             ASSERT_EQ(p.face, all.face) << "entry " << entry[k] << ", step " << step;
             ASSERT_EQ(p.distance, all.distance) << "entry " << entry[k] << ", step " << step;
             ASSERT_EQ(norm(p.normal - all.normal), 0) << "entry " << entry[k] << ", step " << step;

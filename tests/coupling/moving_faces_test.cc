@@ -79,6 +79,8 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
     std::memcpy(bytes.data(), &foot, sizeof foot);
     return bytes;
   };
+  std::vector<Vector3> turned_round(centres.rbegin(), centres.rend());
+  turned_round.emplace_back(); // to spare
   int feet = 0;
   for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
                                   {dem::InstructionSet::avx2, "avx2"},
@@ -86,23 +88,72 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
     if (set > dem::best_instruction_set()) continue;
     for (std::size_t first = 0, count = 1; first < faces.size(); first += count, count = count % 32 + 1) {
       count = std::min(count, faces.size() - first);
-      const MovingFace *face[kernels::most_feet];
-      Foot foot[kernels::most_feet];
-      bool found[kernels::most_feet];
-      for (std::size_t k = 0; k < count; ++k)
+      const MovingFace *face[SurfacePoints::most];
+      int at[SurfacePoints::most];
+      for (std::size_t k = 0; k < count; ++k) {
         face[k] = &faces[first + k];
-      kernels::find_feet(set)(face, &centres[first], count, foot, found);
+        at[k] = static_cast<int>(faces.size() - 1 - first - k);
+      }
+      SurfacePoints points;
+      const std::uint32_t found = kernels::find_feet(set)(face, turned_round.data(), at, count, points);
       for (std::size_t k = 0; k < count; ++k) {
         Foot alone;
         const bool expected = find_foot(faces[first + k], centres[first + k], alone);
-        ASSERT_EQ(found[k], expected) << name << ", face " << first + k << ", " << count << " in the call";
+        ASSERT_EQ((found >> k & 1u) != 0, expected) << name << ", face " << first + k << ", " << count;
         if (!expected) continue;
         ++feet;
-        ASSERT_EQ(bits_of(foot[k]), bits_of(alone)) << name << ", face " << first + k;
+        const SurfacePoint p = points.at(k);
+        const Foot packed{p.local.u, p.local.v, -p.local.point, p.along_u, p.along_v, p.normal};
+        ASSERT_EQ(bits_of(packed), bits_of(alone)) << name << ", face " << first + k;
+        ASSERT_EQ(p.local.weights, bilinear_weights(alone.u, alone.v)) << name << ", face " << first + k;
+        ASSERT_EQ(p.distance, dot(alone.out, alone.normal)) << name << ", face " << first + k;
+        ASSERT_EQ(p.local.distance_squared, norm_squared(alone.out)) << name << ", face " << first + k;
       }
     }
   }
   EXPECT_GT(feet, 1500);
+}
+
+// The same of what faces are set up from: all of it, warped, flat, folded over and without area.
+TEST(moving_faces, in_packs_are_those_of_single_ones) {
+  std::mt19937 engine(12);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  std::vector<Vector3> vertices;
+  for (int k = 0; k < 400; ++k)
+    vertices.push_back({draw(engine), k % 3 == 0 ? 0.25 : draw(engine), draw(engine)});
+  std::uniform_int_distribution<int> any(0, 399);
+  std::vector<std::array<int, 4>> corners;
+  std::vector<int> number;
+  for (int k = 0; k < 1000; ++k) {
+    corners.push_back({any(engine), any(engine), any(engine), any(engine)});
+    if (k % 20 == 3) corners.back() = {k % 400, k % 400, k % 400, k % 400};
+    if (k % 7 != 0) number.push_back(k);
+  }
+  const auto bits_of = [](const MovingFace &face) {
+    std::array<double, 36> members;
+    std::memcpy(members.data(), &face, sizeof members);
+    return members;
+  };
+  int single = 0, none = 0;
+  for (const auto set :
+       {dem::InstructionSet::baseline, dem::InstructionSet::avx2, dem::InstructionSet::avx512}) {
+    if (set > dem::best_instruction_set()) continue;
+    std::vector<MovingFace> faces(corners.size());
+    for (std::size_t first = 0, count = 1; first < number.size(); first += count, count = count % 32 + 1) {
+      count = std::min(count, number.size() - first);
+      kernels::set_faces(set)(vertices.data(), corners[0].data(), &number[first], count, faces.data());
+    }
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const auto &c = corners[k];
+      const auto at = [&](std::size_t corner) { return vertices[static_cast<std::size_t>(c[corner])]; };
+      const bool asked = k % 7 != 0;
+      const MovingFace alone = asked ? moving_face({at(0), at(1), at(2), at(3)}) : MovingFace{};
+      ASSERT_EQ(bits_of(faces[k]), bits_of(alone)) << "face " << k << ", set " << static_cast<int>(set);
+      if (asked) ++(alone.single_foot > 0 ? single : none);
+    }
+  }
+  EXPECT_GT(single, 20);
+  EXPECT_GT(none, 20);
 }
 
 TEST(moving_faces, faces_without_area_have_a_box_and_no_foot) {
@@ -156,12 +207,12 @@ TEST(moving_faces, a_strained_surface_has_one_answer) {
       const SurfacePoint s = search.closest(surface, k, centre), all = search.closest_of_all(surface, centre);
       // Alone, and in a pack.
       const std::size_t entry[3] = {k, (k + 1) % search.particles().size(), k};
-      Vector3 asked[3];
+      int at[3];
       for (std::size_t n = 0; n < 3; ++n)
-        asked[n] = particles.position[static_cast<std::size_t>(search.particles()[entry[n]])];
-      SurfacePoint packed[3];
-      search.closest(surface, entry, asked, 3, packed);
-      for (const SurfacePoint &p : {packed[0], packed[2]}) {
+        at[n] = search.particles()[entry[n]];
+      SurfacePoints packed;
+      search.closest(surface, entry, particles.position.data(), at, 3, packed);
+      for (const SurfacePoint &p : {packed.at(0), packed.at(2)}) {
         ASSERT_EQ(p.face, all.face);
         ASSERT_EQ(p.distance, all.distance);
         ASSERT_EQ(norm(p.normal - all.normal), 0);
