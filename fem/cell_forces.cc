@@ -6,16 +6,9 @@
 #include <cstring>
 
 #include "fem/hyperelastic_cell.h"
+#include "fem/widths.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define PLATEN_WIDTHS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define PLATEN_WIDTHS
-#endif
 #define PLATEN_INTO_CALLER inline __attribute__((always_inline))
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi" // nothing that takes or returns vectors is ever called
-#endif
 
 namespace platen::fem {
 namespace {

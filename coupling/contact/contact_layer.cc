@@ -1,4 +1,5 @@
 #include "coupling/contact/contact_layer.h"
+#include "coupling/contact/mesh_indentation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,6 @@ namespace platen::coupling {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
-// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
-// indentation alone is as much, nothing is taken out.
-constexpr double most_answer = 0.85;
-constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
 
 // Overlap over radius from which the springs of Hertz are counted, as between grains; and how much deeper
 // than the deepest they are.
@@ -47,13 +42,6 @@ void check(const SurfaceContact &p, bool rotation) {
           "surface contact: seat modulus must not be negative");
   require(p.seat_modulus == 0 || rotation, "surface contact: seats need particles that rotate");
   require(p.skin > 0, "surface contact: skin must be positive");
-}
-
-// N/m, of the spring that makes up the stiffness with an indentation (m/N) in series.
-double beside_indentation(double stiffness, double indentation) {
-  const double share = stiffness * indentation;
-  return stiffness *
-         std::min(1 / (1 - std::min(share, most_indentation)), std::max(1.0, most_answer / share));
 }
 
 std::size_t index(int row) {
@@ -240,15 +228,15 @@ void ContactLayer::keep_due(std::size_t count) {
 double ContactLayer::indentation(int face, const std::array<double, 4> &w) const {
   if (parameters_.face_compliance.empty()) return 0;
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    sum += w[i] * ((w[0] * c[i][0] + w[1] * c[i][1]) + (w[2] * c[i][2] + w[3] * c[i][3]));
-  return sum;
+  const auto four = [](const std::array<double, 4> &a) {
+    return dem::Rotation<double>{a[0], a[1], a[2], a[3]};
+  };
+  return indentation_of(four(w), {four(c[0]), four(c[1]), four(c[2]), four(c[3])});
 }
 
 double ContactLayer::spring(int face, const std::array<double, 4> &weights) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
-  return beside_indentation(stiffness_, indentation(face, weights));
+  return beside_indentation<dem::OfScalars>(stiffness_, indentation(face, weights));
 }
 
 double ContactLayer::stiffness_of(double radius) const {
@@ -273,7 +261,7 @@ double ContactLayer::stiffest_spring(int face, double radius) const {
   // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
   // that is more than can be taken out, some other place is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  return beside_indentation(
+  return beside_indentation<dem::OfScalars>(
       whole, std::min(most_indentation / whole, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 

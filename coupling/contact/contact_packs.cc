@@ -1,7 +1,4 @@
 // Rows of a contact layer in packs: what the kernel is given.
-#include <algorithm>
-#include <iterator>
-
 #include "coupling/contact/contact_layer.h"
 
 namespace platen::coupling {
@@ -15,7 +12,7 @@ void ContactLayer::compute_in_packs(const dem::Particles &p, const fem::LoadedSu
     c.sliding = sliding_->data(), c.slip = slip_->data();
   }
   c.idle_until = idle_until_.data();
-  c.position = p.position.data(), c.velocity = p.velocity.data();
+  c.velocity = p.velocity.data();
   if (p.has_rotation()) c.angular_velocity = p.angular_velocity->data();
   c.radius = p.radius.data(), c.mass = p.mass.data();
   kernels::LayerStep step;
@@ -24,13 +21,10 @@ void ContactLayer::compute_in_packs(const dem::Particles &p, const fem::LoadedSu
   step.tangential_ratio = parameters_.tangential_ratio;
   step.friction_static = parameters_.friction_static, step.friction_dynamic = parameters_.dynamic();
   const fem::SurfaceMesh &surface = body.surface();
-  const kernels::LayerSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted};
-  double k_n[SurfacePoints::most];
-  std::fill(std::begin(k_n), std::end(k_n), stiffness_);
-  if (!parameters_.face_compliance.empty())
-    for (std::size_t k = 0; k < count; ++k)
-      k_n[k] = spring(points.face[k], points.weights_at(k));
-  compute_rows_(c, faces, step, points, k_n, &due_[first], count, &loads_[first], &contacts_[first]);
+  const std::vector<fem::FaceCompliance> &yields = parameters_.face_compliance;
+  const kernels::LayerSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted,
+                                    yields.empty() ? nullptr : yields[0][0].data()};
+  compute_rows_(c, faces, step, points, &due_[first], count, &loads_[first], &contacts_[first]);
 }
 
 } // namespace platen::coupling

@@ -85,7 +85,7 @@ PLATEN_INLINE void write(Columns &to, std::size_t first, const Triple<Pack> &a) 
 }
 
 // bilinear_weights() (closest_point.h).
-PLATEN_INLINE void write_place(SurfacePoints &to, std::size_t first, const Pack &u, const Pack &v) {
+PLATEN_INLINE void write_weights(SurfacePoints &to, std::size_t first, const Pack &u, const Pack &v) {
   const Pack one = Pack(1.0), w[3] = {(one - u) * (one - v), u * (one - v), u * v};
   write(&to.u[first], u), write(&to.v[first], v);
   for (int corner = 0; corner < 3; ++corner)
@@ -94,17 +94,20 @@ PLATEN_INLINE void write_place(SurfacePoints &to, std::size_t first, const Pack 
 }
 
 // As a surface search sets a point by its foot.
-PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFace<Pack> &foot) {
-  write_place(to, first, foot.u, foot.v);
-  write(to.arm, first, scale(Pack(-1.0), foot.out)), write(to.normal, first, foot.normal);
+PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFace<Pack> &foot,
+                              const Triple<Pack> &centre) {
+  write_weights(to, first, foot.u, foot.v);
+  write(to.arm, first, scale(Pack(-1.0), foot.out)), write(to.place, first, centre - foot.out);
+  write(to.normal, first, foot.normal);
   write(to.along_u, first, foot.along_u), write(to.along_v, first, foot.along_v);
   write(&to.distance[first], dot(foot.out, foot.normal));
   write(&to.distance_squared[first], dot(foot.out, foot.out));
 }
 PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFlat<Pack> &foot,
-                              const Triple<Pack> &normal) {
-  write_place(to, first, foot.u, foot.v);
-  write(to.arm, first, scale(Pack(-foot.distance), normal)), write(to.normal, first, normal);
+                              const Triple<Pack> &normal, const Triple<Pack> &centre) {
+  const Triple<Pack> arm = scale(Pack(-foot.distance), normal);
+  write_weights(to, first, foot.u, foot.v);
+  write(to.arm, first, arm), write(to.normal, first, normal), write(to.place, first, centre + arm);
   const Triple<Pack> none = dem::no_vector<Pack>();
   write(to.along_u, first, none), write(to.along_v, first, none);
   write(&to.distance[first], foot.distance);
@@ -146,11 +149,12 @@ std::uint32_t PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *const
     in.pick(face, faces), in.pick(at, rows);
     for (int l = 0; l < lanes; ++l)
       corners[l] = dem::kernels::load_vector(corner[in.of[l]]);
-    const Triple<Pack> from = dem::kernels::gather(centre, rows) - dem::kernels::to_vectors(corners);
+    const Triple<Pack> centres = dem::kernels::gather(centre, rows);
+    const Triple<Pack> from = centres - dem::kernels::to_vectors(corners);
     const FlatMap<Pack> map = map_of(faces);
     FootOnFlat<Pack> feet;
     const auto inside = search_flat_foot<dem::kernels::OfLanes>(map, from, feet);
-    write_foot(points, first, feet, map.normal);
+    write_foot(points, first, feet, map.normal, centres);
     found |= static_cast<std::uint32_t>(dem::kernels::bits_of(inside)) << first;
   }
   return found;
@@ -165,11 +169,11 @@ std::uint32_t PLATEN_FEET(const MovingFace *const *face, const Vector3 *centre, 
     int rows[lanes];
     in.pick(face, faces), in.pick(at, rows);
     FootOnFace<Pack> feet;
-    const auto inside =
-        search_foot<dem::kernels::OfLanes>(map_of(faces), dem::kernels::gather(centre, rows), feet);
+    const Triple<Pack> centres = dem::kernels::gather(centre, rows);
+    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(faces), centres, feet);
     const unsigned bits = dem::kernels::bits_of(inside);
     if (bits == 0) continue;
-    write_foot(points, first, feet);
+    write_foot(points, first, feet, centres);
     found |= static_cast<std::uint32_t>(bits) << first;
   }
   return found;

@@ -19,9 +19,9 @@ struct LayerColumns {
   // Null without friction.
   Vector3 *normal, *spring; // 1, N
   int *sliding;
-  double *slip;                                          // m
-  double *idle_until;                                    // m
-  const Vector3 *position, *velocity, *angular_velocity; // the last null without rotation
+  double *slip;                               // m
+  double *idle_until;                         // m
+  const Vector3 *velocity, *angular_velocity; // the last null without rotation
   const double *radius, *mass;
 };
 
@@ -30,6 +30,7 @@ struct LayerSurface {
   const Vector3 *velocity; // m/s, of each vertex
   const int *corner;       // vertices, four of each face
   bool only_shifted;
+  const double *compliance; // m/N, a fem::FaceCompliance of each face; null: the mesh does not yield
 };
 
 struct LayerStep {
@@ -41,18 +42,16 @@ struct LayerStep {
   double travelled = 0; // m, as in idle_until
 };
 
-// Rows row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them and the
-// normal stiffness of each (N/m), SurfacePoints::most to be read.
+// Rows row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them.
 using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
-                             const SurfacePoints &points, const double *normal_stiffness,
-                             const std::size_t *row, std::size_t count, RowLoad *load, RowContact *contact);
+                             const SurfacePoints &points, const std::size_t *row, std::size_t count,
+                             RowLoad *load, RowContact *contact);
 void compute_rows_baseline(const LayerColumns &, const LayerSurface &, const LayerStep &,
-                           const SurfacePoints &, const double *, const std::size_t *, std::size_t, RowLoad *,
-                           RowContact *);
+                           const SurfacePoints &, const std::size_t *, std::size_t, RowLoad *, RowContact *);
 void compute_rows_avx2(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
-                       const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+                       const std::size_t *, std::size_t, RowLoad *, RowContact *);
 void compute_rows_avx512(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
-                         const double *, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+                         const std::size_t *, std::size_t, RowLoad *, RowContact *);
 inline ComputeRows compute_rows(dem::InstructionSet set) {
   return dem::for_set<ComputeRows>(set, compute_rows_baseline, compute_rows_avx2, compute_rows_avx512);
 }

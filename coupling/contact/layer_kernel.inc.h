@@ -1,6 +1,7 @@
 // Body of the layer kernels; the including file sets PLATEN_LANES and PLATEN_KERNEL. Compiled without
 // contraction, as the rest of the layer is.
 #include "coupling/contact/layer_kernel.h"
+#include "coupling/contact/mesh_indentation.h"
 #include "dem/kernels/lane_friction.inc.h"
 
 namespace platen::coupling::kernels {
@@ -43,7 +44,7 @@ PLATEN_INLINE void write(Vector3 *column, const Rows &r, const Triple<Pack> &a) 
 
 // The closest points of a pack.
 struct Points {
-  Triple<Pack> arm, normal, along_u, along_v; // m, 1, m, m
+  Triple<Pack> arm, normal, along_u, along_v, place; // m, 1, m, m, m
   Pack u, v, distance;
 };
 template <class Columns>
@@ -52,13 +53,10 @@ PLATEN_INLINE Triple<Pack> vector_at(const Columns &from, std::size_t first) {
           dem::kernels::load(&from[2][first])};
 }
 PLATEN_INLINE Points points_at(const SurfacePoints &from, std::size_t first) {
-  return {vector_at(from.arm, first),
-          vector_at(from.normal, first),
-          vector_at(from.along_u, first),
-          vector_at(from.along_v, first),
-          dem::kernels::load(&from.u[first]),
-          dem::kernels::load(&from.v[first]),
-          dem::kernels::load(&from.distance[first])};
+  return {vector_at(from.arm, first),         vector_at(from.normal, first),
+          vector_at(from.along_u, first),     vector_at(from.along_v, first),
+          vector_at(from.place, first),       dem::kernels::load(&from.u[first]),
+          dem::kernels::load(&from.v[first]), dem::kernels::load(&from.distance[first])};
 }
 
 struct SurfaceMotions {
@@ -85,6 +83,20 @@ PLATEN_INLINE SurfaceMotions motion_of(const LayerSurface &surface, const int *f
   const Pack area = dem::length<How>(cross(p.along_u, p.along_v));
   return {v[0] + (scale(p.u, along) + scale(p.v, by_v)),
           How::choose(How::above(area, zero), Pack(0.5) * turning / area, zero)};
+}
+
+// ContactLayer::spring().
+PLATEN_INLINE Pack stiffness_at(const LayerSurface &surface, double stiffness, const int *faces,
+                                const Rotation<Pack> &weights) {
+  if (surface.compliance == nullptr) return Pack(stiffness);
+  dem::kernels::LongRow above[lanes], below[lanes];
+  for (int l = 0; l < lanes; ++l) {
+    above[l] = dem::kernels::load_long_row(surface.compliance + 16 * faces[l]);
+    below[l] = dem::kernels::load_long_row(surface.compliance + 16 * faces[l] + 8);
+  }
+  const Rotation<Pack> c[4] = {dem::kernels::first_columns(above), dem::kernels::second_columns(above),
+                               dem::kernels::first_columns(below), dem::kernels::second_columns(below)};
+  return beside_indentation<How>(Pack(stiffness), indentation_of(weights, c));
 }
 
 struct Push {
@@ -161,10 +173,10 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
 }
 
 // Four numbers at once; what runs into the next one is written before it.
-PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, const Rotation<Pack> &weights,
-                        const Push &push, RowLoad *load, RowContact *contact) {
+PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Pack> &weights, const Push &push,
+                        RowLoad *load, RowContact *contact) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
-  const Triple<Pack> point = gather(c.position, r.particle) + p.arm;
+  const Triple<Pack> &point = p.place;
   dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes], shares[lanes];
   dem::kernels::to_rows(weights, shares);
   dem::kernels::to_rows(force, forces);
@@ -174,7 +186,7 @@ PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, c
   dem::kernels::to_rows(Rotation<Pack>{point.x, point.y, point.z, p.normal.x}, places);
   dem::kernels::to_rows(Rotation<Pack>{point.z, p.normal.x, p.normal.y, p.normal.z}, normals);
   const unsigned active = dem::kernels::bits_of(push.active);
-  for (int l = 0; l < r.count; ++l) {
+  const auto keep_lane = [&](int l) __attribute__((always_inline)) {
     load[l].particle = active >> l & 1u ? r.particle[l] : -1;
     load[l].face = r.face[l];
     dem::kernels::store_row(load[l].weights.data(), shares[l]);
@@ -183,14 +195,22 @@ PLATEN_INLINE void keep(const LayerColumns &c, const Rows &r, const Points &p, c
     dem::kernels::store_row(&load[l].normal_force, sums[l]);
     dem::kernels::store_row(&contact[l].point.x, places[l]);
     dem::kernels::store_row(&contact[l].point.z, normals[l]);
+  };
+  if (r.count < lanes) {
+    for (int l = 0; l < r.count; ++l)
+      keep_lane(l);
+    return;
   }
+#pragma GCC unroll 8
+  for (int l = 0; l < lanes; ++l) // straight from registers
+    keep_lane(l);
 }
 
 } // namespace
 
 void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
-                   const SurfacePoints &points, const double *normal_stiffness, const std::size_t *row,
-                   std::size_t count, RowLoad *load, RowContact *contact) {
+                   const SurfacePoints &points, const std::size_t *row, std::size_t count, RowLoad *load,
+                   RowContact *contact) {
   for (std::size_t first = 0; first < count; first += lanes) {
     Rows r;
     r.count = static_cast<int>(count - first < lanes ? count - first : lanes);
@@ -201,12 +221,12 @@ void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const Lay
       r.face[l] = points.face[k];
     }
     r.follow = r.count == lanes && r.row[lanes - 1] - r.row[0] == lanes - 1; // they ascend
-    const Pack k_n = dem::kernels::load(normal_stiffness + first);
     const Points p = points_at(points, first);
     const auto &w = points.weights;
     const Rotation<Pack> weights{dem::kernels::load(&w[0][first]), dem::kernels::load(&w[1][first]),
                                  dem::kernels::load(&w[2][first]), dem::kernels::load(&w[3][first])};
-    keep(c, r, p, weights, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
+    const Pack k_n = stiffness_at(surface, s.stiffness, r.face, weights);
+    keep(r, p, weights, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
   }
 }
 

@@ -124,7 +124,7 @@ void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_
   const std::uint32_t found = find_flat_feet_(face, corner, centre, at, count, points);
   for (std::size_t n = 0; n < count; ++n)
     if (!(found >> n & 1u) || !others_are_farther(entry[n], points.face[n], points.distance[n]))
-      points.set(n, closest(surface, entry[n], centre[at[n]]));
+      points.set(n, closest(surface, entry[n], centre[at[n]]), centre[at[n]]);
 }
 
 // A foot on the first face of the list is the answer where every other face listed is sure to be farther.
@@ -133,7 +133,7 @@ void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry
   if (surface.only_shifted) return closest_on_flat(surface, entry, centre, at, count, points);
   if (!looked_) {
     for (std::size_t n = 0; n < count; ++n)
-      points.set(n, closest(surface, entry[n], centre[at[n]]));
+      points.set(n, closest(surface, entry[n], centre[at[n]]), centre[at[n]]);
     return;
   }
   const MovingFace *face[SurfacePoints::most] = {};
@@ -144,7 +144,7 @@ void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry
   const std::uint32_t found = find_feet_(face, centre, at, count, points);
   for (std::size_t n = 0; n < count; ++n)
     if (!(found >> n & 1u) || !is_nearest(entry[n], centre[at[n]], points.distance_squared[n]))
-      points.set(n, closest_listed(surface, entry[n], centre[at[n]]));
+      points.set(n, closest_listed(surface, entry[n], centre[at[n]]), centre[at[n]]);
 }
 
 // Whether no face behind the first can be as near as that.

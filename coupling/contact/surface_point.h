@@ -22,13 +22,15 @@ struct alignas(64) SurfacePoints {
   static constexpr std::size_t most = 32;
   double arm[3][most]{}, normal[3][most]{};      // m, from the centre; 1
   double along_u[3][most]{}, along_v[3][most]{}; // m
+  double place[3][most]{};                       // m, of the point itself
   double u[most]{}, v[most]{}, weights[4][most]{};
   double distance[most]{}, distance_squared[most]{}; // m, m^2
   int face[most]{};
 
-  void set(std::size_t k, const SurfacePoint &point) {
+  void set(std::size_t k, const SurfacePoint &point, const Vector3 &centre) {
     for (int c = 0; c < 3; ++c) {
       arm[c][k] = point.local.point[c], normal[c][k] = point.normal[c];
+      place[c][k] = centre[c] + point.local.point[c];
       along_u[c][k] = point.along_u[c], along_v[c][k] = point.along_v[c];
     }
     for (std::size_t corner = 0; corner < 4; ++corner)

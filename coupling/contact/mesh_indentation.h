@@ -1,0 +1,34 @@
+// What the spring of a contact leaves to the mesh below it, for one contact or for a pack of them: one text,
+// so that both give the same bits.
+#pragma once
+
+#include "dem/laws/lanes.h"
+
+namespace platen::coupling {
+
+// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
+// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
+// indentation alone is as much, nothing is taken out.
+constexpr double most_answer = 0.85;
+constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
+
+// w^T C w, the rows of C one after the other.
+template <class Real>
+PLATEN_INLINE Real indentation_of(const dem::Rotation<Real> &w, const dem::Rotation<Real> (&c)[4]) {
+  const auto row = [&w](const dem::Rotation<Real> &of) {
+    return Real((w.w * of.w + w.x * of.x) + (w.y * of.y + w.z * of.z));
+  };
+  return w.w * row(c[0]) + w.x * row(c[1]) + w.y * row(c[2]) + w.z * row(c[3]);
+}
+
+// N/m, of the spring that makes up the stiffness with an indentation (m/N) in series.
+template <class How, class Real>
+PLATEN_INLINE Real beside_indentation(const Real &stiffness, const Real &indentation) {
+  const Real one = Real(1.0), most = Real(most_indentation), share = stiffness * indentation;
+  const Real taken_out = How::choose(How::above(share, most), most, share);
+  const Real grown = one / (one - taken_out), answer = Real(most_answer) / share;
+  const Real limit = How::choose(How::above(answer, one), answer, one);
+  return stiffness * How::choose(How::above(grown, limit), limit, grown);
+}
+
+} // namespace platen::coupling
