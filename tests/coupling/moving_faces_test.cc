@@ -60,6 +60,34 @@ TEST(moving_faces, a_foot_is_the_closest_point_of_a_warped_face) {
   EXPECT_GT(feet[1], 0.85 * inside[1]); // the rest goes the general way
 }
 
+// Far off a face that is much warped there are several feet: none is given there but the nearest.
+TEST(moving_faces, a_foot_far_off_is_given_where_it_is_the_only_one) {
+  std::mt19937 engine(13);
+  std::uniform_real_distribution<double> along(-0.3, 1.3), off(-3, 3);
+  int given = 0, refused = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Quad q = strained_square(0.4, engine);
+    const MovingFace face = moving_face(q);
+    const std::array<double, 4> w = bilinear_weights(along(engine), along(engine));
+    const Vector3 centre =
+        w[0] * q[0] + w[1] * q[1] + w[2] * q[2] + w[3] * q[3] + off(engine) * bilinear_normal(q, 0.5, 0.5);
+    const ClosestPoint best = closest_point(about(q, centre));
+    Foot foot;
+    const bool found = find_foot(face, centre, foot);
+    const double above = std::abs(dot(centre - face.corner, face.normal));
+    if (above > single_foot_within(q, face.normal) - 2 * face.half.z) {
+      ++refused;
+      ASSERT_FALSE(found) << "trial " << trial;
+    }
+    if (!found) continue;
+    ++given;
+    ASSERT_EQ(best.feature, Feature::face) << "trial " << trial;
+    ASSERT_NEAR(norm(foot.out), std::sqrt(best.distance_squared), 1e-13) << "trial " << trial;
+  }
+  EXPECT_GT(given, 300);
+  EXPECT_GT(refused, 3000);
+}
+
 // Every instruction set and every number of feet in a call: the bits of one foot alone.
 TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
   std::mt19937 engine(11);
