@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "coupling/contact/face_of_corners.h"
 
 namespace platen::coupling {
 
@@ -166,22 +167,11 @@ double farthest(const Quad &q, const Vector3 &n) {
 
 } // namespace
 
-// Over the mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards
-// everywhere where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v)
-// and |z_u|, |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J.
-// det J is linear in u and v, least at a corner.
 double single_foot_within(const Quad &q, const Vector3 &n) {
-  const Vector3 twist = (q[0] - q[1]) + (q[2] - q[3]);
-  double least = std::numeric_limits<double>::infinity(), edge = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 out = q[(k + 1) % 4] - q[k], back = q[(k + 3) % 4] - q[k];
-    least = std::min(least, dot(cross(out, back), n));
-    edge = std::max(edge, norm_squared(out));
-  }
-  if (!(least > 0)) return -1;
-  const double inverse = std::sqrt(2 * edge) / least, out_of_plane = std::abs(dot(twist, n));
-  const double curved = out_of_plane * (1 + norm(twist) * inverse) * inverse * inverse;
-  return curved > 0 ? 0.5 / curved : std::numeric_limits<double>::infinity();
+  const dem::Triple<double> corners[4] = {dem::triple_of(q[0]), dem::triple_of(q[1]), dem::triple_of(q[2]),
+                                          dem::triple_of(q[3])};
+  return face_setup::single_foot<dem::OfScalars>(corners, dem::triple_of((q[0] - q[1]) + (q[2] - q[3])),
+                                                 dem::triple_of(n));
 }
 
 double preference(const ClosestPoint &point) {

@@ -1,5 +1,4 @@
 #include "coupling/contact/contact_layer.h"
-#include "coupling/contact/mesh_indentation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "base/pi.h"
 #include "base/require.h"
+#include "coupling/contact/mesh_indentation.h"
 
 namespace platen::coupling {
 

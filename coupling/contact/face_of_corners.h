@@ -30,6 +30,11 @@ PLATEN_INLINE dem::Triple<Real> over(const dem::Triple<Real> &a, const Real &by)
 }
 
 // single_foot_within() (closest_point.h).
+//
+// Over the mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards
+// everywhere where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v)
+// and |z_u|, |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J.
+// det J is linear in u and v, least at a corner.
 template <class How, class Real>
 PLATEN_INLINE Real single_foot(const dem::Triple<Real> (&q)[4], const dem::Triple<Real> &twist,
                                const dem::Triple<Real> &normal) {

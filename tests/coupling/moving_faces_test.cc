@@ -88,6 +88,23 @@ TEST(moving_faces, a_foot_far_off_is_given_where_it_is_the_only_one) {
   EXPECT_GT(refused, 3000);
 }
 
+// z = w x y on a unit square about the origin, seen from height h over its middle: along a diagonal the
+// square of the distance is s^2 + (w s^2 / 2 - h)^2, with two feet from h = 1 / w on. The bound by the
+// formula at face_of_corners.h, whose edges are 1 + w^2 / 4 and whose determinant is 1.
+TEST(moving_faces, a_saddle_has_a_single_foot_up_to_a_known_height) {
+  for (const double w : {0.01, 0.1, 0.3, 0.8}) {
+    const double z = w / 4, inverse = std::sqrt(2 * (1 + w * w / 4));
+    const Quad q = {{{-0.5, -0.5, z}, {0.5, -0.5, -z}, {0.5, 0.5, z}, {-0.5, 0.5, -z}}};
+    const double expected = 0.5 / (w * (1 + w * inverse) * inverse * inverse);
+    const double within = single_foot_within(q, {0, 0, 1});
+    EXPECT_NEAR(within / expected, 1, 1e-12) << "w " << w;
+    EXPECT_LT(within, 1 / w) << "two feet, w " << w;
+    const MovingFace face = moving_face(q);
+    EXPECT_NEAR(face.half.z, z, 1e-11) << "w " << w;
+    EXPECT_NEAR((face.single_foot + w / 2) / expected, 1, 1e-9) << "w " << w;
+  }
+}
+
 // Every instruction set and every number of feet in a call: the bits of one foot alone.
 TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
   std::mt19937 engine(11);
