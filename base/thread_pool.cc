@@ -1,5 +1,9 @@
 #include "base/thread_pool.h"
 
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
 namespace platen {
 
 namespace {
@@ -7,6 +11,8 @@ namespace {
 // Some ten microseconds: longer than what a step does between two loops, short beside what a scheduler gives
 // a thread that others wait for.
 constexpr int checks_before_sleep = 1000;
+
+constexpr std::size_t most_parts = std::numeric_limits<std::uint32_t>::max();
 
 thread_local bool inside_part = false;
 
@@ -32,6 +38,8 @@ void ThreadPool::run(const Loop &first, const Loop &second, int threads) {
     return;
   }
   const std::lock_guard<std::mutex> until_done(in_use_, std::adopt_lock);
+  if (std::max(first.parts, second.parts) > most_parts)
+    throw std::length_error("a loop has more than 4294967295 parts");
   if (shares_.size() != static_cast<std::size_t>(threads)) resize(threads);
   loops_ = {first, second};
   divide_parts();
@@ -65,11 +73,23 @@ void ThreadPool::resize(int threads) {
 void ThreadPool::divide_parts() {
   const std::size_t size = shares_.size();
   for (std::size_t loop = 0; loop < loops_.size(); ++loop)
-    for (std::size_t k = 0; k < size; ++k) {
-      Share &share = shares_[k][loop];
-      share.next.store(k * loops_[loop].parts / size, std::memory_order_relaxed);
-      share.end = (k + 1) * loops_[loop].parts / size;
-    }
+    for (std::size_t k = 0; k < size; ++k)
+      shares_[k][loop].set(k * loops_[loop].parts / size, (k + 1) * loops_[loop].parts / size);
+}
+
+void ThreadPool::Share::set(std::size_t first, std::size_t last) {
+  left_.store(first | static_cast<std::uint64_t>(last) << bits, std::memory_order_relaxed);
+}
+
+bool ThreadPool::Share::take(bool lowest, std::size_t &part) {
+  constexpr std::uint64_t one_less_at_end = std::uint64_t{1} << bits;
+  std::uint64_t left = left_.load();
+  for (;;) {
+    const std::uint64_t first = left & (one_less_at_end - 1), last = left >> bits;
+    if (first == last) return false;
+    part = lowest ? first : last - 1;
+    if (left_.compare_exchange_weak(left, lowest ? left + 1 : left - one_less_at_end)) return true;
+  }
 }
 
 // Either a thread that goes to sleep sees the call, or the caller sees that it sleeps: both write before they
@@ -136,15 +156,17 @@ bool ThreadPool::wait_for_call(unsigned done) {
 }
 
 void ThreadPool::do_parts(std::size_t thread) {
-  do_share(shares_[thread][0], 0);
-  do_share(shares_[thread][1], 1);
+  do_share(thread, 0, true);
+  do_share(thread, 1, true);
   for (const int loop : {1, 0})
     for (std::size_t k = 1; k < shares_.size(); ++k)
-      do_share(shares_[(thread + k) % shares_.size()][loop], loop);
+      do_share((thread + k) % shares_.size(), loop, false);
 }
 
-void ThreadPool::do_share(Share &share, int loop) {
-  for (std::size_t part = share.next++; part < share.end; part = share.next++)
+// The share of a thread, by itself or by another one.
+void ThreadPool::do_share(std::size_t thread, int loop, bool own) {
+  const bool begins_low = thread % 2 == 0;
+  for (std::size_t part = 0; shares_[thread][loop].take(begins_low == own, part);)
     do_part(loop, part);
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -27,16 +28,25 @@ public:
   // done. Each thread starts with runs of neighbouring parts, first of one loop and then of the other, the
   // same whenever the loops have as many parts, so that what a core has in its caches stays there. When it
   // has none left it takes from others, the second loop's first: of two loops, the one of smaller parts is
-  // worth to be the second. No thread is waited for that has not begun. A call inside a part, or beside one
+  // worth to be the second. Every other thread begins with its last part, and parts are taken from others at
+  // the end that these have not come to: two threads meet in the middle, and what changes hands from call to
+  // call is the parts there. No thread is waited for that has not begun. A call inside a part, or beside one
   // that another thread has made, runs on its caller alone. What a part throws reaches the caller once no
   // thread is at work; of several, what the lowest part of the first loop threw, or else of the second.
+  // Throws std::length_error for 2^32 parts or more.
   void run(const Loop &first, const Loop &second, int threads);
 
 private:
-  // Parts of a loop that a thread starts with; [next, end) are left.
-  struct alignas(64) Share {
-    std::atomic<std::size_t> next{0};
-    std::size_t end = 0;
+  // Parts of a loop that a thread starts with, [first, last) of them left: both in one number, so that none
+  // is taken at both ends at once.
+  class alignas(64) Share {
+  public:
+    void set(std::size_t first, std::size_t last);
+    bool take(bool lowest, std::size_t &part); // false: none is left
+
+  private:
+    static constexpr int bits = 32; // of the first, below the last
+    std::atomic<std::uint64_t> left_{0};
   };
   using Shares = std::array<Share, 2>; // of each loop
 
@@ -48,7 +58,7 @@ private:
   void count_out();
   bool wait_for_call(unsigned done);
   void do_parts(std::size_t thread);
-  void do_share(Share &share, int loop);
+  void do_share(std::size_t thread, int loop, bool own);
   void do_part(int loop, std::size_t part);
 
   std::vector<std::thread> threads_; // all but the caller's

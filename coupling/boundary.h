@@ -75,6 +75,8 @@ public:
   virtual std::size_t prepare(const dem::Particles &, const Step &) { return 0; }
   // The forces of one part, in any order, on any thread and beside the bonds; writes nothing of others.
   virtual void compute_part(const dem::Particles &, const Step &, std::size_t) {}
+  // Row of the first particle of a part: tells which thread has its particles at hand.
+  virtual int particle_of_part(std::size_t) const { return 0; }
   // What the particles get, and what is its own of it.
   virtual void apply_forces(dem::Particles &particles, const Step &step) = 0;
   // The end of its own step. Throws NumericsStopped where it cannot go on.
@@ -160,8 +162,9 @@ public:
   void compute_part(const dem::Particles &particles, const Step &step, std::size_t part) override {
     layer().compute_part(particles, surface(), step.dt, part);
   }
+  int particle_of_part(std::size_t part) const override { return layer().particle_of_part(part); }
   void apply_forces(dem::Particles &particles, const Step &) override {
-    layer().apply_forces(particles, surface());
+    layer().apply_forces(particles, &surface());
   }
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }

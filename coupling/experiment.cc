@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "base/shortest_text.h"
@@ -104,15 +105,13 @@ void Experiment::compute_forces() {
   gather_for_boundaries(step);
   prepare_contacts(step);
   const auto part = [&](std::size_t p) {
-    const auto after = std::upper_bound(first_part_.begin(), first_part_.end(), p);
-    const std::size_t b = static_cast<std::size_t>(after - first_part_.begin()) - 1;
-    boundaries_[b]->compute_part(model.particles, step, p - first_part_[b]);
+    boundaries_[parts_[p].boundary]->compute_part(model.particles, step, parts_[p].k);
   };
   if (model.is_cut()) {
-    model.compute_forces(time_step_, loop_of(first_part_.back(), part), [this] { send_loads(); });
+    model.compute_forces(time_step_, loop_of(parts_.size(), part), [this] { send_loads(); });
     receive_loads();
   } else {
-    model.compute_forces(time_step_, loop_of(first_part_.back(), part));
+    model.compute_forces(time_step_, loop_of(parts_.size(), part));
   }
   apply_boundary_forces(step);
   finish_boundaries(step);
@@ -127,15 +126,23 @@ void Experiment::drift_boundaries(const Step &step) {
     drift(b);
 }
 
+// Particles are sorted by height before all else, and threads share them out by rows: parts in the order of
+// their particles go to the threads that move these, whichever boundary they meet.
 void Experiment::prepare_contacts(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-  first_part_.assign(1, 0);
+  parts_.clear();
   try {
-    for (const auto &boundary : boundaries_)
-      first_part_.push_back(first_part_.back() + boundary->prepare(model.particles, step));
+    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+      const std::size_t parts = boundaries_[b]->prepare(model.particles, step);
+      for (std::size_t k = 0; k < parts; ++k)
+        parts_.push_back({boundaries_[b]->particle_of_part(k), b, k});
+    }
   } catch (const std::runtime_error &e) {
     stop_unseen(e.what());
   }
+  std::sort(parts_.begin(), parts_.end(), [](const Part &one, const Part &other) {
+    return std::tie(one.particle, one.boundary, one.k) < std::tie(other.particle, other.boundary, other.k);
+  });
 }
 
 // At once where no particle feels two boundaries: then no sum depends on which comes first. Particles are

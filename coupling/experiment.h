@@ -126,8 +126,12 @@ private:
   TimeStepSettings settings_;
   std::vector<std::unique_ptr<Boundary>> boundaries_;
   std::unique_ptr<Program> program_;
-  Commands commands_;                            // one for each boundary
-  std::vector<std::size_t> first_part_;          // of each boundary's contact work, and the end
+  Commands commands_; // one for each boundary
+  struct Part {
+    int particle;            // row of its first
+    std::size_t boundary, k; // of its parts
+  };
+  std::vector<Part> parts_;                      // of the boundaries' contact work, by particle
   std::vector<std::size_t> at_once_, in_turn_;   // boundaries whose drift is worth a thread; the others
   std::vector<std::vector<std::size_t>> groups_; // of boundaries of which no two push the same particle
   long lists_grouped_ = -1;                      // search lists made when that was found

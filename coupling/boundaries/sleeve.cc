@@ -157,13 +157,26 @@ void Sleeve::add_energy(dem::EnergyLedger &energy) const {
   energy.boundary += work();
 }
 
+void Sleeve::apply_forces(dem::Particles &particles, const Step &) {
+  contact_->apply_forces(particles, nullptr);
+  loads_due_ = true;
+  if (made_ == planned_) with_loads();
+}
+
+fem::HyperelasticSolid &Sleeve::with_loads() const {
+  if (loads_due_) contact_->load_body(*solid_);
+  loads_due_ = false;
+  return *solid_;
+}
+
 void Sleeve::write_vtu(std::ostream &stream) const {
-  solid_->write_vtu(stream, contact_->vertex_slip(*solid_));
+  with_loads().write_vtu(stream, contact_->vertex_slip(*solid_));
 }
 
 double Sleeve::axial_force_beyond_pressure() const {
-  const double bottom = solid_->prescribed_force(bottom_motion_)[2], // N, of the platens on the sleeve
-      top = solid_->prescribed_force(top_motion_)[2];
+  const fem::HyperelasticSolid &solid = with_loads();
+  const double bottom = solid.prescribed_force(bottom_motion_)[2], // N, of the platens on the sleeve
+      top = solid.prescribed_force(top_motion_)[2];
   return 0.5 * (bottom - top) - pressure() * ring_;
 }
 
@@ -253,6 +266,7 @@ void Sleeve::move(double dt, const RimMotion &rims) {
   elapsed_ += dt;
   solid_->place_surface_ahead(elapsed_);
   solid_->clear_loads();
+  loads_due_ = false;
 }
 
 // The loads of the last step stand on the surface.
@@ -274,7 +288,7 @@ void Sleeve::describe(Archive &archive) {
   archive("limit_of_elements", own_limit_, "s");
   archive("intervals", intervals_);
   archive("cuts", cuts_);
-  archive.part("solid", *solid_);
+  archive.part("solid", with_loads());
   archive.part("contacts", *contact_);
   if (archive.reads() && made_ < planned_) solid_->place_surface_ahead(elapsed_);
 }

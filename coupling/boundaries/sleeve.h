@@ -91,6 +91,8 @@ public:
          const SleeveSettings &settings);
 
   void drift(const Step &step, const Command &command) override; // the command's pressure
+  // Its loads are added up where an interval ends, or are asked for.
+  void apply_forces(dem::Particles &particles, const Step &step) override;
   void finish(const Step &step) override;
   bool follows_others() const override { return true; }
   bool can_be_carried() const override { return false; }
@@ -102,7 +104,7 @@ public:
   std::string series() const override { return "sleeve"; }
   void write_vtu(std::ostream &stream) const override;
   const ContactLayer &layer() const override { return *contact_; }
-  const fem::LoadedSurface &surface() const override { return *solid_; }
+  const fem::LoadedSurface &surface() const override { return *solid_; } // its loads may be due
   using ContactBoundary::layer;
   using ContactBoundary::surface;
   static constexpr const char *reason_of_limit =
@@ -115,8 +117,8 @@ public:
   // fem::InvertedElement before an element is used that would be inside out.
   void take_loads();
 
-  const fem::HyperelasticSolid &solid() const { return *solid_; }
-  fem::HyperelasticSolid &solid() { return *solid_; }
+  const fem::HyperelasticSolid &solid() const { return with_loads(); }
+  fem::HyperelasticSolid &solid() { return with_loads(); }
 
   int steps_of_interval() const { return planned_; }
   int steps_of_next_interval(double dt) const;                                    // of dt (s) each
@@ -144,6 +146,7 @@ private:
   void turn_top_rim(double interval, double dt, const RimMotion &rims);
   bool top_turns() const { return ends_ && ends_->high.body().turns(); }
   double find_limit();
+  fem::HyperelasticSolid &with_loads() const;
   double cheap_mass(double time_step) const;
 
   void build(const dem::Particles &particles);
@@ -159,6 +162,7 @@ private:
   std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
   std::vector<int> top_rim_nodes_;
   std::vector<Vector3> top_rim_places_; // m, of these at the start, from the middle of the platen's face
+  mutable bool loads_due_ = false;      // of the last step, which the layer holds
   int planned_ = 0, made_ = 0;          // steps of the interval
   double elapsed_ = 0;                  // s, of the interval
   double limit_ = 0;                    // s, of the next interval, by the contacts at the end of this one

@@ -213,7 +213,7 @@ void ContactLayer::find_due_rows_again(const std::vector<int> &order, std::size_
   for (std::size_t k = 0; k < due_.size(); ++k) {
     if (now[due_[k]] < 0) continue;
     due_[kept] = index(now[due_[k]]);
-    loads_[kept] = loads_[k], contacts_[kept] = contacts_[k];
+    results_.move(k, kept);
     if (!moments_.empty()) moments_[kept] = moments_[k];
     ++kept;
   }
@@ -221,7 +221,7 @@ void ContactLayer::find_due_rows_again(const std::vector<int> &order, std::size_
 }
 
 void ContactLayer::keep_due(std::size_t count) {
-  due_.resize(count), loads_.resize(count), contacts_.resize(count);
+  due_.resize(count), results_.resize(count);
   if (seat_spring_ != nullptr) moments_.resize(count);
 }
 
@@ -266,8 +266,8 @@ double ContactLayer::stiffest_spring(int face, double radius) const {
 }
 
 std::size_t ContactLayer::bytes() const {
-  return table_.size() * table_.bytes_per_row() + loads_.capacity() * sizeof(RowLoad) +
-         contacts_.capacity() * sizeof(RowContact) + moments_.capacity() * sizeof(Vector3) + search_.bytes();
+  return table_.size() * table_.bytes_per_row() + results_.bytes() + moments_.capacity() * sizeof(Vector3) +
+         search_.bytes();
 }
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,

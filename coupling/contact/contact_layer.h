@@ -115,8 +115,12 @@ public:
   // nothing but the layer's own rows;
   void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                     std::size_t part);
-  // and then, once, what particles and body get of them.
-  void apply_forces(dem::Particles &particles, fem::LoadedSurface &body);
+  // (the row of the first particle of a part;)
+  int particle_of_part(std::size_t part) const;
+  // and then, once, what particles and body get of them. Without a body: the particles alone, for who looks
+  // at the body's loads seldom; load_body() gives them of the last step.
+  void apply_forces(dem::Particles &particles, fem::LoadedSurface *body);
+  void load_body(fem::LoadedSurface &body) const;
 
   // On ranks, which have the same rows: marks the blocks of particles whose rows are worked out here, in
   // prepare() and compute_part(). All of them where this was not called.
@@ -135,8 +139,8 @@ public:
   // visit(face, place in m) for each of them, without more of it.
   template <class Visit>
   void visit_contacts(const Visit &visit) const {
-    for (std::size_t k = 0; k < loads_.size(); ++k)
-      if (loads_[k].particle >= 0) visit(loads_[k].face, contacts_[k].point);
+    for (std::size_t k = 0; k < results_.size(); ++k)
+      if (results_.load[k].particle >= 0) visit(results_.load[k].face, results_.contact[k].point);
   }
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
   // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
@@ -228,8 +232,8 @@ private:
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
-  void push_particles(dem::Particles &particles) const;
-  void load_body(fem::LoadedSurface &body); // and what all rows have in common
+  void push_particle(dem::Particles &particles, std::size_t k) const;
+  void sum_rows(); // what all rows have in common
   void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;
@@ -252,13 +256,12 @@ private:
   Column<Vector3> *seat_spring_ = nullptr;         // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 
-  std::vector<char> own_blocks_;     // empty: all
-  double travelled_ = 0;             // m, sum of the distances told to moved()
-  std::vector<double> idle_until_;   // of each row: no contact before travelled_ is that
-  std::vector<std::size_t> due_;     // rows to work out in this step
-  std::vector<RowLoad> loads_;       // of them
-  std::vector<RowContact> contacts_; // of them
-  std::vector<Vector3> moments_;     // N m, of them; with seats
+  std::vector<char> own_blocks_;   // empty: all
+  double travelled_ = 0;           // m, sum of the distances told to moved()
+  std::vector<double> idle_until_; // of each row: no contact before travelled_ is that
+  std::vector<std::size_t> due_;   // rows to work out in this step
+  RowResults results_;             // of them
+  std::vector<Vector3> moments_;   // N m, of them; with seats
   double elastic_energy_ = 0;
   // Of Hertz, overlap over radius: the most in the last step, and what springs are counted for.
   double deepest_ = 0, counted_ = 0;

@@ -24,7 +24,9 @@ void ContactLayer::compute_in_packs(const dem::Particles &p, const fem::LoadedSu
   const std::vector<fem::FaceCompliance> &yields = parameters_.face_compliance;
   const kernels::LayerSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted,
                                     yields.empty() ? nullptr : yields[0][0].data()};
-  compute_rows_(c, faces, step, points, &due_[first], count, &loads_[first], &contacts_[first]);
+  compute_rows_(
+      c, faces, step, points, &due_[first], count,
+      {&results_.load[first], &results_.torque[first], &results_.work[first], &results_.contact[first]});
 }
 
 } // namespace platen::coupling

@@ -34,19 +34,21 @@ std::size_t ContactLayer::most_bytes() const {
 }
 
 void ContactLayer::put_loads(std::vector<char> &bytes) const {
-  for (std::size_t k = 0; k < loads_.size(); ++k) {
-    const RowLoad &l = loads_[k];
+  for (std::size_t k = 0; k < results_.size(); ++k) {
+    const RowLoad &l = results_.load[k];
+    const RowWork &w = results_.work[k];
     const bool active = l.particle >= 0;
-    if (!active && l.friction_loss == 0 && l.damping_loss == 0) continue;
+    if (!active && w.friction_loss == 0 && w.damping_loss == 0) continue;
     SharedLoad shared{};
     shared.row = static_cast<int>(due_[k]);
     shared.particle = l.particle;
-    shared.friction_loss = l.friction_loss, shared.damping_loss = l.damping_loss;
+    shared.friction_loss = w.friction_loss, shared.damping_loss = w.damping_loss;
+    shared.depth = w.depth;
     if (active) {
       shared.face = l.face, shared.weights = l.weights;
-      shared.force = l.force, shared.point = contacts_[k].point;
+      shared.force = l.force, shared.point = results_.contact[k].point;
       if (seat_spring_ != nullptr) shared.moment = moments_[k];
-      shared.elastic = l.elastic, shared.depth = l.depth;
+      shared.elastic = w.elastic;
     }
     put(bytes, shared);
   }
@@ -59,10 +61,9 @@ void ContactLayer::take_loads(const std::vector<char> &of_all) {
   std::sort(shared.begin(), shared.end(),
             [](const SharedLoad &a, const SharedLoad &b) { return a.row < b.row; });
   std::vector<std::size_t> rows;
-  std::vector<RowLoad> loads;
-  std::vector<RowContact> contacts;
+  RowResults results;
   std::vector<Vector3> moments;
-  rows.reserve(shared.size()), loads.reserve(shared.size()), contacts.reserve(shared.size());
+  rows.reserve(shared.size());
   for (const SharedLoad &s : shared) {
     const std::size_t row = static_cast<std::size_t>(s.row);
     rows.push_back(row);
@@ -70,17 +71,13 @@ void ContactLayer::take_loads(const std::vector<char> &of_all) {
     if (is_own(row)) {
       const std::size_t k =
           static_cast<std::size_t>(std::lower_bound(due_.begin(), due_.end(), row) - due_.begin());
-      loads.push_back(loads_[k]), contacts.push_back(contacts_[k]);
+      results.append(results_.load[k], results_.torque[k], results_.work[k], results_.contact[k]);
       continue;
     }
-    RowLoad load;
-    load.particle = s.particle, load.face = s.face, load.weights = s.weights;
-    load.force = s.force;
-    load.elastic = s.elastic, load.friction_loss = s.friction_loss, load.damping_loss = s.damping_loss;
-    load.depth = s.depth;
-    loads.push_back(load), contacts.push_back({s.point, {}});
+    results.append({s.particle, s.face, s.force, s.weights}, {},
+                   {s.elastic, s.friction_loss, s.damping_loss, s.depth}, {s.point, {}});
   }
-  due_ = std::move(rows), loads_ = std::move(loads), contacts_ = std::move(contacts);
+  due_ = std::move(rows), results_ = std::move(results);
   moments_ = std::move(moments);
 }
 
@@ -95,8 +92,8 @@ void ContactLayer::put_rows(std::vector<char> &bytes) const {
     const auto due = std::lower_bound(due_.begin(), due_.end(), row);
     const bool found = due != due_.end() && *due == row;
     const std::size_t k = static_cast<std::size_t>(due - due_.begin());
-    put(bytes, found ? contacts_[k] : RowContact{});
-    put(bytes, found ? loads_[k].normal_force : 0.0);
+    put(bytes, found ? results_.contact[k] : RowContact{});
+    put(bytes, found ? results_.torque[k].normal_force : 0.0);
   }
 }
 
@@ -113,7 +110,7 @@ void ContactLayer::take_rows(const std::vector<char> &of_all) {
     const auto due = std::lower_bound(due_.begin(), due_.end(), row);
     if (due == due_.end() || *due != row) continue;
     const std::size_t k = static_cast<std::size_t>(due - due_.begin());
-    contacts_[k] = contact, loads_[k].normal_force = normal_force;
+    results_.contact[k] = contact, results_.torque[k].normal_force = normal_force;
   }
 }
 

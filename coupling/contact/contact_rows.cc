@@ -17,6 +17,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 const double tsuji = std::sqrt(5.0 / 6.0);                 // with it Hertz' dashpot is a fraction of critical
 constexpr std::size_t rows_per_part = SurfacePoints::most; // a row costs as much as some bonds
+constexpr std::size_t rows_per_push = 128;                 // of a thread: a microsecond
 
 } // namespace
 
@@ -59,7 +60,7 @@ void ContactLayer::find_due_rows() {
 void ContactLayer::add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt) {
   const auto part = [&](std::size_t p) { compute_part(particles, body, dt, p); };
   run_loops(loop_of(prepare(particles, body), part));
-  apply_forces(particles, body);
+  apply_forces(particles, &body);
 }
 
 std::size_t ContactLayer::prepare(const dem::Particles &particles, const fem::LoadedSurface &body) {
@@ -97,57 +98,68 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
 }
 
 void ContactLayer::keep_result(std::size_t k, const RowForce &r, const Vector3 &centre) {
-  RowLoad &load = loads_[k];
+  RowLoad &load = results_.load[k];
   load.particle = r.active ? r.particle : -1;
-  load.friction_loss = r.friction_loss;
-  load.damping_loss = r.damping_loss;
+  results_.work[k] = {r.active ? r.elastic : 0, r.friction_loss, r.damping_loss, r.active ? r.depth : -1};
   if (!r.active) return;
   const Vector3 &arm = r.at.local.point;
   load.face = r.at.face;
   load.weights = r.at.local.weights;
   load.force = r.normal_force * r.at.normal + r.shear;
-  load.torque = cross(arm, load.force) + r.moment;
-  load.normal_force = r.normal_force;
-  load.elastic = r.elastic;
-  load.depth = r.depth;
-  contacts_[k] = {centre + arm, r.at.normal};
+  results_.torque[k] = {cross(arm, load.force) + r.moment, r.normal_force};
+  results_.contact[k] = {centre + arm, r.at.normal};
   if (seat_spring_ != nullptr) moments_[k] = r.moment;
 }
 
+int ContactLayer::particle_of_part(std::size_t part) const {
+  return particle_[due_[part * rows_per_part]];
+}
+
 // Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
-// by row: rows that are passed over may differ from run to run, sums may not.
-void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface &body) {
-  at_once(2, [&](std::size_t piece) {
+// by row: rows that are passed over may differ from run to run, sums may not. Rows ascend with their
+// particles: each thread pushes those that it moves.
+void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface *body) {
+  const auto push = [&](std::size_t block) {
+    const std::size_t last = std::min(results_.size(), (block + 1) * rows_per_push);
+    for (std::size_t k = block * rows_per_push; k < last; ++k)
+      push_particle(particles, k);
+  };
+  const auto serve = [&](std::size_t piece) {
     if (piece == 0)
-      push_particles(particles);
+      sum_rows();
     else
-      load_body(body);
-  });
+      load_body(*body);
+  };
+  run_loops(loop_of(number_of_blocks(results_.size(), rows_per_push), push),
+            loop_of(body != nullptr ? 2 : 1, serve));
 }
 
-void ContactLayer::push_particles(dem::Particles &particles) const {
-  for_each(loads_.size(), [&](std::size_t k) {
-    const RowLoad &load = loads_[k];
-    if (load.particle < 0) return;
-    const std::size_t i = static_cast<std::size_t>(load.particle);
-    particles.force[i] += load.force;
-    if (particles.has_rotation()) (*particles.torque)[i] += load.torque;
-  });
+void ContactLayer::push_particle(dem::Particles &particles, std::size_t k) const {
+  const RowLoad &load = results_.load[k];
+  if (load.particle < 0) return;
+  const std::size_t i = static_cast<std::size_t>(load.particle);
+  particles.force[i] += load.force;
+  if (particles.has_rotation()) (*particles.torque)[i] += results_.torque[k].torque;
 }
 
-void ContactLayer::load_body(fem::LoadedSurface &body) {
-  std::size_t active = 0;
-  double elastic = 0, friction_loss = 0, damping_loss = 0, deepest = 0;
-  for (std::size_t k = 0; k < loads_.size(); ++k) {
-    const RowLoad &load = loads_[k];
-    friction_loss += load.friction_loss;
-    damping_loss += load.damping_loss;
+void ContactLayer::load_body(fem::LoadedSurface &body) const {
+  for (std::size_t k = 0; k < results_.size(); ++k) {
+    const RowLoad &load = results_.load[k];
     if (load.particle < 0) continue;
-    ++active;
-    elastic += load.elastic;
-    deepest = std::max(deepest, load.depth);
     body.add_face_force(load.face, load.weights, -load.force);
     if (seat_spring_ != nullptr && norm_squared(moments_[k]) > 0) apply_moment(body, load.face, -moments_[k]);
+  }
+}
+
+void ContactLayer::sum_rows() {
+  std::size_t active = 0;
+  double elastic = 0, friction_loss = 0, damping_loss = 0, deepest = 0;
+  for (const RowWork &row : results_.work) {
+    friction_loss += row.friction_loss;
+    damping_loss += row.damping_loss;
+    elastic += row.elastic;
+    active += row.depth >= 0 ? 1 : 0;
+    deepest = std::max(deepest, row.depth);
   }
   closed = active;
   elastic_energy_ = elastic;
@@ -299,13 +311,13 @@ void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double
 
 std::vector<ActiveContact> ContactLayer::contacts() const {
   std::vector<ActiveContact> active;
-  for (std::size_t k = 0; k < loads_.size(); ++k) {
-    const RowLoad &load = loads_[k];
+  for (std::size_t k = 0; k < results_.size(); ++k) {
+    const RowLoad &load = results_.load[k];
     if (load.particle < 0) continue;
     ActiveContact c;
     c.particle = load.particle, c.face = load.face;
-    c.point = contacts_[k].point, c.normal = contacts_[k].normal;
-    c.normal_force = load.normal_force;
+    c.point = results_.contact[k].point, c.normal = results_.contact[k].normal;
+    c.normal_force = results_.torque[k].normal_force;
     if (spring_ != nullptr) {
       c.shear = (*spring_)[due_[k]];
       c.sliding = (*sliding_)[due_[k]] != 0;
@@ -319,13 +331,14 @@ std::vector<ActiveContact> ContactLayer::contacts() const {
 std::vector<double> ContactLayer::vertex_slip(const fem::LoadedSurface &body) const {
   std::vector<double> sum(body.surface().vertices.size()), weight(sum.size());
   if (slip_ == nullptr) return sum;
-  for (std::size_t k = 0; k < loads_.size(); ++k) {
-    if (loads_[k].particle < 0) continue;
-    const auto &corners = body.surface().faces[static_cast<std::size_t>(loads_[k].face)];
+  for (std::size_t k = 0; k < results_.size(); ++k) {
+    const RowLoad &load = results_.load[k];
+    if (load.particle < 0) continue;
+    const auto &corners = body.surface().faces[static_cast<std::size_t>(load.face)];
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = static_cast<std::size_t>(corners[corner]);
-      sum[v] += loads_[k].weights[corner] * (*slip_)[due_[k]];
-      weight[v] += loads_[k].weights[corner];
+      sum[v] += load.weights[corner] * (*slip_)[due_[k]];
+      weight[v] += load.weights[corner];
     }
   }
   // Weights below this are round-off of a contact on the far edge of the face.

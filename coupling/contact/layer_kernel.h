@@ -42,16 +42,24 @@ struct LayerStep {
   double travelled = 0; // m, as in idle_until
 };
 
+// Of the first of the rows that are worked out.
+struct LayerResults {
+  RowLoad *load;
+  RowTorque *torque;
+  RowWork *work;
+  RowContact *contact;
+};
+
 // Rows row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them.
 using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
                              const SurfacePoints &points, const std::size_t *row, std::size_t count,
-                             RowLoad *load, RowContact *contact);
+                             const LayerResults &results);
 void compute_rows_baseline(const LayerColumns &, const LayerSurface &, const LayerStep &,
-                           const SurfacePoints &, const std::size_t *, std::size_t, RowLoad *, RowContact *);
+                           const SurfacePoints &, const std::size_t *, std::size_t, const LayerResults &);
 void compute_rows_avx2(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
-                       const std::size_t *, std::size_t, RowLoad *, RowContact *);
+                       const std::size_t *, std::size_t, const LayerResults &);
 void compute_rows_avx512(const LayerColumns &, const LayerSurface &, const LayerStep &, const SurfacePoints &,
-                         const std::size_t *, std::size_t, RowLoad *, RowContact *);
+                         const std::size_t *, std::size_t, const LayerResults &);
 inline ComputeRows compute_rows(dem::InstructionSet set) {
   return dem::for_set<ComputeRows>(set, compute_rows_baseline, compute_rows_avx2, compute_rows_avx512);
 }

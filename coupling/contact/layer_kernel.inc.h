@@ -172,27 +172,30 @@ PLATEN_INLINE Push push_pack(const LayerColumns &c, const LayerSurface &surface,
   return push;
 }
 
-// Four numbers at once; what runs into the next one is written before it.
+// Four numbers at once; what runs into the next one is written before it. `first`: of the results.
 PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Pack> &weights, const Push &push,
-                        RowLoad *load, RowContact *contact) {
+                        const LayerResults &results, std::size_t first) {
   const Triple<Pack> force = scale(push.normal_force, p.normal) + push.shear;
   const Triple<Pack> &point = p.place;
   dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes], shares[lanes];
   dem::kernels::to_rows(weights, shares);
   dem::kernels::to_rows(force, forces);
-  dem::kernels::to_rows(cross(p.arm, force), torques);
-  dem::kernels::to_rows(
-      Rotation<Pack>{push.normal_force, push.elastic, push.friction_loss, push.damping_loss}, sums);
+  const Triple<Pack> torque = cross(p.arm, force);
+  dem::kernels::to_rows(Rotation<Pack>{torque.x, torque.y, torque.z, push.normal_force}, torques);
+  const Pack depth = How::choose(push.active, Pack(0.0), Pack(-1.0));
+  dem::kernels::to_rows(Rotation<Pack>{push.elastic, push.friction_loss, push.damping_loss, depth}, sums);
   dem::kernels::to_rows(Rotation<Pack>{point.x, point.y, point.z, p.normal.x}, places);
   dem::kernels::to_rows(Rotation<Pack>{point.z, p.normal.x, p.normal.y, p.normal.z}, normals);
   const unsigned active = dem::kernels::bits_of(push.active);
+  RowLoad *const load = results.load + first;
+  RowContact *const contact = results.contact + first;
   const auto keep_lane = [&](int l) __attribute__((always_inline)) {
     load[l].particle = active >> l & 1u ? r.particle[l] : -1;
     load[l].face = r.face[l];
-    dem::kernels::store_row(load[l].weights.data(), shares[l]);
     dem::kernels::store_row(&load[l].force.x, forces[l]);
-    dem::kernels::store_row(&load[l].torque.x, torques[l]);
-    dem::kernels::store_row(&load[l].normal_force, sums[l]);
+    dem::kernels::store_row(load[l].weights.data(), shares[l]);
+    dem::kernels::store_row(&results.torque[first + static_cast<std::size_t>(l)].torque.x, torques[l]);
+    dem::kernels::store_row(&results.work[first + static_cast<std::size_t>(l)].elastic, sums[l]);
     dem::kernels::store_row(&contact[l].point.x, places[l]);
     dem::kernels::store_row(&contact[l].point.z, normals[l]);
   };
@@ -209,8 +212,8 @@ PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Pack> &we
 } // namespace
 
 void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const LayerStep &s,
-                   const SurfacePoints &points, const std::size_t *row, std::size_t count, RowLoad *load,
-                   RowContact *contact) {
+                   const SurfacePoints &points, const std::size_t *row, std::size_t count,
+                   const LayerResults &results) {
   for (std::size_t first = 0; first < count; first += lanes) {
     Rows r;
     r.count = static_cast<int>(count - first < lanes ? count - first : lanes);
@@ -226,7 +229,7 @@ void PLATEN_KERNEL(const LayerColumns &c, const LayerSurface &surface, const Lay
     const Rotation<Pack> weights{dem::kernels::load(&w[0][first]), dem::kernels::load(&w[1][first]),
                                  dem::kernels::load(&w[2][first]), dem::kernels::load(&w[3][first])};
     const Pack k_n = stiffness_at(surface, s.stiffness, r.face, weights);
-    keep(r, p, weights, push_pack(c, surface, s, r, p, k_n), load + first, contact + first);
+    keep(r, p, weights, push_pack(c, surface, s, r, p, k_n), results, first);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
@@ -61,6 +62,50 @@ TEST(thread_pool, does_every_part_of_two_loops_once) {
         ASSERT_EQ(done, std::vector<int>(parts, 20)) << threads << ", " << parts << " and " << others;
         ASSERT_EQ(more, std::vector<int>(others, 40)) << threads << ", " << parts << " and " << others;
       }
+}
+
+// The caller takes parts up from the first, the other thread down from the last, whichever is quicker: what
+// the slower one leaves is next to what the quicker one has.
+TEST(thread_pool, two_threads_meet_in_the_middle_of_both_loops) {
+  const std::thread::id caller = std::this_thread::get_id();
+  for (const bool caller_is_slow : {false, true}) {
+    ThreadPool pool;
+    std::vector<char> by_caller(40, 0), other_by_caller(30, 0);
+    std::atomic<int> here{0};
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto take = [&](std::vector<char> &by, std::size_t p) {
+      const bool is_caller = std::this_thread::get_id() == caller;
+      by[p] = is_caller;
+      // Neither goes on before both have a part.
+      if (p == 0 || p + 1 == by_caller.size()) ++here;
+      while (here < 2 && std::chrono::steady_clock::now() < patience)
+        std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::microseconds(is_caller == caller_is_slow ? 2000 : 200));
+    };
+    const auto first = [&](std::size_t p) { take(by_caller, p); };
+    const auto second = [&](std::size_t p) { take(other_by_caller, p); };
+    pool.run(loop_of(by_caller.size(), first), loop_of(other_by_caller.size(), second), 2);
+    ASSERT_GE(here, 2);
+    for (const std::vector<char> *by : {&by_caller, &other_by_caller}) {
+      const auto split = std::count(by->begin(), by->end(), 1);
+      for (std::size_t p = 0; p < by->size(); ++p)
+        EXPECT_EQ((*by)[p] != 0, static_cast<std::ptrdiff_t>(p) < split)
+            << "part " << p << " of " << by->size() << ", " << split << " by the caller";
+    }
+    const auto of_first = std::count(by_caller.begin(), by_caller.end(), 1);
+    if (caller_is_slow)
+      EXPECT_LT(of_first, 20) << "what the slower one had left is taken over";
+    else
+      EXPECT_GT(of_first, 20) << "what the slower one had left is taken over";
+  }
+}
+
+TEST(thread_pool, more_parts_than_can_be_counted_are_refused) {
+  ThreadPool pool;
+  const auto never = [](std::size_t) { throw std::logic_error("a part was made"); };
+  const std::size_t most = std::size_t{1} << 32;
+  EXPECT_THROW(pool.run(loop_of(most, never), {}, 2), std::length_error);
+  EXPECT_THROW(pool.run({}, loop_of(most, never), 2), std::length_error);
 }
 
 TEST(thread_pool, threads_work_at_the_same_time) {

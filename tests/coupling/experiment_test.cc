@@ -31,7 +31,11 @@ public:
     done.assign(parts, 0);
     return parts;
   }
-  void compute_part(const dem::Particles &, const Step &, std::size_t part) override { ++done.at(part); }
+  int particle_of_part(std::size_t part) const override { return particles.empty() ? 0 : particles.at(part); }
+  void compute_part(const dem::Particles &, const Step &, std::size_t part) override {
+    ++done.at(part);
+    if (!particles.empty()) note("part " + std::to_string(part));
+  }
   void apply_forces(dem::Particles &, const Step &) override { note("apply"); }
   void finish(const Step &) override { note("finish"); }
   double power_on_machine() const override { return power; }
@@ -52,6 +56,7 @@ public:
   double power = 0;
   StepLimit own;
   std::vector<int> listed{7}, done; // all push the same particle: one after the other
+  std::vector<int> particles;       // of each part; empty: of no matter
   std::vector<Command> commands;
   std::vector<Step> steps;
 
@@ -170,6 +175,20 @@ TEST(experiment, parts_of_boundaries_without_any_do_not_shift_those_of_others) {
   s.experiment.advance(1);
   EXPECT_EQ(s.b.done, std::vector<int>(5, 1));
   EXPECT_EQ(s.c.done, std::vector<int>(1, 1));
+}
+
+// So that they go to the threads that move the particles.
+TEST(experiment, parts_of_all_boundaries_are_made_in_the_order_of_their_particles) {
+  const ThreadLimit limit(1);
+  ThreeAround s;
+  s.a.particles = {1, 4, 9}, s.b.particles = {0, 4, 8}, s.c.particles = {2, 3, 4};
+  s.begin();
+  s.experiment.advance(1);
+  Log parts;
+  for (const std::string &line : s.log)
+    if (line.find("part") != std::string::npos) parts.push_back(line);
+  EXPECT_EQ(parts, (Log{"b part 0", "a part 0", "c part 0", "c part 1", "a part 1", "b part 1", "c part 2",
+                        "b part 2", "a part 2"}));
 }
 
 TEST(experiment, each_boundary_gets_its_own_command_and_the_step) {

@@ -2,7 +2,10 @@
 // its skin, the energy balance closes, and a stop changes no bit.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "base/parallel.h"
 #include "coupling/platen_test.h"
@@ -154,6 +157,46 @@ TEST(sleeve_cell, its_rims_stay_with_the_platens) {
     EXPECT_EQ(solid.displacement()[node][0], 0) << top;
   }
   EXPECT_GT(problem.sleeve_volumetric_strain(), 0);
+}
+
+// In most steps of an interval nobody needs the loads on the sleeve: they are added up for who asks, and
+// whoever asks first gets them.
+TEST(sleeve_cell, loads_of_every_step_are_there_for_who_asks) {
+  PlatenTestSettings settings = in_cell(10e6, true, true);
+  settings.loading.cell->sleeve->contact.friction_static = 0.5; // so that its rims bear some of the load
+  PlatenTest problem(cylinder(), settings);
+  while (!problem.axial_stage())
+    problem.advance(16);
+  const Sleeve &sleeve = *problem.sleeve();
+  const auto picture = [&] {
+    std::ostringstream text;
+    sleeve.write_vtu(text);
+    return text.str();
+  };
+  std::array<int, 3> within{}; // steps in which an interval went on, by who asked first
+  for (std::size_t step = 0; step < 60; ++step) {
+    problem.advance(1);
+    const std::size_t first = step % 3;
+    const double axial = first == 0 ? sleeve.axial_force_beyond_pressure() : 0;
+    const std::string seen = first == 1 ? picture() : "";
+    const State state = state_of(sleeve);
+    const auto steps = [&](const char *name) { return rows_of<int>(state, name).front(); };
+    within[first] += steps("state/planned_steps") != steps("state/steps_made") ? 1 : 0;
+    Vector3 pushed{};   // N, of the sleeve on the particles
+    double pressed = 0; // N
+    for (const ActiveContact &c : sleeve.layer().contacts()) {
+      pushed += c.normal_force * c.normal + c.shear;
+      pressed += c.normal_force;
+    }
+    ASSERT_GT(pressed, 0);
+    EXPECT_LT(norm(sleeve.solid().total_force() + pushed), 1e-12 * pressed) << "step " << step;
+    const double axial_again = first == 0 ? sleeve.axial_force_beyond_pressure() : 0;
+    EXPECT_EQ(axial, axial_again) << "step " << step;
+    EXPECT_EQ(seen, first == 1 ? picture() : "") << "step " << step;
+    EXPECT_TRUE(same_state(state, sleeve)) << "step " << step;
+  }
+  for (const int steps : within)
+    EXPECT_GT(steps, 5);
 }
 
 TEST(sleeve_cell, threads_change_no_bit) {
