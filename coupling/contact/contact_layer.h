@@ -115,12 +115,13 @@ public:
   // nothing but the layer's own rows;
   void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                     std::size_t part);
-  // (the row of the first particle of a part;)
-  int particle_of_part(std::size_t part) const;
   // and then, once, what particles and body get of them. Without a body: the particles alone, for who looks
   // at the body's loads seldom; load_body() gives them of the last step.
   void apply_forces(dem::Particles &particles, fem::LoadedSurface *body);
   void load_body(fem::LoadedSurface &body) const;
+
+  // Row of the first particle of a part, after prepare(). Parts ascend by it.
+  int particle_of_part(std::size_t part) const;
 
   // On ranks, which have the same rows: marks the blocks of particles whose rows are worked out here, in
   // prepare() and compute_part(). All of them where this was not called.

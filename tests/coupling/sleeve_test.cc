@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -127,6 +128,37 @@ TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
   EXPECT_EQ(second.sleeve.solid().surface().vertices, first.sleeve.solid().surface().vertices);
   first.run(1e-4);
   EXPECT_TRUE(same_state(whole.sleeve, first.sleeve));
+}
+
+// Loads that nobody asked for are not those of the next step.
+TEST(sleeve, a_step_begins_without_the_loads_of_the_last_one) {
+  Cell cell;
+  cell.run(1e-4);
+  cell.sleeve.solid().clear_loads();
+  cell.sleeve.apply_forces(cell.model.particles, {});
+  EXPECT_GT(norm(cell.sleeve.solid().contact_load(Cell::struck)), 0);
+  cell.sleeve.solid().clear_loads();
+  cell.sleeve.apply_forces(cell.model.particles, {});
+  cell.sleeve.move(cell.dt, {{}, {}, cell.pressure});
+  EXPECT_EQ(cell.sleeve.solid().contact_load(Cell::struck), Vector3{});
+}
+
+TEST(sleeve, parts_of_its_contacts_ascend_by_their_particles) {
+  Cell cell;
+  cell.run(1e-4);
+  ContactLayer &layer = cell.sleeve.layer();
+  const std::size_t parts = layer.prepare(cell.model.particles, cell.sleeve.solid());
+  const std::vector<int> &near = layer.search().particles();
+  ASSERT_GT(parts, 1u);
+  auto last = near.begin();
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto at = std::lower_bound(near.begin(), near.end(), layer.particle_of_part(part));
+    ASSERT_TRUE(at != near.end() && *at == layer.particle_of_part(part)) << "part " << part;
+    // A part before it was full; rows that are passed over stand between.
+    const std::ptrdiff_t full = part > 0 ? SurfacePoints::most : 0;
+    EXPECT_GE(at - last, full) << "part " << part;
+    last = at;
+  }
 }
 
 // Stopped in the middle of an interval and between two: what the state does not hold is not there to go on
