@@ -91,8 +91,8 @@ GROUPS = [
               "slope of each loading is a little smaller than that of the one before, because bonds have broken."),
         Scene("biaxial_steel", COMPRESS, "side_stresses",
               "A square in plane stress: the platens at the sides carry half the stress of those at top and bottom "
-              "during the whole test. It carries 1.8 times its uniaxial strength; between brushes laboratories find "
-              "1.27 times."),
+              "during the whole test. It carries 1.8 times its uniaxial strength; between brushes "
+              "laboratories find 1.16 times for equal stresses."),
         Scene("biaxial_brush", COMPRESS, "side_stresses",
               "The same square between brushes: steel pins that bend with the concrete. Its strength is an eighth "
               "lower than between dry steel, 1.8 times its strength along one axis; at equal stresses (`Lateral x = "
@@ -116,7 +116,7 @@ GROUPS = [
     ]),
     ("Cement, concrete and shale of Oñate et al. 2015", [
         Scene("onate_cement", COMPRESS, "damage",
-              "Experiment 17 MPa, here 20. The lower half is crushed; above it almost nothing is broken."),
+              "Experiment 17 MPa (from the paper's shear strength, which is half of it), here 20. The lower half is crushed; above it almost nothing is broken."),
         Scene("onate_cement_triaxial", COMPRESS, "damage",
               "The same test as triaxial_cement, with the pressure on the spheres of the skin instead of a sleeve: "
               "the same strength. One zone is crushed, the rest remains intact."),
@@ -128,7 +128,7 @@ GROUPS = [
               "Experiment 2.9 MPa, the paper's model 3.0. This weak cement is first crushed at the lower strip (left), "
               "then at the upper one, from where cracks run inwards (right)."),
         Scene("onate_concrete", COMPRESS, "damage",
-              "Experiment 32.8 to 38 MPa, E 28 GPa; here 41 and 30. Caps of intact spheres remain at both ends; failed interfaces "
+              "Experiment 37 MPa; here 41, and E is 30 GPa where the interfaces have 28. Caps of intact spheres remain at both ends; failed interfaces "
               "still carry friction, so the specimen does not fall apart."),
         Scene("onate_concrete_triaxial", COMPRESS, "damage",
               "A cell of 9 MPa: nearly twice the strength of onate_concrete. Damage begins as a belt and spreads "

@@ -11,10 +11,10 @@ import onate_limit
 
 # name: what, experiment, the paper's model (MPa)
 scalars = {
-    "cement_ucs": ("cement, unconfined", "17", "-"),
+    "cement_ucs": ("cement, unconfined", "17 (twice tau_f)", "-"),
     "cement_brazilian": ("cement, splitting", "2.9", "3.0"),
     "cement_uniaxial_strain": ("cement, limit in uniaxial strain", "about 10", "-"),
-    "concrete_ucs": ("concrete, unconfined", "32.8 to 38", "-"),
+    "concrete_ucs": ("concrete, unconfined", "37", "-"),
     "concrete_brazilian": ("concrete, splitting", "3", "-"),
     "shale_ucs": ("shale, unconfined", "50", "48"),
     "shale_brazilian": ("shale, splitting", "5.0", "5.4"),
