@@ -7,7 +7,8 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 if [ -f "$root/scripts/build.sh" ]; then
   cd "$root"
-  scripts/build.sh platen-compress platen-study platen-report
+  # What the demo runs, and what the lessons of docs/tutorial type after it.
+  scripts/build.sh platen platen-pack platen-compress platen-study platen-calibrate platen-report platen_core
   apps=build/apps
 else
   apps="$root/../../bin"

@@ -1,5 +1,7 @@
 #include "apps/scene/shipped.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -21,15 +23,26 @@ std::string title_in(const fs::path &file) {
   return "";
 }
 
+// Of the file that holds this code: a program, or the module that a Python has loaded.
+fs::path own_folder() {
+  std::error_code none;
+  Dl_info own{};
+  if (dladdr(reinterpret_cast<const void *>(&shipped_scenes), &own) != 0 && own.dli_fname != nullptr) {
+    const fs::path file = own.dli_fname;
+    if (file.extension() == ".so") return fs::absolute(file, none).parent_path();
+  }
+  return fs::read_symlink("/proc/self/exe", none).parent_path();
+}
+
 } // namespace
 
 fs::path shipped_scenes() {
   std::error_code none;
-  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path(),
-                 scenes = fs::path("share") / "platen" / "scenes";
-  for (const fs::path &up : {here / "..", here / ".." / ".."}) // of a program, of an engine
-    if (fs::is_directory(up / scenes, none)) return (up / scenes).lexically_normal();
-  return (here / ".." / scenes).lexically_normal();
+  const fs::path here = own_folder(), scenes = fs::path("share") / "platen" / "scenes";
+  // A program's prefix is one folder above it, an engine's two, the Python package's up to four.
+  for (fs::path up = here.parent_path(); up.has_relative_path(); up = up.parent_path())
+    if (fs::is_directory(up / scenes, none)) return up / scenes;
+  return here.parent_path() / scenes;
 }
 
 std::vector<ShippedScene> shipped_scene_list() {

@@ -146,7 +146,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of platen.";
   py::register_exception_translator(&translate);
   module.def("version_json", &apps::version_json);
-  module.def("scenes_beside_programs", [] { return apps::shipped_scenes().string(); });
+  module.def("shipped_scenes", [] { return apps::shipped_scenes().string(); });
 
   py::class_<Experiment>(module, "Experiment")
       .def(py::init([](const std::string &scene, const std::vector<std::string> &overrides,

@@ -13,19 +13,9 @@ def version():
     return json.loads(_core.version_json())
 
 
-def _scene_folder():
-    """Scenes that came with Platen: where the package's prefix has them, or beside the build folder's programs."""
-    here = Path(__file__).resolve().parent
-    for up in here.parents:
-        folder = up / "share" / "platen" / "scenes"
-        if folder.is_dir():
-            return folder
-    return Path(_core.scenes_beside_programs())
-
-
 def scenes():
     """Paths of the scenes that came with Platen, by name."""
-    return {path.stem: path for path in sorted(_scene_folder().glob("*.prm"))}
+    return {path.stem: path for path in sorted(Path(_core.shipped_scenes()).glob("*.prm"))}
 
 
 def _path_of(scene):

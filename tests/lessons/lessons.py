@@ -2,6 +2,7 @@
 """Types the lessons of docs/tutorial as they stand, in one folder, and checks what they say.
 
     lessons.py APPS DOCS [FOLDER]     APPS: folder of the programs, or - where they are in the PATH
+    lessons.py --built-by DEMO DOCS   types nothing: the script DEMO builds all that the lessons type
 
 Code blocks of `sh` are run one after the other; `sh status=2` has to end so. Comments in the text say what it claims, and
 claims are checked where they stand; a number that is claimed has to be in the text that follows its comment:
@@ -114,7 +115,26 @@ def type_lesson(path, folder, environment):
         k += 1
 
 
+def programs_typed(lesson):
+    """Targets of the build that a lesson's blocks need."""
+    blocks = "\n".join(re.findall(r"```sh.*?\n(.*?)```", lesson.read_text(), re.DOTALL))
+    typed = set(re.findall(r"(?:^|\$\(|\| )(platen(?:-[a-z]+)?)\b", blocks, re.MULTILINE))
+    typed |= {f"platen-{job}" for job in re.findall(r"(?:^|\$\()platen (pack|bonds|bar|compress|brazilian|calibrate|study|report)\b", blocks, re.MULTILINE)}
+    return typed | ({"platen_core"} if "import platen" in blocks else set())
+
+
+def check_demo(script, docs):
+    """Whoever has run the demo can type the lessons."""
+    builds = re.search(r"scripts/build\.sh (.*)", script.read_text())
+    built = set(builds.group(1).split()) if builds else set()
+    typed = set().union(*(programs_typed(lesson) for lesson in docs.glob("lesson*.md")))
+    print(f"typed: {' '.join(sorted(typed))}; built: {' '.join(sorted(built))}; missing: {' '.join(sorted(typed - built)) or 'none'}")
+    sys.exit(1 if typed - built or len(typed) < 5 else 0)
+
+
 def main():
+    if len(sys.argv) == 4 and sys.argv[1] == "--built-by":
+        check_demo(Path(sys.argv[2]), Path(sys.argv[3]))
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
     environment = dict(os.environ)

@@ -5,7 +5,7 @@ import unittest
 
 import numpy
 
-from folders import CRUSHED, SMALL, InFolder, bytes_in, differing, entries, run_app
+from folders import CRUSHED, SMALL, SOURCE, InFolder, bytes_in, differing, entries, run_app
 
 import platen
 
@@ -30,6 +30,21 @@ class Bytes(InFolder):
         platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "one").run()
         platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "two", threads=2).run()
         self.assertEqual(differing(self.folder / "one", self.folder / "two"), [])
+
+
+class Shipped(InFolder):
+    def test_a_scene_includes_ready_materials_and_parts(self):
+        for part in ("materials/concrete_c40.prm", "parts/concrete.prm"):
+            scene = self.folder / "mine.prm"
+            scene.write_text(f"include {part}\nsubsection Specimen\n  set Shape = cylinder\n  set Radius = 25 mm\n  set Height = 50 mm\n"
+                             "  set Sphere radius = 3 mm\nend\n")
+            experiment = platen.Experiment(scene, output=self.folder / part)
+            self.assertGreater(len(experiment.spheres["id"]), 100)
+
+    def test_all_scenes_that_came_with_it_are_there(self):
+        shipped = {path.stem for path in (SOURCE / "scenes").glob("*.prm")}
+        self.assertGreater(len(shipped), 50)
+        self.assertEqual(set(platen.scenes()), shipped)
 
 
 class Looking(InFolder):
