@@ -9,6 +9,7 @@
 #include "apps/io/numbers.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
+#include "base/characters.h"
 
 namespace platen::apps {
 namespace {
@@ -16,8 +17,12 @@ namespace {
 constexpr const char *allowed_columns =
     "Allowed: strain_platen or strain_gauge, then stress_pa or stress_mpa, with a comma between them.";
 
-[[noreturn]] void fail(const std::filesystem::path &path, int line, const std::string &reason) {
-  throw InputError(path.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": error: " + reason);
+// `text` is the line, of which a character that nobody sees is named.
+[[noreturn]] void fail(const std::filesystem::path &path, int line, const std::string &reason,
+                       const std::string &text = "") {
+  const std::string odd = text_of_odd_character(text);
+  throw InputError(path.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": error: " + reason +
+                   (odd.empty() ? "" : " The line holds " + odd + "."));
 }
 
 std::vector<std::string> cells_of_line(const std::string &line) {
@@ -32,7 +37,8 @@ double read_header(const std::filesystem::path &path, int line, const std::strin
   const std::vector<std::string> cells = cells_of_line(text);
   const bool known = cells.size() == 2 && (cells[0] == "strain_platen" || cells[0] == "strain_gauge") &&
                      (cells[1] == "stress_pa" || cells[1] == "stress_mpa");
-  if (!known) fail(path, line, "the header \"" + text + "\" is not that of a curve. " + allowed_columns);
+  if (!known)
+    fail(path, line, "the header \"" + text + "\" is not that of a curve. " + allowed_columns, text);
   curve.of_gauge = cells[0] == "strain_gauge";
   return cells[1] == "stress_mpa" ? 1e6 : 1;
 }
@@ -40,12 +46,13 @@ double read_header(const std::filesystem::path &path, int line, const std::strin
 void read_row(const std::filesystem::path &path, int line, const std::string &text, double unit,
               TargetCurve &curve) {
   const std::vector<std::string> cells = cells_of_line(text);
-  if (cells.size() != 2) fail(path, line, "\"" + text + "\" has not two numbers. Allowed: strain, stress.");
+  if (cells.size() != 2)
+    fail(path, line, "\"" + text + "\" has not two numbers. Allowed: strain, stress.", text);
   double numbers[2];
   for (std::size_t k = 0; k < 2; ++k) {
     const auto number = number_of(cells[k]);
     if (!number || !std::isfinite(*number))
-      fail(path, line, "\"" + cells[k] + "\" is not a finite number. Allowed: strain, stress.");
+      fail(path, line, "\"" + cells[k] + "\" is not a finite number. Allowed: strain, stress.", text);
     numbers[k] = *number;
   }
   if (curve.strain.empty() ? numbers[0] < 0 : numbers[0] <= curve.strain.back())
@@ -85,7 +92,7 @@ TargetCurve read_target_curve(const std::filesystem::path &path) {
   if (all.rfind("\xef\xbb\xbf", 0) == 0) all.erase(0, 3);
   TargetCurve curve;
   double unit = 0; // until there was a header
-  std::istringstream lines(all);
+  std::istringstream lines(with_plain_line_ends(all));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::string text(trimmed(line));

@@ -1,18 +1,11 @@
-// Text files that list spheres: specimens, one sphere a row in full precision, and lists of ids.
-//   # shape: cylinder radius_m=0.025 height_m=0.1
-//   x_m,y_m,z_m,radius_m
-//   0.001,-0.0024,0.0013,0.0012
-// or, in the first line, "box width_x_m=... width_y_m=... height_m=...", "disc radius_m=... thickness_m=...".
+// Text files that list spheres, one a row in full precision, as apps/scene/specimen_file.h reads them.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <string_view>
-#include <vector>
 
-#include "dem/packing/specimen.h"
+#include "apps/scene/specimen_file.h"
 
 namespace platen::apps {
 
@@ -20,22 +13,5 @@ namespace platen::apps {
 void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &specimen);
 // The same text in pieces, one after the other.
 void tell_specimen_csv(const dem::Specimen &specimen, const std::function<void(std::string_view)> &take);
-
-struct SpecimenFile {
-  dem::Specimen specimen;
-  bool states_shape = false; // else specimen.shape is empty and the scene must say what the shape is
-};
-
-// Reads such a file, also one from elsewhere: comment lines (#), empty lines, CR LF, a byte order mark and
-// blanks around numbers are taken. Throws InputError with file, line, column and value where the header is
-// another, a row has too few or too many values, a number is none or not finite, or a radius is not positive;
-// and where no sphere is there.
-SpecimenFile read_specimen_csv(const std::filesystem::path &path);
-
-// The numbers of the file in its order: whole, not negative, one a line; empty lines and what follows a "#"
-// are passed over. Throws InputError, naming file and line, where the file cannot be read, a line holds
-// something else, or a number comes twice, or is not below the number of spheres that there are.
-std::vector<int> read_id_list(const std::filesystem::path &path,
-                              std::size_t spheres = std::numeric_limits<std::size_t>::max());
 
 } // namespace platen::apps

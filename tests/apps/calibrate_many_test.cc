@@ -220,6 +220,12 @@ TEST_F(CurveFile, faults_are_refused_with_their_line) {
   says(head + "0.001;1\n", ":2: error: \"0.001;1\" has not two numbers");
   says(head + "0.001,x\n", "\"x\" is not a finite number");
   says(head + "0.001,-1\n", "has no stress above 0");
+  says(head +
+           "0.001,\xc2\xa0"
+           "1\n",
+       "The line holds U+00A0 (no-break space) in column 7.");
+  says("strain_platen,stress_pa\r0.001,1\r0.001,2\r",
+       ":3: error: the strain 0.001 is not above the one before it");
   fs::remove(path);
   EXPECT_THROW(read_target_curve(path), InputError);
 }
