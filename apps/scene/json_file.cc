@@ -10,6 +10,7 @@
 
 #include "apps/scene/file_text.h"
 #include "apps/scene/scene_files.h"
+#include "base/characters.h"
 
 namespace platen::apps {
 namespace {
@@ -51,6 +52,13 @@ private:
     line_ += static_cast<int>(std::count(text_.begin() + counted_, text_.begin() + read_to, '\n'));
     counted_ = read_to;
     return line_;
+  }
+  // Of the line that the event ends on, as far as it has been read.
+  std::string read_of_line() {
+    const auto read_to =
+        static_cast<std::size_t>(stream_.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));
+    const std::size_t first = read_to == 0 ? 0 : text_.rfind('\n', read_to - 1) + 1;
+    return text_.substr(first, read_to - first);
   }
   std::string path(std::size_t levels) const {
     std::string joined;
@@ -105,6 +113,8 @@ bool JsonReader::key(std::string &name) {
   Level &level = levels_.back();
   level.origin.line = line();
   level.key = tidy(name);
+  if (const std::string fault = unseen_in(level.key, read_of_line()); !fault.empty())
+    fail(where() + " " + fault);
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   if (std::any_of(level.key.begin(), level.key.end(), control)) {
     level.key = "a key";
@@ -121,9 +131,12 @@ bool JsonReader::scalar(const std::string &value) {
     if (!in_entry_) {
       if (parameters_.is_section(where()))
         fail(where() + " = " + value + " is a section. Allowed: an object.");
+      parameters_.require_seen(where(), value, read_of_line(), levels_.back().origin);
       parameters_.set(where(), value, levels_.back().origin);
     } else if (levels_.back().key == "value") {
-      parameters_.set(path(levels_.size() - 1), value, levels_.back().origin);
+      const std::string entry = path(levels_.size() - 1);
+      parameters_.require_seen(entry, value, read_of_line(), levels_.back().origin);
+      parameters_.set(entry, value, levels_.back().origin);
     }
   });
   return true;
@@ -146,7 +159,7 @@ bool JsonReader::parse_error(std::size_t position, const std::string &,
 } // namespace
 
 void read_json_text(const std::string &text, const std::string &name, Parameters &parameters) {
-  const std::string plain = without_byte_order_mark(text);
+  const std::string plain = with_plain_line_ends(without_byte_order_mark(text));
   JsonReader(plain, name, parameters).read();
 }
 

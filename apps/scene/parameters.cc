@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/scene/units.h"
+#include "base/characters.h"
 
 namespace platen::apps {
 namespace {
@@ -32,6 +34,21 @@ bool a_slip_apart(const std::string &a, const std::string &b) {
   return length_difference(a, b) <= 1 && edit_distance(a, b) <= 1;
 }
 
+// Keys of more words, of which this is one: "Friction static" for "Friction"; few, or it says nothing.
+std::vector<std::string> keys_with(const std::string &key, const std::vector<std::string> &keys) {
+  constexpr std::size_t most = 4;
+  const auto small = [](const std::string &text) {
+    std::string result = " ";
+    for (const char c : text)
+      result += lower(c);
+    return result + " ";
+  };
+  std::vector<std::string> found;
+  for (const std::string &one : keys)
+    if (small(one).find(small(key)) != std::string::npos) found.push_back(one);
+  return found.size() > most ? std::vector<std::string>{} : found;
+}
+
 std::string shown(const std::string &text) {
   constexpr std::size_t longest = 80; // a message stays readable whatever the value
   std::string cut = text.size() > longest ? text.substr(0, longest) + "..." : text;
@@ -40,7 +57,30 @@ std::string shown(const std::string &text) {
   return cut;
 }
 
+// ": it holds U+0421 (Cyrillic letter) in column 1" of what looks like a known name and is none.
+std::string look_alike_in(const std::string &text) {
+  const std::optional<Character> odd = first_look_alike(text);
+  return odd ? ": it holds " + text_of_odd_character(text) : "";
+}
+
 } // namespace
+
+std::string unseen_in(const std::string &part, const std::string &whole) {
+  const std::optional<Character> odd = first_unseen(part);
+  if (!odd) return "";
+  const std::string sign = part.substr(odd->at, odd->bytes);
+  const std::size_t there = whole.find(part),
+                    at = there == std::string::npos ? whole.find(sign) : there + odd->at;
+  std::string column;
+  if (at != std::string::npos) {
+    const std::size_t line = whole.rfind('\n', at) + 1; // of a continued one the last
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    const auto first = whole.begin() + static_cast<std::ptrdiff_t>(line),
+               end = whole.begin() + static_cast<std::ptrdiff_t>(at);
+    column = " in column " + std::to_string(1 + (end - first) - std::count_if(first, end, continues));
+  }
+  return "holds " + odd->name + column + ", which cannot be seen. Allowed: blanks and tabs.";
+}
 
 // What a .prm cannot hold cannot be written back, wherever it came from.
 void check_characters(const std::string &text) {
@@ -155,13 +195,27 @@ bool Parameters::is_section(const std::string &path) const {
 
 void Parameters::enter(const std::string &path, const Origin &origin) const {
   if (is_section(path)) return;
-  std::string message = origin.text() + ": error: " + shown(path) + " is not a section.";
+  std::string message =
+      origin.text() + ": error: " + shown(path) + " is not a section" + look_alike_in(path) + ".";
   if (path.find('/') != std::string::npos && is_section(last_name(path)))
     throw EntryError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?",
                      origin, path);
+  if (const std::string last = last_of_its_kind(path); !last.empty())
+    throw EntryError(message + " The last one is " + last + ".", origin, path);
   const std::string nearest = nearest_section(path);
   if (!nearest.empty()) throw EntryError(message + " Did you mean \"" + nearest + "\"?", origin, nearest);
   throw EntryError(message + "\n" + contents_of(section_of(path)), origin, "");
+}
+
+std::string Parameters::last_of_its_kind(const std::string &path) const {
+  const std::size_t digits = path.find_last_not_of("0123456789") + 1;
+  if (digits == path.size()) return "";
+  std::string last;
+  for (const std::string &section : sections_)
+    if (section.find_last_not_of("0123456789") + 1 == digits &&
+        section.compare(0, digits, path, 0, digits) == 0 && section.size() > digits)
+      last = section; // in the order of their numbers
+  return last;
 }
 
 std::string Parameters::nearest_section(const std::string &path) const {
@@ -197,14 +251,25 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
     if (a_slip_apart(last_name(entry.path), key)) last_names.push_back(entry.path);
     everywhere.push_back(entry.path);
   }
+  const std::string message =
+      origin.text() + ": error: " + shown(path) + " is not a parameter" + look_alike_in(path) + ".";
   std::string nearest = nearest_word(key, keys);
+  if (nearest.empty() || !a_slip_apart(nearest, key))
+    if (const std::vector<std::string> longer = keys_with(key, keys); !longer.empty()) {
+      std::string names;
+      for (std::size_t k = 0; k < longer.size(); ++k)
+        names += (k == 0                  ? "\""
+                  : k + 1 < longer.size() ? ", \""
+                                          : " or \"") +
+                 section + "/" + longer[k] + "\"";
+      throw EntryError(message + " Did you mean " + names + "?", origin, section + "/" + longer.front());
+    }
   if (!nearest.empty())
     nearest = (section.empty() ? "" : section + "/") + nearest;
   else if (!last_names.empty())
     nearest = last_names.front(); // right key, wrong section
   else
     nearest = nearest_word(path, everywhere);
-  const std::string message = origin.text() + ": error: " + shown(path) + " is not a parameter.";
   if (nearest.empty()) throw EntryError(message + "\n" + contents_of(section), origin, "");
   const std::string about = limits(at(nearest));
   throw EntryError(
@@ -229,12 +294,22 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
     const std::string about = limits(entry);
     std::string reason = error.what();
     if (reason.back() != '.' && reason.back() != '?') reason += '.';
+    if (first_look_alike(value)) reason += " It holds " + text_of_odd_character(value) + ".";
     throw EntryError(origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") +
                          reason + (about.empty() ? "" : " Allowed: " + about + "."),
                      origin, path);
   }
   entry.text = value;
   entry.origin = origin;
+}
+
+void Parameters::require_seen(const std::string &path, const std::string &value, const std::string &whole,
+                              const Origin &origin) const {
+  const Entry *entry = find(path);
+  const std::string fault = unseen_in(value, whole);
+  if (fault.empty() || entry == nullptr || entry->is_file || entry->is_text) return;
+  throw EntryError(origin.text() + ": error: " + path + " = " + shown(trimmed(value)) + " " + fault, origin,
+                   path);
 }
 
 void Parameters::supply(const std::string &path, const std::string &text) {
@@ -257,8 +332,11 @@ void Parameters::override_entry(const std::string &assignment, int number) {
         origin.text() + ": error: \"" + shown(assignment) +
             "\" sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".",
         origin, "");
+  const std::string key = assignment.substr(0, equals), fault = unseen_in(key, assignment);
+  if (!fault.empty())
+    throw EntryError(origin.text() + ": error: \"" + shown(assignment) + "\" " + fault, origin, "");
   std::string path, part;
-  const std::string names = assignment.substr(0, equals) + "/";
+  const std::string names = key + "/";
   for (const char c : names) {
     if (c != '/') {
       part += c;
@@ -267,7 +345,9 @@ void Parameters::override_entry(const std::string &assignment, int number) {
     path += (path.empty() ? "" : "/") + tidy(part);
     part.clear();
   }
-  set(path, assignment.substr(equals + 1), origin);
+  const std::string value = assignment.substr(equals + 1);
+  require_seen(path, value, assignment, origin);
+  set(path, value, origin);
 }
 
 void Parameters::refuse(const std::string &path, const std::string &reason) const {

@@ -22,6 +22,7 @@ struct Entry {
   std::string allowed;            // in words: "0 ... 5", "none, linear, hertz"
   std::string documentation;      // one sentence or two
   bool is_file = false;           // the value is a path, relative to the folder of the scene
+  bool is_text = false;           // the value is free: a title, a name
   std::vector<std::string> words; // that it may be; empty where it is none of a few
   // Of sections alike: in the first, or a further one; written only where it is set, the first with what is
   // documented.
@@ -63,6 +64,10 @@ public:
   // same or a smaller depth: a file may override what the files it includes have set, the command line
   // everything.
   void set(const std::string &path, const std::string &text, const Origin &origin);
+  // Throws InputError where a value holds a character that cannot be seen and is neither a file nor a title.
+  // `whole` is what stands there, value included, for the column.
+  void require_seen(const std::string &path, const std::string &value, const std::string &whole,
+                    const Origin &origin) const;
   // Gives a value to an entry that nobody has set, as if it were the default; one that is set stays.
   void supply(const std::string &path, const std::string &text);
   // The same on behalf of a word that stands at `word`; one that is set at a larger depth gives way too.
@@ -115,6 +120,8 @@ public:
 
 private:
   [[noreturn]] void refuse_unknown(const std::string &path, const Origin &origin) const;
+  // "Loading/Stage 20" of "Loading/Stage 21"; "" where there are none alike.
+  std::string last_of_its_kind(const std::string &path) const;
   std::string nearest_section(const std::string &path) const; // "" where none is near
   std::string contents_of(const std::string &section) const;
   bool names_a_fault(const std::string &message) const;
@@ -129,6 +136,11 @@ private:
 
 // Throws ValueError for a text that a .prm cannot hold and give back.
 void check_characters(const std::string &text);
+
+// "holds U+00A0 (no-break space) in column 18, which cannot be seen. Allowed: blanks and tabs." of the first
+// such character of `part`; the column is that in `whole`, which holds it, left out where it does not. ""
+// where there is none.
+std::string unseen_in(const std::string &part, const std::string &whole);
 
 // The candidate nearest to a word, by letters inserted, dropped, changed or swapped, regardless of case; ""
 // where none is near enough to be meant.

@@ -7,11 +7,14 @@
 #include "apps/scene/file_text.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/shipped.h"
+#include "base/characters.h"
 
 namespace platen::apps {
 namespace {
 
 constexpr int deepest_include = 16; // more is a file that includes itself
+constexpr int most_includes =
+    500; // each time that a file is read; files that include others twice over double
 
 struct OpenSection {
   std::string name;
@@ -35,7 +38,9 @@ private:
   std::string begun(const std::string &assignment) const;
 
   Parameters &parameters_;
+  std::string raw_; // the statement as it stands there, for columns
   std::vector<OpenSection> open_;
+  int included_ = 0;              // files so far
   std::size_t opened_before_ = 0; // sections that an including file has open: not ours to close
 };
 
@@ -70,10 +75,12 @@ void PrmReader::read(const std::string &text, const std::string &name, int depth
   int line_number = 0;
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
-    std::string line = trimmed(text.substr(first, end - first));
+    const std::string whole = text.substr(first, end - first);
+    std::string line = trimmed(whole);
     first = end + 1;
     ++line_number;
-    if (!continues) origin.line = line_number;
+    if (!continues) origin.line = line_number, raw_.clear();
+    raw_ += (raw_.empty() ? "" : "\n") + whole;
     continues = !line.empty() && line.back() == '\\';
     if (continues) line.pop_back(); // a blank before it stays: it parts the words that are joined
     joined += line;
@@ -91,6 +98,8 @@ void PrmReader::statement(const std::string &line, const Origin &origin) {
   if (line.empty()) return;
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string word = line.substr(0, blank), rest = trimmed(line.substr(blank));
+  if (const std::string fault = unseen_in(word, raw_); !fault.empty())
+    fail(origin, "\"" + line.substr(0, 80) + "\" " + fault);
   if (word == "set" || word == "SET")
     return static_cast<void>(parameters_.attempt([&] { set(rest, origin); }));
   if (word == "subsection" || word == "SUBSECTION") return enter(tidy(rest), origin);
@@ -128,6 +137,8 @@ std::string PrmReader::begun(const std::string &assignment) const {
 
 void PrmReader::enter(const std::string &name, const Origin &origin) {
   if (name.empty()) fail(origin, "\"subsection\" needs the name of a section.");
+  if (const std::string fault = unseen_in(name, raw_); !fault.empty())
+    fail(origin, "\"subsection " + name + "\" " + fault);
   const std::string entered = path(name);
   if (!passes_over() && !parameters_.is_section(entered) && !open_.empty() && parameters_.is_section(name))
     fail(origin, entered + " is not a section. Is the \"end\" of section " + open_.back().name + " (" +
@@ -152,6 +163,8 @@ void PrmReader::set(const std::string &assignment, const Origin &origin) {
     fail(origin, "\"set " + assignment.substr(0, 80) + "\" has no \"=\". Allowed: set Key = value.",
          begun(assignment));
   const std::string key = tidy(assignment.substr(0, equals));
+  const std::string fault = unseen_in(assignment.substr(0, equals), raw_);
+  if (!fault.empty()) fail(origin, "\"set " + assignment.substr(0, 80) + "\" " + fault);
   if (key.empty())
     fail(origin, "\"set " + assignment.substr(0, 80) + "\" names no key. Allowed: set Key = value.");
   if (key.find('/') != std::string::npos && parameters_.find(key) != nullptr)
@@ -159,28 +172,36 @@ void PrmReader::set(const std::string &assignment, const Origin &origin) {
          "\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, key.rfind('/')) + ", set " +
              key.substr(key.rfind('/') + 1) + " = ..., end.",
          key);
-  parameters_.set(path(key), assignment.substr(equals + 1), origin);
+  const std::string value = assignment.substr(equals + 1);
+  parameters_.require_seen(path(key), value, raw_, origin);
+  parameters_.set(path(key), value, origin);
 }
 
 void PrmReader::include(const std::string &file, const Origin &origin) {
   if (file.empty()) fail(origin, "\"include\" needs the name of a file.");
   if (origin.depth >= deepest_include)
     fail(origin, "include " + file + ": files include each other without end.");
+  if (++included_ > most_includes + 1) return; // told once
+  if (included_ > most_includes)
+    fail(origin,
+         "include " + file + ": more than " + std::to_string(most_includes) +
+             " files are included, those that are included again counted again. Allowed: up to that.");
   const std::string included = place_of(file, origin.file);
   std::string text;
   try {
     text = read_text(included);
   } catch (const InputError &error) {
-    fail(origin, "include " + file + ": " + error.what());
+    const std::string fault = unseen_in(file, raw_);
+    fail(origin, "include " + file + ": " + error.what() + (fault.empty() ? "" : " The name " + fault));
   }
   parameters_.add_source(included);
-  read(text, included, origin.depth + 1);
+  read(with_plain_line_ends(text), included, origin.depth + 1);
 }
 
 } // namespace
 
 void read_prm_text(const std::string &text, const std::string &name, Parameters &parameters) {
-  PrmReader(parameters).read(without_byte_order_mark(text), name, 0);
+  PrmReader(parameters).read(with_plain_line_ends(without_byte_order_mark(text)), name, 0);
 }
 
 } // namespace platen::apps

@@ -10,8 +10,10 @@
 #include <map>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "apps/scene/parameters.h"
+#include "base/characters.h"
 
 namespace platen::apps {
 namespace {
@@ -136,6 +138,26 @@ const Dimension &dimension(const std::string &si_unit) {
   return found == dimensions.end() ? other : found->second;
 }
 
+// The usual unit of a dimension that is written alike, capitals aside: "GPa" of "Gpa"; "" where none is.
+std::string nearest_unit(const std::string &unit, const std::string &si_unit) {
+  static const std::map<std::string, std::vector<std::string>> usual = {
+      {"1", {"%", "percent"}},
+      {"m", {"mm", "m", "cm", "km", "um", "nm", "inch"}},
+      {"m2", {"mm2", "cm2", "m2"}},
+      {"m/s", {"mm/s", "m/s", "mm/ms", "um/s", "mm/min", "km/h"}},
+      {"s", {"ms", "s", "us", "ns", "min", "h"}},
+      {"Pa", {"MPa", "GPa", "kPa", "Pa", "TPa", "N/mm2", "kN/m2", "bar", "psi"}},
+      {"kg/m3", {"kg/m3", "g/cm3", "t/m3"}},
+      {"N", {"kN", "N", "MN"}},
+      {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "kN/mm"}},
+      {"kg", {"kg", "g", "t"}},
+      {"J/m2", {"J/m2", "N/m", "N/mm"}},
+      {"rad", {"degree", "rad"}},
+      {"degree", {"degree", "rad"}}};
+  const auto found = usual.find(si_unit);
+  return found == usual.end() ? "" : nearest_word(unit, found->second);
+}
+
 // In words, for messages: "a pressure (Pa)".
 std::string name_of_dimension(const std::string &si_unit) {
   return std::string(dimension(si_unit).name) + (si_unit == "1" ? "" : " (" + si_unit + ")");
@@ -155,7 +177,7 @@ NumberWithUnit split_number(const std::string &text) {
   if (!std::isfinite(number.value)) throw ValueError("is not a finite number");
   if (end != last && *end == ',')
     throw ValueError("is not a number: the decimal sign is a point, not a comma");
-  number.unit = trimmed(std::string(end, last));
+  number.unit = with_micro_sign(trimmed(std::string(end, last)));
   return number;
 }
 
@@ -164,7 +186,11 @@ double to_si(const NumberWithUnit &number, const std::string &si_unit) {
   const PlainNumbers guard;
   const Unit wanted(ut_parse(unit_system(), si_unit.c_str(), UT_UTF8)), given = parse_unit(number.unit);
   if (!wanted) throw std::logic_error("unknown unit in the table of parameters: " + si_unit);
-  if (!given) throw ValueError("has the unit \"" + number.unit + "\", which is not known");
+  if (!given) {
+    const std::string near = nearest_unit(number.unit, si_unit);
+    throw ValueError("has the unit \"" + number.unit + "\", which is not known" +
+                     (near.empty() ? "" : ". Did you mean \"" + near + "\"?"));
+  }
   if (!ut_are_convertible(given.get(), wanted.get()) || is_angle(given.get()) != is_angle(wanted.get())) {
     const std::string example = dimension(si_unit).example;
     throw ValueError("has the unit \"" + number.unit + "\", which is not that of " +
