@@ -11,6 +11,7 @@
 #include "apps/report/platen_study.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/usual_unit.h"
 
 namespace platen::apps::report {
 namespace {
@@ -33,6 +34,7 @@ AccuracyParameter parameter_of(const Json &from) {
   for (const Json &one : from.at("values")) {
     AccuracyValue value;
     value.text = one.at("value");
+    value.number = number_or_nan(one.value("number", Json()));
     for (std::size_t m = 0; m < accuracy_measures; ++m) {
       const Json &error = one.at("errors").at(measures[m].key);
       value.errors[m] = {number_or_nan(error.at("mean")), number_or_nan(error.at("deviation")),
@@ -156,9 +158,9 @@ TableOfFigures table_of_accuracy(const AccuracyResults &study) {
   for (const AccuracyParameter &parameter : study.parameters)
     for (const AccuracyValue &value : parameter.values) {
       const bool reference = &value == &parameter.values.back();
-      std::vector<std::string> row{parameter.name,
-                                   value.text + (parameter.unit.empty() ? "" : " " + parameter.unit),
-                                   std::to_string(value.errors[0].runs)};
+      std::vector<std::string> row{
+          parameter.name, std::isnan(value.number) ? value.text : in_usual_unit(value.number, parameter.unit),
+          std::to_string(value.errors[0].runs)};
       for (std::size_t m = 0; m < accuracy_measures; ++m)
         row.push_back(!reference ? error_words(value.errors[m])
                       : std::isnan(parameter.scatter[m])

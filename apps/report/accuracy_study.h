@@ -20,6 +20,7 @@ struct ErrorOverSeeds {
 
 struct AccuracyValue { // of one parameter
   std::string text;    // "0.9", "Effects/Rotation = off"
+  double number;       // SI; NaN where it is none
   std::array<ErrorOverSeeds, accuracy_measures> errors;
   double seconds; // of wall clock, a run
 };

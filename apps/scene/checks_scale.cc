@@ -27,7 +27,8 @@ constexpr double fewest_steps = 100, most_steps = 1e12;
 constexpr double smallest_step = 0.03, largest_step = 1;
 // Strength over modulus: strain at which a bond breaks.
 constexpr double least_strain_at_break = 1e-9, most_strain_at_break = 1;
-constexpr double most_pressure = 0.1; // over the modulus: the specimen would lose a tenth of its size
+// Over the modulus: the specimen would lose a tenth of its size; or nothing that a test could tell.
+constexpr double most_pressure = 0.1, least_pressure = 1e-9;
 
 std::string number(double value) {
   return fmt::format("{:.3g}", value);
@@ -47,11 +48,17 @@ void SceneCheck::proportions() const {
   const double width = s.round() ? 2 * s.radius : std::fmin(s.width_x, s.width_y);
   const std::string of =
       s.round() ? "Specimen/Radius" : "Specimen/Width " + std::string(s.width_x <= s.width_y ? "x" : "y");
+  // Specimens are some thirty spheres across; without a sphere, as large as a hand.
+  const double usual = given(s.sphere_radius) ? 30 * s.sphere_radius : 0.1; // m
   const auto proportion = [&](const std::string &path, double extent) {
     const double over = extent / width;
-    if (over > most_slender || over < 1 / most_slender)
-      refuse(path, "is " + number(over) + " times the width that " + set_to(of) +
-                       " gives. Allowed: " + number(1 / most_slender) + " ... " + number(most_slender) + ".");
+    if (!(over > most_slender || over < 1 / most_slender)) return;
+    const std::string allowed =
+        " Allowed: " + number(1 / most_slender) + " ... " + number(most_slender) + ".";
+    if (std::abs(std::log(width / usual)) > std::abs(std::log(extent / usual)))
+      return refuse(of,
+                    "gives a width that is " + number(1 / over) + " times " + set_to(path) + "." + allowed);
+    refuse(path, "is " + number(over) + " times the width that " + set_to(of) + " gives." + allowed);
   };
   proportion("Specimen/Height", s.height);
   if (!s.round() && of != "Specimen/Width x" && given(s.width_x)) proportion("Specimen/Width x", s.width_x);
@@ -162,21 +169,34 @@ void SceneCheck::stresses() const {
                        ". Allowed: " + number(least_strain_at_break) + " ... " +
                        number(most_strain_at_break) + ".");
   }
-  const auto pressed = [&](const char *path, double pressure) {
-    if (pressure > most_pressure * modulus)
+  const auto pressed = [&](const std::string &path, double pressure) {
+    if (pressure > most_pressure * modulus || (pressure > 0 && pressure < least_pressure * modulus))
       refuse(path, "is " + number(pressure / modulus) + " of " + set_to("Bond/Modulus") +
-                       ". Allowed: up to " + number(most_pressure) + " of it.");
+                       ". Allowed: 0, or " + number(least_pressure) + " ... " + number(most_pressure) +
+                       " of it.");
   };
   if (loads() && scene_.loading.confined())
     pressed("Loading/Confining pressure", scene_.loading.cell->pressure);
   if (loads() && scene_.loading.servo) pressed("Platens/Top/Stress", scene_.loading.top_stress);
+  if (!loads()) return;
+  for (std::size_t k = 0; k < scene_.loading.stage_sections.size(); ++k)
+    for (const coupling::SideGroup group : coupling::all_side_groups) {
+      const auto &ask = scene_.loading.stage_sections[k].asks.at(static_cast<std::size_t>(group));
+      using Ask = coupling::SideAsk::Ask;
+      if (ask && (ask->ask == Ask::stress || ask->ask == Ask::pressure))
+        pressed(section_of_stage(k + 1) + "/" + key_of(group), ask->value);
+    }
 }
 
 // Absolute ones beside the bond of two mean spheres.
 void SceneCheck::stiffnesses() const {
   const double radius = scene_.specimen.sphere_radius;
   if (!scene_.bond.bonded() || !given(radius) || app_ == AppKind::pack) return;
-  const double bond = 0.5 * pi * scene_.model.bond_layout.modulus * radius;
+  const dem::BondLayout &layout = scene_.model.bond_layout;
+  const bool own = layout.radius_rule == dem::RadiusRule::given && given(layout.radius);
+  const double thick =
+      layout.radius_multiplier * (own ? layout.radius / radius : 1); // over the spheres' radius
+  const double bond = 0.5 * pi * layout.modulus * radius * thick * thick;
   constexpr double widest = 1e6; // a time step follows both
   const auto compare = [&](const char *path, const Stiffness &stiffness) {
     const double over = stiffness.value / bond;

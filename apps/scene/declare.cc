@@ -50,7 +50,10 @@ Declared Section::entry(const std::string &key, bool &to, const std::string &doc
 }
 
 Declared Section::text(const std::string &key, std::string &to, const std::string &documentation) {
-  return declare(key, to, "", "", documentation, [&to](const std::string &given) { to = given; });
+  const Declared declared =
+      declare(key, to, "", "", documentation, [&to](const std::string &given) { to = given; });
+  parameters_.declared(name_ + "/" + key).is_text = true;
+  return declared;
 }
 
 Declared Section::file(const std::string &key, std::string &to, const std::string &documentation) {
@@ -84,9 +87,11 @@ Declared Section::entry(const std::string &key, std::vector<double> &to, const s
 
 Declared Section::expectation(const std::string &key, std::vector<Expectation> &to, const std::string &unit,
                               const std::string &documentation) {
-  return declare(key, "", unit, "\"low ... high\"", documentation, [&to, key, unit](const std::string &text) {
-    keep_one(to, key, read_expectation(text, unit));
-  });
+  const Allowed allowed = physical(name_ + "/" + key, unit, any_number());
+  return declare(key, "", unit, "\"low ... high\"", documentation,
+                 [&to, key, unit, allowed](const std::string &text) {
+                   keep_one(to, key, read_expectation(text, unit, allowed));
+                 });
 }
 
 Declared Section::expected_words(const std::string &key, std::vector<Expectation> &to,

@@ -1,5 +1,7 @@
 #include "apps/scene/expect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,11 +24,24 @@ std::string not_measured(const Expectation &expected, const Json &summary) {
          (reasons.empty() ? "" : reasons + ")") + ", expected " + expected.text;
 }
 
+// In the unit of the range, with four digits, or as many as it takes to stand outside of it: "38.55 MPa".
+std::string in_unit_of(const Expectation &expected, double value) {
+  constexpr int usual_digits = 4, all_digits = 17;
+  std::string text;
+  for (int digits = usual_digits; digits <= all_digits; ++digits) {
+    text = fmt::format("{:.{}g}", value / expected.of_unit, digits);
+    const double shown = to_si(text, "1") * expected.of_unit;
+    if (shown < expected.low || shown > expected.high) break;
+  }
+  return text + (expected.unit.empty() ? "" : " " + expected.unit);
+}
+
 // Empty where it holds.
 std::string fault_of_number(const Expectation &expected, double value, const Json &summary) {
   if (std::isnan(value)) return not_measured(expected, summary);
   if (value >= expected.low && value <= expected.high) return "";
-  return expected.origin + ": " + expected.key + " = " + shortest_text(value) + " is not in " + expected.text;
+  return expected.origin + ": " + expected.key + " = " + in_unit_of(expected, value) + " is not in " +
+         expected.text;
 }
 
 std::string fault_of_word(const Expectation &expected, const Json &found, const Json &summary) {

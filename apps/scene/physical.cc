@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/scene/units.h"
+
 namespace platen::apps {
 namespace {
 
@@ -38,6 +40,19 @@ const std::vector<OfKey> &by_key() {
   return all;
 }
 
+// Of numbers without a unit. Loads and strengths begin with the kilopascals of soils, moduli with those of
+// foams; a metre is a large specimen, a sphere or a sheet of that size is none. Who means it writes the unit.
+void add_bare(const std::string &path, const std::string &unit, Allowed &to) {
+  constexpr double least_stress = 1e3, least_modulus = 1e5, most_length = 1; // Pa, Pa, m
+  const std::string key = path.substr(path.rfind('/') + 1);
+  if (unit == "Pa" && key.find("odulus") != std::string::npos)
+    to.bare_low = least_modulus, to.meant = {"MPa", "GPa"};
+  else if (unit == "Pa")
+    to.bare_low = least_stress, to.meant = {"MPa"};
+  else if (unit == "m" && key != "Mesh unit")
+    to.bare_high = most_length, to.meant = {"mm"};
+}
+
 // Null where nothing is known of the dimension.
 const OfUnit *bounds(const std::string &path, const std::string &unit, OfUnit &own) {
   const std::string key = path.substr(path.rfind('/') + 1);
@@ -51,9 +66,7 @@ const OfUnit *bounds(const std::string &path, const std::string &unit, OfUnit &o
   return nullptr;
 }
 
-} // namespace
-
-Allowed physical(const std::string &path, const std::string &unit, const Range &declared) {
+Allowed bounded(const std::string &path, const std::string &unit, const Range &declared) {
   OfUnit own;
   const OfUnit *of = bounds(path, unit, own);
   if (of == nullptr) return declared;
@@ -68,6 +81,25 @@ Allowed physical(const std::string &path, const std::string &unit, const Range &
   const bool or_zero = range.low_included;
   range.low = of->low, range.low_included = true;
   return {range, or_zero};
+}
+
+} // namespace
+
+Allowed physical(const std::string &path, const std::string &unit, const Range &declared) {
+  Allowed allowed = bounded(path, unit, declared);
+  add_bare(path, unit, allowed);
+  return allowed;
+}
+
+void require_meant(double value, const std::string &si_unit, const Allowed &allowed) {
+  const double size = std::abs(value);
+  if (size == 0 || (size >= allowed.bare_low && size < allowed.bare_high)) return;
+  const std::string number = shortest_text(value);
+  std::string units;
+  for (const std::string &unit : allowed.meant)
+    units += (units.empty() ? "\"" : " or \"") + number + " " + unit + "\"";
+  throw ValueError("is a bare number, which is in " + si_unit + ". Did you mean " + units +
+                   "? If not, write \"" + number + " " + si_unit + "\".");
 }
 
 } // namespace platen::apps

@@ -54,6 +54,8 @@ struct Expectation {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   std::string text;   // range or words as they stand in the scene
+  std::string unit;   // of the range, "MPa"; "" where it is in SI
+  double of_unit = 1; // of one of that unit, SI
   std::string origin; // "case.prm:31"
 };
 

@@ -58,10 +58,12 @@ std::optional<SideGroup> take_side(std::string &text) {
 
 double value_of(const std::string &text, const std::string &unit) {
   if (text.empty()) throw ValueError("has no value");
-  const double value = to_si(text, unit);
+  const NumberWithUnit number = split_number(text);
+  const double value = to_si(number, unit);
   const Allowed allowed = physical("", unit, at_least(0));
   if (!allowed.holds(std::abs(value)))
     throw ValueError("has a value out of range, " + allowed.text() + (unit == "1" ? "" : " " + unit));
+  if (number.unit.empty()) require_meant(value, unit, allowed);
   return value;
 }
 

@@ -69,6 +69,7 @@ void declare_target(Parameters &parameters, TargetSection &to, std::size_t numbe
              "between the other platens; curve: stresses of a test of the user's own.")
       .alike(first);
   section.text("Value", to.value, "The number wanted, with its unit.").alike(first);
+  parameters.declared(section.name() + "/Value").is_text = false; // read as a number when its kind is known
   section
       .file(
           "File", to.file,

@@ -46,8 +46,10 @@ std::vector<Value> read_items(const std::string &text, const Read &read) {
 
 double read_quantity(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
   if (text.empty()) return not_given;
-  const double value = to_si(text, si_unit);
+  const NumberWithUnit number = split_number(text);
+  const double value = to_si(number, si_unit);
   check(value, allowed);
+  if (number.unit.empty()) require_meant(value, si_unit, allowed);
   return value;
 }
 
@@ -163,7 +165,7 @@ std::vector<std::string> read_assignments(const std::string &text) {
   });
 }
 
-Expectation read_expectation(const std::string &text, const std::string &si_unit) {
+Expectation read_expectation(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
   Expectation expectation;
   expectation.text = text;
   if (text.empty()) return expectation;
@@ -171,8 +173,16 @@ Expectation read_expectation(const std::string &text, const std::string &si_unit
   if (dots == std::string::npos) throw ValueError("is no range: \"low ... high\" is");
   const std::string low = tidy(text.substr(0, dots)), high = tidy(text.substr(dots + 3));
   if (low.empty() && high.empty()) throw ValueError("is no range: neither low nor high is given");
-  if (!low.empty()) expectation.low = to_si(low, si_unit);
-  if (!high.empty()) expectation.high = to_si(high, si_unit);
+  const auto read = [&](const std::string &bound, double &to) {
+    if (bound.empty()) return;
+    const NumberWithUnit number = split_number(bound);
+    to = to_si(number, si_unit);
+    if (number.unit.empty()) require_meant(to, si_unit, allowed);
+    if (expectation.unit.empty() && !number.unit.empty())
+      expectation.unit = number.unit, expectation.of_unit = to_si({1, number.unit}, si_unit);
+  };
+  read(low, expectation.low);
+  read(high, expectation.high);
   if (expectation.low > expectation.high) throw ValueError("is an empty range: low is above high");
   return expectation;
 }

@@ -36,8 +36,9 @@ std::vector<StudySurface> read_surfaces(const std::string &text);
 std::vector<Quality> read_qualities(const std::string &text);
 // "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none.
 std::vector<std::string> read_assignments(const std::string &text);
-// "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high.
-Expectation read_expectation(const std::string &text, const std::string &si_unit);
+// "35 MPa ... 50 MPa", "... 0.1", "0.9 ..."; fills low and high, and the unit that is written there first.
+Expectation read_expectation(const std::string &text, const std::string &si_unit,
+                             const Allowed &allowed = any_number());
 // "cones, shear plane": any of `words`.
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
 // "elastic, tension": words of calibrated_figures, each once; "" is none.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/io/csv_writer.h"
+#include "apps/scene/usual_unit.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {
@@ -26,7 +27,7 @@ Json statistics(const SeedStatistics &s) {
 }
 
 std::string with_unit(const StudiedParameter &parameter, const StudiedParameter::Value &value) {
-  return value.text + (parameter.unit.empty() ? "" : " " + parameter.unit);
+  return parameter.unit.empty() ? value.text : in_usual_unit(value.number, parameter.unit);
 }
 
 // Seconds, as few digits as tell them apart.

@@ -118,7 +118,10 @@ void add_numbers(StudyPlan &plan, const Scene &scene, const NumberParameter &fro
   for (const double value : values) {
     StudyCase one{base, {}, {}};
     if (value != from.own(scene))
-      one = {as_name(from.name) + "_" + in_name(value), {}, {set(from.entry, value, from.unit)}};
+      one = {
+          as_name(from.name) + "_" + (from.unit == std::string("m") ? in_name(value, "m") : in_name(value)),
+          {},
+          {set(from.entry, value, from.unit)}};
     parameter.values.push_back({in_name(value), value, add(plan, one)});
   }
   plan.parameters.push_back(std::move(parameter));

@@ -31,13 +31,13 @@ StudyPlan plan_size(const Scene &scene) {
   const std::vector<double> radii =
       nothing_given ? radii_of_the_thesis : or_own(study.sphere_radii, s.sphere_radius);
   for (const double radius : radii)
-    add(plan, {"sphere_radius_" + in_name(radius),
+    add(plan, {"sphere_radius_" + in_name(radius, "m"),
                {radius, s.height, s.radius},
                {set("Specimen/Sphere radius", radius, "m")}});
   for (const DomainSize &d : study.domains) {
     const bool own = d.height == s.height && d.radius == s.radius;
-    const std::string name = "sphere_radius_" + in_name(s.sphere_radius),
-                      size = "_height_" + in_name(d.height) + "_radius_" + in_name(d.radius);
+    const std::string name = "sphere_radius_" + in_name(s.sphere_radius, "m"),
+                      size = "_height_" + in_name(d.height, "m") + "_radius_" + in_name(d.radius, "m");
     add(plan, {own ? name : name + size,
                {s.sphere_radius, d.height, d.radius},
                {set("Specimen/Sphere radius", s.sphere_radius, "m"), set("Specimen/Height", d.height, "m"),
@@ -68,7 +68,7 @@ StudyPlan plan_packing(const Scene &scene) {
          or_own(study.radius_multipliers, scene.model.bond_layout.radius_multiplier))
       for (const Gap &gap : or_own(study.gaps, scene.model.bond_layout.gap)) {
         StudyCase one;
-        one.name = "gap_" + in_name(gap.value) + (gap.relative ? "" : "_m") + "_multiplier_" +
+        one.name = "gap_" + (gap.relative ? in_name(gap.value) : in_name(gap.value, "m")) + "_multiplier_" +
                    in_name(multiplier) + "_spread_" + in_name(spread);
         one.labels = {gap.relative ? gap.value : not_given, gap.relative ? not_given : gap.value, multiplier,
                       spread};

@@ -8,6 +8,7 @@
 
 #include "apps/scene/scene.h"
 #include "apps/scene/units.h"
+#include "apps/scene/usual_unit.h"
 
 namespace platen::apps {
 
@@ -18,7 +19,7 @@ inline bool of_platens(StudyKind kind) {
 }
 
 struct StudyCase {
-  std::string name;                   // of folders and tables: "sphere_radius_0.001"
+  std::string name;                   // of folders and tables: "sphere_radius_1_mm"
   std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
   std::vector<std::string> overrides; // "Section/Key = value"
   std::string surface = {};           // what the platens are, in words; studies of platens
@@ -116,6 +117,10 @@ inline std::string set(const std::string &path, double value, const std::string 
 // For a name: without the last bit that a unit's conversion may leave (0.9 mm is 0.0009000000000000001 m).
 inline std::string in_name(double value) {
   return fmt::format("{:.12g}", value);
+}
+// The same in the unit that is usual: "1.4_mm" of 0.0014 m.
+inline std::string in_name(double value, const std::string &si_unit) {
+  return in_usual_unit(value, si_unit, "_");
 }
 
 // For a name: letters and digits in lower case, one underscore for each run of anything else.

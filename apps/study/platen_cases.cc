@@ -97,7 +97,7 @@ void set_height(const Scene &scene, double slenderness, StudyCase &one) {
 }
 
 void set_pressure(double pressure, StudyCase &one) {
-  one.name += "_pressure_" + in_name(pressure);
+  one.name += "_pressure_" + in_name(pressure, "Pa");
   one.overrides.push_back(pressure > 0 ? set("Loading/Confining pressure", pressure, "Pa")
                                        : "Loading/Confinement = none");
 }
@@ -120,7 +120,7 @@ StudyPlan plan_platens(const Scene &scene) {
           one.overrides = surface_entries(scene, platens);
           if (!std::isnan(slenderness)) set_height(scene, slenderness, one);
           if (!std::isnan(radius)) {
-            one.name += "_sphere_radius_" + in_name(radius);
+            one.name += "_sphere_radius_" + in_name(radius, "m");
             one.overrides.push_back(set("Specimen/Sphere radius", radius, "m"));
           }
           if (!std::isnan(pressure)) set_pressure(pressure, one);

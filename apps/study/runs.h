@@ -18,7 +18,7 @@ namespace platen::apps {
 struct StudyRun {
   std::size_t of = 0; // StudyPlan::cases
   unsigned long seed = 0;
-  std::string name; // of its folder below runs/: "sphere_radius_0.001_seed_2"
+  std::string name; // of its folder below runs/: "sphere_radius_1_mm_seed_2"
   std::filesystem::path folder;
   std::size_t specimen_of = 0; // the first run that has the same packing: itself, or one before
   double seconds = 0;          // StudyCase::seconds

@@ -80,6 +80,36 @@ TEST(SceneFaults, files_that_are_no_scenes_are_refused) {
   std::filesystem::remove_all(temporary);
 }
 
+// Each file includes two others, or itself, or the next one twice: 2^15 files are no scene.
+TEST(SceneFaults, so_many_includes_are_refused_at_once) {
+  const auto temporary = std::filesystem::temp_directory_path() / "platen scene includes";
+  std::filesystem::create_directories(temporary);
+  for (int depth = 0; depth < 15; ++depth) {
+    const std::string next = "include " + std::to_string(depth + 1) + ".prm\n";
+    std::ofstream(temporary / (std::to_string(depth) + ".prm")) << next + next;
+  }
+  std::ofstream(temporary / "15.prm") << "\n";
+  const std::string message = message_of((temporary / "0.prm").string());
+  EXPECT_NE(message.find(
+                "more than 500 files are included, those that are included again counted again. Allowed: up "
+                "to that."),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message; // told once
+  // As many as that are taken.
+  std::ofstream all(temporary / "all.prm");
+  for (int k = 0; k < 500; ++k)
+    all << "include 15.prm\n";
+  all.close();
+  EXPECT_EQ(message_of((temporary / "all.prm").string(), {}, AppKind::pack).find("files are included"),
+            std::string::npos);
+  std::ofstream(temporary / "all.prm", std::ios::app) << "include 15.prm\n";
+  EXPECT_NE(message_of((temporary / "all.prm").string(), {}, AppKind::pack)
+                .find(":501: error: include 15.prm: more than"),
+            std::string::npos);
+  std::filesystem::remove_all(temporary);
+}
+
 struct FaultyOverride {
   std::vector<std::string> overrides;
   const char *says;
@@ -90,6 +120,23 @@ TEST(SceneFaults, bad_overrides_are_refused_by_their_number) {
       {{"Contact/Friction = 0.2", "Contact/Frictoin = 0.3"},
        "command line, --set 2: error: Contact/Frictoin is not a parameter. Did you mean "
        "\"Contact/Friction\""},
+      {{"Platens/Friction = 0.3"},
+       "Platens/Friction is not a parameter. Did you mean \"Platens/Friction static\", \"Platens/Friction "
+       "dynamic\" "
+       "or \"Platens/Friction law\"?"},
+      {{"Loading/Rate = 0.3"}, "Did you mean \"Loading/Axial rate\"?"},
+      {{"Bond/strength = 3 MPa"}, "Did you mean \"Bond/Tensile strength\", \"Bond/Shear strength\""},
+      {{"Specimen/Radus = 3 mm"}, "Did you mean \"Specimen/Radius\""},
+      {{"Loading/Stage 21/Axial = hold"},
+       "Loading/Stage 21 is not a section. The last one is Loading/Stage 20."},
+      {{"Loading/Stage 0/Axial = hold"}, "The last one is Loading/Stage 20."},
+      {{"Calibrate/Target 99/Weight = 2"},
+       "Calibrate/Target 99 is not a section. The last one is Calibrate/Target "},
+      {{"Specimen/Radius = 25 m"},
+       "--set 1: error: Specimen/Radius = 25 m gives a width that is 5e+03 times Specimen/Height = 10 mm. "
+       "Allowed: "
+       "0.005 ... 200."},
+      {{"Bond/Modulus = 48 Gpa"}, "has the unit \"Gpa\", which is not known. Did you mean \"GPa\"?"},
       {{"Contact/Friction = 9"},
        "command line, --set 1: error: Contact/Friction = 9 is out of range. Allowed: 0 ... 5"},
       {{"Contact/Friction"}, "command line, --set 1: error: \"Contact/Friction\" sets nothing."},

@@ -276,7 +276,17 @@ TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
   EXPECT_TRUE(failures(50e6, 89).empty());
   ASSERT_EQ(failures(51e6, 20).size(), 1u);
   EXPECT_EQ(failures(51e6, 20)[0],
-            (folder_ / "a.prm").string() + ":31: strength_pa = 5.1e7 is not in 35 MPa ... 50 MPa");
+            (folder_ / "a.prm").string() + ":31: strength_pa = 51 MPa is not in 35 MPa ... 50 MPa");
+  // Four digits, or as many as it takes to see on which side it is.
+  EXPECT_NE(failures(34123456.78, 20)[0].find("strength_pa = 34.12 MPa is not in"), std::string::npos);
+  EXPECT_NE(failures(50000001, 20)[0].find("strength_pa = 50.000001 MPa is not in"), std::string::npos);
+  EXPECT_NE(failures(40e6, 15.99999)[0].find("half_angle_deg = 15.99999 is not in 16 ..."),
+            std::string::npos);
+  const Scene other = read("b.prm", concrete, {"Expect/strength_pa = 35e6 ... 0.05 GPa"});
+  EXPECT_NE(check_expectations(other, {{"strength_pa", 51.23456e6}})
+                .failed[0]
+                .find("strength_pa = 0.05123 GPa is not in 35e6 ... 0.05 GPa"),
+            std::string::npos);
   ASSERT_EQ(failures(40e6, not_given).size(), 1u); // expected and not measured
   EXPECT_NE(failures(40e6, not_given)[0].find("cone_top/half_angle_deg was not measured"), std::string::npos);
 }

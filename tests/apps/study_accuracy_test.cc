@@ -36,7 +36,7 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
                  "Study/Effects list = Effects/Rotation=off, Bond/Damping = 0.1"});
   EXPECT_EQ(names_of(plan),
             (std::vector<std::string>{"safety_0.9", "base", "safety_0.2", "axial_rate_0.6",
-                                      "sphere_radius_0.0014", "effects_rotation_off", "bond_damping_0.1"}));
+                                      "sphere_radius_1.4_mm", "effects_rotation_off", "bond_damping_0.1"}));
   ASSERT_EQ(plan.parameters.size(), 4u);
   const auto cases_of = [&](std::size_t k) {
     std::vector<std::size_t> cases;

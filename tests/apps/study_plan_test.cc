@@ -89,7 +89,7 @@ TEST_F(PlannedStudy, is_ended_by_one_process_that_resumes_it) {
 
 // One run that can be met on the way.
 const std::vector<std::string> slow{"-s", "Study/Sphere radius list = 2 mm, 0.9 mm"};
-const char *const met = "sphere_radius_0.0009_seed_3"; // run 3
+const char *const met = "sphere_radius_0.9_mm_seed_3"; // run 3
 
 pid_t child_of(pid_t parent) {
   std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");
@@ -307,8 +307,8 @@ TEST_F(PlannedStudy, tells_what_is_missing_and_what_has_failed) {
   EXPECT_TRUE(contains(failed.error, "Integration/Time step")) << failed.error;
   const Outcome some = asked("a", {"--collect"}, "size", step);
   EXPECT_EQ(some.status, 3);
-  EXPECT_TRUE(contains(some.error, "2 of 4  sphere_radius_0.002_seed_4: missing, not begun")) << some.error;
-  EXPECT_TRUE(contains(some.error, "3 of 4  sphere_radius_0.0014_seed_3: failed, exit status 2: "))
+  EXPECT_TRUE(contains(some.error, "2 of 4  sphere_radius_2_mm_seed_4: missing, not begun")) << some.error;
+  EXPECT_TRUE(contains(some.error, "3 of 4  sphere_radius_1.4_mm_seed_3: failed, exit status 2: "))
       << some.error;
   EXPECT_TRUE(contains(some.error, "2 of 4 runs are missing: 2,4.")) << some.error;
   EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"),

@@ -109,10 +109,10 @@ TEST(PlatenStudyPlan, sphere_radii_and_pressures_multiply_the_cases) {
       "Loading/Confining pressure = 3 MPa"};
   const StudyPlan plan = plan_study(StudyKind::friction, scene_with(entries), entries);
   ASSERT_EQ(plan.cases.size(), 8u);
-  EXPECT_EQ(plan.cases[0].name, "friction_0_sphere_radius_0.002_pressure_0");
+  EXPECT_EQ(plan.cases[0].name, "friction_0_sphere_radius_2_mm_pressure_0_MPa");
   EXPECT_EQ(led_to(plan, 0, entries).loading.confinement, ConfinementKind::none);
   EXPECT_EQ(plan.cases[0].labels.back(), 0);
-  EXPECT_EQ(plan.cases[7].name, "friction_0.3_sphere_radius_0.0014_pressure_1000000");
+  EXPECT_EQ(plan.cases[7].name, "friction_0.3_sphere_radius_1.4_mm_pressure_1_MPa");
   EXPECT_DOUBLE_EQ(led_to(plan, 7, entries).loading.cell->pressure, 1e6);
   EXPECT_DOUBLE_EQ(plan.cases[7].labels[4], 0.0014);
 }
@@ -142,7 +142,7 @@ TEST(PlatenStudyPlan, what_cannot_be_varied_is_refused) {
   refused({"Study/Surface list = 0", "Study/Confining pressure list = 1 MPa"}, friction,
           "needs Loading/Confinement = particles, sleeve");
   refused({"Study/Surface list = dry steel, brush"}, friction,
-          "leads to brush_sphere_radius_0.002, which cannot be run");
+          "leads to brush_sphere_radius_2_mm, which cannot be run");
 }
 
 // Raw strengths of the source against the means that it is quoted with.

@@ -64,8 +64,8 @@ TEST_F(Study, several_at_a_time_start_the_longest_first) {
   const Outcome outcome = run("a", {"--verbose", "-t", "2"});
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const std::string log = content_of(folder_ / "a/run.log") + outcome.out + outcome.error;
-  const std::size_t fine = log.find("sphere_radius_0.0014_seed_3: starts"),
-                    coarse = log.find("sphere_radius_0.002_seed_3: starts");
+  const std::size_t fine = log.find("sphere_radius_1.4_mm_seed_3: starts"),
+                    coarse = log.find("sphere_radius_2_mm_seed_3: starts");
   ASSERT_NE(fine, std::string::npos) << log;
   ASSERT_NE(coarse, std::string::npos) << log;
   EXPECT_LT(fine, coarse);
@@ -73,7 +73,7 @@ TEST_F(Study, several_at_a_time_start_the_longest_first) {
 
 // A run of its own on the way: fine enough to be met before it ends.
 const std::vector<std::string> slow{"--quiet", "-s", "Study/Sphere radius list = 2 mm, 0.9 mm"};
-const char *const met = "sphere_radius_0.0009_seed_3";
+const char *const met = "sphere_radius_0.9_mm_seed_3";
 
 TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
   ASSERT_EQ(run("whole", slow).status, 0);
@@ -116,7 +116,7 @@ TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
 TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {
   ASSERT_EQ(run("a", {"--quiet"}).status, 0);
   const std::string before = table("a");
-  const fs::path one = folder_ / "a/runs/sphere_radius_0.002_seed_4";
+  const fs::path one = folder_ / "a/runs/sphere_radius_2_mm_seed_4";
   fs::remove(one / "summary.json");
   for (const auto &file : fs::directory_iterator(one / "checkpoint"))
     put(file.path(), "no checkpoint");
@@ -131,7 +131,7 @@ TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) 
   const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
   ASSERT_EQ(run("a", small).status, 0);
   const std::string before = table("a");
-  const std::string name = "sphere_radius_0.002_seed_4";
+  const std::string name = "sphere_radius_2_mm_seed_4";
   const fs::path one = folder_ / "a/runs" / name, summary = one / "summary.json";
   const std::string whole = content_of(summary);
   const auto made_again = [&](const std::string &reason) {
@@ -161,7 +161,7 @@ TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) 
   fs::remove(summary);
   made_again("");
   // Whole, but that of its neighbour; then with its scene, and with all that it left.
-  const fs::path other = folder_ / "a/runs/sphere_radius_0.002_seed_3";
+  const fs::path other = folder_ / "a/runs/sphere_radius_2_mm_seed_3";
   fs::copy_file(other / "summary.json", summary, fs::copy_options::overwrite_existing);
   made_again("scene.prm is not the scene that summary.json was made with");
   fs::copy_file(other / "summary.json", summary, fs::copy_options::overwrite_existing);
@@ -197,7 +197,7 @@ pid_t child_of(pid_t parent) {
 
 TEST_F(Study, a_run_that_is_killed_is_told_by_its_signal_and_made_again) {
   const std::vector<std::string> two{"-s", "Study/Sphere radius list = 2 mm, 1 mm", "-s", "Study/Seeds = 1"};
-  const std::string finer = "sphere_radius_0.001_seed_3";
+  const std::string finer = "sphere_radius_1_mm_seed_3";
   ASSERT_EQ(run("whole", two).status, 0);
   Program program(command("killed", two), folder_);
   const fs::path inner = folder_ / "killed/runs" / finer;
@@ -218,8 +218,8 @@ TEST_F(Study, a_run_whose_folder_is_gone_or_renamed_is_made_again) {
   const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
   ASSERT_EQ(run("a", small).status, 0);
   const std::string before = table("a");
-  fs::remove_all(folder_ / "a/runs/sphere_radius_0.002_seed_3");
-  fs::rename(folder_ / "a/runs/sphere_radius_0.002_seed_4", folder_ / "a/runs/mine");
+  fs::remove_all(folder_ / "a/runs/sphere_radius_2_mm_seed_3");
+  fs::rename(folder_ / "a/runs/sphere_radius_2_mm_seed_4", folder_ / "a/runs/mine");
   EXPECT_EQ(run("a", with(small, "--resume")).status, 0);
   EXPECT_EQ(table("a"), before);
   EXPECT_TRUE(fs::exists(folder_ / "a/runs/mine/summary.json"));
@@ -229,7 +229,7 @@ TEST_F(Study, pipes_under_the_names_of_its_files_keep_nothing_waiting) {
   const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
   ASSERT_EQ(run("a", small).status, 0);
   const std::string before = table("a");
-  const fs::path summary = folder_ / "a/runs/sphere_radius_0.002_seed_3/summary.json";
+  const fs::path summary = folder_ / "a/runs/sphere_radius_2_mm_seed_3/summary.json";
   fs::remove(summary);
   ASSERT_EQ(mkfifo(summary.c_str(), 0600), 0);
   const Outcome rest = run("a", with(small, "--resume"));
@@ -273,7 +273,7 @@ TEST_F(Study, a_disk_that_fills_in_a_run_ends_it_and_it_goes_on_later) {
   const Outcome full = run("a", {"--quiet"});
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(full.status, 4);
-  EXPECT_TRUE(contains(full.error, "error: sphere_radius_0.002_seed_")) << full.error;
+  EXPECT_TRUE(contains(full.error, "error: sphere_radius_2_mm_seed_")) << full.error;
   EXPECT_TRUE(contains(full.error, ": cannot be written: File too large")) << full.error;
   EXPECT_FALSE(fs::exists(folder_ / "a/summary.json"));
   const Outcome rest = run("a", {"--quiet", "--resume"});
@@ -284,8 +284,8 @@ TEST_F(Study, a_disk_that_fills_in_a_run_ends_it_and_it_goes_on_later) {
 TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {
   const Outcome outcome = run("a", {"-s", "Expect/particles = ... 150"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(contains(outcome.error, "sphere_radius_0.0014_seed_3")) << outcome.error;
-  EXPECT_FALSE(contains(outcome.error, "sphere_radius_0.002_seed")) << outcome.error;
+  EXPECT_TRUE(contains(outcome.error, "sphere_radius_1.4_mm_seed_3")) << outcome.error;
+  EXPECT_FALSE(contains(outcome.error, "sphere_radius_2_mm_seed")) << outcome.error;
   EXPECT_EQ(summary_in(folder_ / "a")["missed"].size(), 2u);
 }
 
@@ -334,7 +334,7 @@ TEST_F(Study, faults_are_refused_before_anything_is_written) {
   refused({}, "packing", "Study/Gap list is not set");
   refused({"-s", "Study/Sphere radius list = 1 mm, 0.001"}, "size", "twice");
   refused({"-s", "Study/Sphere radius list = 1 mm,"}, "size", "is empty");
-  refused({"-s", "Study/Sphere radius list = 30 mm"}, "size", "sphere_radius_0.03, which cannot be run");
+  refused({"-s", "Study/Sphere radius list = 30 mm"}, "size", "sphere_radius_30_mm, which cannot be run");
   refused({"-s", "Study/Domain list = 20 mm"}, "size", "is no pair");
   refused({"-s", "Study/Domain list = 20 mm x 5 s"}, "size", "20 mm x 5 s");
   refused({"-s", "Study/Seeds = 0"}, "size", "Study/Seeds");
@@ -364,7 +364,7 @@ TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
   EXPECT_EQ(run("b", quick).status, 2); // runs of who knows what
   put(folder_ / "b/runs/notes/of_the_user.txt", "kept");
   ASSERT_EQ(run("b", with(quick, "--overwrite"), "rate").status, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "b/runs/sphere_radius_0.002_seed_3"));
+  EXPECT_FALSE(fs::exists(folder_ / "b/runs/sphere_radius_2_mm_seed_3"));
   EXPECT_TRUE(fs::exists(folder_ / "b/runs/rate_1_seed_3/summary.json"));
   EXPECT_TRUE(fs::exists(folder_ / "b/runs/notes/of_the_user.txt"));
 }
@@ -373,7 +373,7 @@ TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
   const Outcome outcome = run("a", {"--dry-run"});
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_TRUE(contains(outcome.out, "2 cases on seeds 3 to 4, 4 runs")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "sphere_radius_0.0014_seed_3\n")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "sphere_radius_1.4_mm_seed_3\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "time step")) << outcome.out;
   EXPECT_FALSE(fs::exists(folder_ / "a"));
 }
@@ -389,8 +389,8 @@ TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
                                          "Study/Domain list = 80 mm x 25 mm, 72 mm x 22.5 mm, 65 mm x 20 mm"};
   const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
   ASSERT_EQ(plan.cases.size(), 6u); // 80 mm x 25 mm at 1 mm stands in both lists
-  EXPECT_EQ(plan.cases[2].name, "sphere_radius_0.001");
-  EXPECT_EQ(plan.cases[4].name, "sphere_radius_0.001_height_0.072_radius_0.0225");
+  EXPECT_EQ(plan.cases[2].name, "sphere_radius_1_mm");
+  EXPECT_EQ(plan.cases[4].name, "sphere_radius_1_mm_height_72_mm_radius_22.5_mm");
   EXPECT_DOUBLE_EQ(plan.cases[4].labels[0], 0.001);
   EXPECT_DOUBLE_EQ(plan.cases[4].labels[1], 0.072);
   EXPECT_DOUBLE_EQ(plan.cases[4].labels[2], 0.0225);
