@@ -76,6 +76,10 @@ void SceneCheck::calibrate_bounds() const {
   ascending(c.multiplier_low, c.multiplier_high, "radius multiplier");
   ascending(c.strengths_low, c.strengths_high, "shear over tensile strength");
   ascending(c.moments_low, c.moments_high, "moment contribution"); // the largest may be left out
+  const char *const moments = "Calibrate/Smallest moment contribution";
+  if (!given(c.moments_high) && parameters_.at(moments).changed() &&
+      c.moments_low > scene_.bond.number("moment_contribution"))
+    refuse(moments, "is above the bond's own, which is the largest where none is given.");
   ascending(c.limits_low, c.limits_high, "factor of compression limits");
   ascending(c.contact_friction_low, c.contact_friction_high, "contact friction");
   for (const char *key : {"Calibrate/Smallest friction angle", "Calibrate/Largest friction angle",
@@ -95,7 +99,9 @@ void SceneCheck::calibrate_bounds() const {
 
 void SceneCheck::target(const Target &target) const {
   if (target.is_elastic()) return;
-  need("Loading/Axial rate", scene_.loading.rate, "the platens have to move.");
+  const bool own =
+      given(target.rate) || (target.kind == TargetKind::tension && given(scene_.calibrate.tension_rate));
+  if (!own) need("Loading/Axial rate", scene_.loading.rate, "the platens have to move.");
   for (const char *strength : {"tensile_strength", "shear_strength"})
     if (scene_.bond.number(strength) == 0)
       refuse(std::string("Bond/") + (strength[0] == 't' ? "Tensile strength" : "Shear strength"),

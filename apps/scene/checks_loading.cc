@@ -96,7 +96,10 @@ void SceneCheck::deformable_platens() const {
   if (loading.start_strain > 0)
     refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
   const double pad = scene_.platens.elastic->pad_thickness;
-  if (pad > 0 && pad >= scene_.platens.thickness)
+  const bool plates = scene_.platens.any_of([&](coupling::Side side) {
+    return scene_.platens.face(side).mesh_file.empty();
+  }); // which have the thickness
+  if (pad > 0 && plates && pad >= scene_.platens.thickness)
     refuse("Platens/Pad thickness", "leaves nothing of the platen. Allowed: 0 ... " +
                                         shortest_text(scene_.platens.thickness) + " m, Platens/Thickness.");
 }
@@ -204,7 +207,8 @@ void SceneCheck::cell() const {
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   if (!loading.confined()) return;
-  if (loads() && !loading.staged() && !(loading.cell->pressure > 0))
+  const bool varied = Situation{scene_, parameters_, app_}.varied("Loading/Confining pressure");
+  if (loads() && !loading.staged() && !varied && !(loading.cell->pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
   if (loads() && !scene_.bond.bonded())
     refuse("Loading/Confinement",

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/scene/scene_check.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 
@@ -67,10 +68,22 @@ void SceneCheck::size_note() {
                          ", and no exponent corrects the bonds for it: E and strengths differ.");
 }
 
+// A specimen from a file brings its own.
+void SceneCheck::radius_note() {
+  const char *const path = "Specimen/Sphere radius";
+  const double radius = scene_.specimen.sphere_radius,
+               said = read_quantity(parameters_.at(path).text, "m", any_number());
+  if (scene_.specimen.packing == PackingKind::file && said != radius)
+    note(path, "spheres of Specimen/File have a mean radius of " + platen::text_of(radius) + " m");
+}
+
 void SceneCheck::notes() {
   notes_of_declarations();
   size_note();
   bar_notes();
+  radius_note();
+  if (!scene_.loading.confined() && !parameters_.at("Loading/Confining pressure").origin.file.empty())
+    note("Loading/Confinement", "Loading/Confining pressure = 0");
   if (app_ == AppKind::calibrate && !given(scene_.calibrate.triaxial_strength))
     note("Calibrate/Confining pressure", "Calibrate/Triaxial strength is not set");
   if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)

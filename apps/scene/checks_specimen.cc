@@ -8,9 +8,10 @@ void SceneCheck::cross_section() const {
   const SpecimenSection &specimen = scene_.specimen;
   const bool width = given(specimen.width_x) || given(specimen.width_y);
   const bool disc = specimen.shape == SpecimenShape::disc;
-  if (disc && app_ != AppKind::brazilian && app_ != AppKind::pack)
+  const bool stated = specimen.packing != PackingKind::file || parameters_.at("Specimen/Shape").changed();
+  if (stated && disc && app_ != AppKind::brazilian && app_ != AppKind::pack)
     refuse("Specimen/Shape", "lies on its rim, for platen-brazilian. Allowed: cylinder, box, bar.");
-  if (app_ == AppKind::brazilian && !disc && specimen.shape != SpecimenShape::cylinder)
+  if (stated && app_ == AppKind::brazilian && !disc && specimen.shape != SpecimenShape::cylinder)
     refuse("Specimen/Shape", "cannot be laid on its rim. Allowed: disc, cylinder.");
   const std::string which = given(specimen.width_x) ? "Specimen/Width x" : "Specimen/Width y";
   if ((disc || specimen.shape == SpecimenShape::cylinder) && width)
@@ -23,6 +24,7 @@ void SceneCheck::cross_section() const {
 
 void SceneCheck::spheres_fit() const {
   const SpecimenSection &specimen = scene_.specimen;
+  if (specimen.packing == PackingKind::file) return; // its spheres are where they are
   const bool uniform = specimen.radius_distribution == RadiusKind::uniform;
   const double largest = specimen.sphere_radius * (1 + (uniform ? 0.5 * specimen.radius_spread : 0));
   const auto check = [&](double extent, const std::string &path) {

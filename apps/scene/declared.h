@@ -23,6 +23,9 @@ struct Situation {
   operator const Scene &() const { return scene; }
   bool loads() const;            // the app presses a specimen
   bool rate_by_transits() const; // Loading/Wave crossings sets the rate
+  // A study gives the entry to each of its cases, from a list of its own; whether a kind of study reads that
+  // list is found when its cases are read.
+  bool varied(const std::string &path) const;
 };
 
 inline bool given(double value) {

@@ -1,6 +1,7 @@
 #include "apps/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -14,10 +15,47 @@
 #include "apps/scene/regular_file.h"
 #include "apps/scene/scene_files.h"
 #include "apps/scene/scene_targets.h"
+#include "apps/scene/specimen_file.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
+
+// The specimen of a file stands for the entries that the scene leaves out: lengths are told in its mean
+// radius, its height and its width. A radius that the scene has for spheres of another size has no effect.
+// Throws EntryError for a file that cannot be read as one.
+void supply_specimen(SpecimenSection &to, const Parameters &parameters) {
+  constexpr double same_radius = 0.1; // drawn radii have another mean than their distribution
+  if (to.packing != PackingKind::file || !open_file(to.file)) return; // which the checks refuse
+  SpecimenFile file;
+  try {
+    file = read_specimen_csv(to.file);
+  } catch (const InputError &error) {
+    throw EntryError(error.what(), parameters.at("Specimen/File").origin, "Specimen/File");
+  }
+  const auto take = [](double &own, double found) { own = std::isnan(own) ? found : own; };
+  const double radius = dem::mean_radius(file.specimen);
+  if (!(std::abs(to.sphere_radius / radius - 1) <= same_radius)) to.sphere_radius = radius;
+  if (!file.states_shape) return;
+  const dem::Shape &shape = file.specimen.shape;
+  const bool disc = shape.kind == dem::ShapeKind::disc, box = shape.kind == dem::ShapeKind::box;
+  take(to.height, disc ? shape.width_y : shape.height);
+  if (box)
+    take(to.width_x, shape.width_x), take(to.width_y, shape.width_y);
+  else
+    take(to.radius, shape.radius);
+  if (parameters.at("Specimen/Shape").changed()) return;
+  to.shape = box ? SpecimenShape::box : disc ? SpecimenShape::disc : SpecimenShape::cylinder;
+}
+
+// Without a pressure there is no cell, so that a series over pressures may begin with none.
+void leave_out_cell(Scene &scene, const Parameters &parameters) {
+  Loading &loading = scene.loading;
+  const bool none =
+      loading.cell->pressure == 0 && !parameters.at("Loading/Confining pressure").origin.file.empty();
+  if (none && !loading.staged() && !loading.hydrostatic() && scene.study.pressures.empty())
+    loading.confinement = ConfinementKind::none;
+}
 
 // Fills what one entry takes from another, so that the apps need not know the rules.
 void inherit(Scene &scene, Parameters &parameters) {
@@ -37,16 +75,21 @@ void inherit(Scene &scene, Parameters &parameters) {
     take(side.weakening.slip_velocity, both.weakening.slip_velocity);
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
+  scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
+  parameters.attempt([&] { supply_specimen(scene.specimen, parameters); });
   parameters.attempt([&] { supply_layers(parameters, platens); });
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   scene.loading.stages = stages_of(scene.loading.stage_sections);
+  leave_out_cell(scene, parameters);
   scene.calibrate.targets = targets_of(parameters, scene.calibrate);
   PairTest &pair = scene.pair_test;
-  const double modulus = scene.model.bond_layout.modulus;
+  double &modulus = scene.model.bond_layout.modulus;
+  const std::vector<double> &moduli = scene.calibrate.moduli;
+  if (scene.calibrate.mode == CalibrateMode::abacus && std::isnan(modulus) && !moduli.empty())
+    modulus = moduli.front();
   if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
-  scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
   scene.study.target.over_scene = resolved_path(parameters.at("Study/Target/Over scene"));
   for (Expectation &expectation : scene.expect)

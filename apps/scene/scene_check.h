@@ -48,7 +48,8 @@ private:
   // Goes on: what comes after it has to hold without it.
   void refuse(const std::string &path, const std::string &reason) const;
   void need(const std::string &path, double value, const std::string &why) const {
-    if (!given(value)) refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
+    if (!given(value) && !Situation{scene_, parameters_, app_}.varied(path))
+      refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
   }
   void readable(const std::string &path, const std::string &file, const std::string &why) const;
   void cross_section() const;
@@ -78,6 +79,7 @@ private:
   void bar_notes();
   void pair_notes();
   void size_note();
+  void radius_note();
 
   Scene &scene_;
   const Parameters &parameters_;

@@ -39,7 +39,10 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   Members layout(section, model.bond_layout);
   LawMembers law(section, bond.laws);
   layout("modulus").needed_if([](const Situation &s) -> std::string {
-    const bool lists = s.app == AppKind::bonds && !s.scene.pair_test.moduli.empty();
+    const Calibrate &c = s.scene.calibrate;
+    const bool abacus = s.app == AppKind::calibrate && c.mode == CalibrateMode::abacus;
+    const bool lists =
+        (s.app == AppKind::bonds && !s.scene.pair_test.moduli.empty()) || (abacus && !c.moduli.empty());
     const bool bonds = s.scene.bond.bonded() && s.app != AppKind::pack && !lists;
     return bonds ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
   });

@@ -244,7 +244,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "along x, two below.");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
     return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() &&
-                   !s.scene.loading.staged() && !s.rate_by_transits()
+                   !s.scene.loading.staged() && !s.rate_by_transits() && !s.varied("Loading/Axial rate")
                ? "the platens have to move."
                : "";
   });
