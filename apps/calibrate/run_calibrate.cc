@@ -15,6 +15,7 @@
 #include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/specimen_setup.h"
+#include "apps/scene/shell.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
 
@@ -154,8 +155,8 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     s["trials"] = trials.made();
     s["failed_trials"] = trials.failed();
   } catch (const Stopped &stopped) {
-    output.log.info("stopped by a signal; go on with: platen-calibrate {} -o {} --resume", command.scene,
-                    command.output);
+    output.log.info("stopped by a signal; go on with: {} --resume",
+                    shell_command("platen-calibrate", command));
     return exit_status_of_signal(stopped.signal);
   }
   s["wall_seconds"] = output.seconds();

@@ -17,6 +17,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/rank.h"
+#include "apps/scene/shell.h"
 
 namespace platen::apps {
 
@@ -54,10 +55,7 @@ void CompressionRun::tell_path() const {
 
 // As it was called, but for an entry that is to be another.
 std::string CompressionRun::resuming_command(const std::string &but) const {
-  std::string text = fmt::format("{} {} -o {} --resume", app_of(*test_), command_.scene, command_.output);
-  for (const std::string &assignment : command_.overrides)
-    if (but.empty() || trimmed(assignment).rfind(but, 0) != 0) text += fmt::format(" -s \"{}\"", assignment);
-  return text;
+  return shell_command(app_of(*test_), command_, but) + " --resume";
 }
 
 void CompressionRun::tell_cut() {
@@ -196,8 +194,8 @@ int CompressionRun::end() {
   }
   if (results_.peak().kind == PeakKind::none && ended_by() == "target" && keeps_checkpoints() &&
       !scene_.loading.staged() && !scene_.loading.hydrostatic())
-    log_.info("it goes on from here with: {} -s \"{} = {:.3g}\"", resuming_command(target_entry),
-              target_entry, 2 * scene_.loading.target_strain);
+    log_.info("it goes on from here with: {}{}", resuming_command(target_entry),
+              shell_entry(fmt::format("{} = {:.3g}", target_entry, 2 * scene_.loading.target_strain)));
   log_.info("results are in {}", paths_.folder.string());
   if (!finished()) {
     log_.info("ended before its target: what the scene expects is not checked");

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "apps/scene/parameters.h"
+#include "apps/scene/shell.h"
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
 
@@ -204,7 +205,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   if (!threads.empty()) line.threads = read_threads(threads);
   if (planned != nullptr && planned->count() > 0) line.run = read_run(run);
   for (int k = 0; k < argc; ++k)
-    line.text += (k == 0 ? "" : " ") + std::string(argv[k]);
+    line.text += (k == 0 ? "" : " ") + shell_word(argv[k]);
   check(line, app);
   if (!line.output_given && !line.scene.empty())
     line.output = (std::filesystem::path("results") / std::filesystem::path(line.scene).stem()).string();

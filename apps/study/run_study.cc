@@ -1,5 +1,6 @@
 #include "apps/study/run_study.h"
 #include "apps/scene/regular_file.h"
+#include "apps/scene/shell.h"
 
 #include <fmt/format.h>
 
@@ -82,10 +83,7 @@ private:
 
 // As it was called, but for what is to be done.
 std::string StudyApp::command_text() const {
-  std::string text = fmt::format("platen-study {} {} -o {}", command_.kind, command_.scene, command_.output);
-  for (const std::string &assignment : command_.overrides)
-    text += fmt::format(" -s \"{}\"", assignment);
-  return text;
+  return shell_command("platen-study", command_);
 }
 
 TargetSetup StudyApp::target_setup() const {

@@ -8,6 +8,7 @@
 #include "apps/io/sha256.h"
 #include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/shell.h"
 #include "apps/study/study_results.h"
 #include "apps/study/target_report.h"
 
@@ -104,9 +105,9 @@ int tell_target_plan(const TargetSetup &setup) {
       [] {});
   if (study.looks().empty() && study.figures().made() == 0) {
     fmt::print(
-        "no plan can be made yet: {} of {} runs of the pilot are there. Make these alone with\n  {} -s "
-        "\"Study/Target/Most runs = {}\"\nand plan again with --dry-run.\n",
-        there, asked, setup.command, asked);
+        "no plan can be made yet: {} of {} runs of the pilot are there. Make these alone with\n  {}{}\n"
+        "and plan again with --dry-run.\n",
+        there, asked, setup.command, shell_entry(fmt::format("Study/Target/Most runs = {}", asked)));
     for (const StudyRun &run : study.batch())
       fmt::print("  {}\n", run.name);
     return status_done;

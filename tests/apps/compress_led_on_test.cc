@@ -61,7 +61,7 @@ TEST_F(LedOn, a_larger_strain_gives_the_straight_test_to_the_last_byte) {
   EXPECT_EQ(ended.status, 0) << ended.error;
   EXPECT_NE(
       ended.out.find("it goes on from here with: platen-compress " + scene_ +
-                     " -o led --resume -s \"Output/Fields = off\" -s \"Loading/Target strain = 0.0024\"\n"),
+                     " -o led -s 'Output/Fields = off' --resume -s 'Loading/Target strain = 0.0024'\n"),
       std::string::npos)
       << ended.out;
   const nlohmann::json first = summary_in(folder_ / "led");
@@ -75,6 +75,27 @@ TEST_F(LedOn, a_larger_strain_gives_the_straight_test_to_the_last_byte) {
       << log("led");
   EXPECT_NE(log("led").find("led on with another Loading/Target strain: 0.0065, it was 0.004"),
             std::string::npos);
+}
+
+// Whatever the folder and the title are called: nothing of them is for the shell.
+TEST_F(LedOn, a_printed_command_can_be_pasted_into_a_shell) {
+  for (const std::string results : {"a b", "$(touch x)", "it's"}) {
+    const Outcome ended =
+        run_compress({scene_, "-o", results, "-t", "1", "-s", "Output/Fields = off", "-s", "Scene/Title = it's $HOME",
+                      "-s", "Loading/Target strain = 0.0008"},
+                     folder_);
+    const std::string before = "it goes on from here with: platen-compress";
+    const std::size_t at = ended.out.find(before);
+    ASSERT_NE(at, std::string::npos) << ended.out << ended.error;
+    const std::size_t first = at + before.size();
+    const std::string pasted = ended.out.substr(first, ended.out.find('\n', first) - first);
+    Program shell({"/bin/sh", "-c", compress_command({}).front() + pasted}, folder_);
+    EXPECT_EQ(shell.wait(), 0) << pasted;
+    const nlohmann::json summary = summary_in(folder_ / results);
+    EXPECT_EQ(summary["scene"], "it's $HOME");
+    EXPECT_GT(column_of(folder_ / results / "history.csv", "axial_strain_platen").back(), 0.0015) << pasted;
+    EXPECT_FALSE(fs::exists(folder_ / "x")) << pasted;
+  }
 }
 
 // Where the stress has fallen to a share of the peak the test is over; from there to a smaller one.
