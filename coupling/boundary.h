@@ -135,8 +135,10 @@ public:
   virtual Vector3 inward() const { return {}; } // unit vector of the way that a platen presses; else zero
   virtual double closure() const { return 0; }  // m, how far the face of a platen has moved inward
   double load() const { return dot(force(), -1.0 * inward()); } // N, with which a platen presses
-  virtual double pressure() const { return 0; }                 // Pa, mean, on the specimen
-  virtual double speed() const { return 0; }                    // m/s, at which the machine moves it
+  virtual double pressure() const { return 0; }                 // Pa, mean, that acts on the lateral surface
+  // 1, of the lateral surface that a cell's pressure loads; NaN of what is no cell, or has none.
+  virtual double confined_share() const { return std::numeric_limits<double>::quiet_NaN(); }
+  virtual double speed() const { return 0; } // m/s, at which the machine moves it
   virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
   virtual std::size_t bytes() const { return 0; } // of rows and search lists
 

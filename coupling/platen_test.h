@@ -97,7 +97,8 @@ public:
   double circumferential_strain() const override;
   const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
   double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
-  double confining_pressure() const;       // Pa, of the cell, or on the wall
+  double confining_pressure() const;       // Pa, of a cell, as it acts on the lateral surface, or on the wall
+  double confined_share() const;           // 1, of the lateral surface that a cell loads; NaN without one
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
   // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and
   // stress_bottom() leave out, beyond the pressure that stands in the rubber anyway. NaN without a sleeve.

@@ -73,6 +73,12 @@ double PlatenTest::confining_pressure() const {
   return sum;
 }
 
+double PlatenTest::confined_share() const {
+  for (const auto &boundary : boundaries())
+    if (const double share = boundary->confined_share(); !std::isnan(share)) return share;
+  return none;
+}
+
 double PlatenTest::sleeve_volumetric_strain() const {
   return sleeve_ == nullptr ? none : sleeve_->volumetric_strain();
 }

@@ -43,14 +43,17 @@ Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &sh
     : shape_(shape), kind_(kind) {
   for (const double r : p.radius)
     mean_radius_ += r / static_cast<double>(std::max<std::size_t>(p.size(), 1));
+  const std::vector<char> body = body_of(p, bonds);
+  whole_ = static_cast<std::size_t>(std::count(body.begin(), body.end(), 1));
   find(p, bonds, planes);
-  if (kind_ == ConfinementArea::sphere) return;
   const double found = coverage(p, planes);
   if (!(found > 0))
     throw std::invalid_argument("the specimen has no lateral skin that a pressure could act on");
+  if (kind_ == ConfinementArea::sphere) return;
   factor_ = 1 / found;
   for (Vector3 &a : area_)
     a *= factor_;
+  whole_coverage_ = coverage(p, planes);
 }
 
 // The part of an area vector that faces outwards as the shape's lateral surface does there. At the edge of a
@@ -113,6 +116,10 @@ void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &
   moved_ = 0;
   ++lists_made_;
   broken_ = broken_bonds(bonds);
+  // A specimen only loses spheres: as many as at the start are the same ones.
+  const double now = coverage(p, planes);
+  if (static_cast<std::size_t>(std::count(body.begin(), body.end(), 1)) == whole_) whole_coverage_ = now;
+  loaded_share_ = std::min(1.0, now / whole_coverage_);
 }
 
 // Sum of a.v, m^3/s: by it the specimen swells.
@@ -146,6 +153,8 @@ void Confinement::describe(Archive &archive) {
   archive("work", work_, "J");
   archive("moved", moved_, "m");
   archive("broken_bonds", broken_);
+  archive("whole_coverage", whole_coverage_, "1", 1.0);
+  archive("loaded_share", loaded_share_, "1", 1.0);
   archive.table("areas", table_);
 }
 

@@ -2,7 +2,9 @@
 // nothing itself: -p a on each sphere of the skin, a its outward area vector, at its centre.
 //
 // Only pieces that hold together by intact bonds and have at least a twentieth of the spheres are pressed:
-// what has come loose is left alone, and the pressure goes to what lies bare beneath. Areas are found anew
+// what has come loose is left alone, and the pressure goes to what lies bare beneath. What of the lateral
+// surface is then still loaded is told, and the pressure that is told is the one that acts over all of it.
+// Areas are found anew
 // where spheres have moved by a twentieth of the mean radius or bonds have broken since; in between, area
 // vectors stand still (a dead load), so that the work is exact.
 #pragma once
@@ -38,9 +40,14 @@ public:
   // Then presses with `pressure` (Pa) and adds its work over dt (s).
   void add_forces(Particles &particles, double pressure, double dt);
 
-  double pressure() const { return pressure_; } // Pa, now
-  double work() const { return work_; }         // J, done by the pressure since the start
-  double factor() const { return factor_; }     // of Voronoi areas
+  // Pa, that acts now: the sum of the forces over the lateral area. The pressure that was given while the
+  // specimen is whole.
+  double pressure() const { return loaded_share_ * pressure_; }
+  // 1, of the lateral area between the planes: what is pressed now over what was pressed when the specimen
+  // was last whole, at most 1. It is 1 until the first sphere has come loose.
+  double loaded_share() const { return loaded_share_; }
+  double work() const { return work_; }     // J, done by the pressure since the start
+  double factor() const { return factor_; } // of Voronoi areas
   // Sum of the area vectors along the outward normals of the shape over its lateral area: 1 where the whole
   // surface is pressed once.
   double coverage(const Particles &particles, const EndPlanes &planes) const;
@@ -62,7 +69,9 @@ private:
   Shape shape_;
   ConfinementArea kind_;
   double mean_radius_ = 0, factor_ = 1;
-  double pressure_ = 0, work_ = 0;
+  double pressure_ = 0, work_ = 0; // Pa, as it was given; J
+  std::size_t whole_ = 0;          // spheres of pieces that are pressed, at the start
+  double whole_coverage_ = 1, loaded_share_ = 1;
   long lists_made_ = 0;
   double moved_ = 0, broken_ = 0; // m and bonds, when and since the areas were found
   Table table_;

@@ -22,7 +22,8 @@ struct Sample {
   double lateral_strain = 0, volumetric_strain = 0;
   double lateral_extremal = 0, axial_extremal = 0; // Tannu's pairs of outermost particles
   double stress_top = 0, stress_bottom = 0;        // Pa
-  double confining_pressure = 0;                   // Pa, of a cell or on a wall
+  double confining_pressure = 0;                   // Pa, that acts: of a cell or on a wall
+  double confined_share = 0;                       // of the lateral surface that a cell loads
   double cell_pressure = 0;                        // Pa, of a cell alone
   double sleeve_volumetric_strain = 0;             // of the volume within a sleeve
   double sleeve_deviator = 0;                      // Pa, axial, over the specimen's area

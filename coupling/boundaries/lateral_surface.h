@@ -29,6 +29,7 @@ public:
   }
   void add_energy(dem::EnergyLedger &energy) const override { energy.boundary += skin_.work(); }
   double pressure() const override { return skin_.pressure(); }
+  double confined_share() const override { return skin_.loaded_share(); }
   std::optional<std::vector<int>> rows_read() const override { return skin_.particles(); }
   bool reads_all(const Step &step) const override { return step.number % steps_between_skins == 0; }
   long lists_made() const override { return skin_.lists_made(); }

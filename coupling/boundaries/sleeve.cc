@@ -180,6 +180,20 @@ double Sleeve::axial_force_beyond_pressure() const {
   return 0.5 * (bottom - top) - pressure() * ring_;
 }
 
+double Sleeve::confined_share() const {
+  if (!(pressure() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const fem::SurfaceMesh &inner = solid_->surface();
+  std::vector<char> bears(inner.faces.size(), 0);
+  contact_->visit_contacts([&](int face, const Vector3 &) { bears[static_cast<std::size_t>(face)] = 1; });
+  double loaded = 0, all = 0; // m^2
+  for (std::size_t face = 0; face < bears.size(); ++face) {
+    const double area = norm(fem::face_area_vector(inner, face));
+    all += area;
+    if (bears[face] != 0) loaded += area;
+  }
+  return loaded / all;
+}
+
 // Of the elements, and of the contacts that press now: the sum of a row of the contacts' stiffness at a
 // vertex is at most that of the spheres for which it is the nearest, and half of that of the others on its
 // faces (weights of a bilinear face sum to one).

@@ -101,6 +101,9 @@ public:
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
+  // Of its inner face, by area: the elements of it that bear on a sphere. The rubber hands the pressure to
+  // these. NaN without a pressure, for then nothing bears.
+  double confined_share() const override;
   std::string series() const override { return "sleeve"; }
   void write_vtu(std::ostream &stream) const override;
   const ContactLayer &layer() const override { return *contact_; }

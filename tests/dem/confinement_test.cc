@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
+#include "tests/same_state.h"
 
 namespace platen::dem {
 namespace {
@@ -201,6 +203,77 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
   body.particles.position[static_cast<std::size_t>(loose)] += {0.1, 0, 0};
   press(c, body, 1e6, 0, 1e-3, true);
   EXPECT_EQ(c.size(), size);
+}
+
+void crumble(Body &body, const std::function<bool(int)> &loose) {
+  std::vector<BondBreak> breaks;
+  for (std::size_t k = 0; k < body.bonds.size(); ++k)
+    if (loose(body.bonds.first[k]) || loose(body.bonds.second[k]))
+      breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  body.bonds.break_rows(breaks, body.particles, 0.0);
+}
+
+// Pa, of the forces towards the axis over the nominal area of the mantle.
+double mean_pressure(const Body &body) {
+  double sum = 0;
+  for (std::size_t i = 0; i < body.particles.size(); ++i) {
+    const Vector3 x = body.particles.position[i], f = body.particles.force[i];
+    sum -= (f.x * x.x + f.y * x.y) / std::hypot(x.x, x.y);
+  }
+  return sum / (2 * pi * 10e-3 * 25e-3);
+}
+
+TEST(confinement, what_crumbles_takes_its_share_of_the_pressure_along) {
+  for (const ConfinementArea kind : {ConfinementArea::voronoi, ConfinementArea::sphere})
+    for (const double sound : {1.0, 0.6, 0.0}) { // of the height, from below
+      Body body(packed_cylinder());
+      Confinement c = body.confinement(kind);
+      EXPECT_EQ(c.loaded_share(), 1);
+      const double start = c.coverage(body.particles, body.planes());
+      crumble(body,
+              [&](int i) { return body.particles.position[static_cast<std::size_t>(i)].z > sound * 25e-3; });
+      press(c, body, 3e6, 0, 0, true);
+      // Where the sound part ends it has a face of its own, whose spheres bear on the mantle too.
+      EXPECT_NEAR(c.loaded_share(), sound, sound == 0.6 ? 0.05 : 0) << start;
+      EXPECT_EQ(c.pressure(), 3e6 * c.loaded_share());
+      EXPECT_NEAR(c.pressure() * start / 3e6, mean_pressure(body) / 3e6, 0.01) << sound;
+    }
+}
+
+// A specimen that is whole has the pressure that it was given, however it has changed its width; one that has
+// lost a sphere is counted from its width then.
+TEST(confinement, only_what_has_come_loose_takes_from_the_pressure) {
+  Body body(packed_cylinder());
+  Confinement c = body.confinement();
+  const auto widen = [&](double factor) {
+    for (std::size_t i = 0; i < body.particles.size(); ++i)
+      body.particles.position[i].x *= factor, body.particles.position[i].y *= factor;
+    press(c, body, 3e6, 0, 1e-3, true);
+  };
+  widen(0.9);
+  EXPECT_LT(c.coverage(body.particles, body.planes()), 0.95);
+  EXPECT_EQ(c.loaded_share(), 1);
+  EXPECT_EQ(c.pressure(), 3e6);
+  const int loose = c.particle(c.size() / 2);
+  crumble(body, [&](int i) { return i == loose; });
+  press(c, body, 3e6, 0, 0, true);
+  EXPECT_NEAR(c.loaded_share(), 1, 0.01);
+  widen(1.2);
+  EXPECT_EQ(c.loaded_share(), 1) << "no more than the whole is loaded";
+  widen(0.8);
+  EXPECT_LT(c.loaded_share(), 1);
+  Confinement read = Body(packed_cylinder()).confinement();
+  set_state(read, state_of(c));
+  EXPECT_TRUE(same_state(read, c));
+  EXPECT_EQ(read.pressure(), c.pressure());
+}
+
+TEST(confinement, a_specimen_without_lateral_spheres_is_refused) {
+  for (const ConfinementArea kind : {ConfinementArea::voronoi, ConfinementArea::sphere}) {
+    Body body(packed_cylinder());
+    crumble(body, [](int) { return true; });
+    EXPECT_THROW(body.confinement(kind), std::invalid_argument);
+  }
 }
 
 // Cut through along its axis: both halves are bodies, and the flaw between them is too narrow for the cell.
