@@ -122,6 +122,7 @@ public:
   double broken_bonds() const override;
   Vector3 force(std::size_t boundary) const override { return boundaries()[boundary]->force(); }
   double load(std::size_t boundary) const override { return boundaries()[boundary]->load(); }
+  double moved_inward(std::size_t boundary) const override { return boundaries()[boundary]->closure(); }
   Vector3 inward(std::size_t boundary) const override { return boundaries()[boundary]->inward(); }
   ServoLoad servo_load(std::size_t boundary) const override {
     return boundaries()[boundary]->servo_load(model.particles);

@@ -130,12 +130,14 @@ private:
     p.servo = servo(ask, p.platens, ramp);
     if (!consolidates && !ask.servo && ask.ask != Ask::share)
       p.integral_time = times_of_servo * test_.time_of_servo(p.platens);
-    if (ask.ask == Ask::share) p.followed = platens(ask.of), p.lag = lag();
+    if (ask.ask == Ask::share) p.quantity = words_of_share(ask), p.followed = platens(ask.of), p.lag = lag();
     if (p.platens.places.size() == 1) {
       p.settled_by = {test_.platens_along(p.platens.axis)};
     }
     return std::make_unique<StressTask>(p);
   }
+
+  static std::string words_of_share(const SideAsk &ask) { return "share of " + words_of(ask.of); }
 
   double lag() const { return lag_of_share * test_.facts().wave_transit; }
 
@@ -146,7 +148,8 @@ private:
     p.value = ask.ask == Ask::free ? 0 : ask.value;
     p.ramp = ramp;
     p.path = ask.path;
-    if (ask.ask == Ask::share) p.followed = platens(ask.of);
+    if (ask.ask == Ask::share) p.quantity = words_of_share(ask), p.followed = platens(ask.of);
+    if (p.path != 0) p.quantity = "stress path";
     if (p.path != 0 || p.followed) p.lag = lag();
     if (p.path != 0) p.lag = std::max(1.0, p.path) * lag_of_path * test_.facts().wave_transit;
     return std::make_unique<PressureTask>(p);
@@ -161,7 +164,7 @@ private:
     const PlatensOfAxis of = platens(ask.side);
     switch (ask.ask) {
       case Ask::rate:
-        return std::make_unique<RateTask>(drive(of), rate_of(ask), ramp);
+        return std::make_unique<RateTask>(drive(of), rate_of(ask), ramp, words_of(ask.side));
       case Ask::hold:
         return std::make_unique<HoldTask>(of, test_.ramp());
       case Ask::circumferential:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/io/stop_signal.h"
+#include "apps/run/controls.h"
 #include "apps/run/peak.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/parameters.h"
@@ -75,6 +76,13 @@ bool reached_peak(const std::vector<Reading> &all) {
   return judge_peak(curve, false).reached();
 }
 
+// All sides bore the cell's pressure when the platens took over; true without a cell.
+bool consolidated(const coupling::PlatenTest &problem) {
+  if (!problem.cell()) return true;
+  const std::vector<coupling::Controlled> told = problem.program().controls(0);
+  return std::all_of(told.begin(), told.end(), [](const auto &one) { return one.is_met(); });
+}
+
 std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, const SpecimenTest &test,
                           TrialResult &result) {
   const double sign = test.kind == TestKind::tension ? -1 : 1, target = scene.loading.target_strain;
@@ -96,17 +104,24 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     advance(steps);
   const Reading start = problem.cell() ? read() : Reading{};
   std::vector<Reading> all{{}};
-  double peak = 0;
+  double peak = 0, confined = 1; // Pa; of the lateral surface, at the peak
   bool fell = false;
   while (all.back().strain_platen < target && !(fell && all.back().strain_platen >= test.curve_strain)) {
     for (long made = 0; made < steps;)
       made += advance(std::min(steps - made, between_signals));
     all.push_back(read().minus(start));
     const Reading &now = all.back();
-    if (now.stress > peak) peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
+    if (now.stress > peak) {
+      peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
+      confined = problem.confined_share();
+    }
     fell = fell || (now.damaged && now.strain_platen > begun * target && now.stress < fallen * peak);
   }
-  if (reached_peak(all)) {
+  if (!consolidated(problem) || confined < least_confined) {
+    result.strain_at_peak = not_given;
+    result.status = consolidated(problem) ? "the cell's pressure does not load the specimen at its peak"
+                                          : "the cell's pressure was not reached on all sides";
+  } else if (reached_peak(all)) {
     result.strength = peak + start.stress;
     add_moduli(all, peak, result);
   } else {

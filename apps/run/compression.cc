@@ -9,11 +9,11 @@
 
 #include "apps/io/stop_signal.h"
 #include "apps/run/compression_run.h"
+#include "apps/run/controls.h"
 #include "apps/run/estimate.h"
 #include "apps/run/pressure_path.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/ranks.h"
-#include "apps/run/stages_of_run.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/rank.h"
@@ -30,22 +30,28 @@ RunCosts CompressionRun::costs() const {
   c.step_seconds = seconds_since(loop_start_);
   c.ended_by = failed_ ? "failure" : signal_ != 0 ? "signal" : ended_by();
   if (ending_ && c.ended_by.empty()) c.ended_by = "script";
+  if (!c.ended_by.empty()) c.ended_by = with_misses(c.ended_by, *test_, results_);
   return c;
 }
 
-// Stages whose time was over before their stresses were borne, of those that ended after so many.
-void CompressionRun::tell_unsettled(std::size_t from) const {
-  for (std::size_t k = from; k < test_->program().stages_ended(); ++k)
-    if (const std::string words = unsettled_words(*test_, k); !words.empty()) log_.warning("{}", words);
+// What stages asked and did not reach, of those that ended after so many.
+void CompressionRun::tell_misses(std::size_t from) const {
+  for (std::size_t k = from; k < test_->program().stages_ended(); ++k) {
+    const std::string words = words_of_misses(*test_, k);
+    if (words.empty()) continue;
+    if (failed_in(*test_, results_, k))
+      log_.info("{} (the specimen failed in it)", words);
+    else
+      log_.warning("{}", words);
+  }
 }
 
 void CompressionRun::tell_path() const {
-  constexpr double most_deviation = 0.01; // of the pressure
   const PressurePath path = pressure_path(*test_, results_);
-  if (path.deviation > most_deviation)
+  if (path.deviation > most_off_path)
     log_.warning(
         "the pressure was up to {:.1f} % off its path, {:.0f} % at most: a lower Loading/Axial rate helps",
-        100 * path.deviation, 100 * most_deviation);
+        100 * path.deviation, 100 * most_off_path);
   if (!std::isnan(path.ended_at_strain))
     log_.warning(
         "the pressure had come down to nothing at the strain of {:.5f}: from there on the test goes along "
@@ -76,7 +82,7 @@ void CompressionRun::look_around() {
 bool CompressionRun::pass() {
   const std::size_t ended = test_->program().stages_ended();
   test_->advance(steps_unobserved());
-  tell_unsettled(ended);
+  tell_misses(ended);
   if (std::exchange(tells_cut_, false)) tell_cut();
   look_around();
   const bool row = due(scene_.output.every, automatic_rows);
@@ -166,7 +172,7 @@ void CompressionRun::tell_doubts() {
         "platens is no specimen of its size any more; a smaller Loading/Target strain ends before",
         100 * std::abs(test_->closure_strain(results_.axis())));
   tell_path();
-  tell_unsettled(0);
+  tell_misses(0);
   const std::vector<std::string> reasons =
       reasons_not_quasi_static(slowness(*test_, results_), test_->bent());
   if (!reasons.empty())

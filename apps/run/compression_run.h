@@ -83,7 +83,7 @@ private:
   bool keeps_checkpoints() const { return scene_.checkpoint.every.kind != Interval::Kind::none; }
   ProgressSample where() const;
   std::string ended_by() const; // empty: it goes on
-  void tell_unsettled(std::size_t from) const;
+  void tell_misses(std::size_t from) const;
   void tell_path() const;
   void tell_doubts();
   void finish_files();

@@ -6,6 +6,8 @@
 
 namespace platen::apps {
 
+constexpr double most_off_path = 0.01; // of the pressure
+
 // Of a test whose pressure gains a share of the deviator, up to the peak or to where the path ends.
 struct PressurePath {
   // Largest distance from the path, over its pressure there or that which it begins with, the larger; NaN

@@ -133,6 +133,7 @@ ModulusState Results::modulus_state() const {
   const Sample &s = samples_[c.after];
   state.found = true;
   state.stress = modulus_share * peak_;
+  state.time = s.time;
   for (std::size_t k = 1; k <= c.after; ++k)
     state.readings += samples_[k].axial_stage != 0;
   state.broken = s.broken() - zero().broken();

@@ -28,6 +28,7 @@ struct Pattern {
 struct ModulusState {
   bool found = false;
   double stress = not_measured; // Pa, the deviator there
+  double time = not_measured;   // s
   std::size_t readings = 0;     // of the axial stage until then
   double broken = 0;            // bonds, since the axial stage began
   double plastic_share = 0;     // plastic work over the energy of bonds; 0 without a ledger

@@ -7,6 +7,7 @@ set(PLATEN_RUN_SOURCES
   run/compression_files.cc
   run/compression_schedule.cc
   run/compression_setup.cc
+  run/controls.cc
   run/estimate.cc
   run/failure_summary.cc
   run/fields.cc

@@ -1,12 +1,9 @@
 #include "apps/run/stages_of_run.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "apps/run/controls.h"
 
 namespace platen::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Null where a checkpoint before this was told says nothing.
 Json ended_by(std::size_t stage, const Scene &scene, const coupling::PlatenTest &problem,
@@ -48,20 +45,11 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
         stage[std::string("strain_") + "xy"[axis]] = s.*platen_strain(axis);
         stage[std::string("stress_") + "xy"[axis] + "_pa"] = s.stress(axis);
       }
+    stage["controls"] = controls_of_stage(problem, static_cast<std::size_t>(s.stage) - 1);
     stages.push_back(stage);
     largest = not_measured;
   }
   to["stages"] = stages;
-}
-
-std::string unsettled_words(const coupling::PlatenTest &problem, std::size_t stage) {
-  const coupling::Stage &over = problem.program().stage(stage);
-  if (over.ended_by() != coupling::Stage::not_settled) return "";
-  std::vector<std::string> stresses;
-  for (const coupling::AskedStress &one : over.stresses_at_end())
-    stresses.push_back(fmt::format("{} {:.4g} of {:.4g} MPa", one.side, 1e-6 * one.borne, 1e-6 * one.asked));
-  return fmt::format("stage {} did not settle in its time: {}; a longer Hold gives it more", stage + 1,
-                     fmt::join(stresses, ", "));
 }
 
 } // namespace platen::apps

@@ -5,6 +5,7 @@
 #include "apps/io/machine.h"
 #include "apps/run/app_output.h"
 #include "apps/run/at_peak.h"
+#include "apps/run/controls.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/pressure_path.h"
 #include "apps/run/problem_setup.h"
@@ -215,6 +216,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   add_wall(s, problem, results);
   add_sides(s, problem, results);
   add_stages(s, scene, problem, results);
+  add_controls(s, problem);
   add_disc(s, problem, results);
   add_bar(s, problem, results);
   s["broken_tension"] = model.broken(dem::BondState::broken_in_tension);

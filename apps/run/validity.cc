@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "apps/run/at_peak.h"
+#include "apps/run/controls.h"
 #include "apps/run/failure_summary.h"
+#include "apps/run/pressure_path.h"
 #include "apps/run/summary_of_run.h"
 #include "apps/scene/parameters.h"
 #include "dem/measure/gauge.h"
@@ -83,6 +85,24 @@ void judge_residual(Validity &of, const Results &results) {
                                          100 * residual, 100 * most_residual);
   for (const Figures *all : {&of_strength, &of_modulus, &of_damage})
     of.add(*all, reason);
+}
+
+// Stresses, pressures and a path that were asked are part of what a figure says.
+void judge_controls(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  const auto check = [&](const Figures &figures, double time) {
+    for (const std::string &reason : controls_against(problem, results, time))
+      of.add(figures, reason);
+    if (const std::string reason = confinement_against(results, time); !reason.empty())
+      of.add(figures, reason);
+  };
+  check(of_strength, results.time_at_peak());
+  check(of_modulus, results.modulus_state().time);
+  check(of_damage, results.pattern().time);
+  check(of_cell, results.consolidation_end());
+  if (const double off = pressure_path(problem, results).deviation; off > most_off_path)
+    of.add(of_strength,
+           fmt::format("the pressure was {:.1f} % off its path before the peak, {:.0f} % at most", 100 * off,
+                       100 * most_off_path));
 }
 
 // What a test says nothing of.
@@ -276,6 +296,7 @@ Validity judge(const Scene &scene, const coupling::PlatenTest &problem, const Re
   judge_moduli(of, problem, results);
   judge_shared_load(of, results);
   judge_residual(of, results);
+  judge_controls(of, problem, results);
   judge_gauge(of, problem);
   judge_values(of, problem, results);
   judge_damage(of, scene, problem, results);

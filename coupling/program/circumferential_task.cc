@@ -1,6 +1,7 @@
 #include "coupling/program/circumferential_task.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace platen::coupling {
@@ -46,6 +47,16 @@ void CircumferentialTask::command(const Measures &m, Commands &asked) {
   const double aim = std::clamp(length * rate / poisson_ratio, -fastest_back, parameters_.fastest);
   speed_ += std::min(1.0, dt / (transits_of_speed * parameters_.transit)) * (aim - speed_);
   parameters_.platens.move(m, speed_ / static_cast<double>(parameters_.platens.places.size()), asked);
+}
+
+std::optional<Controlled> CircumferentialTask::controlled(const Measures &m) const {
+  const double passed = m.time() - begun_;
+  if (!(passed > 0)) return std::nullopt;
+  Controlled c{"circumferential rate", "axial", "1/s", parameters_.platens.axis};
+  c.asked = (strain_asked(passed) - strain_found_) / passed;
+  c.reached = (m.circumferential_strain() - strain_found_) / passed;
+  c.whole = std::abs(c.asked);
+  return c;
 }
 
 void CircumferentialTask::describe(Archive &archive) {

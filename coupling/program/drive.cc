@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace platen::coupling {
@@ -64,6 +65,36 @@ void Drive::describe(Archive &archive) {
   archive("turned", turned_);
   archive("strain_of_turn", strain_of_turn_);
   if (rate_control_) archive.part("rate_control", *rate_control_);
+}
+
+void RateTask::begin(const Measures &m, double begun, const Handover &) {
+  drive_->ask(rate_, ramp_, m, begun);
+  begun_ = begun, path_ = 0;
+  closure_found_ = drive_->platens().closure(m);
+}
+
+void RateTask::command(const Measures &m, Commands &asked) {
+  const double speed = drive_->speed(m);
+  path_ += static_cast<double>(drive_->platens().places.size()) * speed * m.time_step();
+  drive_->platens().move(m, speed, asked);
+}
+
+std::optional<Controlled> RateTask::controlled(const Measures &m) const {
+  const double passed = m.time() - begun_;
+  if (!(passed > 0)) return std::nullopt; // or a state from before this was kept
+  Controlled c{"rate", side_, "m/s", drive_->platens().axis};
+  c.asked = path_ / passed;
+  c.reached = (drive_->platens().closure(m) - closure_found_) / passed;
+  c.whole = std::abs(c.asked);
+  return c;
+}
+
+void RateTask::describe(Archive &archive) {
+  archive.version(1);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  archive("begun", begun_, "s", unknown);
+  archive("path", path_, "m", unknown);
+  archive("closure_found", closure_found_, "m", unknown);
 }
 
 double RateTask::fastest() const {

@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "coupling/program/platen_speed.h"
 #include "coupling/program/task.h"
@@ -50,23 +52,25 @@ private:
   double strain_of_turn_ = 0;
 };
 
+// The machine goes at the rate. The faces of the platens follow it where nothing yields between them: a
+// machine's spring, or platens that are elastic, take up a part.
 class RateTask : public Task {
 public:
-  RateTask(std::shared_ptr<Drive> drive, double rate, double ramp)
-      : drive_(std::move(drive)), rate_(rate), ramp_(ramp) {}
-  void begin(const Measures &m, double begun, const Handover &) override {
-    drive_->ask(rate_, ramp_, m, begun);
-  }
-  void command(const Measures &m, Commands &asked) override {
-    drive_->platens().move(m, drive_->speed(m), asked);
-  }
+  RateTask(std::shared_ptr<Drive> drive, double rate, double ramp, std::string side = "axial")
+      : drive_(std::move(drive)), rate_(rate), ramp_(ramp), side_(std::move(side)) {}
+  void begin(const Measures &m, double begun, const Handover &) override;
+  void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override { drive_->update(m); }
+  // The mean rates of the stage: of the machine, and of the faces.
+  std::optional<Controlled> controlled(const Measures &m) const override;
   double fastest() const override;
-  void describe(Archive &archive) override { archive.version(1); } // the drive is the program's
+  void describe(Archive &archive) override; // the drive is the program's
 
 private:
   std::shared_ptr<Drive> drive_;
   double rate_, ramp_; // m/s, s
+  std::string side_;
+  double begun_ = 0, path_ = 0, closure_found_ = 0; // s; m, of the machine since then; m, of the faces then
 };
 
 } // namespace platen::coupling

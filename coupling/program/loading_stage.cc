@@ -1,12 +1,15 @@
 #include "coupling/program/loading_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace platen::coupling {
 
 LoadingStage::LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end)
-    : parameters_(std::move(parameters)), tasks_(std::move(tasks)), end_(std::move(end)) {}
+    : parameters_(std::move(parameters)), tasks_(std::move(tasks)), end_(std::move(end)) {
+  forget_end();
+}
 
 void LoadingStage::on_begin(const Measures &m, const Handover &from) {
   for (const auto &task : tasks_)
@@ -35,14 +38,25 @@ int LoadingStage::reached(const Measures &m) const {
 
 void LoadingStage::end(const Measures &m) {
   ended_by_ = reached(m);
-  for (const auto &task : tasks_)
-    task->end(m);
+  const Until *until =
+      ended_by_ > 0 ? &end_.parameters().any[static_cast<std::size_t>(ended_by_) - 1] : nullptr;
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    std::optional<Controlled> one = tasks_[k]->controlled(m);
+    if (!one) continue;
+    if (until != nullptr && until->what == Until::Reached::stress && one->unit == Controlled::pascal &&
+        one->axis == until->of.axis)
+      one->asked = until->value, one->whole = std::abs(until->value);
+    at_end_[k] = {true, one->asked, one->reached, one->whole};
+  }
+}
+
+void LoadingStage::forget_end() {
+  ended_by_ = 0;
+  at_end_.assign(tasks_.size(), {});
 }
 
 void LoadingStage::go_on() {
-  ended_by_ = 0;
-  for (const auto &task : tasks_)
-    task->go_on();
+  forget_end();
 }
 
 std::string LoadingStage::ended_by() const {
@@ -50,10 +64,15 @@ std::string LoadingStage::ended_by() const {
   return ended_by_ > 0 ? name_of(end_.parameters().any[static_cast<std::size_t>(ended_by_) - 1].what) : "";
 }
 
-std::vector<AskedStress> LoadingStage::stresses_at_end() const {
-  std::vector<AskedStress> all;
-  for (const auto &task : tasks_)
-    if (const std::optional<AskedStress> one = task->stress_at_end()) all.push_back(*one);
+std::vector<Controlled> LoadingStage::controls(const Measures &m) const {
+  std::vector<Controlled> all;
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    std::optional<Controlled> one = tasks_[k]->controlled(m);
+    if (!one || (ended_by_ != 0 && !at_end_[k].told)) continue;
+    if (ended_by_ != 0)
+      one->asked = at_end_[k].asked, one->reached = at_end_[k].reached, one->whole = at_end_[k].whole;
+    all.push_back(*one);
+  }
   return all;
 }
 
@@ -71,6 +90,13 @@ double LoadingStage::fastest() const {
   return most;
 }
 
+void LoadingStage::AtEnd::describe(Archive &archive) {
+  archive("told_at_end", told, "1", false);
+  archive("asked_at_end", asked, "1", 0.0);
+  archive("reached_at_end", reached, "1", 0.0);
+  archive("whole_at_end", whole, "1", 0.0);
+}
+
 void LoadingStage::describe(Archive &archive) {
   Stage::describe(archive);
   archive("ended_by", ended_by_, "1", 0);
@@ -79,6 +105,8 @@ void LoadingStage::describe(Archive &archive) {
   archive.part("end", end_);
   for (std::size_t k = 0; k < tasks_.size(); ++k)
     archive.part("task_" + std::to_string(k + 1), *tasks_[k]);
+  for (std::size_t k = 0; k < at_end_.size(); ++k)
+    archive.part("control_" + std::to_string(k + 1), at_end_[k]);
 }
 
 } // namespace platen::coupling

@@ -26,7 +26,8 @@ public:
   void end(const Measures &m) override;
   void go_on() override;
   std::string ended_by() const override;
-  std::vector<AskedStress> stresses_at_end() const override;
+  // One that ends by a stress of a side has asked no more than that of it.
+  std::vector<Controlled> controls(const Measures &m) const override;
   double expected_seconds() const override { return parameters_.expected_seconds; }
   double progress(const Measures &m) const override;
   double fastest() const override;
@@ -37,11 +38,18 @@ protected:
   void on_begin(const Measures &m, const Handover &from) override;
 
 private:
+  struct AtEnd { // of a task, as its Controlled has it
+    bool told = false;
+    double asked = 0, reached = 0, whole = 0;
+    void describe(Archive &archive);
+  };
   int reached(const Measures &m) const; // as its end has it
+  void forget_end();
 
   Parameters parameters_;
   std::vector<std::unique_ptr<Task>> tasks_;
   StageEnd end_;
+  std::vector<AtEnd> at_end_;
   int ended_by_ = 0; // as its end has it; 0: it goes on, or a checkpoint before there was this says nothing
 };
 

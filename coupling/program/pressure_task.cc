@@ -51,6 +51,30 @@ void PressureTask::update(const Measures &m) {
   }
 }
 
+namespace {
+
+Controlled pressure_around(const std::string &quantity, double asked, double found, const Measures &m) {
+  Controlled c{quantity, "lateral", Controlled::pascal, Controlled::around};
+  c.asked = asked, c.reached = m.lateral_pressure();
+  c.whole = asked > 0 ? asked : found;
+  return c;
+}
+
+} // namespace
+
+std::optional<Controlled> PressureTask::controlled(const Measures &m) const {
+  double asked = parameters_.value;
+  if (parameters_.followed) asked *= parameters_.followed->stress(m);
+  if (parameters_.path != 0) asked += parameters_.path * (m.axial_stress() - m.lateral_pressure());
+  return pressure_around(parameters_.quantity, std::max(0.0, asked), found_, m);
+}
+
+std::optional<Controlled> HoldPressureTask::controlled(const Measures &m) const {
+  Controlled c = pressure_around("pressure", found_, found_, m);
+  c.held = true;
+  return c;
+}
+
 void PressureTask::describe(Archive &archive) {
   const bool before = archive.version(2) < 2; // which followed with a lag
   archive("begun", begun_, "s");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "coupling/program/task.h"
 
@@ -12,9 +13,10 @@ namespace platen::coupling {
 class PressureTask : public Task {
 public:
   struct Parameters {
-    std::size_t place = 0; // of the boundary that presses
-    double value = 0;      // Pa; 1 of `followed`
-    double ramp = 0;       // s
+    std::size_t place = 0;             // of the boundary that presses
+    std::string quantity = "pressure"; // in words; "share of axial", "stress path"
+    double value = 0;                  // Pa; 1 of `followed`
+    double ramp = 0;                   // s
     // 1, what it gains at once, without a ramp, per deviator; -1/3: constant mean stress. A pressure that is
     // found at another value was on its way along the path.
     double path = 0;
@@ -30,6 +32,8 @@ public:
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override { return m.time() - begun_ >= parameters_.ramp; }
+  // What acts on the lateral surface. None of a pressure is a hundredth of what the stage found.
+  std::optional<Controlled> controlled(const Measures &m) const override;
   void describe(Archive &archive) override;
 
 private:
@@ -47,6 +51,7 @@ public:
     found_ = from.asked.empty() ? 0.0 : from.asked.at(place_).pressure;
   }
   void command(const Measures &, Commands &asked) override { asked[place_].pressure = found_; }
+  std::optional<Controlled> controlled(const Measures &m) const override;
   void describe(Archive &archive) override {
     archive.version(1);
     archive("found", found_, "Pa");

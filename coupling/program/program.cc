@@ -1,12 +1,18 @@
 #include "coupling/program/program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "coupling/program/drive.h"
 
 namespace platen::coupling {
+
+bool Controlled::is_met() const {
+  constexpr double share = 0.01;
+  return std::isfinite(asked) && std::abs(reached - asked) <= share * whole;
+}
 
 void Stage::begin(const Measures &m, const Handover &from, bool first) {
   if (!first) begun_ = m.time(), closure_at_begin_ = m.closure_strain();
@@ -96,6 +102,18 @@ double Program::progress() const {
 
 double Program::axial_closure() const {
   return stage().is_consolidation() ? 0.0 : measures_.closure_strain() - zero_[2];
+}
+
+std::vector<Controlled> Program::controls(std::size_t number) const {
+  if (number < stages_ended() && stages_[number]->ended_by().empty()) return {};
+  return stages_[number]->controls(measures_);
+}
+
+std::size_t Program::stage_at(double time) const {
+  std::size_t number = now_;
+  while (number > 0 && stages_[number]->begun() >= time)
+    --number;
+  return number;
 }
 
 bool Program::is_cycling() const {

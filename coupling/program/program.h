@@ -29,6 +29,8 @@ public:
   // presses; the way that it presses; what it pushes against.
   virtual Vector3 force(std::size_t boundary) const = 0;
   virtual double load(std::size_t boundary) const = 0;
+  virtual double moved_inward(
+      std::size_t boundary) const = 0; // m, that the face of a platen has moved inward
   virtual Vector3 inward(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };
@@ -53,10 +55,20 @@ struct Handover {
   std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
 };
 
-// A stress that a stage asks of platens, and what they bear, at its end; Pa, compression positive.
-struct AskedStress {
-  std::string side; // "lateral x"
-  double asked = 0, borne = 0;
+// What a stage asks of a side and what is reached; compression and closing positive.
+struct Controlled {
+  static constexpr const char *pascal = "Pa";
+  static constexpr int around = 3; // of what presses the lateral surface
+
+  std::string quantity, side; // "stress", "lateral x"
+  std::string unit;           // "Pa"; of rates "m/s" and "1/s", which are means over the stage
+  int axis = 2;               // 0 x, 1 y, 2 z, or around
+  bool held = false;          // it is asked to stay as it was found
+  double asked = 0, reached = 0;
+  double whole = 0; // what a hundredth is counted of: the size of what is asked, unless that is nothing
+
+  // Within a hundredth. What is not finite is not met.
+  bool is_met() const;
 };
 
 class Stage {
@@ -75,10 +87,11 @@ public:
   // Of one that had ended, by an earlier end than it has now: forgets that.
   virtual void go_on() {}
   // Of one that has ended, where it says so: by what, "strain", "settled" or `not_settled`: its time was over
-  // and its stresses were not all borne; these stresses.
+  // and its stresses were not all borne.
   static constexpr const char *not_settled = "not settled";
   virtual std::string ended_by() const { return ""; }
-  virtual std::vector<AskedStress> stresses_at_end() const { return {}; }
+  // Of one that has begun: as it is now, or was at its end.
+  virtual std::vector<Controlled> controls(const Measures &) const { return {}; }
 
   virtual double expected_seconds() const = 0;            // until it ends, as far as that is known
   virtual double progress(const Measures &m) const = 0;   // 0 ... 1
@@ -87,11 +100,11 @@ public:
   // From a turn of the platens until the strain of the turn has been reached again.
   virtual bool is_cycling(const Measures &) const { return false; }
 
+  double begun() const { return begun_; } // s
   double closure_gained(const Measures &m) const { return m.closure_strain() - closure_at_begin_; }
   virtual void describe(Archive &archive);
 
 protected:
-  double begun() const { return begun_; } // s
   virtual void on_begin(const Measures &, const Handover &) {}
 
 private:
@@ -134,6 +147,11 @@ public:
   std::size_t stage_number() const { return now_; } // from 0
   std::size_t stage_count() const { return stages_.size(); }
   std::size_t stages_ended() const { return now_ + (finished_ ? 1 : 0); }
+  // What a stage that has begun asks and what is reached: now, or at its end. Empty of one that had ended in
+  // a state before this was told.
+  std::vector<Controlled> controls(std::size_t number) const;
+  // Which stage was on at a time (s) up to now, from 0; at its end that one, not the next.
+  std::size_t stage_at(double time) const;
   void describe(Archive &archive);
 
 private:

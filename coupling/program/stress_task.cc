@@ -100,12 +100,11 @@ bool StressTask::has_settled(const Measures &m) const {
   return aim == 0 || std::abs(farthest(m) - aim) < settled_share * std::abs(aim);
 }
 
-void StressTask::end(const Measures &m) {
-  asked_at_end_ = asked(m), borne_at_end_ = farthest(m);
-}
-
-void StressTask::go_on() {
-  asked_at_end_ = borne_at_end_ = not_yet;
+std::optional<Controlled> StressTask::controlled(const Measures &m) const {
+  Controlled c{parameters_.quantity, parameters_.side, Controlled::pascal, parameters_.platens.axis};
+  c.asked = asked(m), c.reached = farthest(m);
+  c.whole = c.asked != 0 ? std::abs(c.asked) : std::max(std::abs(stress_found_), std::abs(m.axial_stress()));
+  return c;
 }
 
 void StressTask::describe(Archive &archive) {
@@ -115,8 +114,6 @@ void StressTask::describe(Archive &archive) {
   archive("speed_found", speed_found_, "m/s");
   archive("followed", followed_, "Pa");
   archive("missing", missing_, "Pa");
-  archive("asked_at_end", asked_at_end_, "Pa", not_yet);
-  archive("borne_at_end", borne_at_end_, "Pa", not_yet);
   archive.part("servo", servo_);
 }
 

@@ -1,7 +1,6 @@
 // Platens that bear a stress, or a share of what other platens bear, by a servo.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +17,8 @@ class StressTask : public Task {
 public:
   struct Parameters {
     PlatensOfAxis platens;
-    std::string side;                      // in words, "lateral x"
+    std::string quantity = "stress";       // in words; "share of axial"
+    std::string side;                      // "lateral x"
     double value = 0;                      // Pa; 1 of `followed`
     std::optional<PlatensOfAxis> followed; // none: a stress
     double ramp = 0, lead = 0, lag = 0;    // s; lag > 0 where there is a followed one
@@ -39,26 +39,22 @@ public:
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override;
-  void end(const Measures &m) override;
-  void go_on() override;
-  std::optional<AskedStress> stress_at_end() const override {
-    return AskedStress{parameters_.side, asked_at_end_, borne_at_end_};
-  }
+  // Of several platens that have to bear it, the one that is farthest from it. None of a stress is a
+  // hundredth of what the stage found, or of the axial one.
+  std::optional<Controlled> controlled(const Measures &m) const override;
   double fastest() const override { return parameters_.servo.velocity_limit; }
   void describe(Archive &archive) override;
 
 private:
-  static constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
   double wanted(const Measures &m) const;   // Pa, now
   double asked(const Measures &m) const;    // Pa, beyond the ramp
   double farthest(const Measures &m) const; // Pa, of those that have to bear what is asked
 
   Parameters parameters_;
   Servo servo_;
-  double lead_ = 0;                                        // s, in this step
-  double begun_ = 0, stress_found_ = 0, speed_found_ = 0;  // s, Pa, m/s
-  double followed_ = 0, missing_ = 0;                      // Pa: smoothed; over time, what was missing
-  double asked_at_end_ = not_yet, borne_at_end_ = not_yet; // Pa
+  double lead_ = 0;                                       // s, in this step
+  double begun_ = 0, stress_found_ = 0, speed_found_ = 0; // s, Pa, m/s
+  double followed_ = 0, missing_ = 0;                     // Pa: smoothed; over time, what was missing
 };
 
 } // namespace platen::coupling

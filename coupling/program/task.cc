@@ -10,6 +10,13 @@ double PlatensOfAxis::stress(const Measures &m) const {
   return sum / (static_cast<double>(places.size()) * area);
 }
 
+double PlatensOfAxis::closure(const Measures &m) const {
+  double sum = 0;
+  for (const std::size_t place : places)
+    sum += m.moved_inward(place);
+  return sum;
+}
+
 double PlatensOfAxis::speed(const Measures &m, const Commands &asked) const {
   double sum = 0;
   for (const std::size_t place : places)

@@ -19,6 +19,7 @@ struct PlatensOfAxis {
   int axis = 2;      // 0 x, 1 y, 2 z
 
   double stress(const Measures &m) const;                       // Pa, mean, compression positive
+  double closure(const Measures &m) const;                      // m, of all of them together
   double speed(const Measures &m, const Commands &asked) const; // m/s, mean, inward positive; 0 where none is
   void move(const Measures &m, double inward, Commands &asked) const; // m/s, each
 };
@@ -43,10 +44,8 @@ public:
   virtual void update(const Measures &) {}
   // The specimen bears what is asked.
   virtual bool has_settled(const Measures &) const { return true; }
-  // Once, when its stage has ended; what it asked of platens then, and what they bore.
-  virtual void end(const Measures &) {}
-  virtual void go_on() {} // forgets that
-  virtual std::optional<AskedStress> stress_at_end() const { return std::nullopt; }
+  // What it asks of its side in the end and what is reached now; none of what is only held in its place.
+  virtual std::optional<Controlled> controlled(const Measures &) const { return std::nullopt; }
   virtual double fastest() const { return 0; } // m/s, closure speed that it may ask for
   virtual void describe(Archive &archive) = 0;
 };

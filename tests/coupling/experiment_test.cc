@@ -95,6 +95,7 @@ struct Nothing : Measures {
   double broken_bonds() const override { return 0; }
   Vector3 force(std::size_t) const override { return {}; }
   double load(std::size_t) const override { return 0; }
+  double moved_inward(std::size_t) const override { return 0; }
   Vector3 inward(std::size_t boundary) const override { return {0, 0, boundary == 0 ? 1. : -1.}; }
   ServoLoad servo_load(std::size_t) const override { return {}; }
 };

@@ -29,6 +29,7 @@ struct Seen : Measures {
   double broken_bonds() const override { return broken; }
   Vector3 force(std::size_t) const override { return {0, 0, stress * area}; }
   double load(std::size_t) const override { return stress * area; }
+  double moved_inward(std::size_t boundary) const override { return boundary < 2 ? 0.05 * closure : 0; }
   Vector3 inward(std::size_t boundary) const override { return {0, 0, boundary == 0 ? 1. : -1.}; }
   ServoLoad servo_load(std::size_t) const override { return {1e8, 100}; }
 };

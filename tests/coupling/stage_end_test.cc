@@ -66,25 +66,30 @@ TEST(consolidation, tells_that_its_stress_was_not_borne) {
     const bool settles = borne > 3.96e6;
     Seen seen;
     Program program(seen, list_of(consolidation(4e6)));
-    seen.stress = borne, seen.now = settles ? 1.6e-3 : 3e-3;
+    seen.stress = borne, seen.pressure = 4e6, seen.now = settles ? 1.6e-3 : 3e-3;
     ask(program);
     EXPECT_EQ(program.stage(0).ended_by(), "");
     EXPECT_EQ(program.stages_ended(), 0u);
     program.update();
-    seen.stress = 1e6;
+    seen.stress = seen.pressure = 1e6;
     Program resumed(seen, list_of(consolidation(4e6))), older(seen, list_of(consolidation(4e6)));
     const State state = state_of(program);
     set_state(resumed, state);
     set_state(older, without(without(state, "ended_by"), "at_end"));
+    EXPECT_TRUE(older.controls(0).empty());
     EXPECT_TRUE(same_state(program, resumed));
     for (const Program *one : {&program, &resumed}) {
       EXPECT_EQ(one->stages_ended(), 1u);
       EXPECT_EQ(one->stage(0).ended_by(), settles ? "settled" : "not settled");
-      const std::vector<AskedStress> stresses = one->stage(0).stresses_at_end();
-      ASSERT_EQ(stresses.size(), 1u);
-      EXPECT_EQ(stresses[0].side, "top");
-      EXPECT_EQ(stresses[0].asked, 4e6);
-      EXPECT_EQ(stresses[0].borne, borne);
+      const std::vector<Controlled> told = one->controls(0);
+      ASSERT_EQ(told.size(), 2u);
+      EXPECT_EQ(told[0].quantity, "pressure");
+      EXPECT_EQ(told[0].reached, 4e6);
+      EXPECT_TRUE(told[0].is_met());
+      EXPECT_EQ(told[1].side, "top");
+      EXPECT_EQ(told[1].asked, 4e6);
+      EXPECT_EQ(told[1].reached, borne);
+      EXPECT_EQ(told[1].is_met(), settles);
     }
     EXPECT_EQ(older.stages_ended(), 1u);
     EXPECT_EQ(older.stage(0).ended_by(), "");

@@ -1,0 +1,117 @@
+#include "apps/run/controls.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platen::apps {
+namespace {
+
+using coupling::Controlled;
+
+bool is_stress(const Controlled &c) {
+  return c.unit == Controlled::pascal;
+}
+
+// "3.42 of 5 MPa"
+std::string reached_of_asked(const Controlled &c) {
+  const double unit = is_stress(c) ? 1e-6 : 1;
+  return fmt::format("{:.4g} of {:.4g} {}", unit * c.reached, unit * c.asked, is_stress(c) ? "MPa" : c.unit);
+}
+
+std::vector<Controlled> misses(const coupling::PlatenTest &problem, std::size_t stage) {
+  std::vector<Controlled> all = problem.program().controls(stage);
+  all.erase(std::remove_if(all.begin(), all.end(), [](const Controlled &c) { return c.is_met(); }),
+            all.end());
+  return all;
+}
+
+bool is_asked_again(const coupling::PlatenTest &problem, int axis, std::size_t after, std::size_t until) {
+  for (std::size_t stage = after + 1; stage <= until; ++stage)
+    for (const Controlled &c : problem.program().controls(stage))
+      if (c.axis == axis && !c.held) return true;
+  return false;
+}
+
+} // namespace
+
+Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage) {
+  Json all = Json::array();
+  for (const Controlled &c : problem.program().controls(stage))
+    all.push_back({{"quantity", c.quantity},
+                   {"side", c.side},
+                   {"asked", c.asked},
+                   {"reached", c.reached},
+                   {"unit", c.unit},
+                   {"met", c.is_met()}});
+  return all;
+}
+
+void add_controls(Json &to, const coupling::PlatenTest &problem) {
+  if (!problem.settings().loading.stages.empty()) return; // each of them has its own
+  Json all = Json::array();
+  for (std::size_t stage = 0; stage <= problem.program().stage_number(); ++stage)
+    for (const Json &control : controls_of_stage(problem, stage)) {
+      Json one{{"stage", problem.program().stage(stage).name()}};
+      one.update(control);
+      all.push_back(one);
+    }
+  to["controls"] = all;
+}
+
+std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t stage) {
+  const std::string by = problem.program().stage(stage).ended_by();
+  std::vector<std::string> words;
+  for (const Controlled &c : misses(problem, stage))
+    words.push_back(fmt::format("{} {} {}", c.side, c.quantity, reached_of_asked(c)));
+  if (by == coupling::Stage::not_settled)
+    return fmt::format("stage {} did not settle in its time: {}; a longer Hold gives it more", stage + 1,
+                       fmt::join(words, ", "));
+  if (words.empty()) return "";
+  return fmt::format("stage {} ended by {} before it had reached what it asked: {}", stage + 1, by,
+                     fmt::join(words, ", "));
+}
+
+bool failed_in(const coupling::PlatenTest &problem, const Results &results, std::size_t stage) {
+  return results.peak().reached() && problem.program().stage_at(results.time_at_peak()) == stage;
+}
+
+std::string with_misses(const std::string &ended_by, const coupling::PlatenTest &problem,
+                        const Results &results) {
+  std::vector<std::string> words;
+  for (std::size_t stage = 0; stage < problem.program().stages_ended(); ++stage)
+    for (const Controlled &c : misses(problem, stage))
+      if (!failed_in(problem, results, stage))
+        words.push_back(fmt::format("{} {} of stage {}", c.side, c.quantity, stage + 1));
+  return words.empty() ? ended_by : fmt::format("{}; not reached: {}", ended_by, fmt::join(words, ", "));
+}
+
+std::vector<std::string> controls_against(const coupling::PlatenTest &problem, const Results &results,
+                                          double time) {
+  std::vector<std::string> reasons;
+  if (!std::isfinite(time)) return reasons; // the figure was not read off
+  const coupling::Program &program = problem.program();
+  const std::size_t at = program.stage_at(time);
+  for (std::size_t stage = 0; stage < program.stages_ended() && stage <= at; ++stage) {
+    if (failed_in(problem, results, stage)) continue;
+    for (const Controlled &c : misses(problem, stage))
+      if (is_stress(c) && !is_asked_again(problem, c.axis, stage, at))
+        reasons.push_back(fmt::format("stage {} has not reached what it asked: {} {} {}, within 1 %",
+                                      stage + 1, c.side, c.quantity, reached_of_asked(c)));
+  }
+  return reasons;
+}
+
+std::string confinement_against(const Results &results, double time) {
+  const std::vector<Sample> &samples = results.samples();
+  const auto at =
+      std::find_if(samples.begin(), samples.end(), [&](const Sample &s) { return s.time >= time; });
+  if (at == samples.end() || !(at->confined_share < least_confined)) return "";
+  return fmt::format(
+      "the pressure loaded {:.0f} % of the lateral surface then, {:.0f} % at least: pieces have come loose",
+      100 * at->confined_share, 100 * least_confined);
+}
+
+} // namespace platen::apps

@@ -1,0 +1,41 @@
+// What the stages of a test asked of its sides, what was reached, and what follows for its figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/io/summary.h"
+#include "apps/run/results.h"
+#include "coupling/platen_test.h"
+
+namespace platen::apps {
+
+// Of the lateral surface that a cell's pressure loads: with less a test is no longer one at its pressure.
+constexpr double least_confined = 0.9;
+
+// Of a stage (from 0) that has begun, as it is now or was at its end: a list of quantity, side, asked,
+// reached, unit, met (within 1 %).
+Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage);
+// Adds `controls`, the same of all stages with their names, to a test whose scene writes none.
+void add_controls(Json &to, const coupling::PlatenTest &problem);
+
+// Of a stage that has ended: "stage 1 ended by time before it had reached what it asked: top stress 3.42 of 5
+// MPa"; empty where all was met.
+std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t stage);
+// Whether the specimen had its peak in that stage: after it, it need not bear what is asked.
+bool failed_in(const coupling::PlatenTest &problem, const Results &results, std::size_t stage);
+// "target", or "target; not reached: top stress of stage 1", of stages that have ended and in which the
+// specimen did not fail.
+std::string with_misses(const std::string &ended_by, const coupling::PlatenTest &problem,
+                        const Results &results);
+
+// What speaks against a figure that is read off at a time (s): stresses and pressures that were asked, and
+// not reached, until then, unless something else has been asked along the same axis since. A rate that was
+// not reached does not: figures are told with the strains and speeds that were.
+std::vector<std::string> controls_against(const coupling::PlatenTest &problem, const Results &results,
+                                          double time);
+// And that a cell's pressure no longer loaded enough of the lateral surface; empty where it did, or where
+// that is not known (no cell, no pressure on a sleeve).
+std::string confinement_against(const Results &results, double time);
+
+} // namespace platen::apps
