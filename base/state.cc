@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/shortest_text.h"
+
 namespace platen {
 namespace {
 
@@ -65,6 +67,10 @@ StoredBlock require_block(const StateSource &source, const std::string &name, co
   return *stored;
 }
 
+std::string unit_text(const BlockType &type) {
+  return type.unit == "1" ? "" : " " + type.unit;
+}
+
 std::string difference_of_rows(const std::string &name, const BlockType &type, const std::vector<char> &a,
                                const std::vector<char> &b) {
   if (type.kind == Kind::text)
@@ -80,40 +86,97 @@ std::string difference_of_rows(const std::string &name, const BlockType &type, c
          unit;
 }
 
+// "finite, > 0 kg", "0 ... 599", "unit length", "finite, or nan".
+std::string words_of(const Allowed &allowed, const BlockType &type) {
+  if (allowed.length == Allowed::Length::one) return "a row of length 1";
+  if (allowed.length == Allowed::Length::one_or_none) return "a row of length 1, or of zeros";
+  const std::string range = allowed.range.text();
+  const bool finite = type.kind == Kind::floating && !allowed.infinite_too &&
+                      !(std::isfinite(allowed.range.low) && std::isfinite(allowed.range.high));
+  return (finite ? range.empty() ? "finite numbers" : "finite, " : "") + range + unit_text(type) +
+         (allowed.nan_too ? ", or nan" : "");
+}
+
+// Of rows of numbers that stand at `bytes`: the first number that is not allowed; `count` where all are.
+std::size_t first_fault(const Allowed &allowed, const BlockType &type, const char *bytes, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    if (!visit_number(type, bytes + k * type.bytes,
+                      [&](auto value) { return allowed.holds(static_cast<double>(value)); }))
+      return k;
+  return count;
+}
+
+double length_of_row(const BlockType &type, const char *bytes) {
+  double sum = 0;
+  for (std::size_t k = 0; k < type.numbers; ++k)
+    sum += visit_number(type, bytes + k * type.bytes,
+                        [](auto value) { return static_cast<double>(value) * static_cast<double>(value); });
+  return std::sqrt(sum);
+}
+
+// Throws StateError for the first number of a block that cannot be.
+void require_allowed(const StateSource &source, const std::string &name, const StoredBlock &block,
+                     const Allowed &allowed) {
+  const BlockType &type = block.type;
+  const bool all = !std::isfinite(allowed.range.low) && !std::isfinite(allowed.range.high) &&
+                   (type.kind != Kind::floating || (allowed.nan_too && allowed.infinite_too));
+  if (type.kind == Kind::text || (all && allowed.length == Allowed::Length::any)) return;
+  const std::vector<char> bytes = bytes_of(source, name, block);
+  const std::size_t count = block.rows * type.numbers, bad = first_fault(allowed, type, bytes.data(), count);
+  if (bad < count) {
+    const std::string place = type.numbers > 1 ? "number " + std::to_string(bad % type.numbers + 1) + " of " +
+                                                     std::to_string(type.numbers) + ", "
+                                               : "";
+    refuse_row(name, bad / type.numbers, place + number_text(type, bytes.data() + bad * type.bytes),
+               words_of(allowed, type));
+  }
+  if (allowed.length == Allowed::Length::any) return;
+  for (std::size_t row = 0; row < block.rows; ++row)
+    if (const double length = length_of_row(type, bytes.data() + row * type.bytes_per_row());
+        !allowed.holds_length(length))
+      refuse_row(name, row, "length " + shortest_text(length), words_of(allowed, type));
+}
+
 } // namespace
 
-bool SavingArchive::block(const std::string &path, const BlockType &type, const Rows &rows, bool) {
+bool SavingArchive::block(const std::string &path, const BlockType &type, const Rows &rows, bool,
+                          const Allowed &) {
   sink_.add(path, type, rows.data, rows.count);
   return true;
 }
 
-std::optional<StoredBlock> LoadingArchive::wanted(const std::string &path, const BlockType &type,
-                                                  bool may_lack) const {
-  if (may_lack && !source_.find(path)) return std::nullopt;
-  return require_block(source_, path, type);
-}
-
-void LoadingArchive::expect(const std::string &path, const BlockType &type, std::size_t rows, bool may_lack) {
-  const std::optional<StoredBlock> stored = wanted(path, type, may_lack);
-  if (stored && stored->rows != rows)
-    throw StateError("\"" + path + "\" has " + std::to_string(stored->rows) + " rows, " +
-                     std::to_string(rows) + " are needed");
-}
-
-bool LoadingArchive::block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack) {
-  const std::optional<StoredBlock> stored = wanted(path, type, may_lack);
-  if (!stored) return false;
-  if (!rows.resize) expect(path, type, rows.count, may_lack);
-  void *data = rows.resize ? rows.resize(stored->rows) : rows.data;
-  if (stored->rows > 0) source_.read(path, data);
-  read_[path] = true;
+bool LoadingArchive::block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack,
+                           const Allowed &allowed) {
+  if (may_lack && !source_.find(path)) return false;
+  const StoredBlock stored = require_block(source_, path, type);
+  if (!rows.resize && stored.rows != rows.count)
+    throw StateError("\"" + path + "\" has " + std::to_string(stored.rows) + " rows, " +
+                     std::to_string(rows.count) + " are needed");
+  asked_.insert(path);
+  if (!reads()) require_allowed(source_, path, stored, allowed);
+  if (!reads() && !rows.is_local) return true;
+  void *data = rows.resize ? rows.resize(stored.rows) : rows.data;
+  if (stored.rows > 0) source_.read(path, data);
   return true;
 }
 
-void LoadingArchive::require_all_read() const {
+void LoadingArchive::require_all_asked() const {
   for (const std::string &name : source_.names())
-    if (read_.count(name) == 0)
+    if (asked_.count(name) == 0)
       throw StateError("holds \"" + name + "\", which this program has no place for");
+}
+
+void refuse_row(const std::string &name, std::size_t row, const std::string &value,
+                const std::string &allowed) {
+  throw StateError("\"" + name + "\", row " + std::to_string(row) + ": " + value + ". Allowed: " + allowed +
+                   ".");
+}
+
+void require_as_many(const StateSource &source, const std::string &name, const std::string &other) {
+  const auto rows = [&](const std::string &of) { return source.find(of).value_or(StoredBlock{}).rows; };
+  if (rows(name) != rows(other))
+    throw StateError("\"" + other + "\" has " + std::to_string(rows(other)) + " rows, as many as \"" + name +
+                     "\" are needed: " + std::to_string(rows(name)));
 }
 
 void State::add(const std::string &name, const BlockType &type, const void *data, std::size_t rows) {

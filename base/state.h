@@ -2,8 +2,10 @@
 // and a source of the apps), and what can be told of one without knowing whose it is.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,33 +33,53 @@ public:
   virtual void read(const std::string &name, void *data) const = 0; // all rows of a block that is there
 };
 
-// Writes and reads a part under a name. A part that cannot take a state (StateError) is of no further use:
-// some of it has been read.
 class SavingArchive : public Archive {
 public:
   explicit SavingArchive(StateSink &sink) : sink_(sink) {}
   bool reads() const override { return false; }
 
 private:
-  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack) override;
-  void expect(const std::string &, const BlockType &, std::size_t, bool) override {}
+  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack,
+             const Allowed &allowed) override;
   StateSink &sink_;
 };
 
+// Looks at a state, or reads it; by read_parts() one after the other.
 class LoadingArchive : public Archive {
 public:
-  explicit LoadingArchive(const StateSource &source) : source_(source) {}
-  bool reads() const override { return true; }
+  enum class Pass { look, read };
+  LoadingArchive(const StateSource &source, Pass pass) : source_(source), pass_(pass) {}
+  bool reads() const override { return pass_ == Pass::read; }
+  const StateSource *looks_at() const override { return reads() ? nullptr : &source_; }
   // After all parts: throws StateError where the source holds what none of them asked for.
-  void require_all_read() const;
+  void require_all_asked() const;
 
 private:
-  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack) override;
-  void expect(const std::string &path, const BlockType &type, std::size_t rows, bool may_lack) override;
-  std::optional<StoredBlock> wanted(const std::string &path, const BlockType &type, bool may_lack) const;
+  bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack,
+             const Allowed &allowed) override;
   const StateSource &source_;
-  std::map<std::string, bool> read_;
+  Pass pass_;
+  std::set<std::string> asked_;
 };
+
+// What describe(archive) describes from a source, whole. Throws StateError where the state is not that of
+// such parts, or `fits` (which is asked last) says so by throwing it: nothing has been changed then.
+template <class Describe>
+void read_parts(const StateSource &source, const Describe &describe,
+                const std::function<void()> &fits = nullptr) {
+  LoadingArchive look(source, LoadingArchive::Pass::look), read(source, LoadingArchive::Pass::read);
+  describe(look);
+  look.require_all_asked();
+  if (fits) fits();
+  describe(read);
+}
+
+// One part of a source that holds others too; as read_parts().
+template <class Part>
+void read_part(const StateSource &source, const std::string &name, Part &part) {
+  LoadingArchive(source, LoadingArchive::Pass::look).part(name, part);
+  LoadingArchive(source, LoadingArchive::Pass::read).part(name, part);
+}
 
 template <class Part>
 void save_part(StateSink &sink, const std::string &name, const Part &part) {
@@ -88,12 +110,10 @@ State state_of(const Part &part) {
   save_part(state, "state", part);
   return state;
 }
-// Throws StateError where the state is not that of such a part.
+// Throws StateError where the state is not that of such a part, which is then as it was.
 template <class Part>
 void set_state(Part &part, const State &state) {
-  LoadingArchive archive(state);
-  archive.part("state", part);
-  archive.require_all_read();
+  read_parts(state, [&](Archive &archive) { archive.part("state", part); });
 }
 
 // Single blocks by hand, for what is no part. The readers throw StateError where the block is missing or
@@ -113,6 +133,14 @@ std::vector<T> rows_of(const StateSource &source, const std::string &name, const
   if (!values.empty()) source.read(name, values.data());
   return values;
 }
+
+// "\"particles/mass\", row 3: -1. Allowed: finite, > 0 kg." As StateError, of a number that was found wrong
+// beside others; `allowed` may be a sentence.
+[[noreturn]] void refuse_row(const std::string &name, std::size_t row, const std::string &value,
+                             const std::string &allowed);
+
+// Throws StateError where two blocks have another number of rows.
+void require_as_many(const StateSource &source, const std::string &name, const std::string &other);
 
 // Least and largest of all numbers of a block; NaN of text and of no rows. Numbers that are NaN are passed
 // over.

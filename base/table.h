@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/allowed.h"
 #include "base/block_type.h"
 
 namespace platen {
@@ -37,9 +38,13 @@ public:
   // and every row that value.
   virtual bool may_lack() const = 0;
   virtual void fill_lacking() = 0;
+  // What its numbers can be in a state that is read.
+  const Allowed &allowed() const { return allowed_; }
+  void allow(const Allowed &allowed) { allowed_ = allowed; }
 
 private:
   std::string name_, unit_;
+  Allowed allowed_;
 };
 
 template <class T>
@@ -114,6 +119,14 @@ public:
     Column<T> &reference = *column;
     columns_.push_back(std::move(column));
     return reference;
+  }
+  // One whose numbers cannot be all that are finite.
+  template <class T>
+  Column<T> &add(const std::string &name, const std::string &unit, const Allowed &allowed,
+                 std::optional<T> lacking = std::nullopt) {
+    Column<T> &column = add<T>(name, unit, lacking);
+    column.allow(allowed);
+    return column;
   }
   std::size_t size() const { return size_; }
   void resize(std::size_t n) {

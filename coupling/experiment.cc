@@ -234,9 +234,9 @@ std::size_t Experiment::bytes() const {
 
 void Experiment::describe(Archive &archive) {
   archive.version(1);
-  archive("time_step", time_step_, "s");
+  archive("time_step", time_step_, "s", above(0));
   archive.text("time_step_reason", reason_);
-  archive("steps", steps_);
+  archive("steps", steps_, "1", at_least(0));
   archive("near_at_choice", near_at_choice_);
   archive("machine_work", machine_work_, "J");
   archive("given_energy", given_energy_, "J");

@@ -28,10 +28,10 @@ void Bonds::add_dashpots(const Particles &p, double alpha) {
   }
   dashpot_shear_ratio = std::isfinite(shear) && !bonds_by_range(law) ? std::sqrt(shear) : 0;
   dashpot_twist_ratio = std::isfinite(twist) ? std::sqrt(twist) : 0;
-  dashpot = &table.add<double>("dashpot", "N s/m");
+  dashpot = &table.add<double>("dashpot", "N s/m", at_least(0));
   dashpot_force = &table.add<Vector3>("dashpot_force", "N");
   if (moments) {
-    dashpot_bending = &table.add<double>("dashpot_bending", "N m s");
+    dashpot_bending = &table.add<double>("dashpot_bending", "N m s", at_least(0));
     dashpot_moment = &table.add<Vector3>("dashpot_moment", "N m");
   }
   for (std::size_t k = 0; k < size(); ++k) {

@@ -9,9 +9,13 @@
 
 #include "base/parallel.h"
 #include "base/pi.h"
+#include "base/shortest_text.h"
+#include "base/state.h"
 #include "dem/cell_grid.h"
 #include "dem/kernels/interface_kernel.h"
+#include "dem/measure/damage.h"
 #include "dem/packing/specimen.h"
+#include "dem/pairs_in_state.h"
 
 namespace platen::dem {
 namespace {
@@ -46,6 +50,17 @@ std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *rad
   };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
   return pairs;
+}
+
+// Of what a bond remembers, by the names that laws give it.
+Allowed allowed_memory(const std::string &column) {
+  const std::string damage = "damage";
+  if (column.size() >= damage.size() &&
+      column.compare(column.size() - damage.size(), damage.size(), damage) == 0)
+    return between(0, 1);
+  if (column == "broken") return between(0, 2);
+  if (column == "plastic") return at_least(0);
+  return {};
 }
 
 } // namespace
@@ -96,6 +111,9 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
 
   table.resize(pairs.size());
   records.resize(pairs.size());
+  for (Column<int> *column : {&first, &second, &record_first, &record_second})
+    column->allow(row_of(particles.size()));
+  record.allow(row_of(pairs.size()));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [i, j] = pairs[k];
     const double ri = particles.radius[i], rj = particles.radius[j];
@@ -123,7 +141,7 @@ void Bonds::add_history() {
     State::describe(
         [&](const char *name, const char *unit, const auto &member) {
           if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
-            memory_scalars.push_back(&table.add<double>(name, unit));
+            memory_scalars.push_back(&table.add<double>(name, unit, allowed_memory(name)));
           else
             memory_vectors.push_back(&table.add<Vector3>(name, unit));
         },
@@ -141,7 +159,7 @@ void Bonds::cut_blocks() {
 
 void Bonds::add_strength_factor() {
   if (strength_factor != nullptr) return;
-  strength_factor = &table.add<double>("strength_factor", "1");
+  strength_factor = &table.add<double>("strength_factor", "1", at_least(0));
   std::fill(strength_factor->begin(), strength_factor->end(), 1.0);
 }
 
@@ -152,10 +170,43 @@ std::size_t Bonds::bytes() const {
 // Without broken rows: when they are dropped is no part of the state.
 void Bonds::describe(Archive &archive) {
   archive.version(1);
-  if (!archive.reads() && broken_rows > 0) compact();
+  if (archive.writes() && broken_rows > 0) compact();
   archive.table("rows", table);
-  archive.table("records", records);
+  archive.same_table("records", records);
+  if (const StateSource *from = archive.looks_at()) require_whole(*from, archive.path(""));
   if (archive.reads()) count_and_cut();
+}
+
+// Throws StateError where rows and records do not go together: pairs ascend, blocks of rows do, a row is that
+// of its record, and a bond has a row as long as it holds.
+void Bonds::require_whole(const StateSource &from, const std::string &at) const {
+  const std::string rows = at + "rows/", of_records = at + "records/";
+  const std::vector<int> i = rows_of<int>(from, rows + "first"), j = rows_of<int>(from, rows + "second"),
+                         of = rows_of<int>(from, rows + "record"),
+                         record_i = rows_of<int>(from, of_records + "first"),
+                         record_j = rows_of<int>(from, of_records + "second"),
+                         states = rows_of<int>(from, of_records + "state");
+  const std::vector<double> stiffness = rows_of<double>(from, rows + "normal_stiffness", "Pa/m"),
+                            times = rows_of<double>(from, of_records + "break_time", "s");
+  require_ascending_pairs(of_records + "second", record_i, record_j, particles_);
+  std::vector<char> has_row(states.size(), 0);
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const std::size_t r = static_cast<std::size_t>(of[k]);
+    if (i[k] != record_i[r] || j[k] != record_j[r] || std::exchange(has_row[r], 1))
+      refuse_row(rows + "record", k, std::to_string(of[k]), "the record of its pair, each once");
+    if (k > 0 && i[k] / static_cast<int>(block_rows) < i[k - 1] / static_cast<int>(block_rows))
+      refuse_row(rows + "first", k, std::to_string(i[k]), "in the order of blocks of particles");
+    if (is_broken(states[r]) ? stiffness[k] > 0 && !has_history(law) : stiffness[k] == 0)
+      refuse_row(rows + "normal_stiffness", k, shortest_text(stiffness[k]),
+                 "0 of a bond that has broken, > 0 of one that has not");
+  }
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    if (!is_broken(states[r]) && !has_row[r])
+      refuse_row(of_records + "state", r, std::to_string(states[r]), "2 or 3 of a bond that has no row");
+    if (is_broken(states[r]) == std::isnan(times[r]))
+      refuse_row(of_records + "break_time", r, shortest_text(times[r]),
+                 "a time of a bond that has broken, nan of one that has not");
+  }
 }
 
 // f(law, what a row remembers), of laws that do.

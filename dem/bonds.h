@@ -93,10 +93,10 @@ struct Bonds {
   Column<int> &second = table.add<int>("second", "1"); // particle row j > i
   Column<int> &record = table.add<int>("record", "1"); // row in `records`
   Column<Vector3> &reference = table.add<Vector3>("reference", "m");
-  Column<double> &rest_length = table.add<double>("rest_length", "m");
-  Column<double> &lever = table.add<double>("lever", "1");
-  Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m");
-  Column<double> &bond_radius = table.add<double>("bond_radius", "m");
+  Column<double> &rest_length = table.add<double>("rest_length", "m", above(0));
+  Column<double> &lever = table.add<double>("lever", "1", between(0, 1));
+  Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m", at_least(0));
+  Column<double> &bond_radius = table.add<double>("bond_radius", "m", above(0));
   // Only where bonds differ in strength: factor of both strengths.
   Column<double> *strength_factor = nullptr; // 1
   // Only with dashpots: their coefficients (0 once broken) along the bond and in bending, times the ratios in
@@ -111,8 +111,8 @@ struct Bonds {
   Table records;
   Column<int> &record_first = records.add<int>("first", "1");
   Column<int> &record_second = records.add<int>("second", "1");
-  Column<int> &state = records.add<int>("state", "1");                 // BondState
-  Column<double> &break_time = records.add<double>("break_time", "s"); // NaN while intact
+  Column<int> &state = records.add<int>("state", "1", between(0, 3));            // BondState
+  Column<double> &break_time = records.add<double>("break_time", "s", or_nan()); // NaN while intact
 
   // Only where bonds remember: the members of the law's State, in its order. Rows then stay when they have
   // failed.
@@ -185,6 +185,7 @@ private:
   bool rotation_ = false;
   std::vector<Failed> failed_; // of each block of particles; of laws that keep failed rows last
   void cut_blocks();
+  void require_whole(const StateSource &from, const std::string &at) const;
 };
 
 inline Triple<double> triple(const Vector3 &a) {

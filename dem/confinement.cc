@@ -45,6 +45,7 @@ Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &sh
     mean_radius_ += r / static_cast<double>(std::max<std::size_t>(p.size(), 1));
   const std::vector<char> body = body_of(p, bonds);
   whole_ = static_cast<std::size_t>(std::count(body.begin(), body.end(), 1));
+  particle_.allow(row_of(p.size()));
   find(p, bonds, planes);
   const double found = coverage(p, planes);
   if (!(found > 0))
@@ -151,8 +152,8 @@ void Confinement::describe(Archive &archive) {
   archive.version(1);
   archive("pressure", pressure_, "Pa");
   archive("work", work_, "J");
-  archive("moved", moved_, "m");
-  archive("broken_bonds", broken_);
+  archive("moved", moved_, "m", at_least(0));
+  archive("broken_bonds", broken_, "1", at_least(0));
   archive("whole_coverage", whole_coverage_, "1", 1.0);
   archive("loaded_share", loaded_share_, "1", 1.0);
   archive.table("areas", table_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "base/state.h"
 
 namespace platen::dem {
 namespace {
@@ -113,8 +114,8 @@ std::size_t ContactSearch::bytes() const {
 
 void ContactSearch::describe(Archive &archive) {
   archive.version(1);
-  archive("moved_since_wide", moved_since_wide_, "m");
-  archive("moved_since_close", moved_since_close_, "m");
+  archive("moved_since_wide", moved_since_wide_, "m", at_least(0));
+  archive("moved_since_close", moved_since_close_, "m", at_least(0));
   archive("wide_valid", wide_valid_);
   archive("close_valid", close_valid_);
   archive.rows("wide", wide_);
@@ -124,9 +125,10 @@ void ContactSearch::describe(Archive &archive) {
   for (const RestDistance &rest : rest_)
     pairs.push_back(rest.pair), distances.push_back(rest.distance);
   archive.rows("rest_pairs", pairs);
-  archive.rows("rest_distances", distances, "m");
+  archive.rows("rest_distances", distances, "m", above(0));
+  if (const StateSource *state = archive.looks_at())
+    require_as_many(*state, archive.path("rest_pairs"), archive.path("rest_distances"));
   if (!archive.reads()) return;
-  if (pairs.size() != distances.size()) throw StateError("contact search: each rest pair has one distance");
   rest_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k)
     rest_.push_back({pairs[k], distances[k]});

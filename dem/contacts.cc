@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/state.h"
 #include "dem/heterogeneity.h"
 #include "dem/laws/normal_contact.h"
+#include "dem/pairs_in_state.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
@@ -47,17 +49,19 @@ Contacts::Contacts(const Particles &particles, const ContactSettings &settings, 
       search_(wide_skin * mean_radius(particles), close_skin * mean_radius(particles)),
       particles_(particles.size()) {
   require_in_range(settings);
+  first.allow(row_of(particles_));
+  second.allow(row_of(particles_));
   if (NormalContacts::with(settings.normal, [&](auto of) { return of.follows_bonds(settings); }))
     require_given(layout, "modulus", layout.modulus);
   if (settings.tangential != TangentialContact::none) {
-    normal = &table.add<Vector3>("normal", "1");
+    normal = &table.add<Vector3>("normal", "1", unit_length_or_zero());
     spring = &table.add<Vector3>("spring", "N");
-    tangential_stiffness = &table.add<double>("tangential_stiffness", "N/m");
-    sliding = &table.add<int>("sliding", "1");
+    tangential_stiffness = &table.add<double>("tangential_stiffness", "N/m", at_least(0));
+    sliding = &table.add<int>("sliding", "1", flag());
   }
   if (settings.tangential == TangentialContact::coulomb_with_rolling) {
     rolling = &table.add<Vector3>("rolling", "N m");
-    rolling_stiffness = &table.add<double>("rolling_stiffness", "N m");
+    rolling_stiffness = &table.add<double>("rolling_stiffness", "N m", at_least(0));
   }
   dashpot_ = settings.dashpot();
   if (dashpot_ > 0) dashpot = &table.add<Vector3>("dashpot", "N");
@@ -276,7 +280,24 @@ void Contacts::describe(Archive &archive) {
   platen::describe(archive, "damping_work", damping_work, "J");
   archive.table("rows", table);
   archive.part("search", search_);
+  if (const StateSource *state = archive.looks_at()) require_whole(*state, archive.path(""));
   if (archive.reads()) rows_changed();
+}
+
+// Throws StateError where the lists of pairs do not ascend, name particles that are not there, or the close
+// ones are not the pairs of the rows.
+void Contacts::require_whole(const StateSource &state, const std::string &at) const {
+  const std::vector<int> of_first = rows_of<int>(state, at + "rows/first"),
+                         of_second = rows_of<int>(state, at + "rows/second");
+  require_ascending_pairs(at + "rows/second", of_first, of_second, particles_);
+  for (const char *list : {"search/wide", "search/close", "search/rest_pairs"}) {
+    std::vector<int> i, j;
+    for (const IndexPair &pair : rows_of<IndexPair>(state, at + list))
+      i.push_back(pair.first), j.push_back(pair.second);
+    require_ascending_pairs(at + list, i, j, particles_);
+    if (list == std::string("search/close") && (i != of_first || j != of_second))
+      throw StateError("\"" + at + list + "\" are not the pairs of \"" + at + "rows\"");
+  }
 }
 
 } // namespace platen::dem

@@ -36,10 +36,10 @@ public:
   Table table;
   Column<int> &first = table.add<int>("first", "1");
   Column<int> &second = table.add<int>("second", "1");
-  Column<double> &rest_distance = table.add<double>("rest_distance", "m");
-  Column<double> &coefficient = table.add<double>("coefficient", "N/m^p");
-  Column<int> &touching = table.add<int>("touching", "1");
-  Column<double> &overlap = table.add<double>("overlap", "m");
+  Column<double> &rest_distance = table.add<double>("rest_distance", "m", above(0));
+  Column<double> &coefficient = table.add<double>("coefficient", "N/m^p", at_least(0));
+  Column<int> &touching = table.add<int>("touching", "1", flag());
+  Column<double> &overlap = table.add<double>("overlap", "m", at_least(0));
   Column<Vector3> &force = table.add<Vector3>("force", "N"); // on first
   // Only with friction.
   Column<Vector3> *normal = nullptr;              // last unit normal, from first to second
@@ -105,6 +105,7 @@ private:
   void cut_blocks(const Particles &particles);
   double coefficient_of(const Particles &particles, int first, int second) const;
   double stored_energy(std::size_t k) const;
+  void require_whole(const StateSource &state, const std::string &at) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
   Vector3 keep_shear(std::size_t k, double pressing, BrokenBond &broken);
 

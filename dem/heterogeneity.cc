@@ -24,7 +24,7 @@ void mark_phases(Particles &p, const Phases &phases) {
   if (!ids.empty() && (ids.front() < 0 || ids.back() >= static_cast<int>(p.size())))
     throw std::invalid_argument("phases: there is no particle " +
                                 std::to_string(ids.front() < 0 ? ids.front() : ids.back()));
-  p.phase = &p.table.add<int>("phase", "1");
+  p.phase = &p.table.add<int>("phase", "1", between(0, 1)); // Phase
   for (std::size_t i = 0; i < p.size(); ++i) {
     const bool aggregate =
         p.radius[i] > phases.radius_above || std::binary_search(ids.begin(), ids.end(), p.id[i]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/state.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -36,6 +37,15 @@ ContactSettings contact_settings(const ModelSettings &s) {
     for (std::size_t k = 0; k < contact.modulus_factors.size(); ++k)
       contact.modulus_factors[k] = s.phases->factors()[k].modulus;
   return contact;
+}
+
+// The order of the input is that of all particles.
+void require_each_once(const StateSource &state, const std::string &block) {
+  const std::vector<int> ids = rows_of<int>(state, block);
+  std::vector<char> seen(ids.size(), 0);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (std::exchange(seen[static_cast<std::size_t>(ids[k])], 1))
+      refuse_row(block, k, std::to_string(ids[k]), "each number once");
 }
 
 } // namespace
@@ -298,13 +308,14 @@ void Model::describe(Archive &archive) {
   archive.version(1);
   std::string set = name(settings_.instruction_set); // told; a state of another one is taken as it is
   archive.text("instruction_set", set);
-  archive("time", time, "s");
+  archive("time", time, "s", at_least(0));
   platen::describe(archive, "damping_work", works.damping, "J");
   platen::describe(archive, "fracture_work", works.fracture, "J");
   platen::describe(archive, "weight_work", works.weight, "J");
-  archive("broken_tension", broken_tension);
-  archive("broken_shear", broken_shear);
-  archive.table("particles", particles.table);
+  archive("broken_tension", broken_tension, "1", at_least(0));
+  archive("broken_shear", broken_shear, "1", at_least(0));
+  archive.same_table("particles", particles.table);
+  if (const StateSource *state = archive.looks_at()) require_each_once(*state, archive.path("particles/id"));
   if (bonds) archive.part("bonds", *bonds);
   if (contacts) archive.part("contacts", *contacts);
 }

@@ -84,6 +84,7 @@ std::vector<int> spatial_order(const std::vector<Vector3> &centres) {
 Particles::Particles(const Specimen &specimen, double density, bool rotation) {
   if (rotation) add_rotation();
   table.resize(specimen.size());
+  id.allow(row_of(specimen.size()));
   const std::vector<int> order = spatial_order(specimen.centre);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const double r = specimen.radius[order[k]];
@@ -99,10 +100,10 @@ Particles::Particles(const Specimen &specimen, double density, bool rotation) {
 }
 
 void Particles::add_rotation() {
-  orientation = &table.add<Quaternion>("orientation", "1");
+  orientation = &table.add<Quaternion>("orientation", "1", unit_length());
   angular_velocity = &table.add<Vector3>("angular_velocity", "rad/s");
   torque = &table.add<Vector3>("torque", "N m");
-  inertia = &table.add<double>("inertia", "kg m^2");
+  inertia = &table.add<double>("inertia", "kg m^2", above(0));
 }
 
 void Particles::add_excess() {

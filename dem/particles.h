@@ -23,8 +23,8 @@ struct Particles {
   Column<Vector3> &reference_position = table.add<Vector3>("reference_position", "m");
   Column<Vector3> &velocity = table.add<Vector3>("velocity", "m/s");
   Column<Vector3> &force = table.add<Vector3>("force", "N");
-  Column<double> &radius = table.add<double>("radius", "m");
-  Column<double> &mass = table.add<double>("mass", "kg");
+  Column<double> &radius = table.add<double>("radius", "m", above(0));
+  Column<double> &mass = table.add<double>("mass", "kg", above(0));
   // Only where rotation is on; null otherwise.
   Column<Quaternion> *orientation = nullptr;
   Column<Vector3> *angular_velocity = nullptr; // rad/s, global axes

@@ -94,8 +94,8 @@ void ElasticSolid::weigh_rotor() {
 
 void ElasticSolid::describe(Archive &archive) {
   archive.version(1);
-  archive("last_step", last_step_, "s");
-  archive("last_move", last_move_, "m");
+  archive("last_step", last_step_, "s", at_least(0));
+  archive("last_move", last_move_, "m", at_least(0));
   archive("load_work", load_work_, "J");
   archive("clamp_work", clamp_work_, "J");
   archive("dissipated", dissipated_, "J");
@@ -103,10 +103,10 @@ void ElasticSolid::describe(Archive &archive) {
   archive("velocity", velocity_, "m/s");
   archive("angular_velocity", angular_velocity_, "rad/s");
   archive("angular_momentum", spin_, "kg m2/s");
-  archive("rotation", rotation_);
+  archive("rotation", rotation_, "1", unit_length());
   if (is_static()) {
-    archive("elapsed", elapsed_, "s");
-    archive("duration", duration_, "s");
+    archive("elapsed", elapsed_, "s", at_least(0));
+    archive("duration", duration_, "s", at_least(0));
     archive("on_the_way", on_the_path_);
     archive.same_rows("start", start_, "m");
     archive.same_rows("target", target_, "m");

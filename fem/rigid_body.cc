@@ -172,7 +172,7 @@ double RigidBody::stable_step(const VertexSprings &springs) const {
 void RigidBody::describe(Archive &archive) {
   archive.version(1);
   archive("displacement", displacement_, "m");
-  archive("rotation", rotation_);
+  archive("rotation", rotation_, "1", unit_length());
   archive("velocity", velocity_, "m/s");
   archive("angular_velocity", angular_velocity_, "rad/s");
   if (turns_) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/state.h"
+
 namespace platen::fem {
 
 namespace {
@@ -145,13 +147,11 @@ void LoadedSurface::describe_loads(Archive &archive) {
   std::vector<Vector3> forces;
   for (const int v : loaded_)
     forces.push_back(contact_load(v));
-  archive.rows("loaded_vertices", vertices);
+  archive.rows("loaded_vertices", vertices, "1", row_of(load_.size()));
   archive.rows("loads", forces, "N");
+  if (const StateSource *state = archive.looks_at())
+    require_as_many(*state, archive.path("loaded_vertices"), archive.path("loads"));
   if (!archive.reads()) return;
-  if (vertices.size() != forces.size()) throw StateError("body: each loaded vertex has one load");
-  for (const int v : vertices)
-    if (v < 0 || static_cast<std::size_t>(v) >= load_.size())
-      throw StateError("body: a load stands on a vertex that the surface does not have");
   clear_loads();
   for (std::size_t k = 0; k < vertices.size(); ++k)
     add_surface_force(vertices[k], forces[k]);

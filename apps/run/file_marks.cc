@@ -38,9 +38,9 @@ void FileMarks::describe(Archive &archive) {
     archive.text("input_sums", input_sums);
   }
   archive("last_frame", last_frame, "s");
-  archive("frames", frames);
-  archive("wall_seconds", wall_seconds, "s");
-  archive("target_strain", target_strain, "1", unknown_target);
+  archive("frames", frames, "1", at_least(0));
+  archive("wall_seconds", wall_seconds, "s", at_least(0));
+  archive("target_strain", target_strain, "1", unknown_target, or_nan());
   if (version >= 4) archive.text("changes", changes);
 }
 

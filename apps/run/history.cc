@@ -1,6 +1,7 @@
 #include "apps/run/history.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -210,7 +211,7 @@ std::vector<CsvCell> history_row(const Sample &sample, const PlatenTest *problem
     const HistoryColumn &column = history_columns()[k];
     if (column.form == state || !is_there(column, problem)) continue;
     const double value = value_of(s, k);
-    if (column.form == count)
+    if (column.form == count && !std::isnan(value)) // which an older checkpoint lacks
       row.emplace_back(static_cast<long long>(value));
     else
       row.emplace_back(value);
@@ -219,10 +220,14 @@ std::vector<CsvCell> history_row(const Sample &sample, const PlatenTest *problem
 }
 
 void describe(Archive &archive, const std::string &name, std::vector<Sample> &samples) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  constexpr double most_counted = 9007199254740992; // 2^53: beyond it not every whole number is a double
   Table table;
   std::vector<Column<double> *> columns;
   for (const HistoryColumn &column : history_columns())
-    columns.push_back(&table.add<double>(column.name, column.unit, std::numeric_limits<double>::quiet_NaN()));
+    columns.push_back(
+        &table.add<double>(column.name, column.unit,
+                           column.form == count ? or_nan(between(0, most_counted)) : any_value(), none));
   table.resize(samples.size());
   for (std::size_t row = 0; row < samples.size(); ++row)
     for (std::size_t k = 0; k < columns.size(); ++k)

@@ -285,16 +285,16 @@ std::vector<Sample> Results::rise() const {
 
 void Pattern::describe(Archive &archive) {
   archive.version(1);
-  archive("time", time, "s");
-  archive("strain", strain);
-  archive("broken_tension", broken_tension);
-  archive("broken_shear", broken_shear);
+  archive("time", time, "s", or_nan());
+  archive("strain", strain, "1", or_nan());
+  archive("broken_tension", broken_tension, "1", or_nan(at_least(0)));
+  archive("broken_shear", broken_shear, "1", or_nan(at_least(0)));
   archive.part("failure", failure);
 }
 
 void Results::describe(Archive &archive) {
   const bool before_motion = archive.version(2) < 2; // such a state tells no cones by displacement
-  archive("barrel", barrel_);
+  archive("barrel", barrel_, "1", or_nan());
   archive("peak", peak_, "Pa");
   archive("measured_for", measured_for_, "Pa");
   archive.part("at_eighty", at_eighty_);

@@ -1,11 +1,34 @@
 #include "apps/run/run_state.h"
 
+#include <optional>
+#include <string>
+
+#include "base/shortest_text.h"
+
 namespace platen::apps {
 namespace {
 
 // Parts of a checkpoint.
 constexpr const char *test_part = "test", *results_part = "results", *marks_part = "files";
 constexpr const char *instruction_set_block = "test/specimen/instruction_set";
+
+// Places at the peak are those of all spheres, or not kept yet; stages are those that the test has.
+void require_fitting_results(const StateSource &from, const coupling::PlatenTest &problem) {
+  const std::string places = "results/state_at_peak/position", stages = "results/samples/stage";
+  const std::size_t spheres = problem.model.particles.size();
+  if (const std::optional<StoredBlock> block = from.find(places);
+      block && block->rows != 0 && block->rows != spheres)
+    throw StateError("\"" + places + "\" has " + std::to_string(block->rows) + " rows, 0 or " +
+                     std::to_string(spheres) + " are needed");
+  if (from.find("results/samples/size") && rows_of<std::uint64_t>(from, "results/samples/size").at(0) == 0)
+    throw StateError("\"results/samples\" has no row, one at least is needed");
+  if (problem.settings().loading.stages.empty() || !from.find(stages)) return;
+  const std::vector<double> numbers = rows_of<double>(from, stages);
+  const std::size_t count = problem.program().stage_count();
+  for (std::size_t row = 0; row < numbers.size(); ++row)
+    if (!between(1, static_cast<double>(count)).holds(numbers[row]))
+      refuse_row(stages, row, shortest_text(numbers[row]), "1 ... " + std::to_string(count));
+}
 
 } // namespace
 
@@ -37,7 +60,7 @@ dem::InstructionSet resumed_instruction_set(const CheckpointReader &from, RunLog
 FileMarks load_marks(const CheckpointReader &from) {
   FileMarks marks;
   try {
-    LoadingArchive(from).part(marks_part, marks);
+    read_part(from, marks_part, marks);
   } catch (const StateError &e) {
     from.fail(e.what());
   }
@@ -47,11 +70,14 @@ FileMarks load_marks(const CheckpointReader &from) {
 FileMarks load_state(const CheckpointReader &from, coupling::PlatenTest &problem, Results &results) {
   FileMarks marks;
   try {
-    LoadingArchive archive(from);
-    archive.part(test_part, problem);
-    archive.part(results_part, results);
-    archive.part(marks_part, marks);
-    archive.require_all_read();
+    read_parts(
+        from,
+        [&](Archive &archive) {
+          archive.part(test_part, problem);
+          archive.part(results_part, results);
+          archive.part(marks_part, marks);
+        },
+        [&] { require_fitting_results(from, problem); });
   } catch (const StateError &e) {
     from.fail(e.what());
   }

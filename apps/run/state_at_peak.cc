@@ -34,9 +34,9 @@ void StateAtPeak::describe(Archive &archive) {
   archive.version(1);
   archive.rows("position", position_, "m");
   archive("bottom_displacement", platens_[dem::bottom_end].displacement, "m");
-  archive("bottom_rotation", platens_[dem::bottom_end].rotation);
+  archive("bottom_rotation", platens_[dem::bottom_end].rotation, "1", unit_length());
   archive("top_displacement", platens_[dem::top_end].displacement, "m");
-  archive("top_rotation", platens_[dem::top_end].rotation);
+  archive("top_rotation", platens_[dem::top_end].rotation, "1", unit_length());
 }
 
 } // namespace platen::apps

@@ -48,8 +48,8 @@ void MeanLoads::reset() {
 
 void MeanLoads::describe(Archive &archive) {
   archive.version(1);
-  archive("time", time_, "s");
-  archive("steps", steps_);
+  archive("time", time_, "s", at_least(0));
+  archive("steps", steps_, "1", at_least(0));
   archive.same_rows("impulse", impulse_, "N s");
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/pi.h"
 #include "base/require.h"
+#include "base/state.h"
 #include "coupling/boundary.h"
 
 namespace platen::coupling {
@@ -295,13 +296,19 @@ void Sleeve::take_loads() {
 
 void Sleeve::describe(Archive &archive) {
   archive.version(1);
-  archive("planned_steps", planned_);
-  archive("steps_made", made_);
-  archive("elapsed", elapsed_, "s");
-  archive("limit", limit_, "s");
-  archive("limit_of_elements", own_limit_, "s");
-  archive("intervals", intervals_);
-  archive("cuts", cuts_);
+  archive("planned_steps", planned_, "1", between(0, settings_.most_steps));
+  archive("steps_made", made_, "1", between(0, settings_.most_steps));
+  archive("elapsed", elapsed_, "s", at_least(0));
+  archive("limit", limit_, "s", above(0));
+  archive("limit_of_elements", own_limit_, "s", above(0));
+  archive("intervals", intervals_, "1", at_least(0));
+  archive("cuts", cuts_, "1", at_least(0));
+  if (const StateSource *state = archive.looks_at()) {
+    const int planned = rows_of<int>(*state, archive.path("planned_steps")).at(0),
+              made = rows_of<int>(*state, archive.path("steps_made")).at(0);
+    if (made > planned)
+      refuse_row(archive.path("steps_made"), 0, std::to_string(made), "0 ... " + std::to_string(planned));
+  }
   archive.part("solid", with_loads());
   archive.part("contacts", *contact_);
   if (archive.reads() && made_ < planned_) solid_->place_surface_ahead(elapsed_);

@@ -7,6 +7,7 @@
 
 #include "base/pi.h"
 #include "base/require.h"
+#include "base/state.h"
 #include "coupling/contact/mesh_indentation.h"
 
 namespace platen::coupling {
@@ -55,6 +56,14 @@ double narrowest(const fem::SurfaceMesh &surface, int face) {
                                   norm_squared((q[0] + q[1]) - (q[2] + q[3]))));
 }
 
+// One row a particle.
+void require_ascending(const StateSource &state, const std::string &block) {
+  const std::vector<int> particles = rows_of<int>(state, block);
+  for (std::size_t k = 1; k < particles.size(); ++k)
+    if (particles[k] <= particles[k - 1])
+      refuse_row(block, k, std::to_string(particles[k]), "above " + std::to_string(particles[k - 1]));
+}
+
 } // namespace
 
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
@@ -64,6 +73,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin, parameters.instruction_set) {
   check(parameters, particles.has_rotation());
+  particle_.allow(row_of(particles.size()));
   require(
       parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
       "surface contact: a compliance of faces needs one entry per face");
@@ -75,16 +85,18 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   allow_for_depth();
   const bool friction = parameters.friction_static > 0 || parameters.dynamic() > 0;
   const bool tangential = friction || parameters.attachment == Attachment::glued;
-  if (tangential || parameters.seat_modulus > 0) normal_ = &table_.add<Vector3>("normal", "1");
+  if (tangential || parameters.seat_modulus > 0)
+    normal_ = &table_.add<Vector3>("normal", "1", unit_length_or_zero());
   if (tangential) {
     spring_ = &table_.add<Vector3>("tangential_force", "N");
-    sliding_ = &table_.add<int>("sliding", "1");
-    slip_ = &table_.add<double>("slip", "m");
-    if (parameters.hertz) tangential_stiffness_ = &table_.add<double>("tangential_stiffness", "N/m");
+    sliding_ = &table_.add<int>("sliding", "1", flag());
+    slip_ = &table_.add<double>("slip", "m", at_least(0));
+    if (parameters.hertz)
+      tangential_stiffness_ = &table_.add<double>("tangential_stiffness", "N/m", at_least(0));
   }
   if (parameters.seat_modulus > 0) {
     seat_spring_ = &table_.add<Vector3>("seat_moment", "N m");
-    seat_sliding_ = &table_.add<int>("seat_sliding", "1");
+    seat_sliding_ = &table_.add<int>("seat_sliding", "1", flag());
   }
   const bool plain = !parameters.hertz && seat_spring_ == nullptr &&
                      parameters.attachment == Attachment::free &&
@@ -332,10 +344,11 @@ void ContactLayer::describe(Archive &archive) {
   archive("damping_work", damping_work, "J");
   archive("closed", closed);
   if (parameters_.hertz) {
-    archive("deepest", deepest_, "1");
-    archive("counted", counted_, "1");
+    archive("deepest", deepest_, "1", at_least(0));
+    archive("counted", counted_, "1", at_least(0));
   }
   archive.table("rows", table_);
+  if (const StateSource *state = archive.looks_at()) require_ascending(*state, archive.path("rows/particle"));
   if (!archive.reads()) return;
   search_.forget();
   keep_due(0); // of other rows

@@ -246,7 +246,7 @@ private:
 
   Table table_;
   Column<int> &particle_ = table_.add<int>("particle", "1");
-  Column<int> &seated_ = table_.add<int>("seated", "1");
+  Column<int> &seated_ = table_.add<int>("seated", "1", flag());
   Column<double> &offset_ = table_.add<double>("offset", "m");
   Column<double> &dashpot_ = table_.add<double>("dashpot_force", "N");
   Column<Vector3> *normal_ = nullptr;              // where there is a tangential or seat spring

@@ -62,7 +62,7 @@ std::optional<Controlled> CircumferentialTask::controlled(const Measures &m) con
 void CircumferentialTask::describe(Archive &archive) {
   archive.version(1);
   archive("begun", begun_, "s");
-  archive("strain_found", strain_found_);
+  archive("strain_found", strain_found_, "1", or_nan());
   archive("speed", speed_, "m/s");
 }
 

@@ -57,13 +57,13 @@ bool Drive::is_cycling(const Measures &m) const {
 void Drive::describe(Archive &archive) {
   archive.version(1);
   archive("rate", rate_, "m/s");
-  archive("ramp", ramp_, "s");
-  archive("first_direction", first_);
+  archive("ramp", ramp_, "s", at_least(0));
+  archive("first_direction", first_, "1", between(-1, 1));
   archive("begun", begun_, "s");
   archive("driven_until", until_, "s");
   archive("factor", factor_);
   archive("turned", turned_);
-  archive("strain_of_turn", strain_of_turn_);
+  archive("strain_of_turn", strain_of_turn_, "1", or_nan());
   if (rate_control_) archive.part("rate_control", *rate_control_);
 }
 
@@ -92,9 +92,9 @@ std::optional<Controlled> RateTask::controlled(const Measures &m) const {
 void RateTask::describe(Archive &archive) {
   archive.version(1);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  archive("begun", begun_, "s", unknown);
-  archive("path", path_, "m", unknown);
-  archive("closure_found", closure_found_, "m", unknown);
+  archive("begun", begun_, "s", unknown, or_nan());
+  archive("path", path_, "m", unknown, or_nan());
+  archive("closure_found", closure_found_, "m", unknown, or_nan());
 }
 
 double RateTask::fastest() const {

@@ -99,9 +99,8 @@ void LoadingStage::AtEnd::describe(Archive &archive) {
 
 void LoadingStage::describe(Archive &archive) {
   Stage::describe(archive);
-  archive("ended_by", ended_by_, "1", 0);
-  if (ended_by_ < StageEnd::too_late || ended_by_ > static_cast<int>(end_.parameters().any.size()))
-    throw StateError("program: a stage ended by what it does not wait for");
+  archive("ended_by", ended_by_, "1", 0,
+          between(StageEnd::too_late, static_cast<double>(end_.parameters().any.size())));
   archive.part("end", end_);
   for (std::size_t k = 0; k < tasks_.size(); ++k)
     archive.part("task_" + std::to_string(k + 1), *tasks_[k]);

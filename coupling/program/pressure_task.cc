@@ -81,11 +81,11 @@ void PressureTask::describe(Archive &archive) {
   archive("found", found_, "Pa");
   archive("deviator", deviator_, "Pa");
   archive("followed", followed_, "Pa");
-  if (before) {
+  if (before && archive.reads()) {
     deviator_again_ = deviator_;
     followed_again_ = followed_;
-    return;
   }
+  if (before) return;
   archive("deviator_again", deviator_again_, "Pa");
   archive("followed_again", followed_again_, "Pa");
 }

@@ -22,7 +22,7 @@ void Stage::begin(const Measures &m, const Handover &from, bool first) {
 void Stage::describe(Archive &archive) {
   archive.version(1);
   archive("begun", begun_, "s");
-  archive("closure_at_begin", closure_at_begin_);
+  archive("closure_at_begin", closure_at_begin_, "1", or_nan());
 }
 
 Program::Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages,
@@ -124,14 +124,13 @@ bool Program::is_cycling() const {
 
 void Program::describe(Archive &archive) {
   archive.version(2);
-  archive("stage", now_);
+  archive("stage", now_, "1", row_of(stages_.size()));
   archive("begun", begun_);
   archive("finished", finished_);
   archive("consolidated", consolidated_);
-  archive("zero_x", zero_[0]);
-  archive("zero_y", zero_[1]);
-  archive("zero_z", zero_[2]);
-  if (now_ >= stages_.size()) throw StateError("program: a stage that it does not have");
+  archive("zero_x", zero_[0], "1", or_nan());
+  archive("zero_y", zero_[1], "1", or_nan());
+  archive("zero_z", zero_[2], "1", or_nan());
   for (std::size_t k = 0; k < drives_.size(); ++k)
     archive.part("drive_" + std::to_string(k + 1), *drives_[k]);
   for (std::size_t k = 0; k < stages_.size(); ++k)

@@ -114,9 +114,9 @@ double StageEnd::progress(const Measures &m, double passed) const {
 
 void StageEnd::Seen::describe(Archive &archive) {
   archive.version(1);
-  archive("found", found);
-  archive("largest", largest);
-  archive("zero", zero);
+  archive("found", found, "1", or_nan());
+  archive("largest", largest, "1", or_nan());
+  archive("zero", zero, "1", or_nan());
 }
 
 void StageEnd::describe(Archive &archive) {

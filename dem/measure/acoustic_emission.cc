@@ -208,7 +208,7 @@ std::string reason_against(const BValue &value, const BValueRules &rules) {
 
 void describe(Archive &archive, const std::string &name, std::vector<CrackPulse> &pulses) {
   Table table;
-  Column<double> &time = table.add<double>("time", "s"), &energy = table.add<double>("energy", "J");
+  Column<double> &time = table.add<double>("time", "s"), &energy = table.add<double>("energy", "J", or_nan());
   Column<Vector3> &point = table.add<Vector3>("point", "m");
   table.resize(pulses.size());
   for (std::size_t k = 0; k < pulses.size(); ++k)

@@ -240,18 +240,18 @@ std::array<ConePiece, 2> measure_cones(const Particles &p, const Bonds &b, const
 
 void ConePiece::describe(Archive &archive) {
   archive.version(1);
-  archive("verdict", verdict);
-  archive("spheres", spheres);
-  archive("height", height, "m");
-  archive("half_angle", half_angle, "rad");
-  archive("volume_fraction", volume_fraction);
-  archive("apex_depth", apex_depth, "m");
-  archive("tilt", tilt, "rad");
-  archive("apex", apex, "m");
-  archive("axis", axis);
-  archive("overlap", overlap);
-  archive("roundness", roundness);
-  archive("confidence", confidence);
+  archive("verdict", verdict, "1", between(0, static_cast<double>(NoCone::ragged)));
+  archive("spheres", spheres, "1", any_value());
+  archive("height", height, "m", any_value());
+  archive("half_angle", half_angle, "rad", any_value());
+  archive("volume_fraction", volume_fraction, "1", any_value());
+  archive("apex_depth", apex_depth, "m", any_value());
+  archive("tilt", tilt, "rad", any_value());
+  archive("apex", apex, "m", any_value());
+  archive("axis", axis, "1", any_value());
+  archive("overlap", overlap, "1", any_value());
+  archive("roundness", roundness, "1", any_value());
+  archive("confidence", confidence, "1", any_value());
 }
 
 } // namespace platen::dem

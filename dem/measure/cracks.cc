@@ -133,17 +133,17 @@ CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &b) {
 
 void CrackPlanes::describe(Archive &archive) {
   archive.version(1);
-  archive("count", count);
-  archive("broken_bonds", broken);
-  archive("share", share);
-  archive("steep_share", steep_share);
-  archive("mean_inclination", mean_inclination, "rad");
-  archive("largest_bonds", largest.bonds);
-  archive("largest_centre", largest.centre, "m");
-  archive("largest_normal", largest.normal);
-  archive("largest_flatness", largest.flatness);
-  archive("largest_inclination", largest.inclination, "rad");
-  archive("largest_extent", largest.extent, "m");
+  archive("count", count, "1", any_value());
+  archive("broken_bonds", broken, "1", any_value());
+  archive("share", share, "1", any_value());
+  archive("steep_share", steep_share, "1", any_value());
+  archive("mean_inclination", mean_inclination, "rad", any_value());
+  archive("largest_bonds", largest.bonds, "1", any_value());
+  archive("largest_centre", largest.centre, "m", any_value());
+  archive("largest_normal", largest.normal, "1", any_value());
+  archive("largest_flatness", largest.flatness, "1", any_value());
+  archive("largest_inclination", largest.inclination, "rad", any_value());
+  archive("largest_extent", largest.extent, "m", any_value());
 }
 
 } // namespace platen::dem

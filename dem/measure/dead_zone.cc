@@ -94,20 +94,20 @@ const char *words_of(DeadZoneVerdict why) {
 
 void DeadZone::describe(Archive &archive) {
   archive.version(1);
-  archive("verdict", verdict);
-  archive("spheres", spheres);
-  archive("base_ratio", base_ratio);
-  archive("volume_fraction", volume_fraction);
-  archive("height", height, "m");
-  archive("half_angle", half_angle, "rad");
-  archive("apex_depth", apex_depth, "m");
-  archive("tilt", tilt, "rad");
-  archive("apex", apex, "m");
-  archive("axis", axis);
-  archive("roundness", roundness);
-  archive("straightness", straightness);
-  archive("overlap", overlap);
-  archive("confidence", confidence);
+  archive("verdict", verdict, "1", between(0, static_cast<double>(DeadZoneVerdict::dome)));
+  archive("spheres", spheres, "1", any_value());
+  archive("base_ratio", base_ratio, "1", any_value());
+  archive("volume_fraction", volume_fraction, "1", any_value());
+  archive("height", height, "m", any_value());
+  archive("half_angle", half_angle, "rad", any_value());
+  archive("apex_depth", apex_depth, "m", any_value());
+  archive("tilt", tilt, "rad", any_value());
+  archive("apex", apex, "m", any_value());
+  archive("axis", axis, "1", any_value());
+  archive("roundness", roundness, "1", any_value());
+  archive("straightness", straightness, "1", any_value());
+  archive("overlap", overlap, "1", any_value());
+  archive("confidence", confidence, "1", any_value());
 }
 
 } // namespace platen::dem

@@ -92,22 +92,22 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
 
 void FailureMeasures::describe(Archive &archive) {
   const bool before_motion = archive.version(2) < 2;
-  archive("damage_top", damage.end_top);
-  archive("damage_bottom", damage.end_bottom);
-  archive("damage_middle", damage.middle);
+  archive("damage_top", damage.end_top, "1", any_value());
+  archive("damage_bottom", damage.end_bottom, "1", any_value());
+  archive("damage_middle", damage.middle, "1", any_value());
   archive.part("cone_bottom", sound[bottom_end]);
   archive.part("cone_top", sound[top_end]);
   if (!before_motion) {
     archive.part("dead_zone_bottom", dead[bottom_end]);
     archive.part("dead_zone_top", dead[top_end]);
-    archive("opening", opening, "m");
+    archive("opening", opening, "m", any_value());
   }
   archive.part("crack_planes", planes);
-  archive("end_spread", end_spread);
-  archive("columns", columns);
-  archive("broken_share", broken_share);
-  archive("width", width, "m");
-  archive("height", height, "m");
+  archive("end_spread", end_spread, "1", any_value());
+  archive("columns", columns, "1", any_value());
+  archive("broken_share", broken_share, "1", any_value());
+  archive("width", width, "m", any_value());
+  archive("height", height, "m", any_value());
 }
 
 } // namespace platen::dem

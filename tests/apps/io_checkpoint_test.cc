@@ -69,9 +69,7 @@ protected:
   }
   void read(Part &into) const {
     const CheckpointReader reader(path_);
-    LoadingArchive archive(reader);
-    archive.part("part", into);
-    archive.require_all_read();
+    read_parts(reader, [&](Archive &archive) { archive.part("part", into); });
   }
 };
 

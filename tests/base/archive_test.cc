@@ -42,7 +42,7 @@ struct Machine {
     archive("on", on);
     archive("phase", phase);
     archive("axis", axis);
-    archive.same_rows("nodes", nodes, "m");
+    archive.same_rows("nodes", nodes, "m", any_value());
     archive.rows("list", list);
     archive.text("reason", reason);
     archive.table("rows", table);
@@ -195,6 +195,111 @@ TEST(archive, a_table_is_left_alone_where_a_column_is_refused) {
   EXPECT_EQ(message([&] { set_state<Rows>(other, state_of(stored)); }), "lacks \"state/rows/damage\"");
   EXPECT_EQ(other.table.size(), 1u);
   EXPECT_EQ(other.mass[0], 7);
+}
+
+// A part with a number of every kind that is not all numbers.
+struct Bounded {
+  double mass = 2, unknown = std::nan(""), limit = INFINITY;
+  int word = 1;
+  bool on = true;
+  std::array<double, 4> turn{0, 1, 0, 0};
+  std::vector<int> rows{0, 2};
+  std::vector<std::array<double, 3>> normals{{0, 0, 1}, {0, 0, 0}};
+  std::vector<double> weights{1, 2};
+  Table table;
+  Column<double> &radius = table.add<double>("radius", "m", above(0));
+  Bounded() {
+    table.resize(3);
+    for (double &r : radius)
+      r = 1;
+  }
+  void describe(Archive &archive) {
+    archive("mass", mass, "kg", above(0));
+    archive("unknown", unknown, "Pa", or_nan(at_least(0)));
+    archive("limit", limit, "s", or_infinite(above(0)));
+    archive("word", word, "1", 1, between(0, 3));
+    archive("on", on);
+    archive("turn", turn, "1", unit_length());
+    archive.rows("rows", rows, "1", row_of(3));
+    archive.rows("normals", normals, "1", unit_length_or_zero());
+    archive.same_rows("weights", weights, "N");
+    archive.same_table("spheres", table);
+  }
+};
+
+template <class T>
+std::string with(const char *name, const std::vector<T> &rows) {
+  Bounded part;
+  part.mass = 7; // what is there stays there
+  const State before = state_of(part);
+  const std::string told =
+      message([&] { set_state(part, with_rows(state_of(Bounded()), std::string("state/") + name, rows)); });
+  EXPECT_TRUE(told == "nothing was refused" || same_state(before, part)) << name;
+  return told;
+}
+
+TEST(archive, a_number_that_cannot_be_is_refused_by_name_row_and_value) {
+  const double nan = std::nan(""), inf = INFINITY;
+  const auto refused = [](const std::string &what) { return "\"state/" + what + "."; };
+  EXPECT_EQ(with<double>("mass", {-1}), refused("mass\", row 0: -1. Allowed: finite, > 0 kg"));
+  EXPECT_EQ(with<double>("mass", {0}), refused("mass\", row 0: 0. Allowed: finite, > 0 kg"));
+  EXPECT_EQ(with<double>("mass", {nan}), refused("mass\", row 0: nan. Allowed: finite, > 0 kg"));
+  EXPECT_EQ(with<double>("mass", {inf}), refused("mass\", row 0: inf. Allowed: finite, > 0 kg"));
+  EXPECT_EQ(with<double>("unknown", {-1}), refused("unknown\", row 0: -1. Allowed: finite, >= 0 Pa, or nan"));
+  EXPECT_EQ(with<double>("limit", {nan}), refused("limit\", row 0: nan. Allowed: > 0 s"));
+  EXPECT_EQ(with<int>("word", {4}), refused("word\", row 0: 4. Allowed: 0 ... 3"));
+  EXPECT_EQ(with<std::uint8_t>("on", {2}), refused("on\", row 0: 2. Allowed: 0 ... 1"));
+  EXPECT_EQ(with<int>("rows", {0, 1, -1}), refused("rows\", row 2: -1. Allowed: 0 ... 2"));
+  EXPECT_EQ(with<int>("rows", {3}), refused("rows\", row 0: 3. Allowed: 0 ... 2"));
+  EXPECT_EQ(with<double>("weights", {1, inf}), refused("weights\", row 1: inf. Allowed: finite numbers N"));
+  EXPECT_EQ(with<double>("spheres/radius", {1, 1, 0}),
+            refused("spheres/radius\", row 2: 0. Allowed: finite, > 0 m"));
+  using Four = std::array<double, 4>;
+  EXPECT_EQ(with<Four>("turn", {{1, 1, 0, 0}}),
+            refused("turn\", row 0: length 1.4142135623730951. Allowed: a row of length 1"));
+  EXPECT_EQ(with<Four>("turn", {{1, 0, nan, 0}}),
+            refused("turn\", row 0: number 3 of 4, nan. Allowed: a row of length 1"));
+  EXPECT_NE(with<Four>("turn", {{1 + 2e-9, 0, 0, 0}}), "nothing was refused");
+  EXPECT_EQ(with<Four>("turn", {{1 + 5e-10, 0, 0, 0}}), "nothing was refused"); // rounding
+  using Three = std::array<double, 3>;
+  EXPECT_EQ(with<Three>("normals", {{1, 0, 0}, {1e-3, 0, 0}}),
+            refused("normals\", row 1: length 0.001. Allowed: a row of length 1, or of zeros"));
+  for (const double value : {0.0, 5.0, nan})
+    EXPECT_EQ(with<double>("unknown", {value}), "nothing was refused");
+  EXPECT_EQ(with<double>("limit", {inf}), "nothing was refused");
+  EXPECT_EQ(with<int>("rows", {}), "nothing was refused");
+}
+
+TEST(archive, a_table_of_another_size_is_refused_with_both) {
+  Bounded more, less;
+  more.table.resize(4);
+  for (double &r : more.radius)
+    r = 5;
+  const auto told = [](const Bounded &stored, Bounded &into) {
+    const State before = state_of(into);
+    const std::string text = message([&] { set_state(into, state_of(stored)); });
+    EXPECT_TRUE(same_state(before, into));
+    return text;
+  };
+  EXPECT_EQ(told(more, less), "table \"state/spheres\" has 4 rows, 3 are needed");
+  EXPECT_EQ(told(less, more), "table \"state/spheres\" has 3 rows, 4 are needed");
+}
+
+// The first blocks are good, the last is not.
+TEST(archive, a_part_that_refuses_a_state_is_as_it_was) {
+  const Machine good;
+  State bad = changed(state_of(good), "state/spring/force");
+  add_rows(bad, "state/spring/force", std::vector<double>{INFINITY}, "N");
+  Machine machine;
+  machine.time = 5, machine.list = {1}, machine.reason = "mine", machine.table.resize(4),
+  machine.spring.force = 3;
+  const State before = state_of(machine);
+  EXPECT_NE(message([&] { set_state(machine, bad); }), "nothing was refused");
+  EXPECT_TRUE(same_state(before, machine));
+  State more = state_of(good);
+  add_rows(more, "state/spring/heat", std::vector<double>{1}, "J");
+  EXPECT_NE(message([&] { set_state(machine, more); }), "nothing was refused");
+  EXPECT_TRUE(same_state(before, machine));
 }
 
 TEST(archive, no_name_is_described_twice) {

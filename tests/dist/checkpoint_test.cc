@@ -164,9 +164,7 @@ TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
   MPI_Comm_split(MPI_COMM_WORLD, rank_of_this() < first, rank_of_this(), &group);
   const auto resumed = cut_block(with_all(), group), alone = block_of(with_all());
   for (dem::Model *model : {resumed.get(), alone.get()}) {
-    const CheckpointReader file(path);
-    LoadingArchive archive(file);
-    archive.part("specimen", *model);
+    read_part(CheckpointReader(path), "specimen", *model);
     run(*model, 20, dt);
   }
   resumed->gather();

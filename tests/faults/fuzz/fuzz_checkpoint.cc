@@ -72,10 +72,8 @@ void read_out(const CheckpointReader &reader) {
   }
   attempt([&] { platen::first_difference(reader, reader); });
   attempt([&] {
-    platen::LoadingArchive archive(reader);
     Spheres spheres;
-    archive.part("part", spheres);
-    archive.require_all_read();
+    platen::read_parts(reader, [&](platen::Archive &archive) { archive.part("part", spheres); });
   });
 }
 
