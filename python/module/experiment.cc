@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "apps/scene/errors.h"
@@ -62,28 +63,47 @@ Experiment::Experiment(const Options &options)
 
 Experiment::~Experiment() = default;
 
+void Experiment::require_between_passes(const char *call) const {
+  if (passes_)
+    throw apps::InputError(
+        std::string(call) +
+        " is called from on_sample, within a step that is not over: call it after advance()");
+}
+
 void Experiment::pass() {
+  require_between_passes("advance() or run()");
   if (ended_ || failed_ || closed_) throw apps::InputError("the experiment has ended: make a new one");
   if (run_->finished()) return;
+  passes_ = true;
   try {
     run_->pass();
   } catch (...) {
+    passes_ = false;
     failed_ = true;
     run_->give_up();
     throw;
   }
+  passes_ = false;
 }
 
 bool Experiment::end() {
+  require_between_passes("end()");
   if (failed_ || closed_)
     throw apps::InputError("the experiment has failed or was closed: it has no results");
-  if (std::exchange(ended_, true)) return true;
-  const bool holds = run_->end() == apps::status_done;
+  if (ended_) return holds_;
+  try {
+    holds_ = run_->end() == apps::status_done;
+  } catch (...) {
+    failed_ = true;
+    throw;
+  }
   run_->release();
-  return holds;
+  ended_ = true;
+  return holds_;
 }
 
 void Experiment::close() {
+  require_between_passes("close()");
   closed_ = true;
   run_->release();
 }

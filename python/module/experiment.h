@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,13 @@ public:
   Experiment(const Experiment &) = delete;
   Experiment &operator=(const Experiment &) = delete;
 
+  // Threads of a script take turns: whoever calls what is below holds this. A callback of listen() is called
+  // by the thread that makes a pass, and may look and change().
+  std::recursive_mutex &turn() const { return turn_; }
+
   // One pass: up to 16 steps, to the next that something is written after. Throws coupling::NumericsStopped,
-  // after summary.json says so, and std::logic_error of an experiment that has ended.
+  // after summary.json says so, and InputError of an experiment that has ended; as end() and close() do
+  // within a callback, for the pass that it is called in is not over.
   void pass();
   bool finished() const { return run_->finished(); }
   bool ended() const { return ended_; }
@@ -55,7 +61,10 @@ private:
   apps::AppKind kind_;
   apps::Scene scene_; // the run holds it by reference
   std::unique_ptr<apps::CompressionRun> run_;
-  bool ended_ = false, failed_ = false, closed_ = false;
+  void require_between_passes(const char *call) const;
+  mutable std::recursive_mutex turn_;
+  bool passes_ = false; // now
+  bool ended_ = false, failed_ = false, closed_ = false, holds_ = false;
 };
 
 } // namespace platen::python

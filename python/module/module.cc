@@ -5,7 +5,9 @@
 #include <pybind11/stl.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -56,6 +58,38 @@ py::dict units(const Table &table) {
   for (const auto &column : table.columns())
     units[py::str(column->name())] = column->unit();
   return units;
+}
+
+// The turn of this thread. Python's lock is given back while another one has it: its callback needs that.
+class Turn {
+public:
+  explicit Turn(const Experiment &experiment) : lock_(experiment.turn(), std::try_to_lock) {
+    if (lock_) return;
+    const py::gil_scoped_release released;
+    lock_.lock();
+  }
+
+private:
+  std::unique_lock<std::recursive_mutex> lock_;
+};
+
+// Of an experiment, in the turn of this thread.
+template <class Look>
+auto in_turn(const Look &look) {
+  return [look](const Experiment &experiment) {
+    const Turn turn(experiment);
+    return look(experiment);
+  };
+}
+
+// The same of what takes long, without Python's lock.
+template <class Act>
+auto in_long_turn(const Act &act) {
+  return [act](Experiment &experiment) {
+    const py::gil_scoped_release released;
+    const std::lock_guard<std::recursive_mutex> turn(experiment.turn());
+    return act(experiment);
+  };
 }
 
 // What the file has in a cell: the shortest text that reads back to the same number.
@@ -117,6 +151,15 @@ void set_input_error(const std::string &text, const apps::EntryError *first) {
   PyErr_SetObject(error_class("InputError").ptr(), error.ptr());
 }
 
+PyObject *refuse_without_scene(PyTypeObject *, PyObject *, PyObject *) {
+  try {
+    set_input_error("an experiment needs a scene: platen.Experiment(scene)", nullptr);
+  } catch (py::error_already_set &error) { // no exception may leave this for Python
+    error.restore();
+  }
+  return nullptr;
+}
+
 // The last translator that is registered is asked first.
 void translate(std::exception_ptr thrown) {
   try {
@@ -137,6 +180,14 @@ void translate(std::exception_ptr thrown) {
     set_error("NumericsError", error.what());
   } catch (const apps::OutputError &error) {
     set_error("OutputError", error.what());
+  } catch (const std::filesystem::filesystem_error &error) {
+    set_error("OutputError", error.what());
+  } catch (const py::builtin_exception &) {
+    throw; // Python's own
+  } catch (const std::runtime_error &error) {
+    set_error("PlatenError", error.what());
+  } catch (const std::logic_error &error) {
+    set_error("PlatenError", error.what());
   }
 }
 
@@ -144,58 +195,71 @@ void translate(std::exception_ptr thrown) {
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of platen.";
-  py::register_exception_translator(&translate);
+  py::register_local_exception_translator(&translate);
   module.def("version_json", &apps::version_json);
   module.def("shipped_scenes", [] { return apps::shipped_scenes().string(); });
 
-  py::class_<Experiment>(module, "Experiment")
-      .def(py::init([](const std::string &scene, const std::vector<std::string> &overrides,
-                       const std::string &output, int threads, bool disc, bool overwrite, bool verbose) {
-             py::gil_scoped_release released;
-             return std::make_unique<Experiment>(
-                 Experiment::Options{scene, output, overrides, threads, disc, overwrite, verbose});
-           }),
-           py::arg("scene"), py::arg("overrides"), py::arg("output"), py::arg("threads"), py::arg("disc"),
-           py::arg("overwrite"), py::arg("verbose"))
-      .def(
-          "passes", [](Experiment &e) { e.pass(); }, py::call_guard<py::gil_scoped_release>())
-      .def(
-          "end", [](Experiment &e) { return e.end(); }, py::call_guard<py::gil_scoped_release>())
-      .def("close", &Experiment::close)
-      .def("change", &Experiment::change)
+  module.def(
+      "make",
+      [](const std::string &scene, const std::vector<std::string> &overrides, const std::string &output,
+         int threads, bool disc, bool overwrite, bool verbose) {
+        const py::gil_scoped_release released;
+        return std::make_unique<Experiment>(
+            Experiment::Options{scene, output, overrides, threads, disc, overwrite, verbose});
+      },
+      py::arg("scene"), py::arg("overrides"), py::arg("output"), py::arg("threads"), py::arg("disc"),
+      py::arg("overwrite"), py::arg("verbose"));
+  // make() alone makes one: what __new__ gives would have nothing in it.
+  py::class_<Experiment>(module, "Experiment", py::custom_type_setup([](PyHeapTypeObject *type) {
+                           type->ht_type.tp_new = &refuse_without_scene;
+                         }))
+      .def("passes", in_long_turn([](Experiment &e) { e.pass(); }))
+      .def("end", in_long_turn([](Experiment &e) { return e.end(); }))
+      .def("close", in_long_turn([](Experiment &e) { e.close(); }))
+      .def("change",
+           [](Experiment &e, const std::vector<std::string> &assignments) {
+             const Turn turn(e);
+             e.change(assignments);
+           })
       .def("listen",
-           [](Experiment &e, py::object listener) {
+           [](Experiment &e, const py::object &listener) {
+             const Turn turn(e);
              if (listener.is_none()) return e.listen(nullptr);
-             e.listen([&e, listener = std::move(listener)](const apps::Sample &sample) {
-               py::gil_scoped_acquire acquired;
-               listener(row_of(e, sample));
+             e.listen([&e, listener](const apps::Sample &sample) {
+               const py::gil_scoped_acquire acquired;
+               const py::object kept = listener; // which may put another one in its place
+               kept(row_of(e, sample));
              });
            })
-      .def_property_readonly("finished", &Experiment::finished)
-      .def_property_readonly("ended", &Experiment::ended)
-      .def_property_readonly("folder", &Experiment::folder)
-      .def_property_readonly("time", [](const Experiment &e) { return e.test().time(); })
-      .def_property_readonly("time_step", [](const Experiment &e) { return e.test().time_step(); })
-      .def_property_readonly("steps", [](const Experiment &e) { return e.test().steps(); })
-      .def_property_readonly("strain", &Experiment::strain)
-      .def_property_readonly("stress", &Experiment::stress)
-      .def_property_readonly("samples", [](const Experiment &e) { return e.samples().size(); })
-      .def("history", &history)
-      .def("summary", &Experiment::summary)
+      .def_property_readonly("finished", in_turn([](const Experiment &e) { return e.finished(); }))
+      .def_property_readonly("ended", in_turn([](const Experiment &e) { return e.ended(); }))
+      .def_property_readonly("folder", [](const Experiment &e) { return py::bytes(e.folder()); })
+      .def_property_readonly("time", in_turn([](const Experiment &e) { return e.test().time(); }))
+      .def_property_readonly("time_step", in_turn([](const Experiment &e) { return e.test().time_step(); }))
+      .def_property_readonly("steps", in_turn([](const Experiment &e) { return e.test().steps(); }))
+      .def_property_readonly("strain", in_turn([](const Experiment &e) { return e.strain(); }))
+      .def_property_readonly("stress", in_turn([](const Experiment &e) { return e.stress(); }))
+      .def_property_readonly("samples", in_turn([](const Experiment &e) { return e.samples().size(); }))
+      .def("history", in_turn(&history))
+      .def("summary", in_turn([](const Experiment &e) { return e.summary(); }))
       .def("spheres",
            [](const py::object &self) {
-             return views(self.cast<const Experiment &>().test().model.particles.table, self);
+             const Experiment &e = self.cast<const Experiment &>();
+             const Turn turn(e);
+             return views(e.test().model.particles.table, self);
            })
       .def("bonds",
            [](const py::object &self) {
-             const auto &bonds = self.cast<const Experiment &>().test().model.bonds;
+             const Experiment &e = self.cast<const Experiment &>();
+             const Turn turn(e);
+             const auto &bonds = e.test().model.bonds;
              return bonds ? views(bonds->records, self) : py::dict();
            })
-      .def("units", [](const Experiment &e) {
-        py::dict all = units(e.test().model.particles.table);
-        if (e.test().model.bonds) all.attr("update")(units(e.test().model.bonds->records));
-        return all;
-      });
+      .def("units", in_turn([](const Experiment &e) {
+             py::dict all = units(e.test().model.particles.table);
+             if (e.test().model.bonds) all.attr("update")(units(e.test().model.bonds->records));
+             return all;
+           }));
 }
 
 } // namespace platen::python

@@ -7,7 +7,7 @@
     experiment = platen.Experiment("demo_dry", set={"Platens/Friction static": 0.1}, output="results/mine")
     experiment.run()
 """
-from .errors import InputError, NumericsError, OutputError, PlatenError
+from .errors import InputError, MissingError, NumericsError, OutputError, PlatenError
 from .results import Frames, Run, Study, Table, read_table, runs
 
 try:
@@ -21,5 +21,5 @@ except ImportError as error:  # results can be read without the compiled part
         raise AttributeError(f"module 'platen' has no attribute {name!r}")
 
 
-__all__ = ["Experiment", "Frames", "InputError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Table",
+__all__ = ["Experiment", "Frames", "InputError", "MissingError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Table",
            "read_table", "runs", "scenes", "version"]

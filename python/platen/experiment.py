@@ -1,10 +1,16 @@
 """Experiments that a script builds, runs and changes on the way."""
 import json
+import math
+import numbers
+import operator
 import os
+import threading
 from pathlib import Path
 
+import numpy
+
 from . import _core
-from .errors import InputError
+from .errors import InputError, path_text
 from .results import Run, Table
 
 
@@ -20,24 +26,61 @@ def scenes():
 
 def _path_of(scene):
     """A file, or the name of a scene that came with Platen."""
-    if os.path.exists(scene):
-        return os.fspath(scene)
-    return os.fspath(scenes().get(str(scene), scene))
+    path = path_text(scene, "scene")
+    return path if os.path.isfile(path) else os.fspath(scenes().get(path, path))
+
+
+def _value_text(entry, value):
+    """A value as a scene has it; on and off may be True and False."""
+    if isinstance(value, (bool, numpy.bool_)):
+        return "on" if value else "off"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (list, tuple, numpy.ndarray)):
+        return ", ".join(_value_text(entry, one) for one in numpy.atleast_1d(numpy.asarray(value, dtype=object)).tolist())
+    if not isinstance(value, (str, os.PathLike)):
+        raise InputError(f"{entry} = {value!r} is no value. Allowed: a number, a text, True, False, or a list of them", entry=entry)
+    text = os.fspath(value)
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"{entry} = {text!r} is no text: character {error.start + 1} is half of one", entry=entry) from None
+    return text
 
 
 def _assignments(entries):
-    """"Section/Key = value" of each entry of a dictionary; on and off may be True and False."""
+    """"Section/Key = value" of each entry of a dictionary."""
+    if entries is None:
+        return []
+    if not isinstance(entries, dict) or not all(isinstance(entry, str) for entry in entries):
+        raise InputError(f"{entries!r} are no entries. Allowed: a dictionary of values by \"Section/Key\"")
+    return [f"{_value_text('an entry', entry)} = {_value_text(entry, value)}" for entry, value in entries.items()]
 
-    def text(value):
-        if isinstance(value, bool):
-            return "on" if value else "off"
-        if isinstance(value, float):
-            return repr(value)
-        if isinstance(value, (list, tuple)):
-            return ", ".join(text(one) for one in value)
-        return str(value)
 
-    return [f"{entry} = {text(value)}" for entry, value in dict(entries or {}).items()]
+def _number(name, value, most=math.inf):
+    """A finite number from 0 to the most; None stays."""
+    if value is None:
+        return None
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, numbers.Real) or not math.isfinite(value) or not 0 <= value <= most:
+        raise InputError(f"{name} = {value!r}. Allowed: a number, {'>= 0' if most == math.inf else f'0 ... {most}'}")
+    return float(value)
+
+
+def _whole(name, value, least=0, most=math.inf):
+    """A whole number from the least to the most; None stays."""
+    if value is None:
+        return None
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, numbers.Integral) or not least <= value <= most:
+        raise InputError(f"{name} = {value!r}. Allowed: a whole number, {f'>= {least}' if most == math.inf else f'{least} ... {most}'}")
+    return operator.index(value)
+
+
+def _flag(name, value):
+    if not isinstance(value, (bool, numpy.bool_)):
+        raise InputError(f"{name} = {value!r}. Allowed: True, False")
+    return bool(value)
 
 
 class Experiment:
@@ -56,26 +99,38 @@ class Experiment:
     """
 
     def __init__(self, scene, set=None, output="", threads=1, overwrite=False, disc=False, verbose=False):
-        if not isinstance(threads, int) or isinstance(threads, bool) or not 1 <= threads <= max(64, 4 * (os.cpu_count() or 1)):
-            raise InputError(f"threads = {threads!r} is no count of threads. Allowed: 1 ... {max(64, 4 * (os.cpu_count() or 1))}")
-        self._core = _core.Experiment(_path_of(scene), _assignments(set), os.fspath(output), threads, disc, overwrite, verbose)
+        if threads is None:
+            raise InputError("threads = None. Allowed: a whole number")
+        threads = _whole("threads", threads, 1, max(64, 4 * (os.cpu_count() or 1)))
+        # Names of files in bytes: they need not be text.
+        self._core = _core.make(os.fsencode(_path_of(scene)), _assignments(set), os.fsencode(path_text(output, "output")), threads,
+                                _flag("disc", disc), _flag("overwrite", overwrite), _flag("verbose", verbose))
         self._on_sample = None
-        self._failure = None
+        self.expected = None
+        self._failures = {}  # of callbacks, by the thread that makes the pass
+
+    def __getattr__(self, name):
+        if name == "_core":
+            raise InputError("the experiment was not made: platen.Experiment(scene)")
+        raise AttributeError(f"an Experiment has no {name}")
 
     # ---- running
     def advance(self, strain=None, time=None, steps=None, samples=None):
-        """Runs until the strain of the platens (1), the time (s), so many steps or so many samples more are reached, or the
-        test is over; at least one of them. It stops at the next moment that something is written or looked at, 16 steps at
-        most beyond. True while the test goes on."""
+        """Runs until the strain of the platens (1, its size: positive in tension too), the time (s), so many steps or so many
+        samples more are reached, or the test is over; at least one of them. It stops at the next moment that something is
+        written or looked at, 16 steps at most beyond. True while the test goes on. InputError for what is no such number. Threads
+        take turns, pass by pass: each one's limits hold for the one experiment that all of them advance."""
         if all(limit is None for limit in (strain, time, steps, samples)):
             raise InputError("advance() needs a limit: strain, time, steps or samples")
+        strain, time = _number("strain", strain, most=1), _number("time", time)
+        steps, samples = _whole("steps", steps), _whole("samples", samples)
         core = self._core
         last_step = None if steps is None else core.steps + steps
         last_sample = None if samples is None else core.samples + samples
         if core.ended:
             raise InputError("the experiment has ended: make a new one")
         while not core.finished:
-            if ((strain is not None and abs(core.strain) >= abs(strain)) or (time is not None and core.time >= time)
+            if ((strain is not None and abs(core.strain) >= strain) or (time is not None and core.time >= time)
                     or (last_step is not None and core.steps >= last_step)
                     or (last_sample is not None and core.samples >= last_sample)):
                 return True
@@ -112,8 +167,8 @@ class Experiment:
     def _pass(self):
         """Python looks at Ctrl-C between two passes."""
         self._core.passes()
-        if self._failure is not None:
-            failure, self._failure = self._failure, None
+        failure = self._failures.pop(threading.get_ident(), None)
+        if failure is not None:
             raise failure
 
     # ---- changing
@@ -124,27 +179,31 @@ class Experiment:
 
     @property
     def on_sample(self):
-        """Called with each row of history.csv, a dictionary, once it is written; None: nothing is."""
+        """Called with each row of history.csv, a dictionary, once it is written, by the thread that advances; None: nothing is. It
+        may look at the experiment and change it; advance(), end() and close() are refused within it."""
         return self._on_sample
 
     @on_sample.setter
     def on_sample(self, function):
+        if function is not None and not callable(function):
+            raise InputError(f"on_sample = {function!r}. Allowed: a function of a row, None")
         self._on_sample = function
         if function is None:
             self._core.listen(None)
             return
+        failures = self._failures  # and not self, which would keep the experiment for ever
 
         def call(row):
             try:
                 function(row)
             except BaseException as failure:  # what a callback raises comes out of advance() and run()
-                self._failure = failure
+                failures[threading.get_ident()] = failure
 
         self._core.listen(call)
 
     # ---- looking
     finished = property(lambda self: self._core.finished, doc="Whether the test is over.")
-    folder = property(lambda self: Path(self._core.folder), doc="Where it writes.")
+    folder = property(lambda self: Path(os.fsdecode(self._core.folder)), doc="Where it writes.")
     time = property(lambda self: self._core.time, doc="s")
     time_step = property(lambda self: self._core.time_step, doc="s")
     steps = property(lambda self: self._core.steps, doc="Made so far.")

@@ -1,17 +1,22 @@
 """Results of the programs as numpy arrays: a run's folder, and what stands in it."""
 import csv
 import json
+import math
+import numbers
 from functools import cached_property
 from pathlib import Path
 
 import numpy
 
 from . import vtu
-from .errors import InputError
+from .errors import InputError, MissingError, path_text
 
 
 class Table(dict):
     """A CSV file: columns by name, each a numpy array; numbers as float64 with NaN for an empty cell, words as strings."""
+
+    def __missing__(self, name):
+        raise MissingError(f"no column {name!r}. There are: {', '.join(self)}")
 
     @property
     def rows(self):
@@ -35,19 +40,30 @@ def _column(cells):
         return numpy.array(cells)
 
 
+def _read_text(path):
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: damaged: {error}") from None
+
+
 def read_table(path):
     """Any CSV file of the programs. A last line without a line end, which a run still writes, is left out, and so are lines of
     comment above the header. InputError where the file cannot be read or a row has another number of cells than the header."""
-    path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
+    path = Path(path_text(path, "path"))
+    text = _read_text(path)
     lines = text[: text.rfind("\n") + 1].splitlines()
     above = next((k for k, line in enumerate(lines) if not line.startswith("#")), len(lines))
     if above == len(lines):
         raise InputError(f"{path}: has no header")
-    header, *rows = csv.reader(lines[above:])
+    try:
+        header, *rows = csv.reader(lines[above:])
+    except csv.Error as error:
+        raise InputError(f"{path}: damaged: {error}") from None
+    if len(set(header)) < len(header):
+        raise InputError(f"{path}:{above + 1}: two columns of one name", file=str(path), line=above + 1)
     for number, row in enumerate(rows, above + 2):
         if len(row) != len(header):
             raise InputError(f"{path}:{number}: {len(row)} cells where the header has {len(header)}", file=str(path), line=number)
@@ -55,43 +71,58 @@ def read_table(path):
 
 
 def _read_json(path):
+    """The object of a JSON file."""
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except ValueError as error:
+        read = json.loads(_read_text(path))
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: damaged: {error}") from None
+    if not isinstance(read, dict):
+        raise InputError(f"{path}: damaged: no object")
+    return read
 
 
 class Frames:
     """A series of frames, such as specimen.pvd: `times` (s); frames[k] reads frame k, frames.at(time) the nearest one."""
 
     def __init__(self, path):
-        self.path = Path(path)
+        self.path = Path(path_text(path, "path"))
         self._frames = vtu.read_pvd(path)
         self.times = numpy.array([time for time, _ in self._frames])
 
     def __len__(self):
         return len(self._frames)
 
+    def _files(self, k):
+        """Of frame k, from the end where it is negative."""
+        if isinstance(k, bool) or not isinstance(k, numbers.Integral):
+            raise InputError(f"{self.path}: frame {k!r}. Allowed: a whole number")
+        if not -len(self) <= k < len(self):
+            raise MissingError(f"{self.path}: no frame {k}: there are {len(self)}")
+        return self._frames[k][1]
+
     def __getitem__(self, k):
-        files = self._frames[k][1]
-        grids = [grid for file in files for grid in _pieces(file)]
+        grids = self.parts(k)
         return grids[0] if len(grids) == 1 else _joined(grids)
 
     def parts(self, k):
         """The grids of frame k one by one: of platens.pvd each platen."""
-        return [grid for file in self._frames[k][1] for grid in _pieces(file)]
+        return [grid for file in self._files(k) for grid in _pieces(file)]
 
     def at(self, time):
+        """The frame nearest to a time (s)."""
+        if isinstance(time, bool) or not isinstance(time, numbers.Real) or not math.isfinite(time):
+            raise InputError(f"{self.path}: time = {time!r}. Allowed: a finite number of seconds")
+        if len(self) == 0:
+            raise MissingError(f"{self.path}: no frame is there")
         return self[int(numpy.abs(self.times - time).argmin())]
 
     def to_pyvista(self, k):
         """A pyvista.UnstructuredGrid of frame k. ImportError where PyVista is not installed."""
         import pyvista
 
-        files = self._frames[k][1]
-        grids = [pyvista.read(str(file)) for file in files]
+        grids = [pyvista.read(str(file)) for file in self._files(k)]
         return grids[0] if len(grids) == 1 else pyvista.MultiBlock(grids).combine()
 
 
@@ -102,10 +133,12 @@ def _pieces(file):
     from xml.etree import ElementTree
 
     try:
-        pieces = ElementTree.fromstring(file.read_bytes()).findall("PUnstructuredGrid/Piece")
+        sources = [piece.get("Source") for piece in ElementTree.fromstring(file.read_bytes()).findall("PUnstructuredGrid/Piece")]
     except (OSError, ElementTree.ParseError) as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
-    return [vtu.read(file.parent / piece.get("Source")) for piece in pieces]
+    if not sources or None in sources:
+        raise InputError(f"{file}: damaged: names no pieces")
+    return [vtu.read(file.parent / source) for source in sources]
 
 
 def _joined(grids):
@@ -128,7 +161,11 @@ def _holds_run(folder):
 
 def runs(folder, pattern="*"):
     """The runs in a folder by name, in order, of those whose name fits the pattern: {"dry_1": platen.Run, ...}."""
-    return {path.name: Run(path) for path in sorted(Path(folder).glob(pattern)) if _holds_run(path)}
+    try:
+        paths = sorted(Path(path_text(folder, "folder")).glob(pattern))
+    except (AttributeError, NotImplementedError, TypeError, ValueError) as error:
+        raise error if isinstance(error, InputError) else InputError(f"pattern = {pattern!r}. Allowed: a name with * and ?") from None
+    return {path.name: Run(path) for path in paths if _holds_run(path)}
 
 
 class Run:
@@ -145,7 +182,7 @@ class Run:
     _series = ("specimen", "bonds", "platens", "contacts", "sleeve")
 
     def __init__(self, folder):
-        self.folder = Path(folder)
+        self.folder = Path(path_text(folder, "folder"))
         if not self.folder.is_dir():
             raise InputError(f"{self.folder}: no folder")
         self._read = {}
@@ -170,7 +207,7 @@ class Run:
     @property
     def scene(self):
         """Every parameter as used: the text of scene.prm."""
-        return (self.folder / "scene.prm").read_text(encoding="utf-8")
+        return _read_text(self.folder / "scene.prm")
 
     def __getattr__(self, name):
         if name in Run._tables:
@@ -188,14 +225,21 @@ class Run:
     def stress(self):
         """Pa, mean of both platens that load, one a row of the history; compression positive."""
         axis = self.summary.get("loaded_axis", "z") if (self.folder / "summary.json").is_file() else "z"
-        sides = {"x": ("stress_left_pa", "stress_right_pa"), "y": ("stress_front_pa", "stress_back_pa"),
-                 "z": ("axial_stress_top_pa", "axial_stress_bottom_pa")}[axis]
+        all_sides = {"x": ("stress_left_pa", "stress_right_pa"), "y": ("stress_front_pa", "stress_back_pa"),
+                     "z": ("axial_stress_top_pa", "axial_stress_bottom_pa")}
+        sides = all_sides.get(axis) if isinstance(axis, str) else None
+        if sides is None:
+            raise InputError(f"{self.folder / 'summary.json'}: damaged: loaded_axis is {axis!r}. Allowed: x, y, z")
         return 0.5 * (self.history[sides[0]] + self.history[sides[1]])
 
     @property
     def peak_time(self):
-        """s, of the largest stress by size."""
-        return float(self.history["time_s"][int(numpy.abs(self.stress).argmax())])
+        """s, of the largest stress by size. InputError where a stress of the history is no finite number, or there is none."""
+        stress = self.stress
+        if len(stress) == 0 or not numpy.isfinite(stress).all():
+            raise InputError(f"{self.folder / 'history.csv'}: no peak: " +
+                             ("no rows" if len(stress) == 0 else f"row {int(numpy.argmin(numpy.isfinite(stress)))} has no stress"))
+        return float(self.history["time_s"][int(numpy.abs(stress).argmax())])
 
     def __repr__(self):
         return f"platen.Run({str(self.folder)!r})"
@@ -206,7 +250,7 @@ class Study:
     (study.json), runs[name]. Files are read when they are asked for, and kept."""
 
     def __init__(self, folder):
-        self.folder = Path(folder)
+        self.folder = Path(path_text(folder, "folder"))
         if not (self.folder / "study.csv").is_file() and not (self.folder / "study.json").is_file():
             raise InputError(f"{self.folder}: holds no study: neither study.csv nor study.json is there")
 

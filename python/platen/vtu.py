@@ -1,5 +1,6 @@
 """Reads the VTU files of a run into numpy arrays; needs no VTK."""
 import base64
+import math
 import re
 import zlib
 from pathlib import Path
@@ -7,7 +8,7 @@ from xml.etree import ElementTree
 
 import numpy
 
-from .errors import InputError
+from .errors import InputError, path_text
 
 _TYPES = {"Float64": "f8", "Float32": "f4", "Int64": "i8", "Int32": "i4", "Int8": "i1", "UInt8": "u1", "UInt32": "u4",
           "UInt64": "u8", "Int16": "i2", "UInt16": "u2"}
@@ -22,8 +23,16 @@ class Grid:
         self.connectivity, self.offsets = connectivity, offsets
 
     def lines(self):
-        """Both ends of each cell, n x 2; for grids of lines."""
+        """Both ends of each cell, n x 2; InputError for a grid whose cells are no lines."""
+        if not numpy.array_equal(self.offsets, 2 * numpy.arange(1, len(self.offsets) + 1)):
+            raise InputError("the cells of this grid are no lines: they have other numbers of points than 2")
         return self.connectivity.reshape(-1, 2)
+
+
+def _slice(data, first, last):
+    if not 0 <= first <= last <= len(data):
+        raise ValueError("an array reaches beyond the file")
+    return data[first:last]
 
 
 class _Arrays:
@@ -40,11 +49,11 @@ class _Arrays:
         width = self.header.itemsize
         if not self.compressed:
             size = self._numbers(data, at, 1)[0]
-            return data[at + width : at + width + size]
+            return _slice(data, at + width, at + width + size)
         blocks = self._numbers(data, at, 1)[0]
         sizes = self._numbers(data, at + 3 * width, blocks) if blocks > 0 else []
         ends = at + (3 + blocks) * width + numpy.cumsum([0, *sizes])
-        return b"".join(zlib.decompress(data[first:last]) for first, last in zip(ends, ends[1:]))
+        return b"".join(zlib.decompress(_slice(data, first, last)) for first, last in zip(ends, ends[1:]))
 
     def _from_base64(self, text):
         """Sizes of compressed blocks are encoded by themselves, before the blocks."""
@@ -73,9 +82,25 @@ class _Arrays:
         return {} if element is None else {a.get("Name"): self.array(a) for a in element}
 
 
+def _require_whole(grid):
+    """ValueError where arrays do not go together."""
+    points, cells = len(grid.points), len(grid.offsets)
+    for name, values in grid.point_data.items():
+        if len(values) != points:
+            raise ValueError(f"{name} has {len(values)} rows for {points} points")
+    for name, values in grid.cell_data.items():
+        if len(values) != cells:
+            raise ValueError(f"{name} has {len(values)} rows for {cells} cells")
+    ends = numpy.concatenate([[0], grid.offsets])
+    if (numpy.diff(ends) < 0).any() or ends[-1] != len(grid.connectivity):
+        raise ValueError("offsets do not cut the connectivity into cells")
+    if len(grid.connectivity) > 0 and not (0 <= grid.connectivity.min() and grid.connectivity.max() < points):
+        raise ValueError("a cell names a point that is not there")
+
+
 def read(path):
     """The grid of a .vtu file. InputError where it is no such file, or damaged."""
-    path = Path(path)
+    path = Path(path_text(path, "path"))
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -89,21 +114,26 @@ def read(path):
         piece = root.find("UnstructuredGrid/Piece")
         cells = arrays.of(piece.find("Cells"))
         fields = arrays.of(root.find("UnstructuredGrid/FieldData"))
-        return Grid(arrays.array(piece.find("Points")[0]), arrays.of(piece.find("PointData")), arrays.of(piece.find("CellData")),
+        grid = Grid(arrays.array(piece.find("Points")[0]), arrays.of(piece.find("PointData")), arrays.of(piece.find("CellData")),
                     {name: float(value[0]) for name, value in fields.items() if value.size == 1}, cells["connectivity"],
                     cells["offsets"])
-    except (ElementTree.ParseError, KeyError, ValueError, AttributeError, IndexError, TypeError, zlib.error) as error:
+        _require_whole(grid)
+        return grid
+    except (OverflowError, ElementTree.ParseError, KeyError, ValueError, AttributeError, IndexError, TypeError, zlib.error) as error:
         raise InputError(f"{path}: no VTU file, or damaged: {error}") from None
 
 
 def read_pvd(path):
     """Time (s) and files of each frame that a .pvd lists, by time."""
-    path = Path(path)
+    path = Path(path_text(path, "path"))
     try:
         entries = ElementTree.fromstring(path.read_bytes()).findall("Collection/DataSet")
         frames = {}
         for entry in entries:
-            frames.setdefault(float(entry.get("timestep")), []).append(path.parent / entry.get("file"))
+            time = float(entry.get("timestep"))
+            if not math.isfinite(time):
+                raise ValueError(f"a frame at {time} s")
+            frames.setdefault(time, []).append(path.parent / entry.get("file"))
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except (ElementTree.ParseError, TypeError, ValueError) as error:
