@@ -12,6 +12,7 @@
 #include "apps/run/model_setup.h"
 #include "apps/run/packing_cache.h"
 #include "apps/run/specimen_setup.h"
+#include "apps/scene/expect.h"
 
 namespace platen::apps {
 namespace {
@@ -197,9 +198,10 @@ int BarRun::carry_out() {
         "{} bonds broke: the bar is not the one that strength of materials speaks of; a smaller Bar "
         "test/Strain keeps it whole",
         results_.broken_tension + results_.broken_shear);
-  const Json summary = summary_of(scene_, results_, signal_ != 0 ? "stopped" : "done");
+  Json summary = summary_of(scene_, results_, signal_ != 0 ? "stopped" : "done");
   const std::string report = report_of(results_);
   if (signal_ != 0) {
+    summary["expectations"] = unchecked_expectations(scene_, "the test has not come to its end");
     output_.save(summary);
     output_.log.info("{}\nstopped by a signal; a bar test keeps no checkpoint", report);
     return exit_status_of_signal(signal_);

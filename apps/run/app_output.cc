@@ -17,6 +17,15 @@
 namespace platen::apps {
 namespace {
 
+// What options of the command line have set to another text than the scene file has.
+Json overridden(const Scene &scene) {
+  Json list = Json::array();
+  for (const Entry &entry : scene.parameters->entries())
+    if (entry.overridden())
+      list.push_back({{"entry", entry.path}, {"value", entry.text}, {"in_scene_file", entry.of_file}});
+  return list;
+}
+
 void clear(Json &summary, std::initializer_list<const char *> keys) {
   for (const char *unmeasured : keys)
     summary[unmeasured] = TestFigures::none;
@@ -115,20 +124,27 @@ void AppOutput::save(Json summary) const {
   write_summary(paths.summary(), summary);
 }
 
-int AppOutput::finish(const Json &summary, const std::string &report) {
+int AppOutput::finish(Json summary, const std::string &report) {
+  summary["expectations"] = check_expectations(scene_, summary).list;
   save(summary);
   log.info("{}", report);
   return tell_expectations(summary);
 }
 
 int AppOutput::tell_expectations(const Json &summary) {
-  const ExpectationCheck check = check_expectations(scene_, summary);
-  for (const std::string &line : check.failed)
-    log.error("expected: {}", line);
-  if (!check.unchecked.empty())
-    log.info("expected, but measured by another app and not checked here: {}",
-             fmt::join(check.unchecked, ", "));
-  return check.failed.empty() ? status_done : status_check_failed;
+  bool all_met = true;
+  std::vector<std::string> unchecked;
+  for (const Json &one : summary.at("expectations")) {
+    if (one.at("met").is_null())
+      unchecked.push_back(one.at("entry").get<std::string>().substr(std::string("Expect/").size()));
+    else if (!one.at("met").get<bool>()) {
+      log.error("expected: {}", one.at("reason").get<std::string>());
+      all_met = false;
+    }
+  }
+  if (!unchecked.empty())
+    log.info("expected, but measured by another app and not checked here: {}", fmt::join(unchecked, ", "));
+  return all_met ? status_done : status_check_failed;
 }
 
 Json summary_head(const Scene &scene, const std::string &app, const std::string &status,
@@ -137,6 +153,8 @@ Json summary_head(const Scene &scene, const std::string &app, const std::string 
   s["status"] = status;
   s["app"] = app;
   s["scene"] = title_of(scene);
+  s["scene_file"] = scene.path;
+  s["overridden"] = overridden(scene);
   s["version"] = version_line();
   s["effects"] = effects;
   return s;

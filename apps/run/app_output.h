@@ -46,10 +46,11 @@ public:
   void lead_on();
   // Writes summary.json, with the SHA-256 of the scene as run and of the files that it names.
   void save(Json summary) const;
-  // Does so, says `report`, and checks what the scene expects; returns the exit status.
-  int finish(const Json &summary, const std::string &report);
-  // Tells each expectation that does not hold, and those that another app would have to check; returns the
-  // exit status, status_done or status_check_failed.
+  // Checks what the scene expects, writes the summary with the verdicts, says `report`; returns the exit
+  // status.
+  int finish(Json summary, const std::string &report);
+  // Tells each expectation of a summary's `expectations` that is not met, and those that another app would
+  // have to check; returns the exit status, status_done or status_check_failed.
   int tell_expectations(const Json &summary);
 
   // Of a run that writes no more: the folder is free for another one.

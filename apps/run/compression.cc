@@ -15,6 +15,7 @@
 #include "apps/run/quasi_static.h"
 #include "apps/run/ranks.h"
 #include "apps/scene/errors.h"
+#include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/rank.h"
 #include "apps/scene/shell.h"
@@ -191,6 +192,7 @@ int CompressionRun::end() {
   ending_ = true;
   results_.finish(*test_, event_window());
   finish_files();
+  if (signal_ == 0 && finished()) expectations_ = check_expectations(scene_, summary("done")).list;
   save_summary(signal_ != 0 ? "stopped" : "done");
   log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
   tell_doubts();

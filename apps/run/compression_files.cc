@@ -9,6 +9,7 @@
 #include "apps/run/ranks.h"
 #include "apps/run/run_state.h"
 #include "apps/run/specimen_setup.h"
+#include "apps/scene/expect.h"
 #include "apps/scene/surfaces.h"
 #include "base/pi.h"
 #include "dem/measure/stress.h"
@@ -36,7 +37,7 @@ std::string text_of_cover(const coupling::PlatenTest &test) {
   std::vector<std::string> covers;
   for (const coupling::Side side : coupling::all_sides)
     if (const auto cover = test.cover(side))
-      covers.push_back(fmt::format("{} {:.1f} mm x {:.1f} mm, facing {:.2f} of the end",
+      covers.push_back(fmt::format("{} {:.4g} mm x {:.4g} mm, facing {:.2f} of the end",
                                    coupling::name_of(side), 1e3 * cover->extent[0], 1e3 * cover->extent[1],
                                    cover->facing));
   return covers.empty() ? "" : fmt::format("  platens: {}\n", fmt::join(covers, "; "));
@@ -226,6 +227,9 @@ void CompressionRun::save_summary(const std::string &status) {
 Json CompressionRun::summary(const std::string &status) const {
   Json made = summary_of_run(status, scene_, *test_, results_, costs());
   if (!changes_.empty()) made["changes"] = changes_;
+  made["expectations"] = expectations_.is_null()
+                             ? unchecked_expectations(scene_, "the test has not come to its end")
+                             : expectations_;
   return made;
 }
 

@@ -116,6 +116,7 @@ private:
   bool checkpoint_asked_ = false, failed_ = false, ending_ = false;
   bool tells_cut_ = false;       // once, after the first steps on ranks
   Json changes_ = Json::array(); // on the way
+  Json expectations_;            // as summary.json has them, once the test has come to its end; else null
   std::function<void(const Sample &)> listener_;
 };
 

@@ -178,6 +178,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["bonds"] = model.bonds ? model.bonds->initial_count() : 0;
   s["coordination_number"] = problem.coordination_number();
   s["packing_fraction"] = problem.facts().packing_fraction;
+  s["mean_radius_m"] = problem.facts().mean_radius;
   if (const Tiling tiling = tiling_of(scene, problem.shape()); tiling.tiles > 0) {
     s["tiles"] = tiling.tiles;
     s["tile_period_m"] = tiling.period;

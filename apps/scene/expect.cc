@@ -52,6 +52,14 @@ std::string fault_of_word(const Expectation &expected, const Json &found, const 
          (expected.words.size() > 1 ? "one of " : "") + expected.text;
 }
 
+Json listed(const Expectation &expected, const Json &value, const Json &met, const std::string &reason) {
+  return {{"entry", "Expect/" + expected.key},
+          {"range", expected.text},
+          {"value", value},
+          {"met", met},
+          {"reason", reason.empty() ? Json() : Json(reason)}};
+}
+
 } // namespace
 
 ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
@@ -59,6 +67,7 @@ ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
   for (const Expectation &expected : scene.expect) {
     if (!summary.contains(expected.key.substr(0, expected.key.find('/')))) {
       check.unchecked.push_back(expected.key);
+      check.list.push_back(listed(expected, nullptr, nullptr, "measured by another app"));
       continue;
     }
     const Json::json_pointer path("/" + expected.key);
@@ -67,8 +76,16 @@ ExpectationCheck check_expectations(const Scene &scene, const Json &summary) {
     const std::string fault = expected.words.empty() ? fault_of_number(expected, number, summary)
                                                      : fault_of_word(expected, found, summary);
     if (!fault.empty()) check.failed.push_back(fault);
+    check.list.push_back(listed(expected, found, fault.empty(), fault));
   }
   return check;
+}
+
+Json unchecked_expectations(const Scene &scene, const std::string &reason) {
+  Json list = Json::array();
+  for (const Expectation &expected : scene.expect)
+    list.push_back(listed(expected, nullptr, nullptr, reason));
+  return list;
 }
 
 } // namespace platen::apps

@@ -299,6 +299,7 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
                          reason + (about.empty() ? "" : " Allowed: " + about + "."),
                      origin, path);
   }
+  if (entry.origin.option == 0) entry.of_file = entry.text;
   entry.text = value;
   entry.origin = origin;
 }

@@ -33,8 +33,12 @@ struct Entry {
   std::vector<std::function<std::string(const Situation &)>> idle, needed;
   std::vector<std::string> members; // of the library's structs that it sets, "BondLayout.modulus"
 
-  std::string text; // as used
-  Origin origin;    // of text
+  std::string text;    // as used
+  Origin origin;       // of text
+  std::string of_file; // where an option has set it: the text without that option
+
+  // Whether an option has set it to another text than the scene file has.
+  bool overridden() const { return origin.option > 0 && text != of_file; }
 
   bool changed() const { return text != default_text; }
 };

@@ -161,7 +161,7 @@ int make_planned_run(const CommandLine &command, const PlannedStudy &study, RunL
   }
   std::error_code ignored;
   fs::remove(record, ignored);
-  const bool missed = !tell_outcome(study.scene, study.plan.kind, head, run, outcome, log).empty();
+  const bool missed = !missed_in(tell_outcome(study.scene, study.plan.kind, head, run, outcome, log)).empty();
   return missed ? status_check_failed : status_done;
 }
 

@@ -10,11 +10,32 @@
 
 namespace platen::apps {
 
-std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const std::string &head,
-                                      const StudyRun &run, const RunOutcome &outcome, RunLog &log) {
+namespace {
+
+Json named(const std::string &run, const Json &expectations) {
+  Json list = Json::array();
+  for (const Json &one : expectations) {
+    list.push_back({{"run", run}});
+    list.back().update(one);
+  }
+  return list;
+}
+
+} // namespace
+
+std::vector<std::string> missed_in(const Json &expectations) {
+  std::vector<std::string> missed;
+  for (const Json &one : expectations)
+    if (one.at("met") == false)
+      missed.push_back(one.at("run").get<std::string>() + ": " + one.at("reason").get<std::string>());
+  return missed;
+}
+
+Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const StudyRun &run,
+                  const RunOutcome &outcome, RunLog &log) {
   if (!outcome.done) {
     log.warning("{}: {}, {}", head, word(outcome), outcome.reason);
-    return {};
+    return named(run.name, unchecked_expectations(scene, std::string("the run is ") + word(outcome)));
   }
   log.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
@@ -22,12 +43,10 @@ std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const 
   if (compared && !StudyTables::peaked(outcome.summary))
     log.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
                 run.name);
-  std::vector<std::string> missed;
-  for (const std::string &line : check_expectations(scene, outcome.summary).failed) {
-    missed.push_back(run.name + ": " + line);
-    log.error("expected: {}", missed.back());
-  }
-  return missed;
+  Json expectations = named(run.name, check_expectations(scene, outcome.summary).list);
+  for (const std::string &line : missed_in(expectations))
+    log.error("expected: {}", line);
+  return expectations;
 }
 
 StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
@@ -39,11 +58,11 @@ StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std:
       log_(log),
       tables_(plan, paths),
       accuracy_(plan),
-      missed_(runs.size()) {}
+      expectations_(runs.size()) {}
 
 void StudyResults::tell(std::size_t k, const RunOutcome &outcome, std::size_t ended) {
   const std::string head = fmt::format("  {} of {}  {}", ended, runs_.size(), runs_[k].name);
-  missed_[k] = tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_);
+  expectations_[k] = tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_);
 }
 
 void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
@@ -90,9 +109,11 @@ int StudyResults::finish(const Json &costs) {
   write_summary(paths_.study_json(), study);
   Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
   s.update(study);
-  std::vector<std::string> missed;
-  for (const std::vector<std::string> &of_run : missed_)
-    missed.insert(missed.end(), of_run.begin(), of_run.end());
+  s["expectations"] = Json::array();
+  for (const Json &of_run : expectations_)
+    for (const Json &one : of_run)
+      s["expectations"].push_back(one);
+  const std::vector<std::string> missed = missed_in(s["expectations"]);
   s["missed"] = missed;
   s.update(costs);
   s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");

@@ -13,9 +13,12 @@
 
 namespace platen::apps {
 
-// Says what came of a run, after `head`, and which numbers that the scene expects it missed; returns those.
-std::vector<std::string> tell_outcome(const Scene &scene, StudyKind kind, const std::string &head,
-                                      const StudyRun &run, const RunOutcome &outcome, RunLog &log);
+// Says what came of a run, after `head`, and which numbers that the scene expects it missed. Returns what the
+// scene expects of it, as its summary would have it (apps/scene/expect.h), each with the name of the `run`.
+Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const StudyRun &run,
+                  const RunOutcome &outcome, RunLog &log);
+// "NAME: why" of each of them that is not met.
+std::vector<std::string> missed_in(const Json &expectations);
 
 class StudyResults {
 public:
@@ -43,7 +46,7 @@ private:
   RunLog &log_;
   StudyTables tables_;
   Accuracy accuracy_;
-  std::vector<std::vector<std::string>> missed_; // of what the scene expects, by run
+  std::vector<Json> expectations_; // by run
 };
 
 } // namespace platen::apps

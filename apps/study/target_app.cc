@@ -57,8 +57,8 @@ int status_of(const TargetStudy &study, const std::vector<std::string> &missed) 
   }
 }
 
-void write_results(const TargetStudy &study, const StudyTables &tables,
-                   const std::vector<std::string> &missed, const Json &costs) {
+void write_results(const TargetStudy &study, const StudyTables &tables, const Json &expectations,
+                   const Json &costs) {
   const Scene &scene = study.setup().scene;
   const OutputPaths &paths = study.setup().paths;
   const Json json =
@@ -66,7 +66,8 @@ void write_results(const TargetStudy &study, const StudyTables &tables,
   write_summary(paths.study_json(), json);
   Json s = summary_head(scene, "platen-study", json["status"], effects_on(scene, AppKind::study));
   s.update(json);
-  s["missed"] = missed;
+  s["expectations"] = expectations;
+  s["missed"] = missed_in(expectations);
   s.update(costs);
   s["scene_sha256"] = sha256_of_file(paths.scene()).value_or("");
   s["inputs_sha256"] = input_sums(scene);
@@ -124,20 +125,20 @@ int make_target(const TargetSetup &setup, RunLog &log, const std::function<Json(
   TargetStudy study(setup);
   StudyTables tables(setup.plan, setup.paths);
   const Expecting expecting(setup.scene, target_cases(setup.scene));
-  std::vector<std::string> missed;
+  Json expectations = Json::array();
   const auto carry = [&](const std::vector<StudyRun> &batch) {
     carry_out(batch, setup.threads, log, [&](std::size_t k, const RunOutcome &outcome) {
       study.add(k, outcome);
       tables.add(batch[k], outcome);
       const std::string head = fmt::format("  {}  {}", study.figures().made(), batch[k].name);
-      for (std::string &line :
+      for (const Json &one :
            tell_outcome(expecting.of(batch[k]), setup.plan.kind, head, batch[k], outcome, log))
-        missed.push_back(std::move(line));
+        expectations.push_back(one);
     });
     return true;
   };
   study.work(carry, [&] { log.info("{}", look_text(study)); });
-  write_results(study, tables, missed, summary_costs());
+  write_results(study, tables, expectations, summary_costs());
   log.info("{}{}", tables.text(), text_of(study));
   if (tables.failed() > 0) log.warning("{} of {} runs failed", tables.failed(), study.figures().made());
   log.info("results are in {}", setup.paths.folder.string());
@@ -146,7 +147,7 @@ int make_target(const TargetSetup &setup, RunLog &log, const std::function<Json(
   if (study.decision().verdict == Verdict::out_of_runs)
     log.error("the accuracy of {:.2g} % was not reached: {}", 100 * setup.scene.study.target.accuracy,
               estimate_text(study, *study.decision().estimate, study.decision().half));
-  return status_of(study, missed);
+  return status_of(study, missed_in(expectations));
 }
 
 } // namespace platen::apps

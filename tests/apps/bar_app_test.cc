@@ -121,6 +121,9 @@ TEST_F(BarApp, expectations_decide_the_exit_status) {
   wrong.back() = "Expect/tension/static_error = 0.5 ... 0.6";
   EXPECT_EQ(run("a", quick).status, 0);
   EXPECT_EQ(run("b", wrong).status, 1);
+  EXPECT_EQ(summary("a")["expectations"][0]["met"], true);
+  EXPECT_EQ(summary("b")["expectations"][0]["met"], false);
+  EXPECT_EQ(summary("b")["expectations"][0]["value"], summary("b")["tension"]["static_error"]);
   EXPECT_FALSE(summary("a")["tension"].contains("frequency_hz"));
   EXPECT_TRUE(summary("a")["energy_residual_relative"].is_null());
 }

@@ -103,6 +103,13 @@ TEST_F(PackApp, checks_the_numbers_that_are_its_own) {
             std::string::npos);
   EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.3 ... 0.6"}), "own"), status_done);
   EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.7 ..."}), "missed"), status_check_failed);
+  EXPECT_EQ(summary("own")["expectations"][0]["met"], true);
+  EXPECT_EQ(summary("others")["expectations"][0]["met"], nullptr);
+  const auto missed = summary("missed")["expectations"][0];
+  EXPECT_EQ(missed["entry"], "Expect/packing_fraction");
+  EXPECT_EQ(missed["range"], "0.7 ...");
+  EXPECT_EQ(missed["value"], summary("missed")["packing_fraction"]);
+  EXPECT_EQ(missed["met"], false);
 }
 
 TEST_F(PackApp, judges_what_it_packs) {

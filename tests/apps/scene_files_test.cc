@@ -291,6 +291,51 @@ TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
   EXPECT_NE(failures(40e6, not_given)[0].find("cone_top/half_angle_deg was not measured"), std::string::npos);
 }
 
+TEST_F(SceneFiles, what_is_expected_is_listed_with_range_value_and_whether_it_is_met) {
+  const Scene scene = read("a.prm", concrete, {"Expect/particles = 1 ...", "Expect/pattern = cones"});
+  const nlohmann::ordered_json summary{
+      {"strength_pa", 51e6}, {"cone_top", {{"half_angle_deg", 16}}}, {"particles", nullptr}};
+  const auto list = check_expectations(scene, summary).list;
+  ASSERT_EQ(list.size(), 4u);
+  const auto of = [&](const char *entry) {
+    for (const auto &one : list)
+      if (one["entry"] == entry) return one;
+    return nlohmann::ordered_json();
+  };
+  EXPECT_EQ(of("Expect/strength_pa")["range"], "35 MPa ... 50 MPa");
+  EXPECT_EQ(of("Expect/strength_pa")["value"], 51e6);
+  EXPECT_EQ(of("Expect/strength_pa")["met"], false);
+  EXPECT_NE(of("Expect/strength_pa")["reason"].get<std::string>().find("a.prm:31: strength_pa"),
+            std::string::npos);
+  EXPECT_EQ(of("Expect/cone_top/half_angle_deg")["met"], true);
+  EXPECT_EQ(of("Expect/cone_top/half_angle_deg")["reason"], nullptr);
+  EXPECT_EQ(of("Expect/particles")["met"], false); // measured by this app, and null
+  EXPECT_EQ(of("Expect/particles")["value"], nullptr);
+  EXPECT_EQ(of("Expect/pattern")["met"], nullptr); // of another app
+  EXPECT_EQ(of("Expect/pattern")["reason"], "measured by another app");
+  for (const auto &one : unchecked_expectations(scene, "it was stopped")) {
+    EXPECT_EQ(one["met"], nullptr);
+    EXPECT_EQ(one["value"], nullptr);
+    EXPECT_EQ(one["reason"], "it was stopped");
+  }
+  EXPECT_EQ(unchecked_expectations(scene, "it was stopped").size(), 4u);
+}
+
+// What an option sets to the text of the file is as the file has it; a later option does not hide the file's.
+TEST_F(SceneFiles, what_an_option_changes_is_known_with_what_the_file_has) {
+  const Scene scene = read("a.prm", concrete,
+                           {"Expect/strength_pa = 1 MPa ... 2 MPa", "Scene/Seed = 8", "Scene/Seed = 9",
+                            "Expect/cone_top/half_angle_deg = 16 ..."});
+  const auto &entry = scene.parameters->at("Expect/strength_pa");
+  EXPECT_TRUE(entry.overridden());
+  EXPECT_EQ(entry.of_file, "35 MPa ... 50 MPa");
+  EXPECT_TRUE(scene.parameters->at("Scene/Seed").overridden());
+  EXPECT_NE(scene.parameters->at("Scene/Seed").of_file, "8");
+  EXPECT_FALSE(scene.parameters->at("Expect/cone_top/half_angle_deg").overridden());
+  for (const Entry &one : read("b.prm", concrete).parameters->entries())
+    EXPECT_FALSE(one.overridden()) << one.path;
+}
+
 TEST_F(SceneFiles, an_expected_word_is_one_of_those_given) {
   const Scene scene = read(
       "a.prm", concrete,

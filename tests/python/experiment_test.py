@@ -235,12 +235,16 @@ class Closing(InFolder):
         early.advance(samples=3)
         self.assertEqual(early.end().summary["ended_by"], "script")
         self.assertIsNone(early.expected)
+        (unchecked,) = early.summary["expectations"]
+        self.assertEqual((unchecked["entry"], unchecked["value"], unchecked["met"]), ("Expect/strength_pa", None, None))
         log = (self.folder / "early" / "run.log").read_text()
         self.assertNotIn("expected:", log)
         self.assertIn("ended before its target: what the scene expects is not checked", log)
         whole = platen.Experiment(CRUSHED, set=expecting, output=self.folder / "whole")
         self.assertEqual(whole.run().summary["ended_by"], "target")
         self.assertIs(whole.expected, False)
+        self.assertIs(platen.Run(whole.folder).summary["expectations"][0]["met"], False)
+        self.assertIs(whole.summary["expectations"][0]["met"], False)
         self.assertIn("error: expected: ", (self.folder / "whole" / "run.log").read_text())
 
     def test_a_folder_is_free_again_after_the_end(self):
