@@ -8,6 +8,7 @@
 
 #include "apps/io/seed_statistics.h"
 #include "apps/report/chart.h"
+#include "apps/report/head.h"
 #include "apps/report/platen_study.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
@@ -136,6 +137,7 @@ AccuracyResults read_accuracy(const std::filesystem::path &folder) {
   const Json study = finished_study(folder);
   AccuracyResults results;
   results.title = title_of_study(folder);
+  results.folder = folder;
   try {
     for (const Json &one : study.at("accuracy"))
       results.parameters.push_back(parameter_of(one));
@@ -175,6 +177,7 @@ TableOfFigures table_of_accuracy(const AccuracyResults &study) {
 void write_accuracy_report(const AccuracyResults &study, const std::filesystem::path &folder,
                            std::ostream &out) {
   Album album(folder);
+  add_head(study.folder, album);
   album.begin("");
   for (std::size_t first = 0; first < accuracy_measures; first += 2) {
     std::vector<Chart> charts;

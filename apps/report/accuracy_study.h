@@ -36,6 +36,7 @@ struct AccuracyResults {
   std::string title;
   std::vector<AccuracyParameter> parameters;
   std::vector<std::string> remarks; // what accuracy costs, and what failed
+  std::filesystem::path folder; // that it was read from
 };
 
 // Throws InputError where study.json is missing, damaged, of another study or of one that has not ended.

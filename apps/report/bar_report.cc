@@ -10,6 +10,7 @@
 
 #include "apps/report/bars.h"
 #include "apps/report/csv.h"
+#include "apps/report/head.h"
 
 namespace platen::apps::report {
 namespace {
@@ -114,6 +115,7 @@ void write_bar_report(const fs::path &folder, const fs::path &pictures,
   const TableOfFigures figures = table_of_bar(summary);
   ensure_display();
   Album album(pictures);
+  add_head(folder, album);
   album.begin("Against strength of materials");
   if (!figures.rows.empty())
     album.add("bar.png", "What was measured over what strength of materials gives for the same bar.",

@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "apps/report/csv.h"
+#include "apps/report/head.h"
 
 namespace platen::apps::report {
 namespace {
@@ -117,6 +118,7 @@ void write_bonds_report(const fs::path &folder, const fs::path &pictures,
   }
   ensure_display();
   Album album(pictures);
+  add_head(folder, album);
   album.begin("Load and way");
   if (table.rows > 0)
     album.add("bonds.png", "Load against way of each run, and by hand.", draw_bond_paths, title, table);

@@ -9,6 +9,7 @@
 #include "apps/report/bars.h"
 #include "apps/report/chart.h"
 #include "apps/report/csv.h"
+#include "apps/report/head.h"
 #include "apps/report/report.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
@@ -54,7 +55,8 @@ TableOfFigures table_of_targets(const Json &summary) {
 }
 
 std::string title_of(const fs::path &folder) {
-  return summary_of(folder).value("scene", folder.filename().string());
+  const Json summary = summary_of(folder);
+  return true_title(summary.value("scene", folder.filename().string()), folder, summary);
 }
 
 bool has_targets(const Json &summary) {
@@ -122,6 +124,7 @@ void draw_targets(const fs::path &folder, const fs::path &png) {
 void write_calibration_report(const fs::path &folder, const fs::path &pictures, std::ostream &out) {
   const Json summary = summary_of(folder);
   Album album(pictures);
+  add_head(folder, album);
   std::vector<std::string> remarks;
   album.begin("Targets");
   if (has_targets(summary))

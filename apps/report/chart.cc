@@ -115,9 +115,10 @@ std::vector<Tick> axis_ticks(std::array<double, 2> range, int intervals, Sign si
   const std::vector<double> round = round_ticks(range[0], range[1], intervals);
   const double step = round.size() > 1 ? round[1] - round[0] : 1;
   const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  const double slack = 1e-9 * step; // a tick on the border but for rounding is within
   std::vector<Tick> ticks;
   for (const double tick : round)
-    if (tick >= range[0] - 1e-9 && tick <= range[1] + 1e-9)
+    if (tick >= range[0] - slack && tick <= range[1] + slack)
       ticks.push_back({tick, fmt::format("{:.{}f}", sign == Sign::dropped ? std::abs(tick) : tick, digits)});
   return ticks;
 }

@@ -31,8 +31,8 @@ enum class ConeKind { by_displacement, by_damage };
 FittedCone cone_of(const Run &run, ConeKind kind, Side end, ConeTime time);
 
 // Angle (rad) about the specimen's axis of the plane through it that the apexes and axes of the cones lie
-// nearest to; 0 without cones.
-double angle_of_axes(const std::vector<FittedCone> &cones);
+// nearest to, an axis as far as it reaches over a third of the specimen's `height` (m); 0 without cones.
+double angle_of_axes(const std::vector<FittedCone> &cones, double height);
 // The same cone in a frame that is turned by the angle.
 FittedCone turned(FittedCone cone, double angle);
 Position turned(const Position &place, double angle);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "apps/report/chart.h"
 
@@ -12,15 +11,6 @@ namespace platen::apps::report {
 namespace {
 
 constexpr double ms_per_s = 1e3;
-
-// NaN where the entry is empty or not there.
-double number_of_scene(const Run &run, const std::string &path) {
-  const std::filesystem::path scene = run.folder / "scene.prm";
-  const std::string text = std::filesystem::exists(scene) ? scene_entry(scene, path) : "";
-  char *end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return end == text.c_str() ? std::nan("") : value;
-}
 
 std::string capital(std::string name) {
   name.front() = static_cast<char>(std::toupper(name.front()));
@@ -97,8 +87,9 @@ FrictionState friction_state(const PlatenContacts &contacts) {
 
 FrictionLimits friction_limits(const Run &run, Side side) {
   const auto entry = [&](const std::string &key) {
-    const double own = number_of_scene(run, "Platens/" + capital(coupling::name_of(side)) + "/" + key);
-    return std::isnan(own) ? number_of_scene(run, "Platens/" + key) : own;
+    const double own =
+        number_of_scene(run.folder, "Platens/" + capital(coupling::name_of(side)) + "/" + key, "1");
+    return std::isnan(own) ? number_of_scene(run.folder, "Platens/" + key, "1") : own;
   };
   const double at_rest = entry("Friction static"), sliding = entry("Friction dynamic");
   return {at_rest, std::isnan(sliding) ? at_rest : sliding};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "apps/report/head.h"
 #include "apps/scene/regular_file.h"
 
 namespace platen::apps::report {
@@ -19,7 +20,8 @@ Json summary_of(const fs::path &folder) {
 
 std::string title_of(const Json &summary, const fs::path &folder) {
   const auto told = summary.find("scene");
-  return told != summary.end() && told->is_string() ? told->get<std::string>() : folder.filename().string();
+  if (told == summary.end() || !told->is_string()) return folder.filename().string();
+  return true_title(told->get<std::string>(), folder, summary);
 }
 
 // Numbers of the summary as they stand there: key and value.

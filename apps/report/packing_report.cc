@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "apps/io/specimen_csv.h"
+#include "apps/report/head.h"
 #include "apps/scene/errors.h"
 #include "base/pi.h"
 #include "dem/packing/quality.h"
@@ -89,6 +90,7 @@ void write_pack_report(const fs::path &folder, const fs::path &pictures,
   const std::string title = title_of(summary, folder);
   ensure_display();
   Album album(pictures);
+  add_head(folder, album);
   std::vector<std::string> remarks;
   album.begin("The packing");
   album.add("sizes.png", "How large the spheres are, and how many neighbours they have.", draw_sizes, title,

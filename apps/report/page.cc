@@ -114,7 +114,7 @@ std::string verdict_on(const Run &run, const std::string &key) {
 
 constexpr const char *style_sheet = R"(<style>
 body { font-family: sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #111; background: #fff; }
-table { border-collapse: collapse; } td, th { padding: 0.2rem 1rem; border-bottom: 1px solid #ccc; text-align: right; }
+table { border-collapse: collapse; margin-bottom: 1.5rem; } td, th { padding: 0.2rem 1rem; border-bottom: 1px solid #ccc; text-align: right; }
 td:first-child, th:first-child { text-align: left; padding-left: 0; }
 h2 { margin-top: 3rem; border-bottom: 2px solid #0072b2; } nav { margin: 1rem 0; } a { color: #0072b2; }
 @media (max-width: 40rem) { body { margin: 0.5rem auto; padding: 0 0.6rem; } table { display: block; overflow-x: auto; } td, th { padding: 0.2rem 0.5rem; } }
@@ -247,7 +247,14 @@ std::string Album::Section::html() const {
 
 void Album::finish(const std::string &title, const TableOfFigures &figures,
                    const std::vector<std::string> &remarks, std::ostream &out) const {
-  std::string links, sections, list;
+  std::string links, sections, list, head, head_in_words;
+  for (const Lead &lead : head_) {
+    if (!lead.sentence.empty()) head += "<p><strong>" + escaped(lead.sentence) + "</strong></p>\n";
+    if (!lead.sentence.empty()) head_in_words += lead.sentence + '\n';
+    if (lead.table.rows.empty()) continue;
+    head += html_table(lead.table);
+    head_in_words += as_text(lead.table) + '\n';
+  }
   for (const Section &section : sections_) {
     if (!section.is_empty() && !section.heading.empty())
       links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "<nav>" : " &middot; ",
@@ -261,16 +268,17 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
   write_text_aside(html,
                    fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                                "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                               "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{2}{3}"
+                               "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{6}{2}{3}"
                                "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
-                               escaped(title), style_sheet, links, html_table(figures), list, sections));
+                               escaped(title), style_sheet, links, html_table(figures), list, sections,
+                               head));
   for (const Section &section : sections_)
     for (const Picture &picture : section.pictures)
       for (const char *ending : {".png", ".svg"}) // charts have both
         if (const auto file = std::filesystem::path(picture.file).replace_extension(ending);
             std::filesystem::exists(file))
           out << "drawn: " << file.string() << '\n';
-  out << "page: " << html.string() << "\n\n" << as_text(figures);
+  out << "page: " << html.string() << "\n\n" << head_in_words << as_text(figures);
   for (const Section &section : sections_)
     for (const TableOfFigures &table : section.tables)
       out << '\n' << as_text(table);

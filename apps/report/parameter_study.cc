@@ -9,8 +9,8 @@
 #include <map>
 #include <ostream>
 
-#include "apps/io/numbers.h"
 #include "apps/report/chart.h"
+#include "apps/report/head.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -56,21 +56,9 @@ std::vector<VariedColumn> columns_of(const Json &cases, const std::string &kind)
   return columns;
 }
 
-// "60 mm" or "0.06" of the scene; NaN where it is neither.
-double metres(const std::string &text) {
-  const std::string number = text.substr(0, text.find(' '));
-  const auto value = number_of(number);
-  const double unit = text.size() == number.size()          ? 1
-                      : text.substr(number.size()) == " m"  ? 1
-                      : text.substr(number.size()) == " mm" ? 1e-3
-                      : text.substr(number.size()) == " cm" ? 1e-2
-                                                            : std::nan("");
-  return value ? *value * unit : std::nan("");
-}
-
 // Speeds become rates of strain where the scene tells the height.
 void take_strain_rates(ParameterStudy &study, const fs::path &folder) {
-  const double height = metres(scene_entry(folder / "scene.prm", "Specimen/Height"));
+  const double height = number_of_scene(folder, "Specimen/Height", "m");
   if (study.kind != "rate" || study.columns.empty() || !(height > 0)) return;
   study.columns.front().title = "Axial strain rate (1/s)";
   for (ParameterCase &one : study.cases)
@@ -177,6 +165,7 @@ ParameterStudy read_parameter_study(const fs::path &folder) {
   const Json study = finished_study(folder);
   ParameterStudy results;
   results.title = title_of_study(folder);
+  results.folder = folder;
   try {
     results.kind = study.at("kind");
     const Json &cases = study.at("cases");
@@ -242,6 +231,7 @@ void draw_parameter_study(const ParameterStudy &study, const fs::path &png) {
 
 void write_parameter_report(const ParameterStudy &study, const fs::path &folder, std::ostream &out) {
   Album album(folder);
+  add_head(study.folder, album);
   std::vector<std::string> remarks = study.remarks;
   album.begin("");
   const bool any = std::any_of(study.cases.begin(), study.cases.end(), [](const ParameterCase &one) {

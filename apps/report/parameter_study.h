@@ -30,6 +30,7 @@ struct ParameterStudy {
   std::vector<VariedColumn> columns; // the first is the x axis
   std::vector<ParameterCase> cases;
   std::vector<std::string> remarks;
+  std::filesystem::path folder; // that it was read from
 };
 
 bool is_parameter_study(const std::string &kind);

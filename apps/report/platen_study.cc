@@ -12,6 +12,7 @@
 
 #include "apps/report/chart.h"
 #include "apps/report/envelope.h"
+#include "apps/report/head.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
@@ -166,7 +167,8 @@ bool holds_study(const fs::path &folder) {
 std::string title_of_study(const fs::path &folder) {
   std::ifstream stream = open_file(folder / "summary.json");
   const Json summary = Json::parse(stream, nullptr, false);
-  if (summary.is_object()) return summary.value("scene", folder.filename().string());
+  if (summary.is_object())
+    return true_title(summary.value("scene", folder.filename().string()), folder, summary);
   return folder.filename().string();
 }
 
@@ -247,6 +249,7 @@ TableOfFigures table_of_study(const StudyResults &study) {
 
 void write_study_report(const StudyResults &study, const fs::path &folder, std::ostream &out) {
   Album album(folder);
+  add_head(study.folder, album);
   album.begin("");
   const auto groups = groups_of(study);
   for (const auto &[group, cases] : groups) {

@@ -9,6 +9,7 @@
 #include "apps/report/curves.h"
 #include "apps/report/fields.h"
 #include "apps/report/friction.h"
+#include "apps/report/head.h"
 #include "apps/report/platens.h"
 #include "apps/report/sleeve.h"
 #include "apps/report/specimen_view.h"
@@ -245,6 +246,10 @@ void write_report(const std::vector<Run> &runs, const fs::path &folder, std::ost
       out << remarks.back() << '\n';
     }
   }
+  std::vector<Results> results;
+  for (const Run &run : runs)
+    results.push_back(results_of(run));
+  add_head(results, album);
   if (const TableOfFigures validity = table_of_validity(runs); !validity.rows.empty()) {
     album.begin("Which figures count");
     album.add_table(validity);

@@ -47,9 +47,11 @@ public:
   void add_table(const TableOfFigures &table) { sections_.back().tables.push_back(table); }
   // HTML of its own before the pictures of the section.
   void add_element(std::string html) { sections_.back().element = std::move(html); }
+  // A sentence and a table above the figures; either may be empty.
+  void lead(const std::string &sentence, const TableOfFigures &table) { head_.push_back({sentence, table}); }
   std::size_t size() const; // pictures
-  // Writes report.html (title, list of sections, figures, remarks, pictures held in the page itself) and
-  // prints the pictures, the page, the figures and other tables. Throws OutputError.
+  // Writes report.html (title, what leads, list of sections, figures, remarks, pictures held in the page
+  // itself) and prints the pictures, the page, what leads, the figures and other tables. Throws OutputError.
   void finish(const std::string &title, const TableOfFigures &figures,
               const std::vector<std::string> &remarks, std::ostream &out) const;
 
@@ -68,7 +70,12 @@ private:
     std::string anchor() const;
     std::string html() const;
   };
+  struct Lead {
+    std::string sentence;
+    TableOfFigures table;
+  };
   std::filesystem::path folder_;
+  std::vector<Lead> head_;
   std::vector<Section> sections_;
 };
 

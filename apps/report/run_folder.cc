@@ -8,10 +8,12 @@
 #include <fstream>
 #include <regex>
 
+#include "apps/report/head.h"
 #include "apps/report/letters.h"
 #include "apps/report/stages.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
+#include "apps/scene/units.h"
 #include "dem/measure/acoustic_emission.h"
 
 namespace platen::apps::report {
@@ -118,6 +120,17 @@ std::string scene_entry(const fs::path &scene, const std::string &path) {
   return "";
 }
 
+double number_of_scene(const fs::path &folder, const std::string &path, const std::string &si_unit) {
+  const fs::path scene = folder / "scene.prm";
+  const std::string text = fs::exists(scene) ? scene_entry(scene, path) : "";
+  if (text.empty()) return std::nan("");
+  try {
+    return to_si(text, si_unit);
+  } catch (const ValueError &error) {
+    throw InputError(scene.string() + ": " + path + " = " + text + " " + error.what());
+  }
+}
+
 void add_if_changed(const fs::path &file, std::vector<std::string> &remarks) {
   if (const ReadSummary read = read_summary(file); read.changed)
     remarks.push_back(file.filename().string() + " " + read.fault + ", do not trust its figures");
@@ -206,10 +219,10 @@ Run read_run(const fs::path &folder) {
   run.folder = folder;
   const fs::path whole = fs::weakly_canonical(folder);
   run.name = whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
-  run.title = scene_entry(folder / "scene.prm", "Scene/Title");
-  run.title = valid_utf8(run.title.empty() ? run.name : run.title);
   run.history = read_csv(folder / "history.csv");
   if (fs::exists(folder / "summary.json")) run.summary = read_summary_of(run);
+  run.title = scene_entry(folder / "scene.prm", "Scene/Title");
+  run.title = valid_utf8(true_title(run.title.empty() ? run.name : run.title, folder, run.summary));
   run.axis = loaded_axis(run.summary);
   run.moments = moments_of(run.history, run.axis);
   run.zero = zero_row(run);

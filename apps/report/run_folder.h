@@ -32,7 +32,7 @@ Moments moments_of(const CsvTable &history, int axis = 2);
 struct Run {
   std::filesystem::path folder;
   std::string name;  // last part of the path, for legends
-  std::string title; // Scene / Title; the name where the scene gives none
+  std::string title; // Scene / Title, as long as it is true (head.h); the name where the scene gives none
   CsvTable history;
   int axis = 2; // that the test loads: 0 x, 1 y, 2 z
   Moments moments;
@@ -64,6 +64,12 @@ struct Run {
 
 // What a .prm sets an entry to, "Platens/Top/Surface"; empty where it does not.
 std::string scene_entry(const std::filesystem::path &scene, const std::string &path);
+
+// The number of such an entry in the scene.prm of a folder of results, converted to `si_unit` as scenes are
+// read (apps/scene/units.h); NaN where the file or the entry is not there, or is empty. Throws InputError
+// where the text is no such number.
+double number_of_scene(const std::filesystem::path &folder, const std::string &path,
+                       const std::string &si_unit);
 
 // A remark where summary.json or study.json is no longer as it was written (its checksum).
 void add_if_changed(const std::filesystem::path &file, std::vector<std::string> &remarks);

@@ -29,6 +29,7 @@ set(PLATEN_REPORT_SOURCES
   report/fields.cc
   report/frames.cc
   report/friction.cc
+  report/head.cc
   report/joined.cc
   report/letters.cc
   report/other_results.cc

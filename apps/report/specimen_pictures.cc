@@ -96,7 +96,7 @@ void mark_cones(CutView &view, const Run &run, ConeKind kind, ConeTime moment, c
   const FittedCone top = cone_of(run, kind, Side::top, moment),
                    bottom = cone_of(run, kind, Side::bottom, moment);
   const bool turns = kind == ConeKind::by_displacement && extent.form == Extent::Form::cylinder;
-  const double angle = turns ? angle_of_axes({top, bottom}) : 0;
+  const double angle = turns ? angle_of_axes({top, bottom}, extent.height()) : 0;
   if (turns) turn(view, angle);
   mark_cone(view, turned(top, angle), Side::top, extent);
   mark_cone(view, turned(bottom, angle), Side::bottom, extent);

@@ -130,7 +130,7 @@ void draw_stress_flow(const Run &run, const Spheres &before_test, const std::fil
     add_colour_bar(canvas, {Ramp::displacement, ticks_of(maps[k].values), maps[k].title},
                    (k * panel + left + plot_width + 20) / width, (k + 1) * panel / width);
   canvas.add_head(run.title, fmt::format("Section y = {:.2g} mm near the peak (frame at {:.3g} of its time), "
-                                         "averages over {:.0f} mm",
+                                         "averages over {:.3g} mm",
                                          frame.grid.origin.y * mm_per_m, frame.time / run.moments.peak_time,
                                          2 * reach * radius * mm_per_m));
   canvas.save(png);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "apps/report/chart.h"
 
@@ -10,11 +9,6 @@ namespace platen::apps::report {
 namespace {
 
 constexpr double n_per_m_of_kn = 1e3;
-
-double scene_number(const Run &run, const std::string &path) { // 0 where it is not there
-  const std::filesystem::path scene = run.folder / "scene.prm";
-  return std::filesystem::exists(scene) ? std::atof(scene_entry(scene, path).c_str()) : 0;
-}
 
 struct Strip {
   std::string name;
@@ -27,7 +21,7 @@ std::vector<Strip> strips_of(const Run &run) {
   const Frame &frame = nearest(run.contacts, run.moments.peak_time);
   std::vector<Strip> strips{{"top", contacts_with(Side::top, frame), colours::vermilion, Stroke::solid}};
   const PlatenContacts below = contacts_with(Side::bottom, frame);
-  if (!(scene_number(run, "Platens/Span") > 0)) {
+  if (!(number_of_scene(run.folder, "Platens/Span", "m") > 0)) {
     strips.push_back({"bottom", below, colours::blue, Stroke::dashed});
     return strips;
   }
@@ -44,7 +38,7 @@ std::vector<Strip> strips_of(const Run &run) {
 } // namespace
 
 bool has_strips(const Run &run) {
-  return scene_number(run, "Platens/Strip width") > 0;
+  return number_of_scene(run.folder, "Platens/Strip width", "m") > 0;
 }
 
 std::vector<double> load_along(const PlatenContacts &contacts, double half_depth, int parts) {

@@ -8,6 +8,7 @@
 
 #include "apps/report/bars.h"
 #include "apps/report/chart.h"
+#include "apps/report/head.h"
 #include "apps/report/platen_study.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
@@ -117,6 +118,7 @@ TargetResults read_target(const std::filesystem::path &folder) {
   const Json study = finished_study(folder);
   TargetResults results;
   results.title = title_of_study(folder);
+  results.folder = folder;
   try {
     const Json &target = study.at("target"), &costs = study.at("costs");
     const Unit unit = unit_of(target);
@@ -154,6 +156,7 @@ TableOfFigures table_of_target(const TargetResults &study) {
 
 void write_target_report(const TargetResults &study, const std::filesystem::path &folder, std::ostream &out) {
   Album album(folder);
+  add_head(study.folder, album);
   album.begin("");
   if (!study.looks.empty()) {
     album.add(

@@ -25,6 +25,7 @@ struct TargetResults {
   std::vector<std::string> part_names; // packings, chaos, speed, step
   std::vector<TargetLook> looks;       // empty where nothing could be told
   std::vector<std::string> remarks;
+  std::filesystem::path folder; // that it was read from
 };
 
 // Throws InputError where study.json is missing, damaged, of another study or of one that has not ended.

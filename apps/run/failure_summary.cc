@@ -122,7 +122,7 @@ void add_failure(Json &to, const Scene &scene, const coupling::PlatenTest &probl
 std::string cone_words(const dem::DeadZone &d) {
   if (d.is_cone())
     return fmt::format(
-        "r0 {:.2f}, {:.1f} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
+        "r0 {:.2f}, {:.3g} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
         d.base_ratio, 1e3 * d.height, d.half_angle / degree, d.volume_fraction, d.confidence);
   if (std::isnan(d.base_ratio)) return fmt::format("none: {}", dem::words_of(d.verdict));
   return fmt::format("none: {} (r0 {:.2f}, {:.2f} of the volume)", dem::words_of(d.verdict), d.base_ratio,
@@ -131,7 +131,7 @@ std::string cone_words(const dem::DeadZone &d) {
 
 std::string cone_words(const dem::ConePiece &c) {
   if (!c.is_cone()) return fmt::format("none: {}", dem::words_of(c.verdict));
-  return fmt::format("{:.1f} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
+  return fmt::format("{:.3g} mm high, half-angle {:.0f} degrees, {:.2f} of the volume, confidence {:.2f}",
                      1e3 * c.height, c.half_angle / degree, c.volume_fraction, c.confidence);
 }
 

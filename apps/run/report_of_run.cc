@@ -61,7 +61,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
   const bool disc = problem.shape().kind == dem::ShapeKind::disc,
              tension = scene.loading.test == LoadingTest::tension;
   if (disc || problem.bent())
-    report.figure("failure_load_n", "load at failure", "{:.2f} kN",
+    report.figure("failure_load_n", "load at failure", "{:.4g} kN",
                   results.strength() * problem.nominal_area() / 1e3);
   report.figure("strength_pa",
                 disc             ? "splitting strength, 2P/(pi D t)"
@@ -85,7 +85,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
 
 void report_stiffness(Report &report, const coupling::PlatenTest &problem, const Results &results) {
   if (problem.bent()) {
-    report.figure("deflection_at_peak_m", "deflection at peak", "{:.2f} um",
+    report.figure("deflection_at_peak_m", "deflection at peak", "{:.4g} um",
                   1e6 * results.deflection_at_peak());
     report.figure("flexural_modulus_pa", "flexural modulus",
                   "{:.2f} GPa (deflection by shear over bending {:.2f}, at nu = 0.2)",

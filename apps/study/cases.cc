@@ -15,8 +15,15 @@
 namespace platen::apps {
 namespace {
 
-// Table 14 of Tannu 2017, on a cylinder of 80 mm x 25 mm.
-const std::vector<double> radii_of_the_thesis{0.0005, 0.00075, 0.001, 0.00125}; // m
+// Table 14 of Tannu 2017: spheres of 0.5 to 1.25 mm in a cylinder of the radius 25 mm, in proportion for
+// another specimen.
+std::vector<double> radii_in_proportion(const SpecimenSection &s) { // m
+  const double half = s.shape == SpecimenShape::box ? 0.5 * std::min(s.width_x, s.width_y) : s.radius;
+  std::vector<double> radii;
+  for (const double share : {0.02, 0.03, 0.04, 0.05})
+    radii.push_back(to_twelve_digits(share * half));
+  return radii;
+}
 
 StudyPlan plan_size(const Scene &scene) {
   const SpecimenSection &s = scene.specimen;
@@ -29,7 +36,7 @@ StudyPlan plan_size(const Scene &scene) {
   plan.varied = {"sphere_radius_m", "height_m", "radius_m"};
   const bool nothing_given = study.sphere_radii.empty() && study.domains.empty();
   const std::vector<double> radii =
-      nothing_given ? radii_of_the_thesis : or_own(study.sphere_radii, s.sphere_radius);
+      nothing_given ? radii_in_proportion(s) : or_own(study.sphere_radii, s.sphere_radius);
   for (const double radius : radii)
     add(plan, {"sphere_radius_" + in_name(radius, "m"),
                {radius, s.height, s.radius},

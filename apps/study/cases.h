@@ -114,6 +114,11 @@ inline std::string set(const std::string &path, double value, const std::string 
   return path + " = " + shortest_text(value) + (unit.empty() ? "" : " " + unit);
 }
 
+// Three widths of 0.05 m are 0.15 m, whatever the product's last bit.
+inline double to_twelve_digits(double value) {
+  return std::stod(fmt::format("{:.12g}", value));
+}
+
 // For a name: without the last bit that a unit's conversion may leave (0.9 mm is 0.0009000000000000001 m).
 inline std::string in_name(double value) {
   return fmt::format("{:.12g}", value);

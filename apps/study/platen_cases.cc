@@ -82,13 +82,8 @@ std::string surface_name(const StudySurface &of) {
   return std::isnan(of.friction) ? as_name(text_of(of)) : "friction_" + in_name(of.friction);
 }
 
-// To twelve digits: three widths of 0.05 m are 0.15 m, whatever the product's last bit.
-double rounded(double value) {
-  return std::stod(fmt::format("{:.12g}", value));
-}
-
 void set_height(const Scene &scene, double slenderness, StudyCase &one) {
-  const double height = rounded(slenderness * width(scene.specimen));
+  const double height = to_twelve_digits(slenderness * width(scene.specimen));
   one.name += (one.name.empty() ? "slenderness_" : "_slenderness_") + in_name(slenderness);
   one.overrides.push_back(set("Specimen/Height", height, "m"));
   // Where it would grow with the specimen, the platen stays as thick as the scene's.
@@ -164,7 +159,7 @@ void label_platens(StudyCase &of, const Scene &led_to) {
                         : surface(p.surface).word;
   of.labels = {slides ? p.top.friction_static : not_given,
                slides ? p.top.friction_dynamic : not_given,
-               rounded(led_to.specimen.height / width(led_to.specimen)),
+               to_twelve_digits(led_to.specimen.height / width(led_to.specimen)),
                led_to.specimen.height,
                led_to.specimen.sphere_radius,
                led_to.loading.confined() ? led_to.loading.cell->pressure : 0.0};

@@ -114,7 +114,7 @@ TEST(ReportCones, both_kinds_are_kept_apart) {
 TEST(ReportCones, the_cut_is_turned_to_the_axes) {
   FittedCone one = upright(0.5, {0.003, 0.004, 0.05}, -1), other = upright(0.5, {-0.006, -0.008, 0.05}, 1);
   one.axis = {0.06, 0.08, -std::sqrt(0.99)};
-  const double angle = angle_of_axes({one, other, FittedCone{}});
+  const double angle = angle_of_axes({one, other, FittedCone{}}, 0.1);
   for (const FittedCone &cone : {one, other}) {
     const FittedCone seen = turned(cone, angle);
     EXPECT_NEAR(seen.apex[1], 0, 1e-12);
@@ -122,7 +122,21 @@ TEST(ReportCones, the_cut_is_turned_to_the_axes) {
     EXPECT_NEAR(std::abs(seen.apex[0]), std::hypot(cone.apex[0], cone.apex[1]), 1e-12);
     EXPECT_EQ(seen.apex[2], cone.apex[2]);
   }
-  EXPECT_EQ(angle_of_axes({FittedCone{}}), 0);
+  EXPECT_EQ(angle_of_axes({FittedCone{}}, 0.1), 0);
+}
+
+// The apex lies along x, the axis leans along y: which of both counts more must not hang on the size.
+TEST(ReportCones, the_cut_is_the_same_at_any_size) {
+  const auto angle = [](double times) {
+    FittedCone cone = upright(0.5, {0.006 * times, 0, 0.05 * times}, -1);
+    cone.axis = {0.1, 0.2, -std::sqrt(0.95)};
+    return angle_of_axes({cone}, 0.06 * times);
+  };
+  // 0.06 m high: the axis reaches 0.002 and 0.004 m aside over 0.02 m.
+  EXPECT_NEAR(angle(1), 0.5 * std::atan2(2 * 0.002 * 0.004, 0.006 * 0.006 + 0.002 * 0.002 - 0.004 * 0.004),
+              1e-12);
+  for (const double times : {0.1, 10.0, 1e-3})
+    EXPECT_NEAR(angle(times), angle(1), 1e-12) << times;
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "apps/report/strips.h"
 #include "apps/report_example.h"
 #include "apps/report_folder.h"
+#include "apps/scene/errors.h"
 
 namespace platen::apps::report {
 namespace {
@@ -63,6 +64,29 @@ TEST(ReportFriction, limits_are_those_of_the_side_else_of_all_platens) {
   EXPECT_EQ(friction_limits(run, Side::top).sliding, 0.4);
 }
 
+TEST(ReportFriction, limits_are_read_with_their_units) {
+  const TestFolder folder;
+  const report::Run run = with_scene(
+      folder, "  set Friction static = 57 %\n  subsection Top\n    set Friction static = 5e-1 %\n  end\n");
+  EXPECT_DOUBLE_EQ(friction_limits(run, Side::bottom).at_rest, 0.57);
+  EXPECT_DOUBLE_EQ(friction_limits(run, Side::top).at_rest, 0.005);
+}
+
+TEST(ReportFriction, an_entry_that_is_no_such_number_is_refused_by_name) {
+  const TestFolder folder;
+  for (const char *text : {"0.5 MPa", "much", "0,57"}) {
+    const report::Run run = with_scene(folder, std::string("  set Friction static = ") + text + "\n");
+    try {
+      friction_limits(run, Side::bottom);
+      ADD_FAILURE() << text;
+    } catch (const InputError &error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("scene.prm: Platens/Friction static = ") + text),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(ReportFriction, sliding_friction_that_is_not_said_is_the_static_one) {
   const TestFolder folder;
   const FrictionLimits limits =
@@ -89,6 +113,7 @@ TEST(ReportStrips, scenes_say_whether_strips_press) {
   const TestFolder folder;
   EXPECT_TRUE(has_strips(with_scene(folder, "  set Strip width = 5 mm\n")));
   EXPECT_FALSE(has_strips(with_scene(folder, "  set Strip width = 0\n")));
+  EXPECT_THROW(has_strips(with_scene(folder, "  set Strip width = 5 %\n")), InputError);
 }
 
 TEST(ReportConfinement, a_bare_test_has_no_cell) {

@@ -287,6 +287,15 @@ TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {
   EXPECT_TRUE(contains(outcome.error, "sphere_radius_1.4_mm_seed_3")) << outcome.error;
   EXPECT_FALSE(contains(outcome.error, "sphere_radius_2_mm_seed")) << outcome.error;
   EXPECT_EQ(summary_in(folder_ / "a")["missed"].size(), 2u);
+  const nlohmann::json expectations = summary_in(folder_ / "a")["expectations"];
+  ASSERT_EQ(expectations.size(), 4u); // one of each run
+  int missed = 0;
+  for (const auto &one : expectations) {
+    EXPECT_EQ(one["entry"], "Expect/particles");
+    EXPECT_EQ(one["met"], one["value"] <= 150);
+    missed += one["met"] == false && contains(one["run"], "sphere_radius_0.0014_seed_");
+  }
+  EXPECT_EQ(missed, 2);
 }
 
 // In the mean of three packings: of 75 spheres, what a crack sets free is as much as the motion of slow
@@ -380,6 +389,18 @@ TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
 
 Scene scene_with(const std::vector<std::string> &entries) {
   return read_scene(test_scene("study.prm"), entries, AppKind::study);
+}
+
+TEST(StudyPlan, where_no_size_is_given_they_are_in_proportion_to_the_specimen) {
+  for (const double times : {1.0, 10.0, 0.1}) {
+    const std::vector<std::string> entries{fmt::format("Specimen/Height = {:.12g} m", 0.08 * times),
+                                           fmt::format("Specimen/Radius = {:.12g} m", 0.025 * times),
+                                           fmt::format("Specimen/Sphere radius = {:.12g} m", 0.001 * times)};
+    const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
+    ASSERT_EQ(plan.cases.size(), 4u);
+    for (const auto &[k, radius] : {std::pair{0u, 0.0005}, {1u, 0.00075}, {2u, 0.001}, {3u, 0.00125}})
+      EXPECT_DOUBLE_EQ(plan.cases[k].labels[0], radius * times) << times;
+  }
 }
 
 TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {

@@ -187,7 +187,7 @@ void main() {
   const top_of = (quantity) => { // what 98 spheres in 100 do not exceed at the end
     if (!(quantity in tops)) {
       const all = Float64Array.from({length: N}, (_, s) => value(quantity, F - 1, s)).sort();
-      tops[quantity] = Math.max(all[Math.floor(0.98 * (N - 1))], 1e-9);
+      tops[quantity] = Math.max(all[Math.floor(0.98 * (N - 1))], 0) || 1; // nothing has moved: any top
     }
     return tops[quantity];
   };
@@ -311,7 +311,7 @@ void main() {
     control('tension-count').textContent = '(' + so_far(0) + ')';
     control('shear-count').textContent = '(' + so_far(1) + ')';
     const axis = 'xyz'.indexOf(state.cut), depth = axis < 0 ? 0 : middle[axis] + cut_direction()[axis] * cut_depth();
-    control('depth-words').textContent = axis < 0 ? '' : state.cut + ' = ' + (1e3 * depth).toFixed(1) + ' mm';
+    control('depth-words').textContent = axis < 0 ? '' : state.cut + ' = ' + (1e3 * depth).toPrecision(3) + ' mm';
     control('depth').disabled = axis < 0;
     if (state.quantity === 'piece') legend.textContent = 'pieces that bonds hold together: grey the largest, violet-grey single spheres';
     else {
